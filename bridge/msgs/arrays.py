@@ -1,0 +1,54 @@
+"""Number arrays of ROS messages as compact, typed Python arrays.
+
+ROS `float32[]` and `int8[]` fields hold hundreds of numbers; a list of Python floats costs ten times
+the memory and loses the width. In JSON they travel as plain lists in which `null` stands for a number
+that JSON cannot say (NaN, infinity); in CBOR as RFC 8746 little-endian typed arrays.
+"""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Iterable
+from typing import Any
+
+__all__ = ["ARRAYS", "Float32Array", "Float64Array", "Int8Array"]
+
+_NAN = float("nan")
+
+
+class _Typed(array):  # type: ignore[type-arg]
+    """An `array.array` whose element type belongs to the class."""
+
+    code: str
+    """Type code of `array.array`."""
+
+    def __new__(cls, values: Iterable[Any] | bytes = ()) -> _Typed:
+        """Make one from numbers (None becomes NaN) or from little-endian bytes."""
+        if isinstance(values, list) and None in values:
+            values = [_NAN if value is None else value for value in values]
+        return super().__new__(cls, cls.code, values)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.tobytes(),)
+
+
+class Float32Array(_Typed):
+    """ROS `float32[]`."""
+
+    code = "f"
+
+
+class Float64Array(_Typed):
+    """ROS `float64[]`."""
+
+    code = "d"
+
+
+class Int8Array(_Typed):
+    """ROS `int8[]`."""
+
+    code = "b"
+
+
+ARRAYS: dict[int, type[_Typed]] = {85: Float32Array, 86: Float64Array, 72: Int8Array}
+"""RFC 8746 tag of the little-endian typed array for each class."""

@@ -1,0 +1,99 @@
+"""Every topic of a Pilothouse robot: its name, type, expected rate and direction, in one table.
+
+Liveness, throttling, recording and the documentation are derived from it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from bridge.msgs import (
+    Msg,
+    diagnostic_msgs,
+    geometry_msgs,
+    nav_msgs,
+    pilothouse_msgs,
+    sensor_msgs,
+    tf2_msgs,
+    vision_msgs,
+)
+
+__all__ = ["TOPICS", "Topic", "topic"]
+
+
+@dataclass(frozen=True, slots=True)
+class Topic:
+    """One line of the table."""
+
+    name: str
+    type: type[Msg]
+    rate: float
+    """Messages a second while it flows [Hz]; 0 when it is sent once per change and latched."""
+    to: str
+    """`handheld` or `robot`."""
+    doc: str
+    on_demand: bool = False
+    """Made only while somebody subscribes to it."""
+    once: bool = False
+    """Sent when something happens and not latched: a subscriber gets only what comes later."""
+
+    @property
+    def latched(self) -> bool:
+        """A new subscriber gets the last message at once."""
+        return self.rate == 0 and not self.once
+
+
+TOPICS: tuple[Topic, ...] = (
+    Topic("/robot/info", pilothouse_msgs.RobotInfo, 0, "handheld", "who the robot is and what it can do"),
+    Topic("/pose", geometry_msgs.PoseWithCovarianceStamped, 20, "handheld", "where it believes to be in `map`"),
+    Topic("/odom", nav_msgs.Odometry, 20, "handheld", "pose and speed by its wheels alone, in `odom`"),
+    Topic("/imu/data", sensor_msgs.Imu, 50, "handheld", "attitude, turn rate, acceleration"),
+    Topic("/fix", sensor_msgs.NavSatFix, 5, "handheld", "position by satellite"),
+    Topic("/scan", sensor_msgs.LaserScan, 10, "handheld", "the laser's last sweep"),
+    Topic("/bumper", pilothouse_msgs.Bumper, 10, "handheld", "the bumper ring"),
+    Topic("/battery_state", sensor_msgs.BatteryState, 1, "handheld", "the battery"),
+    Topic("/joint_states", sensor_msgs.JointState, 20, "handheld", "wheel angles and speeds"),
+    Topic(
+        "/camera/image/compressed",
+        sensor_msgs.CompressedImage,
+        15,
+        "handheld",
+        "the camera for clients without a binary socket",
+        on_demand=True,
+    ),
+    Topic("/detections", vision_msgs.Detection2DArray, 5, "handheld", "what the camera sees while a task watches"),
+    Topic("/intruders", pilothouse_msgs.IntruderArray, 0, "handheld", "everything found that does not belong here"),
+    Topic("/map", nav_msgs.OccupancyGrid, 0, "handheld", "the robot's own map"),
+    Topic("/plan", nav_msgs.Path, 0, "handheld", "the way it means to take; empty when it has none"),
+    Topic("/mission", pilothouse_msgs.Mission, 0, "handheld", "the mission stored on the robot"),
+    Topic("/task/status", pilothouse_msgs.TaskStatus, 0, "handheld", "what it is doing and why"),
+    Topic("/task/progress", pilothouse_msgs.TaskProgress, 2, "handheld", "how far the running task is"),
+    Topic("/control/status", pilothouse_msgs.ControlStatus, 0, "handheld", "who steers and whether it may move"),
+    Topic("/events", pilothouse_msgs.Event, 0, "handheld", "what happened, each once", once=True),
+    Topic("/diagnostics", diagnostic_msgs.DiagnosticArray, 1, "handheld", "the robot's opinion of its parts"),
+    Topic("/tf", tf2_msgs.TFMessage, 20, "handheld", "map, odom and base_link"),
+    Topic(
+        "/sim/ground_truth",
+        nav_msgs.Odometry,
+        20,
+        "handheld",
+        "where the simulated robot really is, in `map`",
+        on_demand=True,
+    ),
+    Topic("/cmd_vel", geometry_msgs.Twist, 20, "robot", "the operator's drive command, valid for 0.3 s"),
+    Topic("/goal_pose", geometry_msgs.PoseStamped, 0, "robot", "go there, once"),
+    Topic(
+        "/initialpose",
+        geometry_msgs.PoseWithCovarianceStamped,
+        0,
+        "robot",
+        "where it really is in `map`, told by the operator",
+    ),
+)
+
+_BY_NAME = {entry.name: entry for entry in TOPICS}
+
+
+def topic(name: str) -> Topic:
+    """The table's line for `name`; KeyError when the robot has no such topic."""
+    return _BY_NAME[name]
