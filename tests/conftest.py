@@ -1,0 +1,86 @@
+"""What every test gets: a Kivy that needs no display, and a check that nothing is left running.
+
+`tests/pixels` and `tests/e2e` draw, and Kivy chooses its GL once in a process: they run when they are named
+(`pytest tests/pixels`), everything else runs together.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import inspect
+import threading
+import time
+from collections.abc import AsyncIterator, Iterator
+from pathlib import Path
+
+import pytest
+
+from tests import headless
+
+HERE = Path(__file__).parent
+DRAWING = ("pixels", "e2e")
+GRACE = 2.0
+"""How long a thread may take to end after its test [s, real time]."""
+
+
+def _draws(path: Path) -> bool:
+    return path.is_relative_to(HERE) and path.relative_to(HERE).parts[:1] in [(name,) for name in DRAWING]
+
+
+def _mode(config: pytest.Config) -> str:
+    named = [Path(config.invocation_params.dir, arg.split("::")[0]).resolve() for arg in config.args]
+    drawing = [_draws(path) for path in named]
+    if any(drawing) and not all(drawing):
+        raise pytest.UsageError("tests/pixels and tests/e2e draw: run them without the others.")
+    return "pixel" if any(drawing) else "logic"
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Prepare Kivy before any test module imports it."""
+    config.stash[MODE] = _mode(config)
+    headless.prepare(config.stash[MODE])
+
+
+MODE = pytest.StashKey[str]()
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave the drawing tests out of a process that cannot draw."""
+    return True if config.stash[MODE] == "logic" and _draws(collection_path) else None
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Give each coroutine test the check for tasks, first in and so last out."""
+    for item in items:
+        if isinstance(item, pytest.Function) and inspect.iscoroutinefunction(item.obj):
+            item.fixturenames.insert(0, "no_task_left")
+
+
+@pytest.fixture
+async def no_task_left() -> AsyncIterator[None]:
+    """Fail the test that leaves an asyncio task running in its loop."""
+    yield
+    for _ in range(5):  # lets tasks that were told to end do so
+        await asyncio.sleep(0)
+    left = [task for task in asyncio.all_tasks() if task is not asyncio.current_task()]
+    assert not left, f"left running: {left}"
+
+
+@pytest.fixture(autouse=True)
+def no_thread_left() -> Iterator[None]:
+    """Fail the test that leaves a thread running."""
+    before = set(threading.enumerate())
+    yield
+    deadline = time.monotonic() + GRACE
+    for thread in set(threading.enumerate()) - before:
+        thread.join(max(0.0, deadline - time.monotonic()))
+    left = [thread.name for thread in set(threading.enumerate()) - before]
+    assert not left, f"left running: {left}"
+
+
+@pytest.fixture
+def stage() -> Iterator[headless.Stage]:
+    """An empty window on a clock that only the test moves."""
+    stage = headless.Stage()
+    yield stage
+    stage.close()

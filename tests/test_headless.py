@@ -1,0 +1,41 @@
+"""The stage that widget tests stand on."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+
+from kivy.clock import Clock
+from kivy.uix.button import Button
+
+
+def test_time_passes_only_when_the_test_says_so(stage):
+    fired = []
+    Clock.schedule_once(lambda dt: fired.append(dt), 0.8)
+    stage.run_for(0.75)
+    assert not fired
+    stage.run_for(0.1)
+    assert len(fired) == 1
+
+
+def test_a_finger_presses_the_button_under_it(stage):
+    button = stage.show(Button(), size=(100, 60))
+    pressed = []
+    button.bind(on_press=pressed.append)
+    stage.tap(50, 30)
+    stage.tap(150, 30)
+    assert pressed == [button]
+
+
+def test_the_next_test_finds_an_empty_window(stage):
+    assert stage.window.children == []
+
+
+async def test_a_finished_task_is_no_task_left():
+    await asyncio.create_task(asyncio.sleep(0))
+
+
+def test_a_joined_thread_is_no_thread_left():
+    thread = threading.Thread(target=lambda: None)
+    thread.start()
+    thread.join()
