@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Opens the app beside a simulated robot and ends the robot with it. Without a display it runs the demo instead.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+python=${PYTHON:-.venv/bin/python}
+
+if [ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
+    echo "run: this machine has no display; running the demo, whose pictures go to out/demo."
+    exec "$python" -m examples.demo --out out/demo
+fi
+
+"$python" -m robotside serve --robot "sim:${ROBOT:-patrol}" --world "${WORLD:-parking_lot}" &
+robot=$!
+# SIGTERM lets the robot side bring the robot to rest and end with 0
+trap 'kill -TERM $robot 2>/dev/null; wait $robot || true' EXIT
+"$python" main.py

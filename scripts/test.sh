@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Runs the rings of tests, those that draw in processes of their own, and closes with one line that sums them up.
+#   scripts/test.sh [fast]      fast: what needs neither drawing nor long simulation
+set -uo pipefail
+cd "$(dirname "$0")/.."
+python=${PYTHON:-.venv/bin/python}
+reports=$(mktemp -d)
+trap 'rm -rf "$reports"' EXIT
+status=0
+
+ring() {
+    local name=$1
+    shift
+    echo "== $name"
+    "$python" -m pytest -q --junitxml="$reports/$name.xml" "$@"
+    local code=$?
+    if [ $code -ne 0 ]; then
+        status=1
+        [ -f "$reports/$name.xml" ] || echo "$name" >>"$reports/broken"
+    fi
+}
+
+present() { compgen -G "$1" >/dev/null; }
+
+if [ "${1:-}" = fast ]; then
+    ring logic --ignore=tests/sim --ignore=tests/robotside
+else
+    ring logic -n 2 --dist loadscope
+    present 'tests/pixels/test_*.py' && ring pixels tests/pixels
+    present 'tests/e2e/test_*.py' && ring e2e tests/e2e
+fi
+"$python" scripts/sum_up.py "$reports"
+exit $status
