@@ -1,0 +1,238 @@
+"""The arithmetic behind the instruments: dials, tapes, laser sweeps, views of a map. No Kivy in here.
+
+Screen coordinates are Kivy's: pixels, x to the right, y up. World coordinates are the `map` frame's: metres,
+x east, y north. A colour is four floats, red, green, blue, alpha, 0 to 1.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bridge.units import heading_from_yaw, yaw_from_heading
+
+__all__ = [
+    "CARDINALS",
+    "View",
+    "cover",
+    "contain",
+    "dial_point",
+    "dial_text",
+    "heading_text",
+    "length_text",
+    "nearest",
+    "nice_floor",
+    "occupancy_pixels",
+    "scan_points",
+    "screen_angle",
+    "shortest_turn",
+    "spread",
+    "tape_marks",
+    "tween",
+]
+
+Points = NDArray[np.float64]
+"""Shape (n, 2)."""
+
+CARDINALS: dict[int, str] = {0: "N", 90: "E", 180: "S", 270: "W"}
+"""Letters of the four main headings [deg]."""
+
+DASH = "–"
+"""What a value that is not known looks like."""
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """How the world lies on the screen: turned, enlarged and shifted, never sheared.
+
+    As complex numbers, screen = `turn_scale` * world + `offset`.
+    """
+
+    turn_scale: complex = 20 + 0j
+    """Its length is the scale [px/m], its angle the turn of the world on the screen [rad], anticlockwise."""
+    offset: complex = 0j
+    """Where the world's origin is on the screen [px]."""
+
+    @classmethod
+    def centred(cls, x: float, y: float, *, at: tuple[float, float], scale: float, turn: float = 0.0) -> View:
+        """The view that shows world point (x, y) [m] at the screen point `at` [px]."""
+        turn_scale = cmath.rect(scale, turn)
+        return cls(turn_scale, complex(*at) - turn_scale * complex(x, y))
+
+    @property
+    def scale(self) -> float:
+        """Pixels to a metre."""
+        return abs(self.turn_scale)
+
+    @property
+    def turn(self) -> float:
+        """How far the world is turned on the screen [rad], anticlockwise."""
+        return cmath.phase(self.turn_scale)
+
+    def to_screen(self, x: float, y: float) -> tuple[float, float]:
+        """Where world point (x, y) [m] is on the screen [px]."""
+        z = self.turn_scale * complex(x, y) + self.offset
+        return z.real, z.imag
+
+    def to_world(self, px: float, py: float) -> tuple[float, float]:
+        """Which world point [m] is at the screen point (px, py) [px]."""
+        z = (complex(px, py) - self.offset) / self.turn_scale
+        return z.real, z.imag
+
+    def many_to_screen(self, points: Points) -> Points:
+        """The same as `to_screen` for an array of shape (n, 2)."""
+        a, b = self.turn_scale, self.offset
+        matrix = np.array([[a.real, a.imag], [-a.imag, a.real]])
+        return points @ matrix + (b.real, b.imag)
+
+    def moved(self, dx: float, dy: float) -> View:
+        """The view after the world was dragged by (dx, dy) [px]."""
+        return View(self.turn_scale, self.offset + complex(dx, dy))
+
+    def zoomed(self, factor: float, px: float, py: float) -> View:
+        """The view enlarged `factor` times about the screen point (px, py), which stays where it is."""
+        at = complex(px, py)
+        return View(self.turn_scale * factor, (self.offset - at) * factor + at)
+
+    def pinched(
+        self,
+        before: tuple[complex, complex],
+        after: tuple[complex, complex],
+        *,
+        may_turn: bool = True,
+    ) -> View:
+        """The view after two fingers went from `before` to `after` [px]: what was under each stays under it.
+
+        Without `may_turn` the world keeps its turn and the middle between the fingers is followed.
+        """
+        was, now = before[1] - before[0], after[1] - after[0]
+        if abs(was) < 1.0 or abs(now) < 1.0:
+            return self
+        change = now / was if may_turn else complex(abs(now) / abs(was))
+        middle_was, middle_now = sum(before) / 2, sum(after) / 2
+        return View(self.turn_scale * change, (self.offset - middle_was) * change + middle_now)
+
+    def within(self, least: float, greatest: float, px: float, py: float) -> View:
+        """The view with its scale brought into [least, greatest] [px/m] about the screen point (px, py)."""
+        wanted = min(max(self.scale, least), greatest)
+        return self if wanted == self.scale else self.zoomed(wanted / self.scale, px, py)
+
+    @classmethod
+    def fitting(
+        cls, points: Points, *, box: tuple[float, float, float, float], turn: float = 0.0, most: float = 200.0
+    ) -> View:
+        """The view that shows all `points` [m] inside `box` (x, y, width, height) [px], `most` [px/m] at most."""
+        turned = points @ np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
+        low, high = turned.min(axis=0), turned.max(axis=0)
+        spans = np.maximum(high - low, 1e-6)
+        scale = float(min(box[2] / spans[0], box[3] / spans[1], most))
+        middle = complex(*((low + high) / 2)) * cmath.rect(1.0, -turn)
+        at = (box[0] + box[2] / 2, box[1] + box[3] / 2)
+        return cls.centred(middle.real, middle.imag, at=at, scale=scale, turn=turn)
+
+
+def screen_angle(yaw: float) -> float:
+    """The angle [deg, anticlockwise from the right] at which a Kivy `Rotate` shows `yaw` [rad]."""
+    return (90.0 - heading_from_yaw(yaw)) % 360.0
+
+
+def shortest_turn(start: float, end: float) -> float:
+    """How far to turn from heading `start` to `end` [deg], in [-180, 180): 359 to 0 is +1."""
+    return (end - start + 180.0) % 360.0 - 180.0
+
+
+def dial_point(bearing: float, radius: float, heading: float = 0.0) -> tuple[float, float]:
+    """Where `bearing` [deg] is on a dial with `heading` [deg] at its top, from the dial's centre."""
+    angle = yaw_from_heading(bearing - heading)
+    return radius * math.cos(angle), radius * math.sin(angle)
+
+
+def dial_text(bearing: int) -> str:
+    """What a compass card says at `bearing` [deg, a multiple of 30]: N, E, S, W or tens of degrees."""
+    return CARDINALS.get(bearing % 360) or str(bearing % 360 // 10)
+
+
+def heading_text(heading: float) -> str:
+    """`heading` [deg] as three figures and a degree sign; a dash when it is NaN."""
+    return DASH if math.isnan(heading) else f"{round(heading) % 360:03d}°"
+
+
+def tape_marks(heading: float, span: float, step: int = 5) -> list[int]:
+    """The multiples of `step` [deg] within `span` / 2 of `heading`; they may be below 0 or above 359."""
+    first = math.ceil((heading - span / 2) / step)
+    last = math.floor((heading + span / 2) / step)
+    return [step * index for index in range(first, last + 1)]
+
+
+def nice_floor(value: float) -> float:
+    """The largest of 1, 2, 5 times a power of ten that is not above `value` (> 0)."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(n * power for n in (5.0, 2.0, 1.0) if n * power <= value * (1 + 1e-9))
+
+
+def length_text(metres: float) -> str:
+    """A round length with its unit: `20 cm`, `5 m`, `2 km`."""
+    if metres < 1.0:
+        return f"{metres * 100:g} cm"
+    return f"{metres:g} m" if metres < 1000.0 else f"{metres / 1000:g} km"
+
+
+def cover(width: float, height: float, wide: float, high: float) -> tuple[float, float]:
+    """The size at which a picture of (width, height) fills a frame (wide, high) and keeps its shape."""
+    factor = max(wide / width, high / height)
+    return width * factor, height * factor
+
+
+def contain(width: float, height: float, wide: float, high: float) -> tuple[float, float]:
+    """The size at which a picture of (width, height) fits whole into a frame (wide, high)."""
+    factor = min(wide / width, high / height)
+    return width * factor, height * factor
+
+
+def nearest(points: Sequence[tuple[float, float]], x: float, y: float, reach: float) -> int:
+    """The index of the point nearest to (x, y) and within `reach` of it; -1 when there is none."""
+    best, found = reach, -1
+    for index, (px, py) in enumerate(points):
+        distance = math.hypot(px - x, py - y)
+        if distance <= best:
+            best, found = distance, index
+    return found
+
+
+def tween(first: Sequence[float], second: Sequence[float], share: float) -> tuple[float, ...]:
+    """The colour `share` of the way from `first` to `second`."""
+    return tuple(a + (b - a) * share for a, b in zip(first, second, strict=True))
+
+
+def scan_points(
+    ranges: Iterable[float], angle_min: float, angle_increment: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64], Points]:
+    """Ranges [m], directions [rad] and points [m, x ahead, y left] of a sweep; what is not finite stays so."""
+    measured = np.asarray(ranges, dtype=np.float64)
+    angles = angle_min + angle_increment * np.arange(len(measured))
+    units = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    with np.errstate(invalid="ignore"):
+        return measured, angles, units * measured[:, None]
+
+
+def spread(points: Iterable[tuple[float, float]]) -> Points:
+    """Pairs as an array of shape (n, 2), without those that have a NaN in them."""
+    array = np.array([*points], dtype=np.float64).reshape(-1, 2)
+    return array[np.isfinite(array).all(axis=1)]
+
+
+def occupancy_pixels(
+    cells: NDArray[np.int8], free: Sequence[float], occupied: Sequence[float], unknown: Sequence[float]
+) -> NDArray[np.uint8]:
+    """Grid `cells` (-1 unknown, 0 free to 100 occupied) as RGBA bytes, by a table of 256 colours."""
+    share = np.linspace(0.0, 1.0, 101)[:, None]
+    table = np.empty((256, 4))
+    table[:101] = np.asarray(free) * (1 - share) + np.asarray(occupied) * share
+    table[101:128] = occupied
+    table[128:] = unknown
+    return (table * 255 + 0.5).astype(np.uint8)[cells.view(np.uint8)]

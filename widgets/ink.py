@@ -1,0 +1,183 @@
+"""Ink: smooth shapes and texts on a canvas, in one draw call for the shapes and few instructions for the texts.
+
+    self.ink, self.words = Ink(), Words()
+    self.canvas.add(self.ink), self.canvas.add(self.words.canvas)
+    self.ink.draw(shapes)
+    self.words.write([Word("N", x, y, sp(16), theme.danger)])
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+from kivy.core.text import Label as CoreLabel
+from kivy.graphics import Color, InstructionGroup, Mesh, Rectangle, RenderContext
+from kivy.graphics.context import get_context
+from kivy.graphics.texture import Texture
+
+from widgets.shapes import Shapes
+
+__all__ = ["SHADERS", "Ink", "Word", "Words", "shader", "text_texture"]
+
+VERTEX = """
+#ifdef GL_ES
+precision highp float;
+#endif
+attribute vec2 at_place;
+attribute vec2 at_local;
+attribute vec4 at_form;
+attribute vec4 at_ink;
+varying vec2 local;
+varying vec4 form;
+varying vec4 ink;
+uniform mat4 modelview_mat;
+uniform mat4 projection_mat;
+void main() {
+    local = at_local;
+    form = at_form;
+    ink = at_ink;
+    gl_Position = projection_mat * modelview_mat * vec4(at_place, 0.0, 1.0);
+}
+"""
+
+FRAGMENT = """
+#ifdef GL_ES
+precision highp float;
+#endif
+varying vec2 local;
+varying vec4 form;
+varying vec4 ink;
+uniform float strength;
+float dashed(float along, float across, float half_width, float period, float half_dash) {
+    float from_middle = abs(mod(along, period) - period * 0.5);
+    return half_width - length(vec2(max(from_middle - half_dash, 0.0), across));
+}
+void main() {
+    float inside = 0.0;
+    if (form.x > -0.5) {
+        float across = length(local) - form.x;
+        inside = form.y - abs(across);
+        if (form.z > 0.0) {
+            inside = dashed(atan(local.y, local.x) * form.x, across, form.y, form.z, form.w);
+        }
+    } else if (form.x > -1.5) {
+        inside = form.y - abs(local.y);
+        if (form.z > 0.0) {
+            inside = dashed(local.x, local.y, form.y, form.z, form.w);
+        }
+    } else if (form.x > -2.5) {
+        inside = min(min(local.x, local.y), form.y);
+    } else {
+        float side = local.x * form.z - abs(local.y) * form.w;
+        inside = min(form.y - length(local), side);
+    }
+    gl_FragColor = vec4(ink.rgb, ink.a * strength * clamp(inside + 0.5, 0.0, 1.0));
+}
+"""
+
+SHADERS: dict[str, tuple[str, str]] = {"ink": (VERTEX, FRAGMENT)}
+"""Every shader of the widgets by name, vertex and fragment text, for the check against GLES 1.00."""
+
+FORMAT = [
+    (b"at_place", 2, "float"),
+    (b"at_local", 2, "float"),
+    (b"at_form", 4, "float"),
+    (b"at_ink", 4, "float"),
+]
+
+
+def shader(name: str, fragment: str, **uniforms: float) -> RenderContext:
+    """A context that draws Kivy's textured rectangles with `fragment`; listed in `SHADERS` as `name`."""
+    vertex = RenderContext().shader.vs or ""
+    SHADERS[name] = (vertex, fragment)
+    context = RenderContext(fs=fragment, use_parent_projection=True, use_parent_modelview=True)
+    for key, value in uniforms.items():
+        context[key] = float(value)
+    return context
+
+
+class Ink(RenderContext):
+    """An instruction that draws `Shapes`, with edges smooth at any size."""
+
+    def __init__(self) -> None:
+        super().__init__(vs=VERTEX, fs=FRAGMENT, use_parent_projection=True, use_parent_modelview=True)
+        self["strength"] = 1.0
+        self._mesh = Mesh(fmt=FORMAT, mode="triangles")
+        self.add(self._mesh)
+
+    def draw(self, shapes: Shapes) -> None:
+        """Show these shapes instead of those before."""
+        self._mesh.vertices, self._mesh.indices = shapes.arrays()
+
+    def fade(self, strength: float) -> None:
+        """Multiply the opacity of all shapes by `strength`, 0 to 1."""
+        self["strength"] = float(strength)
+
+
+@dataclass(slots=True)
+class Word:
+    """A piece of text on the canvas."""
+
+    text: str
+    x: float
+    """[px]"""
+    y: float
+    size: float
+    """Height of the type [px]."""
+    colour: Sequence[float]
+    bold: bool = False
+    font: str = "B612"
+    """Registered name; `Icons` shows a symbol."""
+    anchor: tuple[float, float] = (0.5, 0.5)
+    """Which point of the text (x, y) is: 0 left or bottom, 1 right or top."""
+
+
+@lru_cache(maxsize=600)
+def text_texture(text: str, size: float, bold: bool = False, font: str = "B612") -> Texture:
+    """`text` drawn in white, kept for the next time."""
+    label = CoreLabel(text=text, font_size=size, bold=bold, font_name=font, color=(1, 1, 1, 1))
+    label.refresh()
+    return label.texture
+
+
+get_context().add_reload_observer(lambda _: text_texture.cache_clear(), before=True)
+
+
+class Words:
+    """A set of texts that is rewritten as a whole; instructions are made once and used again."""
+
+    def __init__(self) -> None:
+        self.canvas = InstructionGroup()
+        self._slots: list[tuple[Color, Rectangle]] = []
+        self._shown = 0
+
+    def write(self, words: Iterable[Word], strength: float = 1.0) -> None:
+        """Show these texts instead of those before; `strength` multiplies their opacity."""
+        count = 0
+        for word in words:
+            if not word.text:
+                continue
+            self._put(count, word, strength)
+            count += 1
+        for _, rectangle in self._slots[count : self._shown]:
+            rectangle.size = 0, 0
+        self._shown = count
+
+    def _put(self, index: int, word: Word, strength: float) -> None:
+        if index == len(self._slots):
+            self._slots.append((Color(), Rectangle(size=(0, 0))))
+            for instruction in self._slots[index]:
+                self.canvas.add(instruction)
+        colour, rectangle = self._slots[index]
+        texture = text_texture(word.text, round(word.size, 1), word.bold, word.font)
+        red, green, blue, alpha = word.colour
+        colour.rgba = red, green, blue, alpha * strength
+        if rectangle.texture is not texture:
+            rectangle.texture = texture
+            rectangle.size = texture.size
+        elif rectangle.size != texture.size:
+            rectangle.size = texture.size
+        width, height = texture.size
+        rectangle.pos = round(word.x - width * word.anchor[0]), round(word.y - height * word.anchor[1])
