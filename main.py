@@ -1,0 +1,10 @@
+"""Where the phone and the desktop start the app."""
+
+from __future__ import annotations
+
+import sys
+
+from app.__main__ import main
+
+if __name__ == "__main__":
+    sys.exit(main())
