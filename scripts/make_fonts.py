@@ -11,10 +11,12 @@ Then `python scripts/make_fonts.py FOLDER`. Needs fonttools and brotli.
 from __future__ import annotations
 
 import gzip
+import os
 import shutil
 import sys
 from pathlib import Path
 
+os.environ.update(KIVY_NO_ARGS="1", KIVY_NO_CONFIG="1", KIVY_LOG_MODE="PYTHON")
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from fontTools.pens.cu2quPen import Cu2QuPen
@@ -68,16 +70,16 @@ def quadratic(glyph: object) -> object:
 
 
 def make_icons(source: Path) -> TTFont:
-    """Outlined icons at their own code points, filled ones in the last private plane."""
+    """Outlined icons and filled ones, each at its code point in `widgets.icons`."""
     outlined = instance(source, 0, list(OUTLINED.values()))
     filled = instance(source, 1, [OUTLINED[name] for name in FILLED])
-    tables = [table for table in outlined["cmap"].tables if table.isUnicode() and table.format == 12]
-    for code, name in filled.getBestCmap().items():
-        copy = f"{name}.fill"
-        outlined["glyf"][copy] = filled["glyf"][name]
-        outlined["hmtx"][copy] = filled["hmtx"][name]
-        for table in tables:
-            table.cmap[filled_code(code)] = copy
+    glyphs = filled.getBestCmap()
+    for name in FILLED:
+        source_glyph, copy = glyphs[OUTLINED[name]], f"{name}.fill"
+        outlined["glyf"][copy] = filled["glyf"][source_glyph]
+        outlined["hmtx"][copy] = filled["hmtx"][source_glyph]
+        for table in outlined["cmap"].tables:
+            table.cmap[filled_code(name)] = copy
     outlined["post"].extraNames, outlined["post"].mapping = [], {}
     return outlined
 

@@ -1,0 +1,182 @@
+"""What every robot widget has: a state with a look of its own, an age, and the message types it takes or gives.
+
+    class Altimeter(RobotWidget):
+        accepts = (Range,)
+        def show(self, msg): self.value = msg.range
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, ClassVar
+
+from kivy.core.text import Label as CoreLabel
+from kivy.graphics.texture import Texture
+from kivy.lang import Builder
+from kivy.metrics import dp, sp
+from kivy.properties import AliasProperty, NumericProperty, OptionProperty
+from kivy.uix.widget import Widget
+
+from bridge.msgs import Msg
+from widgets.icons import icon
+from widgets.theme import theme
+
+__all__ = ["STATES", "Control", "RobotWidget", "age_text", "text_texture"]
+
+STATES = ("never", "live", "stale", "alarm", "disabled")
+VEIL = {"never": 0.0, "live": 0.0, "stale": 0.55, "alarm": 0.0, "disabled": 0.62}
+"""How much of a widget is hidden in each state, 0 to 1."""
+
+Builder.load_string("""
+<RobotWidget>:
+    canvas.after:
+        Color:
+            rgba: root.veil
+        RoundedRectangle:
+            pos: root.pos
+            size: root.size
+            radius: [root.veil_radius]
+        Color:
+            rgba: theme.raised if root.badge else (0, 0, 0, 0)
+        RoundedRectangle:
+            pos: root.badge_pos
+            size: root.badge_size
+            radius: [root.badge_size[1] / 2]
+        Color:
+            rgba: theme.muted if root.badge else (0, 0, 0, 0)
+        SmoothLine:
+            rounded_rectangle: root.badge_pos + root.badge_size + (root.badge_size[1] / 2,)
+            width: theme.outline
+        Color:
+            rgba: theme.text if root.badge else (0, 0, 0, 0)
+        Rectangle:
+            pos: root.badge_text_pos
+            size: root.badge_texture.size
+            texture: root.badge_texture
+        Color:
+            rgba: theme.danger if root.state == 'alarm' else (0, 0, 0, 0)
+        SmoothLine:
+            rounded_rectangle: root.pos + root.size + [root.veil_radius]
+            width: dp(1.5)
+        Rectangle:
+            pos: root.right - root.alarm_texture.width - dp(6), root.top - root.alarm_texture.height - dp(6)
+            size: root.alarm_texture.size
+            texture: root.alarm_texture
+""")
+
+
+def age_text(age: float) -> str:
+    """An age [s] in the words of the glass, as in `3 s old`; empty for NaN."""
+    if math.isnan(age):
+        return ""
+    if age < 60:
+        return f"{age:.0f} s old" if age >= 1 else "under 1 s old"
+    return f"{age / 60:.0f} min old" if age < 3600 else f"{age / 3600:.0f} h old"
+
+
+_textures: dict[tuple[str, str, float, bool], Texture] = {}
+
+
+def text_texture(text: str, size: float, font: str = "B612", *, bold: bool = False) -> Texture:
+    """`text` in white at `size` [px], to be tinted by a Color before it; drawn once and kept."""
+    key = (text, font, size, bold)
+    if key not in _textures:
+        if len(_textures) > 2000:
+            _textures.clear()
+        label = CoreLabel(text=text or " ", font_size=size, font_name=font, bold=bold, color=(1, 1, 1, 1))
+        label.refresh()
+        _textures[key] = label.texture
+    return _textures[key]
+
+
+class RobotWidget(Widget):
+    """A widget that shows messages. The dashboard sets `state` and `age`; `show(msg)` is the only other way in."""
+
+    accepts: ClassVar[tuple[type[Msg], ...]] = ()
+    """Types that `show` takes."""
+
+    state = OptionProperty("never", options=STATES)
+    """Never heard, live, stale, alarm or disabled: each has its own look."""
+    age = NumericProperty(math.nan)
+    """Of what is shown [s]; NaN before the first message."""
+    veil_radius = NumericProperty("12dp")
+    """Corners of the veil and of the alarm's outline [px]; half the width for a round widget."""
+
+    def _veil(self) -> list[float]:
+        return [*theme.surface[:3], VEIL[self.state]]
+
+    veil = AliasProperty(_veil, bind=["state"])
+    """Colour over what is stale or disabled."""
+
+    def _badge(self) -> str:
+        return age_text(self.age) if self.state == "stale" else ""
+
+    badge = AliasProperty(_badge, bind=["state", "age"], cache=True)
+    """How old it is, where that must be said; else empty."""
+
+    def _badge_texture(self) -> Texture:
+        return text_texture(self.badge, sp(12), theme.font)
+
+    badge_texture = AliasProperty(_badge_texture, bind=["badge"], cache=True)
+
+    def _badge_size(self) -> tuple[float, float]:
+        width, height = self.badge_texture.size
+        return width + dp(16), height + dp(6)
+
+    badge_size = AliasProperty(_badge_size, bind=["badge_texture"], cache=True)
+
+    def _badge_pos(self) -> tuple[float, float]:
+        width, height = self.badge_size
+        low = self.y + dp(8) if self.height > dp(90) else self.center_y - height / 2
+        return self.center_x - width / 2, low
+
+    badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "pos", "size"], cache=True)
+
+    def _badge_text_pos(self) -> tuple[float, float]:
+        return self.badge_pos[0] + dp(8), self.badge_pos[1] + dp(3)
+
+    badge_text_pos = AliasProperty(_badge_text_pos, bind=["badge_pos"], cache=True)
+
+    def _alarm_texture(self) -> Texture:
+        return text_texture(icon("warning"), sp(18), theme.icons)
+
+    alarm_texture = AliasProperty(_alarm_texture, cache=True)
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.fbind("state", self._follow_state)
+        theme.fbind("surface", self._follow_theme)
+
+    def _follow_theme(self, *_: object) -> None:
+        self.property("veil").dispatch(self)
+
+    def _follow_state(self, *_: object) -> None:
+        self.disabled = self.state == "disabled"
+
+    def show(self, msg: Msg) -> None:
+        """Take over what the message says. Each widget says which types: `accepts`."""
+        raise TypeError(f"{type(self).__name__} shows nothing, not even {msg.MSGTYPE}")
+
+
+class Control(RobotWidget):
+    """A widget that a finger commands with. It never publishes: it dispatches `on_command`."""
+
+    sends: ClassVar[tuple[type[Msg], ...]] = ()
+    """Types that `on_command` carries."""
+
+    __events__ = ("on_command",)
+
+    def __init__(self, **kwargs: Any) -> None:
+        kwargs.setdefault("state", "live")
+        super().__init__(**kwargs)
+        self.fbind("disabled", self._rest_when_disabled)
+
+    def _rest_when_disabled(self, *_: object) -> None:
+        if self.disabled:
+            self.rest()
+
+    def on_command(self, *args: Any) -> None:
+        """The finger asked for something; what `args` are is said by each control."""
+
+    def rest(self) -> None:
+        """Let go, as if the finger had: what moves is commanded to stand still."""

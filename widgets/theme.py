@@ -1,0 +1,203 @@
+"""Colours by role, fonts and sizes: the only file of `widgets` that names a hue.
+
+kv rules write `theme.accent`, `theme.font`, `theme.target` and follow when `theme.name` or `theme.gloves` changes.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from kivy.core.text import DEFAULT_FONT, LabelBase
+from kivy.event import EventDispatcher
+from kivy.lang import global_idmap
+from kivy.metrics import Metrics, dp, mm, sp
+from kivy.properties import AliasProperty, BooleanProperty, ColorProperty, NumericProperty, OptionProperty, StringProperty
+from kivy.utils import get_color_from_hex
+
+__all__ = ["PALETTES", "Theme", "contrast", "theme"]
+
+FONTS = Path(__file__).parent / "fonts"
+
+PALETTES: dict[str, dict[str, str]] = {
+    "dark": {
+        "bg": "0C1015",
+        "surface": "141A22",
+        "raised": "1D2530",
+        "line": "2C3746",
+        "text": "EAF0F7",
+        "muted": "8FA0B5",
+        "accent": "4CC2FF",
+        "plan": "B79CFF",
+        "ok": "41D98D",
+        "warn": "FFB224",
+        "danger": "FF4B4B",
+        "sky": "2F80C3",
+        "ground": "6B4A2B",
+        "ink_accent": "08131C",
+        "ink_plan": "120A24",
+        "ink_danger": "1A0303",
+        "stop": "DC2A2A",
+        "ink_stop": "FFFFFF",
+        "knob": "FFFFFF",
+        "shade": "000000",
+    },
+    "sunlight": {
+        "bg": "FFFFFF",
+        "surface": "FFFFFF",
+        "raised": "F1F3F5",
+        "line": "111111",
+        "text": "000000",
+        "muted": "3A3A3A",
+        "accent": "0048A8",
+        "plan": "5A1FA8",
+        "ok": "005F2C",
+        "warn": "774700",
+        "danger": "A90000",
+        "sky": "9CCBF2",
+        "ground": "C79A63",
+        "ink_accent": "FFFFFF",
+        "ink_plan": "FFFFFF",
+        "ink_danger": "FFFFFF",
+        "stop": "B00000",
+        "ink_stop": "FFFFFF",
+        "knob": "FFFFFF",
+        "shade": "000000",
+    },
+    "night": {
+        "bg": "000000",
+        "surface": "0B0101",
+        "raised": "170303",
+        "line": "4A1210",
+        "text": "FF7A66",
+        "muted": "F04438",
+        "accent": "FF9076",
+        "plan": "FF7A94",
+        "ok": "F59058",
+        "warn": "FFAA4D",
+        "danger": "FF4444",
+        "sky": "4A1410",
+        "ground": "200605",
+        "ink_accent": "140202",
+        "ink_plan": "140202",
+        "ink_danger": "140202",
+        "stop": "E23A30",
+        "ink_stop": "0A0000",
+        "knob": "FFC2B4",
+        "shade": "000000",
+    },
+}
+"""Theme name to role to colour. `ink_*` is text on that role; `stop` is the ground of STOP; `knob` is the part of a
+control that moves; `shade` is what lies between the glass and what is behind an open sheet."""
+
+
+class Theme(EventDispatcher):
+    """What everything on the glass looks like. Set `name` and `gloves`; read the rest."""
+
+    name = OptionProperty("dark", options=list(PALETTES))
+    """`dark`, `sunlight` or `night`."""
+    gloves = BooleanProperty(False)
+    """Targets for a gloved finger."""
+
+    bg = ColorProperty(PALETTES["dark"]["bg"])
+    """The window."""
+    surface = ColorProperty(PALETTES["dark"]["surface"])
+    """Cards."""
+    raised = ColorProperty(PALETTES["dark"]["raised"])
+    """Things on cards."""
+    line = ColorProperty(PALETTES["dark"]["line"])
+    """Borders, rings, grids."""
+    text = ColorProperty(PALETTES["dark"]["text"])
+    """Values."""
+    muted = ColorProperty(PALETTES["dark"]["muted"])
+    """Labels, units."""
+    accent = ColorProperty(PALETTES["dark"]["accent"])
+    """The robot, what is live, what can be touched."""
+    plan = ColorProperty(PALETTES["dark"]["plan"])
+    """What is intended: waypoints, path, goal."""
+    ok = ColorProperty(PALETTES["dark"]["ok"])
+    warn = ColorProperty(PALETTES["dark"]["warn"])
+    danger = ColorProperty(PALETTES["dark"]["danger"])
+    sky = ColorProperty(PALETTES["dark"]["sky"])
+    ground = ColorProperty(PALETTES["dark"]["ground"])
+    ink_accent = ColorProperty(PALETTES["dark"]["ink_accent"])
+    ink_plan = ColorProperty(PALETTES["dark"]["ink_plan"])
+    ink_danger = ColorProperty(PALETTES["dark"]["ink_danger"])
+    stop = ColorProperty(PALETTES["dark"]["stop"])
+    """The ground of STOP."""
+    ink_stop = ColorProperty(PALETTES["dark"]["ink_stop"])
+    knob = ColorProperty(PALETTES["dark"]["knob"])
+    shade = ColorProperty(PALETTES["dark"]["shade"])
+
+    font = StringProperty("B612")
+    """For everything; its figures are all of one width."""
+    mono = StringProperty("B612Mono")
+    icons = StringProperty("Icons")
+
+    def _glass(self) -> list[float]:
+        return [*self.surface[:3], 0.92]
+
+    glass = AliasProperty(_glass, bind=["surface"], cache=True)
+    """Cards that float over a picture: `surface`, not quite opaque."""
+
+    target = NumericProperty()
+    """Least width and height of what a finger must hit [px]: 14 mm, in gloves 20 mm."""
+    radius = NumericProperty("14dp")
+    """Corners of cards [px]."""
+    corner = NumericProperty("11dp")
+    """Corners of buttons [px]."""
+    gap = NumericProperty("12dp")
+    """Between neighbours, and from a card's edge to what is in it [px]."""
+    outline = NumericProperty("1dp")
+    """Width of a border [px]; 2 dp in sunlight would blot, 1 dp is dark enough there."""
+    size_value = NumericProperty("26sp")
+    size_title = NumericProperty("20sp")
+    size_body = NumericProperty("16sp")
+    size_label = NumericProperty("13sp")
+    size_icon = NumericProperty("24sp")
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.on_gloves()
+        Metrics.bind(dpi=self.on_gloves)
+
+    def on_name(self, *_: object) -> None:
+        """Take every colour from the palette of that name."""
+        for role, colour in PALETTES[self.name].items():
+            setattr(self, role, get_color_from_hex(colour))
+
+    def on_gloves(self, *_: object) -> None:
+        """Widen or narrow the targets."""
+        self.target = mm(20) if self.gloves else mm(14)
+
+    def role(self, name: str) -> list[float]:
+        """The colour of a role by its name; AttributeError when there is no such role."""
+        return list(getattr(self, name))
+
+
+def contrast(one: str, other: str) -> float:
+    """Contrast of two colours `RRGGBB` by WCAG 2: 1 (none) to 21 (black on white)."""
+    light, dark = sorted((_luminance(one), _luminance(other)), reverse=True)
+    return (light + 0.05) / (dark + 0.05)
+
+
+def _luminance(colour: str) -> float:
+    parts = [value / 12.92 if value <= 0.03928 else ((value + 0.055) / 1.055) ** 2.4
+             for value in get_color_from_hex(colour)[:3]]
+    return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
+
+
+def _register_fonts() -> None:
+    for name in ("B612", "B612Mono"):
+        regular, bold = str(FONTS / f"{name}-Regular.ttf"), str(FONTS / f"{name}-Bold.ttf")
+        LabelBase.register(name, regular, fn_italic=regular, fn_bold=bold, fn_bolditalic=bold)
+    LabelBase.register("Icons", str(FONTS / "Icons.ttf"))
+    # Kivy's own widgets, such as TextInput, ask for its default font
+    regular, bold = str(FONTS / "B612-Regular.ttf"), str(FONTS / "B612-Bold.ttf")
+    LabelBase.register(DEFAULT_FONT, regular, fn_italic=regular, fn_bold=bold, fn_bolditalic=bold)
+
+
+_register_fonts()
+theme = Theme()
+"""The one theme of this process; kv knows it under the same name."""
+global_idmap["theme"] = theme
+global_idmap["dp"], global_idmap["sp"] = dp, sp
