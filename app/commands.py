@@ -1,0 +1,282 @@
+"""A command's way to the robot: the drive slot, one-shot commands with an answer, and STOP's own lane.
+
+Nothing here knows a socket: the link gives a `call` and asks `DriveSlot.due` what to send.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import math
+import threading
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from bridge.errors import BridgeError, NoReply, NotConnected, Refused
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, SetMissionRequest, StartTaskRequest
+
+__all__ = ["COMMANDS", "Commands", "DriveSlot", "Kind", "Outcome"]
+
+PERIOD = 0.05
+"""Between two drive commands while the stick is held [s]."""
+HEARTBEAT = 0.15
+"""A user interface silent for longer steers nothing [s]."""
+REARM = 1.0
+"""After a longer silence of the user interface the stick must be pushed anew [s]."""
+ZEROS = 3
+"""How often the command to rest is said after the stick is let go."""
+VALID_FOR = 5.0
+"""A one-shot command is void when it reaches the robot later than this [s]."""
+NEVER_VOID = 1e9
+"""Validity of STOP [s]: whenever it arrives, it is meant."""
+TRY = 1.0
+"""Wait for one answer before asking again with the same id [s]."""
+PAUSE = 0.2
+"""Between two tries where the first failed at once [s]."""
+STOP_TRY, STOP_PAUSE = 0.3, 0.1
+"""The same for STOP [s]."""
+STOP_DOUBT = 1.0
+"""STOP without an answer for longer is said to be unanswered; it goes on being sent [s]."""
+
+_ZERO = Twist()
+
+
+def _is_finite(twist: Twist) -> bool:
+    parts = (twist.linear, twist.angular)
+    return all(math.isfinite(value) for part in parts for value in (part.x, part.y, part.z))
+
+
+class DriveSlot:
+    """The one wanted twist: newest wins, and silence of anybody involved means rest."""
+
+    def __init__(self, now: Callable[[], float]) -> None:
+        """`now` is our monotonic clock [s]."""
+        self._now = now
+        self._lock = threading.Lock()
+        self._wanted = _ZERO
+        self._beat = -math.inf
+        self._last_sent = _ZERO
+        self._sent_at = -math.inf
+        self._zeros = 0
+
+    def want(self, twist: Twist) -> None:
+        """Set the twist to drive with, from any thread; one that is not finite means rest."""
+        with self._lock:
+            self._wanted = twist if _is_finite(twist) else _ZERO
+
+    def beat(self) -> None:
+        """Say that the user interface is alive, from any thread."""
+        with self._lock:
+            self._beat = self._now()
+
+    def drop(self) -> None:
+        """Forget everything unsent, as when the link is lost: nothing old may leave later."""
+        with self._lock:
+            self._wanted, self._last_sent, self._zeros = _ZERO, _ZERO, 0
+
+    @property
+    def driving(self) -> bool:
+        """The robot was last told to move."""
+        return self._last_sent != _ZERO
+
+    def due(self) -> Twist | None:
+        """What has to be sent now, at once on a change and each `PERIOD` while held; None when nothing."""
+        with self._lock:
+            now = self._now()
+            twist = self._effective(now)
+            changed = twist != self._last_sent
+            if changed and twist == _ZERO:
+                self._zeros = ZEROS
+            waited = now - self._sent_at >= PERIOD - 1e-9
+            if not changed and (not waited or (twist == _ZERO and self._zeros == 0)):
+                return None
+            self._zeros = max(0, self._zeros - 1) if twist == _ZERO else 0
+            self._last_sent, self._sent_at = twist, now
+            return twist
+
+    def _effective(self, now: float) -> Twist:
+        silence = now - self._beat
+        if silence > REARM:
+            self._wanted = _ZERO
+        return self._wanted if silence <= HEARTBEAT else _ZERO
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """What a one-shot command is made of."""
+
+    service: str
+    request: type[CommandRequest]
+    label: str
+    """In the operator's words, as in `start patrol`."""
+
+
+COMMANDS: dict[str, Kind] = {
+    "start": Kind("/task/start", StartTaskRequest, "start patrol"),
+    "pause": Kind("/task/pause", CommandRequest, "pause"),
+    "resume": Kind("/task/resume", CommandRequest, "resume"),
+    "cancel": Kind("/task/cancel", CommandRequest, "end the task"),
+    "home": Kind("/task/go_home", CommandRequest, "go home"),
+    "mission": Kind("/mission/set", SetMissionRequest, "send the mission"),
+    "acquire": Kind("/control/acquire", CommandRequest, "take control"),
+    "release": Kind("/control/release", CommandRequest, "release control"),
+    "stop": Kind("/stop", CommandRequest, "STOP"),
+    "stop_release": Kind("/stop/release", CommandRequest, "release STOP"),
+}
+"""Every one-shot command by its name in the app."""
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What became of a command so far."""
+
+    name: str
+    """Key in `COMMANDS`."""
+    command_id: str
+    phase: str
+    """`sent`, `accepted`, `refused` or `no_reply`."""
+    reason: str = ""
+    """The robot's own sentence, or what went wrong; empty while it is under way."""
+    latency: float = math.nan
+    """From the touch to the answer [s]; NaN without one."""
+
+    @property
+    def label(self) -> str:
+        """The command in the operator's words."""
+        return COMMANDS[self.name].label
+
+    @property
+    def sentence(self) -> str:
+        """The outcome in one line, as in `Accepted: start patrol (18 ms)`."""
+        if self.phase == "sent":
+            return f"Sent: {self.label} …"
+        if self.phase == "accepted":
+            return f"Accepted: {self.label} ({self.latency * 1000:.0f} ms)"
+        if self.phase == "refused":
+            return f"Refused: {self.label}. {self.reason}"
+        return f"No reply: {self.label}. {self.reason}"
+
+
+Call = Callable[..., Awaitable[Any]]
+"""`BridgeClient.call`: service, request, response type, keyword timeout [s]."""
+
+
+class Commands:
+    """Sends one-shot commands and tells what became of each. Lives in the network thread."""
+
+    def __init__(
+        self,
+        call: Call,
+        report: Callable[[Outcome], None],
+        *,
+        now: Callable[[], float],
+        robot_time: Callable[[], float],
+        new_id: Callable[[], str],
+        client_id: str,
+        client_name: str,
+    ) -> None:
+        """`report` gets every step of every command; `robot_time` is NaN while the robot's clock is unknown."""
+        self._call, self._report = call, report
+        self._now, self._robot_time, self._new_id = now, robot_time, new_id
+        self._who = {"client_id": client_id, "client_name": client_name}
+        self._under_way: dict[str, Outcome] = {}
+        self._stopping = False
+        self._stop_confirmed = False
+
+    @property
+    def stopping(self) -> bool:
+        """STOP was pressed and the robot has not confirmed it."""
+        return self._stopping
+
+    async def send(self, name: str, **fields: Any) -> Outcome:
+        """Send a command and wait for what becomes of it; KeyError for a name not in `COMMANDS`.
+
+        While one of the same name is under way, nothing is sent: that one's state is the answer.
+        """
+        if name in self._under_way:
+            return self._under_way[name]
+        started = self._now()
+        outcome = Outcome(name, self._new_id(), "sent")
+        request = self._request(outcome, VALID_FOR, fields)
+        self._under_way[name] = outcome
+        self._report(outcome)
+        try:
+            outcome = await self._ask(outcome, request, started)
+        finally:
+            del self._under_way[name]
+        self._report(outcome)
+        return outcome
+
+    def _request(self, outcome: Outcome, valid_for: float, fields: dict[str, Any]) -> Msg:
+        return COMMANDS[outcome.name].request(
+            command_id=outcome.command_id,
+            stamp=self._robot_time(),
+            valid_for=valid_for,
+            **self._who,
+            **fields,
+        )
+
+    async def _ask(self, outcome: Outcome, request: Msg, started: float) -> Outcome:
+        """Ask with the same id until there is an answer or the command is too old."""
+        deadline = started + VALID_FOR
+        while True:
+            timeout = min(TRY, deadline - self._now())
+            try:
+                answer = await self._call(COMMANDS[outcome.name].service, request, CommandResponse, timeout=timeout)
+            except (NoReply, NotConnected) as problem:
+                if self._now() + PAUSE >= deadline:
+                    return replace(outcome, phase="no_reply", reason=str(problem))
+                await asyncio.sleep(PAUSE)
+            except Refused as refusal:
+                return replace(outcome, phase="refused", reason=str(refusal), latency=self._now() - started)
+            except BridgeError as problem:
+                return replace(outcome, phase="no_reply", reason=str(problem))
+            else:
+                phase = "accepted" if answer.success else "refused"
+                return replace(outcome, phase=phase, reason=answer.message, latency=self._now() - started)
+
+    async def stop(self) -> None:
+        """Send STOP until the robot confirms it, however long that takes and over reconnects.
+
+        Pressed again while it is being sent, nothing changes.
+        """
+        if self._stopping:
+            return
+        self._stopping, self._stop_confirmed = True, False
+        outcome, started = Outcome("stop", self._new_id(), "sent"), self._now()
+        request = self._request(outcome, NEVER_VOID, {})
+        self._report(outcome)
+        try:
+            await self._repeat_stop(outcome, request, started)
+        finally:
+            self._stopping = False
+
+    async def _repeat_stop(self, outcome: Outcome, request: Msg, started: float) -> None:
+        doubted = False
+        while True:
+            answer = await self._try_stop(request)
+            latency = self._now() - started
+            if self._stop_confirmed or (answer is not None and answer.success):
+                message = answer.message if answer is not None else ""
+                self._report(replace(outcome, phase="accepted", reason=message, latency=latency))
+                return
+            if latency > STOP_DOUBT and not doubted:
+                doubted = True
+                reason = answer.message if answer is not None else "Still sending it."
+                self._report(replace(outcome, phase="no_reply", reason=reason))
+            await asyncio.sleep(STOP_PAUSE)
+
+    async def _try_stop(self, request: Msg) -> CommandResponse | None:
+        try:
+            answer = await self._call(COMMANDS["stop"].service, request, CommandResponse, timeout=STOP_TRY)
+        except Refused as refusal:
+            return CommandResponse(success=False, message=str(refusal))
+        except BridgeError:
+            return None
+        return answer  # type: ignore[no-any-return]
+
+    def confirm_stop(self) -> None:
+        """The robot's own status says that it is stopped: no need to go on asking."""
+        self._stop_confirmed = True

@@ -1,0 +1,252 @@
+"""The mission being edited: points, home and motion, with undo, and how it stands to what the robot stored."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import msgspec
+
+from bridge.msgs.pilothouse_msgs import Mission, Waypoint
+
+__all__ = ["MOTIONS", "Draft", "MissionEditor"]
+
+MOTIONS = ("loop", "random", "intermittent")
+"""In what order and with which pauses the points are visited."""
+DWELL = (0.0, 600.0)
+"""Shortest and longest stay at a point [s]."""
+LAPS = (0, 999)
+"""Fewest and most rounds; 0 goes on until stopped."""
+STEPS = 200
+"""How many edits can be undone."""
+NEAR = 1e-6
+"""Two places closer than this are the same [m]: numbers may lose a digit on their way to the robot and back."""
+
+
+@dataclass(frozen=True)
+class Draft:
+    """What the operator wants of a patrol."""
+
+    points: tuple[tuple[float, float], ...] = ()
+    """(x, y) in `map` [m], in the order of visiting."""
+    home: tuple[float, float] | None = None
+    """(x, y) in `map` [m]; None when it is not set."""
+    motion: str = "loop"
+    dwell: float = 5.0
+    """Stay at each point in intermittent motion [s]."""
+    laps: int = 0
+    """Rounds to make; 0 goes on until stopped."""
+    stop_on_intruder: bool = False
+
+    @classmethod
+    def of(cls, mission: Mission) -> Draft:
+        """The draft that a robot's mission was sent as."""
+        home = (mission.home[0].x, mission.home[0].y) if mission.home else None
+        points = tuple((point.x, point.y) for point in mission.waypoints)
+        return cls(points, home, mission.motion, mission.dwell, mission.laps, mission.stop_on_intruder)
+
+    def message(self) -> Mission:
+        """The same for the robot; points are named by their number from 1."""
+        points = [Waypoint(x, y, name=str(number)) for number, (x, y) in enumerate(self.points, 1)]
+        home = [Waypoint(*self.home, name="home")] if self.home else []
+        return Mission(
+            waypoints=points,
+            home=home,
+            motion=self.motion,
+            dwell=self.dwell,
+            laps=self.laps,
+            stop_on_intruder=self.stop_on_intruder,
+        )
+
+    def same_as(self, other: Draft) -> bool:
+        """Whether both ask the same of the robot."""
+        mine, theirs = replace(self, points=(), home=None), replace(other, points=(), home=None)
+        if mine != theirs or len(self.points) != len(other.points) or (self.home is None) != (other.home is None):
+            return False
+        places = [*zip(self.points, other.points, strict=True)]
+        if self.home is not None and other.home is not None:
+            places.append((self.home, other.home))
+        return all(math.dist(one, two) <= NEAR for one, two in places)
+
+
+@dataclass
+class MissionEditor:
+    """A draft with its history, and the mission that the robot confirmed to have stored.
+
+    Nothing entered is ever lost: a mission from the robot replaces the draft only where the operator
+    changed nothing since the last one.
+    """
+
+    on_change: Callable[[], object] = lambda: None
+    """Called after every change of the draft or of its state."""
+    draft: Draft = Draft()
+    stored: Draft | None = None
+    """None until the robot told its mission."""
+    sent: Draft | None = None
+    """Under way to the robot; None when nothing is."""
+    outcome: str = ""
+    """What became of the last sending, in one sentence."""
+    _undo: list[Draft] = field(default_factory=list)
+    _redo: list[Draft] = field(default_factory=list)
+    _merge: str = ""
+
+    @property
+    def state(self) -> str:
+        """`empty`, `draft`, `sent` or `stored` (the robot confirmed exactly this draft)."""
+        if self.sent is not None and self.sent.same_as(self.draft):
+            return "sent"
+        if self.stored is not None and self.stored.same_as(self.draft):
+            return "stored" if self.draft.points else "empty"
+        return "draft" if self.draft.points or self.stored is not None else "empty"
+
+    @property
+    def dirty(self) -> bool:
+        """The robot has not confirmed this draft."""
+        return self.state in ("draft", "sent")
+
+    @property
+    def can_undo(self) -> bool:
+        """There is something to undo."""
+        return bool(self._undo)
+
+    @property
+    def can_redo(self) -> bool:
+        """There is something to redo."""
+        return bool(self._redo)
+
+    def _edit(self, draft: Draft, merge: str = "") -> None:
+        """Make `draft` the present one; edits in a row that `merge` under one word are one step of undo."""
+        if draft == self.draft:
+            return
+        if not merge or merge != self._merge:
+            self._undo.append(self.draft)
+            del self._undo[:-STEPS]
+        self._merge = merge
+        self._redo.clear()
+        self.draft = draft
+        self.on_change()
+
+    def add(self, x: float, y: float) -> None:
+        """Append a point at (x, y) in `map` [m]."""
+        _check_place(x, y)
+        self._edit(replace(self.draft, points=(*self.draft.points, (x, y))))
+
+    def move(self, index: int, x: float, y: float) -> None:
+        """Put the point at `index`, from 0, to (x, y) in `map` [m]; IndexError when there is none."""
+        _check_place(x, y)
+        points = list(self.draft.points)
+        points[self._checked(index)] = (x, y)
+        self._edit(replace(self.draft, points=tuple(points)))
+
+    def remove(self, index: int) -> None:
+        """Take out the point at `index`, from 0; IndexError when there is none."""
+        points = list(self.draft.points)
+        del points[self._checked(index)]
+        self._edit(replace(self.draft, points=tuple(points)))
+
+    def reorder(self, index: int, target: int) -> None:
+        """Move the point at `index` to the place `target` in the order, both from 0; IndexError when there is none."""
+        points = list(self.draft.points)
+        point = points.pop(self._checked(index))
+        points.insert(self._checked(target), point)
+        self._edit(replace(self.draft, points=tuple(points)))
+
+    def clear(self) -> None:
+        """Take out all points; home and motion stay."""
+        self._edit(replace(self.draft, points=()))
+
+    def set_home(self, x: float, y: float) -> None:
+        """Set the place to return to, in `map` [m]."""
+        _check_place(x, y)
+        self._edit(replace(self.draft, home=(x, y)))
+
+    def set_motion(
+        self,
+        *,
+        motion: str | None = None,
+        dwell: float | None = None,
+        laps: int | None = None,
+        stop_on_intruder: bool | None = None,
+    ) -> None:
+        """Change what is given; numbers beyond their bounds are brought to them. ValueError for an unknown motion."""
+        if motion is not None and motion not in MOTIONS:
+            raise ValueError(f"The motion is one of {', '.join(MOTIONS)}, not {motion!r}.")
+        changes: dict[str, Any] = {"motion": motion, "stop_on_intruder": stop_on_intruder}
+        changes["dwell"] = None if dwell is None else min(max(dwell, DWELL[0]), DWELL[1])
+        changes["laps"] = None if laps is None else min(max(laps, LAPS[0]), LAPS[1])
+        changes = {name: value for name, value in changes.items() if value is not None}
+        self._edit(replace(self.draft, **changes), merge=",".join(changes))
+
+    def _checked(self, index: int) -> int:
+        if not 0 <= index < len(self.draft.points):
+            raise IndexError(f"There is no point {index + 1}; there are {len(self.draft.points)}.")
+        return index
+
+    def undo(self) -> None:
+        """Take the last edit back; does nothing when there is none."""
+        self._step(self._undo, self._redo)
+
+    def redo(self) -> None:
+        """Do the last undone edit again; does nothing when there is none."""
+        self._step(self._redo, self._undo)
+
+    def _step(self, source: list[Draft], target: list[Draft]) -> None:
+        if source:
+            target.append(self.draft)
+            self.draft, self._merge = source.pop(), ""
+            self.on_change()
+
+    def sending(self) -> Mission:
+        """The message to send now; the draft counts as sent until `answered` or `robot_has`."""
+        self.sent, self.outcome = self.draft, ""
+        self.on_change()
+        return self.draft.message()
+
+    def answered(self, accepted: bool, sentence: str) -> None:
+        """Tell what became of the sending; an acceptance makes what was sent the stored mission."""
+        if accepted and self.sent is not None:
+            self.stored = self.sent
+        self.sent, self.outcome = None, sentence
+        self.on_change()
+
+    def robot_has(self, mission: Mission) -> None:
+        """Take in the mission that the robot says it stored."""
+        told = Draft.of(mission)
+        untouched = self.stored is None and not self._undo and self.draft == Draft()
+        unchanged = self.stored is not None and self.stored.same_as(self.draft)
+        self.stored = told
+        if (untouched or unchanged) and not told.same_as(self.draft):
+            if unchanged:
+                self._undo.append(self.draft)
+            self.draft = told
+        self.on_change()
+
+    def save(self) -> dict[str, Any]:
+        """The draft for the settings file."""
+        return msgspec.to_builtins(self.draft)  # type: ignore[no-any-return]
+
+    def load(self, saved: object) -> bool:
+        """Bring back a saved draft; False, and nothing changed, when it is none."""
+        try:
+            draft = msgspec.convert(saved, Draft)
+        except msgspec.ValidationError:
+            return False
+        numbers = [value for place in (*draft.points, draft.home or ()) for value in _flat(place)]
+        if draft.motion not in MOTIONS or not all(map(math.isfinite, [*numbers, draft.dwell])):
+            return False
+        self.draft = draft
+        self._undo.clear()
+        self._redo.clear()
+        self.on_change()
+        return True
+
+
+def _flat(place: float | tuple[float, float]) -> tuple[float, ...]:
+    return place if isinstance(place, tuple) else (place,)
+
+
+def _check_place(x: float, y: float) -> None:
+    if not (math.isfinite(x) and math.isfinite(y)):
+        raise ValueError(f"A place needs two numbers, not ({x}, {y}).")

@@ -1,0 +1,294 @@
+"""Commands: nothing old leaves late, every one-shot has an answer, STOP does not give up."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from app.commands import COMMANDS, Commands, DriveSlot, Outcome
+from bridge.errors import NoReply, NotConnected, Refused
+from bridge.msgs.geometry_msgs import Twist, Vector3
+from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Mission
+from tests.app import virtual
+
+AHEAD, TURN, ZERO = Twist.planar(0.4, 0.0), Twist.planar(0.0, 1.0), Twist()
+
+
+class Clock:
+    now = 50.0
+
+    def __call__(self) -> float:
+        return self.now
+
+
+class Hand:
+    """A drive slot whose clock and heartbeat the test owns."""
+
+    def __init__(self) -> None:
+        self.clock = Clock()
+        self.slot = DriveSlot(self.clock)
+        self.sent: list[tuple[float, Twist]] = []
+
+    def pass_time(self, seconds: float, *, alive: bool = True) -> list[Twist]:
+        """Let time pass in steps of 10 ms, asking each time what is due."""
+        before = len(self.sent)
+        start = self.clock.now
+        for step in range(round(seconds * 100)):
+            self.clock.now = start + (step + 1) / 100
+            if alive:
+                self.slot.beat()
+            twist = self.slot.due()
+            if twist is not None:
+                self.sent.append((self.clock.now, twist))
+        return [twist for _, twist in self.sent[before:]]
+
+
+@pytest.fixture
+def hand() -> Hand:
+    hand = Hand()
+    hand.slot.beat()
+    return hand
+
+
+def test_a_twist_that_is_not_finite_means_rest(hand: Hand) -> None:
+    hand.slot.want(AHEAD)
+    hand.pass_time(0.1)
+    hand.slot.want(Twist(Vector3(math.nan)))
+    assert set(hand.pass_time(0.3)) == {ZERO}
+
+
+def test_a_dead_user_interface_brings_the_robot_to_rest(hand: Hand) -> None:
+    hand.slot.want(AHEAD)
+    hand.pass_time(0.2)
+    after = hand.pass_time(0.6, alive=False)
+    assert after[-3:] == [ZERO] * 3
+    assert after.count(AHEAD) <= 4
+    first_zero = next(at for at, twist in hand.sent if twist == ZERO)
+    assert first_zero <= 50.2 + 0.15 + 0.021
+
+
+def test_a_stick_held_through_a_short_stall_drives_on(hand: Hand) -> None:
+    hand.slot.want(AHEAD)
+    hand.pass_time(0.2)
+    hand.pass_time(0.4, alive=False)
+    assert AHEAD in hand.pass_time(0.1)
+
+
+def test_a_stick_held_through_a_long_stall_must_be_pushed_anew(hand: Hand) -> None:
+    hand.slot.want(AHEAD)
+    hand.pass_time(0.2)
+    hand.pass_time(1.5, alive=False)
+    assert hand.pass_time(1.0) == []
+
+
+def test_a_twist_that_waited_for_a_lost_link_is_never_sent(hand: Hand) -> None:
+    hand.slot.want(AHEAD)
+    hand.slot.drop()
+    assert hand.pass_time(1.0) == []
+
+
+def test_nothing_is_sent_before_the_stick_was_touched(hand: Hand) -> None:
+    assert hand.pass_time(1.0) == []
+
+
+def test_a_change_is_sent_at_once_and_a_held_stick_twenty_times_a_second(hand: Hand) -> None:
+    hand.slot.want(AHEAD)
+    assert hand.slot.due() == AHEAD
+    hand.slot.want(TURN)
+    assert hand.slot.due() == TURN
+    assert hand.slot.due() is None
+    assert len(hand.pass_time(1.0)) == 20
+
+
+def test_letting_go_sends_three_zeros_and_then_nothing(hand: Hand) -> None:
+    hand.slot.want(AHEAD)
+    hand.pass_time(0.2)
+    hand.slot.want(ZERO)
+    assert hand.pass_time(1.0) == [ZERO] * 3
+    assert not hand.slot.driving
+
+
+def test_pushing_again_during_the_zeros_drives_at_once(hand: Hand) -> None:
+    hand.slot.want(AHEAD)
+    hand.pass_time(0.2)
+    hand.slot.want(ZERO)
+    hand.pass_time(0.02)
+    hand.slot.want(TURN)
+    assert hand.slot.due() == TURN
+    assert hand.slot.driving
+
+
+class Robot:
+    """Answers calls by a script: each entry is a response, an error to raise, or a wait [s] before the next."""
+
+    def __init__(self, *script: CommandResponse | Exception | float) -> None:
+        self.script = list(script)
+        self.calls: list[tuple[str, CommandRequest, float]] = []
+        self.reports: list[Outcome] = []
+
+    async def call(self, service: str, request: CommandRequest, response: Any, *, timeout: float) -> Any:
+        self.calls.append((service, request, virtual.now()))
+        entry = self.script.pop(0) if len(self.script) > 1 else self.script[0]
+        while isinstance(entry, float):
+            if entry > timeout:
+                await asyncio.sleep(timeout)
+                raise NoReply("The robot does not answer.")
+            await asyncio.sleep(entry)
+            entry = self.script.pop(0) if len(self.script) > 1 else self.script[0]
+        if isinstance(entry, Exception):
+            raise entry
+        return entry
+
+    def commands(self) -> Commands:
+        numbers = iter(range(100))
+        return Commands(
+            self.call,
+            self.reports.append,
+            now=virtual.now,
+            robot_time=lambda: virtual.now() + 7000.0,
+            new_id=lambda: f"id-{next(numbers)}",
+            client_id="me",
+            client_name="tablet",
+        )
+
+    @property
+    def phases(self) -> list[str]:
+        return [outcome.phase for outcome in self.reports]
+
+    @property
+    def ids(self) -> set[str]:
+        return {request.command_id for _, request, _ in self.calls}
+
+
+YES = CommandResponse(success=True, message="Patrol started.")
+
+
+def run(robot: Robot, what: Callable[[Commands], Any]) -> Any:
+    async def main() -> Any:
+        return await what(robot.commands())
+
+    return virtual.run(main())
+
+
+def test_a_refused_command_tells_the_robots_reason() -> None:
+    robot = Robot(CommandResponse(success=False, message="The mission has no points."))
+    outcome = run(robot, lambda commands: commands.send("start"))
+    assert outcome.sentence == "Refused: start patrol. The mission has no points."
+    assert robot.phases == ["sent", "refused"]
+
+
+def test_a_robot_without_the_service_refuses_in_its_own_words() -> None:
+    outcome = run(Robot(Refused("There is no service /task/start.")), lambda commands: commands.send("start"))
+    assert (outcome.phase, outcome.reason) == ("refused", "There is no service /task/start.")
+
+
+def test_a_silent_robot_is_asked_with_the_same_id_until_the_command_is_void() -> None:
+    robot = Robot(NoReply("The robot does not answer."))
+
+    async def what(commands: Commands) -> tuple[Outcome, float]:
+        start = virtual.now()
+        return await commands.send("start"), virtual.now() - start
+
+    outcome, took = run(robot, what)
+    assert (outcome.phase, outcome.reason) == ("no_reply", "The robot does not answer.")
+    assert len(robot.calls) > 3
+    assert len(robot.ids) == 1
+    assert took <= 5.0
+
+
+def test_an_answer_to_a_later_try_is_an_acceptance() -> None:
+    robot = Robot(9.0, NotConnected("Not connected."), YES)
+    outcome = run(robot, lambda commands: commands.send("start"))
+    assert outcome.phase == "accepted"
+    assert outcome.latency == pytest.approx(1.2 + 0.2, abs=0.01)
+    assert len(robot.calls) == 3
+
+
+def test_an_acceptance_says_how_long_it_took() -> None:
+    outcome = run(Robot(0.018, YES), lambda commands: commands.send("start"))
+    assert outcome.sentence == "Accepted: start patrol (18 ms)"
+
+
+def test_two_taps_send_one_command() -> None:
+    robot = Robot(0.2, YES)
+
+    async def what(commands: Commands) -> None:
+        await asyncio.gather(commands.send("start"), commands.send("start"))
+
+    run(robot, what)
+    assert len(robot.calls) == 1
+
+
+def test_a_command_tells_who_when_and_how_long_it_is_valid() -> None:
+    robot = Robot(YES)
+    run(robot, lambda commands: commands.send("mission", mission=Mission(motion="random")))
+    service, request, at = robot.calls[0]
+    assert service == "/mission/set"
+    assert request.mission.motion == "random"
+    assert (request.client_id, request.client_name, request.valid_for) == ("me", "tablet", 5.0)
+    assert request.stamp == at + 7000.0
+
+
+def test_stop_is_repeated_with_one_id_over_a_lost_link_until_it_is_confirmed() -> None:
+    robot = Robot(*[NotConnected("Not connected.")] * 30, YES)
+    run(robot, lambda commands: commands.stop())
+    assert len(robot.calls) == 31
+    assert len(robot.ids) == 1
+    assert robot.phases == ["sent", "no_reply", "accepted"]
+
+
+def test_stop_does_not_wait_for_another_commands_answer() -> None:
+    robot = Robot(0.9, YES, YES)
+
+    async def what(commands: Commands) -> None:
+        start = asyncio.create_task(commands.send("start"))
+        await asyncio.sleep(0.01)
+        await commands.stop()
+        await start
+
+    run(robot, what)
+    assert [service for service, _, _ in robot.calls] == ["/task/start", "/stop"]
+    assert robot.calls[1][2] - robot.calls[0][2] == pytest.approx(0.01)
+
+
+def test_the_robots_own_status_confirms_stop() -> None:
+    robot = Robot(9.0)
+    seen: list[bool] = []
+
+    async def what(commands: Commands) -> None:
+        loop = asyncio.get_running_loop()
+        loop.call_later(1.0, lambda: seen.append(commands.stopping))
+        loop.call_later(2.0, commands.confirm_stop)
+        await commands.stop()
+        assert seen == [True]
+        assert not commands.stopping
+
+    run(robot, what)
+    assert robot.phases == ["sent", "no_reply", "accepted"]
+
+
+def test_stop_is_never_too_old() -> None:
+    robot = Robot(YES)
+    run(robot, lambda commands: commands.stop())
+    assert robot.calls[0][1].valid_for >= 1e6
+
+
+def test_stop_pressed_twice_is_one_stop() -> None:
+    robot = Robot(0.2, YES)
+
+    async def what(commands: Commands) -> None:
+        await asyncio.gather(commands.stop(), commands.stop())
+
+    run(robot, what)
+    assert len(robot.ids) == 1
+
+
+@pytest.mark.parametrize("name", sorted(COMMANDS))
+def test_every_command_asks_with_a_request_that_has_an_identity(name: str) -> None:
+    assert issubclass(COMMANDS[name].request, CommandRequest)
+    assert COMMANDS[name].service.startswith("/")
+    assert COMMANDS[name].label
