@@ -182,7 +182,7 @@ def glsl_es(kind: str, text: str) -> str:
 
     header = Path(kivy.__file__).parent / "data" / "glsl" / f"header.{kind[0]}s"
     body = text.replace("$HEADER$", header.read_text())
-    return "#version 100\n#define GL_ES 1\n" + body
+    return "#version 100\n" + body
 
 
 def check_shaders(files: list[Path], root: Path) -> str:

@@ -30,6 +30,8 @@ from widgets.icons import FILLED, OUTLINED, filled_code
 FONTS = Path(__file__).parents[1] / "widgets" / "fonts"
 TEXT = [*range(0x20, 0x180), *range(0x2010, 0x2030), *map(ord, "′″←↑→↓−≈≠≤≥×÷±°²³µ€")]
 """Latin with its accents, dashes, arrows and the signs of measured values."""
+HAIR_SPACE = 170
+"""Width of a hair space [1/2000 of the letter height]."""
 FACES = ("B612-Regular", "B612-Bold", "B612Mono-Regular", "B612Mono-Bold")
 
 
@@ -59,6 +61,17 @@ def to_truetype(font: TTFont) -> TTFont:
     font["post"].formatType, font["post"].extraNames, font["post"].mapping = 2.0, [], {}
     font["post"].glyphOrder = order
     font.sfntVersion = "\000\001\000\000"
+    return font
+
+
+def with_hair_space(font: TTFont) -> TTFont:
+    """Add the thin space that letters of a label stand apart by; B612 has none."""
+    font["glyf"]["hairspace"] = TTGlyphPen(None).glyph()
+    font["hmtx"]["hairspace"] = (HAIR_SPACE, 0)
+    for table in font["cmap"].tables:
+        if table.isUnicode():
+            table.cmap[0x200A] = "hairspace"
+    font["post"].extraNames, font["post"].mapping = [], {}
     return font
 
 
@@ -99,7 +112,7 @@ def main(folder: Path) -> None:
     FONTS.mkdir(exist_ok=True)
     for face in FACES:
         whole = TTFont(folder / f"b612/usr/share/fonts/opentype/b612/{face}.otf")
-        to_truetype(subset(whole, TEXT)).save(FONTS / f"{face}.ttf")
+        with_hair_space(to_truetype(subset(whole, TEXT))).save(FONTS / f"{face}.ttf")
     make_icons(folder / "package/material-symbols-rounded.woff2").save(FONTS / "Icons.ttf")
     copy_licence(folder / "b612/usr/share/doc/fonts-b612/copyright", FONTS / "B612-LICENSE.txt")
     copy_licence(folder / "package/LICENSE", FONTS / "Icons-LICENSE.txt")

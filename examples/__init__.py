@@ -1,0 +1,1 @@
+"""Short programs that use Pilothouse, and the demo."""

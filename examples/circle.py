@@ -1,0 +1,13 @@
+"""Drives a robot in a circle for two seconds, prints where it is and sends it home: `python examples/circle.py`."""
+
+import time
+
+from bridge.msgs.geometry_msgs import Twist, Vector3
+from bridge.remote import RemoteRobot
+
+with RemoteRobot("ws://127.0.0.1:9090") as robot:
+    robot.on("/pose", lambda msg: print(msg.pose.pose.position))
+    for _ in range(40):
+        robot.publish("/cmd_vel", Twist(Vector3(0.2, 0, 0), Vector3(0, 0, 0.5)))
+        time.sleep(0.05)
+    print(robot.call("/task/go_home").message)

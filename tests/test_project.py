@@ -1,0 +1,91 @@
+"""What the repository promises about itself."""
+
+from __future__ import annotations
+
+import ast
+import re
+import subprocess
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from scripts.topic_table import DOCUMENTS, with_table
+
+ROOT = Path(__file__).parents[1]
+SOURCES = [p for d in ("app", "bridge", "widgets", "robotside", "sim", "bench", "examples") for p in (ROOT / d).rglob("*.py")]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
+
+
+def canonical(name: str) -> str:
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def body_length(node: ast.FunctionDef | ast.AsyncFunctionDef) -> int:
+    first = node.body[0]
+    spoken = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str)
+    start = first.end_lineno if spoken else node.lineno
+    return node.end_lineno - start
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+def test_the_topic_table_is_the_one_of_the_code(document):
+    text = document.read_text()
+    assert with_table(text) == text, "run python scripts/topic_table.py"
+
+
+def test_every_recipe_fits_fifteen_lines():
+    recipes = re.split(r"^## To add ", (ROOT / "CONTRIBUTING.md").read_text(), flags=re.MULTILINE)[1:]
+    assert [r.split("\n")[0] for r in recipes][:4] == ["a widget", "a vehicle", "a behaviour", "a gateway"]
+    assert all(len(recipe.strip().splitlines()) - 2 <= 15 for recipe in recipes)
+
+
+def test_every_extra_is_pinned():
+    wanted = PROJECT["project"]["dependencies"] + sum(PROJECT["project"]["optional-dependencies"].values(), [])
+    pinned = {canonical(line.split("==")[0]) for line in (ROOT / "constraints.txt").read_text().splitlines()}
+    assert not [name for name in wanted if canonical(re.split(r"[<>=!~]", name)[0]) not in pinned]
+
+
+def test_the_pins_name_no_registry():
+    lines = (ROOT / "constraints.txt").read_text().splitlines()
+    assert all(line.startswith("#") or re.fullmatch(r"[\w.-]+==[\w.]+", line) for line in lines)
+
+
+def test_no_file_is_over_500_lines_and_no_function_over_40():
+    long = [p.name for p in SOURCES if len(p.read_text().splitlines()) > 500]
+    for path in SOURCES:
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and body_length(node) > 40:
+                long.append(f"{path.name}:{node.lineno} {node.name}")
+    assert not long
+
+
+def test_the_license_is_apache_2():
+    text = (ROOT / "LICENSE").read_text()
+    assert "Apache License" in text
+    assert "END OF TERMS AND CONDITIONS" in text
+
+
+def test_each_verb_of_the_makefile_says_what_it_does():
+    listed = subprocess.run(["make", "-s", "help"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    verbs = {line.split()[0] for line in listed.splitlines()}
+    assert {"run", "demo", "setup", "test", "test-fast", "bench", "android-check", "gallery", "lint"} <= verbs
+
+
+def test_set_up_is_not_done_twice(tmp_path):
+    """With the stamp of a finished set-up in place the script ends at once and says nothing."""
+    (tmp_path / "scripts").mkdir()
+    for name in ("pyproject.toml", "constraints.txt", "scripts/setup.sh"):
+        (tmp_path / name).write_bytes((ROOT / name).read_bytes())
+    files = ["pyproject.toml", "constraints.txt", "scripts/setup.sh"]
+    content = b"".join((ROOT / name).read_bytes() for name in files)
+    stamp = subprocess.run(["cksum"], input=content, capture_output=True, check=True).stdout
+    (tmp_path / ".venv").mkdir()
+    (tmp_path / ".venv" / ".ready").write_bytes(stamp)
+    done = subprocess.run(["bash", "scripts/setup.sh"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+def test_the_ten_lines_of_the_readme_are_a_program_of_the_examples():
+    shown = re.search(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL).group(1)
+    assert (ROOT / "examples" / "circle.py").read_text().endswith(shown)
