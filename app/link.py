@@ -1,0 +1,262 @@
+"""The link to one robot: its socket in the network thread, its messages into the mailbox, its commands out."""
+
+from __future__ import annotations
+
+import asyncio
+import concurrent.futures
+import logging
+import math
+import time
+import uuid
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+from app.commands import Commands, DriveSlot, Outcome
+from app.events import EventStream
+from app.feeds import Mailbox
+from app.network import NetworkThread
+from bridge.client import BridgeClient, CameraStream, LinkState, Phase
+from bridge.errors import BridgeError
+from bridge.frames import Frame
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
+from bridge.msgs.pilothouse_msgs import ControlStatus, Event, GetEventsResponse
+from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.topics import TOPICS, Topic
+
+__all__ = ["CAMERA", "EVENT", "LINK", "OUTCOME", "Link"]
+
+log = logging.getLogger(__name__)
+
+CAMERA, EVENT, LINK, OUTCOME = "camera", "event", "link", "outcome"
+"""Channels of the mailbox beside the topics: `Frame`s; and, queued, `Event`s, `LinkState`s and `Outcome`s."""
+UNUSED = ("/tf", "/joint_states", "/diagnostics", "/bumper")
+"""Topics that no screen shows."""
+FASTEST = 33
+"""No stream is asked for more often than this [ms]: the glass shows no more."""
+BULKY = ("/scan", "/map")
+"""Topics whose numbers travel as CBOR."""
+CAMERA_PAUSE = 0.5
+"""Before the camera's socket is opened again [s]."""
+TICK = 0.05
+"""How often the drive slot is looked at when nothing wakes it [s]."""
+COMPRESSED = "/camera/image/compressed"
+
+
+class Link:
+    """One robot. Made, told and closed in the UI thread; everything it does happens in the network thread."""
+
+    def __init__(
+        self,
+        url: str,
+        mailbox: Mailbox,
+        network: NetworkThread,
+        *,
+        client_id: str,
+        client_name: str,
+        now: Callable[[], float] = time.monotonic,
+        new_id: Callable[[], str] = lambda: uuid.uuid4().hex,
+    ) -> None:
+        """`client_id` and `client_name` are who this handheld is to the robot; `now` is our clock [s]."""
+        self.url = url
+        self._mailbox, self._network, self._now = mailbox, network, now
+        self._client = BridgeClient(url, on_state=self._on_state, now=now)
+        self._slot = DriveSlot(now)
+        self.commands = Commands(
+            self._client.call,
+            self._tell,
+            now=now,
+            robot_time=lambda: self._client.robot_time(),
+            new_id=new_id,
+            client_id=client_id,
+            client_name=client_name,
+        )
+        self._events = EventStream(lambda event: mailbox.queue(EVENT, event, now()))
+        self._wake = asyncio.Event()
+        self._tasks: set[asyncio.Task[Any]] = set()
+        self._running: concurrent.futures.Future[None] | None = None
+        self._camera: CameraStream | None = None
+        self._camera_task: asyncio.Task[None] | None = None
+        self._camera_topic: Callable[[], None] | None = None
+        for entry in TOPICS:
+            self._subscribe(entry)
+
+    # what the UI thread calls
+
+    @property
+    def state(self) -> LinkState:
+        """The connection as it stands."""
+        return self._client.state
+
+    @property
+    def rtt(self) -> float:
+        """Round trip [s]; NaN while it is not known."""
+        return self._client.rtt
+
+    @property
+    def lost(self) -> int:
+        """How many of the last 20 pings had no answer."""
+        return self._client.lost
+
+    def robot_time(self) -> float:
+        """The robot's clock [s]; NaN while it is not known."""
+        return self._client.robot_time()
+
+    def start(self) -> None:
+        """Connect, and go on reconnecting until `close`."""
+        self._running = self._network.start(self._run())
+
+    def close(self, patience: float = 2.0) -> None:
+        """Say rest, close the socket and end every task; returns after at most `patience` [s]."""
+        if self._running is None:
+            return
+        try:
+            self._network.start(self._close()).result(patience)
+        except (TimeoutError, concurrent.futures.TimeoutError, concurrent.futures.CancelledError):
+            log.warning("the link did not close within %.1f s", patience)
+        self._running.cancel()
+        self._running = None
+
+    def drive(self, twist: Twist) -> None:
+        """Drive so until told otherwise; leaves at once."""
+        self._slot.want(twist)
+        self._network.call(self._wake.set)
+
+    def beat(self) -> None:
+        """The user interface is alive; without this for 0.15 s the robot is told to rest."""
+        self._slot.beat()
+
+    def command(self, name: str, **fields: Any) -> None:
+        """Send a one-shot command of `app.commands.COMMANDS`; its `Outcome`s come through the mailbox."""
+        self._network.call(self._spawn, self.commands.send, name, fields)
+
+    def stop(self) -> None:
+        """STOP: the stick is let go and the robot is told until it confirms."""
+        self._slot.want(Twist())
+        self._network.call(self._wake.set)
+        self._network.call(self._spawn, self.commands.stop, None, {})
+
+    def place(self, message: PoseWithCovarianceStamped) -> None:
+        """Tell the robot where it is."""
+        self._network.call(self._client.publish, "/initialpose", message)
+
+    def watch(self, camera: str | None) -> None:
+        """Show a camera stream by its name; empty for the one of the rosbridge topic, None for none."""
+        self._network.call(self._watch, camera)
+
+    # what happens in the network thread
+
+    def _subscribe(self, entry: Topic) -> None:
+        if entry.to != "handheld" or entry.on_demand or entry.name in UNUSED:
+            return
+        if entry.once:
+            self._client.subscribe(entry.name, entry.type, self._on_event, queue_length=100)
+            return
+        fast = entry.rate * FASTEST > 1000
+        self._client.subscribe(
+            entry.name,
+            entry.type,
+            lambda message, received, name=entry.name: self._on_message(name, message, received),
+            throttle_rate=FASTEST if fast else 0,
+            compression="cbor" if entry.name in BULKY else "none",
+        )
+
+    async def _run(self) -> None:
+        self._client.advertise("/cmd_vel", Twist)
+        self._client.advertise("/initialpose", PoseWithCovarianceStamped)
+        sender = asyncio.create_task(self._send())
+        self._keep(sender)
+        try:
+            await self._client.run()
+        finally:
+            sender.cancel()
+
+    async def _send(self) -> None:
+        while True:
+            try:
+                async with asyncio.timeout(TICK):
+                    await self._wake.wait()
+            except TimeoutError:
+                pass
+            self._wake.clear()
+            if self.commands.stopping:
+                self._slot.want(Twist())
+            twist = self._slot.due()
+            if twist is not None:
+                stamp = self._client.robot_time()
+                self._client.publish("/cmd_vel", twist, stamp=None if math.isnan(stamp) else stamp)
+
+    def _on_state(self, state: LinkState) -> None:
+        self._mailbox.queue(LINK, state, self._now())
+        if state.phase is Phase.CONNECTED:
+            self._keep(asyncio.get_running_loop().create_task(self._fetch_events()))
+        else:
+            self._slot.drop()
+
+    async def _fetch_events(self) -> None:
+        try:
+            answer = await self._client.call("/events/get", self._events.ask(), GetEventsResponse)
+        except BridgeError as problem:
+            log.info("no stored events: %s", problem)
+            self._events.give_up()
+        else:
+            self._events.missed(answer.events)
+
+    def _on_message(self, name: str, message: Msg, received: float) -> None:
+        if isinstance(message, ControlStatus) and message.stopped:
+            self.commands.confirm_stop()
+        self._mailbox.post(name, message, received)
+
+    def _on_event(self, event: Event, received: float) -> None:
+        self._events.live(event)
+
+    def _tell(self, outcome: Outcome) -> None:
+        self._mailbox.queue(OUTCOME, outcome, self._now())
+
+    def _spawn(self, send: Callable[..., Coroutine[Any, Any, Any]], name: str | None, fields: dict[str, Any]) -> None:
+        self._keep(self._network.loop.create_task(send(name, **fields) if name else send()))
+
+    def _keep(self, task: asyncio.Task[Any]) -> None:
+        """The loop holds tasks only weakly: keep each until it is done."""
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    def _watch(self, camera: str | None) -> None:
+        if self._camera_task is not None:
+            self._camera_task.cancel()
+            self._camera_task = None
+        if self._camera_topic is not None:
+            self._camera_topic()
+            self._camera_topic = None
+        if camera:
+            self._camera_task = self._network.loop.create_task(self._show_camera(camera))
+            self._keep(self._camera_task)
+        elif camera == "":
+            self._camera_topic = self._client.subscribe(COMPRESSED, CompressedImage, self._on_image)
+
+    async def _show_camera(self, name: str) -> None:
+        stream = CameraStream(f"{self.url.rstrip('/')}/camera/{name}", self._on_frame)
+        try:
+            while True:
+                try:
+                    await stream.run()
+                except (OSError, BridgeError) as problem:
+                    log.info("camera %s: %s", name, problem)
+                await asyncio.sleep(CAMERA_PAUSE)
+        finally:
+            await stream.close()
+
+    def _on_frame(self, frame: Frame, received: float) -> None:
+        self._mailbox.post(CAMERA, frame, received)
+
+    def _on_image(self, image: CompressedImage, received: float) -> None:
+        self._on_frame(Frame(0, image.header.stamp.seconds, 0, 0, image.data), received)
+
+    async def _close(self) -> None:
+        if self._slot.driving:
+            self._client.publish("/cmd_vel", Twist())
+        self._watch(None)
+        await self._client.close()
+        for task in self._tasks - {asyncio.current_task()}:
+            task.cancel()
+        await asyncio.gather(*self._tasks - {asyncio.current_task()}, return_exceptions=True)

@@ -1,0 +1,114 @@
+"""Records what came over the link into an MCAP file that Foxglove and the mcap tools read."""
+
+from __future__ import annotations
+
+import json
+import logging
+import queue
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from bridge import codec
+from bridge.msgs import Msg
+from bridge.msgs.arrays import Float32Array, Float64Array, Int8Array
+
+__all__ = ["Recorder", "schema"]
+
+log = logging.getLogger(__name__)
+
+WAITING = 2000
+"""Messages that may wait for the disk; beyond that the newest are dropped, counted and said."""
+
+
+def _array_schema(type_: type) -> dict[str, Any]:
+    if issubclass(type_, Int8Array):
+        return {"type": "array", "items": {"type": "integer", "minimum": -128, "maximum": 127}}
+    if issubclass(type_, Float32Array | Float64Array):
+        return {"type": "array", "items": {"type": ["number", "null"]}}
+    raise NotImplementedError(f"no JSON schema for {type_.__name__}")
+
+
+def schema(type_: type[Msg]) -> bytes:
+    """The JSON schema of a message type, self-contained."""
+    (root,), parts = msgspec.json.schema_components([type_], schema_hook=_array_schema, ref_template="#/$defs/{name}")
+    return json.dumps({"type": "object", **parts.get(type_.__name__, root), "$defs": parts}).encode()
+
+
+class Recorder:
+    """Writes in a thread of its own; `put` never waits."""
+
+    def __init__(self, path: Path, *, wall: Callable[[], float] = time.time, waiting: int = WAITING) -> None:
+        """Start a file at `path`; OSError when it cannot be written. `wall` is the time of day [s].
+
+        At most `waiting` messages wait for the disk.
+        """
+        from mcap.writer import Writer
+
+        path.parent.mkdir(parents=True, exist_ok=True)
+        self.path = path
+        self.dropped = 0
+        """Messages that did not get into the file."""
+        self.problem = ""
+        """One sentence when the disk failed; empty when all is well."""
+        self.started = wall()
+        """When the recording began [s], time of day."""
+        self._wall = wall
+        self._file = path.open("wb")
+        self._writer = Writer(self._file)
+        self._writer.start(library="pilothouse")
+        self._channels: dict[str, int] = {}
+        self._queue: queue.Queue[tuple[str, Msg, float] | None] = queue.Queue(waiting)
+        self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
+        self._thread.start()
+
+    def put(self, topic: str, message: Msg) -> None:
+        """Record a message as received now, from any thread."""
+        try:
+            self._queue.put_nowait((topic, message, self._wall()))
+        except queue.Full:
+            self.dropped += 1
+
+    @property
+    def sentence(self) -> str:
+        """How the recording stands: what was dropped or went wrong; empty when all is well."""
+        if self.problem:
+            return self.problem
+        return f"Not recorded because the disk is too slow: {self.dropped}." if self.dropped else ""
+
+    def close(self) -> None:
+        """Write what waits, finish the file and end the thread."""
+        self._queue.put(None)
+        self._thread.join()
+
+    def _run(self) -> None:
+        while (item := self._queue.get()) is not None:
+            if self.problem:
+                self.dropped += 1
+                continue
+            try:
+                self._write(*item)
+            except OSError as error:
+                self._fail(error)
+        try:
+            self._writer.finish()
+            self._file.close()
+        except OSError as error:
+            self._fail(error)
+
+    def _fail(self, error: OSError) -> None:
+        self.dropped += 1
+        self.problem = f"The recording has ended: {error.strerror or error}."
+        log.warning("%s", self.problem)
+
+    def _write(self, topic: str, message: Msg, at: float) -> None:
+        if topic not in self._channels:
+            kind = type(message)
+            schema_id = self._writer.register_schema(kind.MSGTYPE, "jsonschema", schema(kind))
+            self._channels[topic] = self._writer.register_channel(topic, "json", schema_id)
+        stamp = round(at * 1e9)
+        self._writer.add_message(self._channels[topic], stamp, codec.to_json(message), stamp)
