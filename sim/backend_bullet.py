@@ -1,0 +1,391 @@
+"""The physics engine: the only file that knows pybullet.
+
+Everything else talks to `Bullet` in shapes, numbers and tuples, so that another engine can take its place.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.shapes import Quat, Shape, Vec3, place
+
+__all__ = ["STEPS_PER_SECOND", "Bullet", "Contact", "Joint", "State", "Wheeled"]
+
+STEPS_PER_SECOND = 240
+"""Fixed physics steps in a second of simulated time."""
+GRAVITY = 9.81
+"""[m/s2]"""
+
+_EVERYTHING = -1
+_OWN_BODIES = 64
+"""Collision group of vehicles, which their own lasers look through."""
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    """Silence the C code's prints, which go to the file descriptors and not through Python."""
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:
+            stream.flush()
+    saved = [(fd, os.dup(fd)) for fd in (1, 2)]
+    sink = os.open(os.devnull, os.O_WRONLY)
+    try:
+        for fd, _ in saved:
+            os.dup2(sink, fd)
+        yield
+    finally:
+        # What C has buffered would otherwise come out after all, once the descriptors are back.
+        ctypes.CDLL(None).fflush(None)
+        for fd, copy in saved:
+            os.dup2(copy, fd)
+            os.close(copy)
+        os.close(sink)
+
+
+with _quiet():
+    import pybullet as p  # type: ignore[import-untyped]  # has neither types nor stubs
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """Where a body is and how it moves, in the world's frame."""
+
+    position: Vec3
+    """Of its frame's origin [m]."""
+    rotation: Quat
+    velocity: Vec3
+    """Of its centre of mass [m/s]."""
+    turning: Vec3
+    """[rad/s]"""
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """A wheel's joint."""
+
+    angle: float
+    """[rad], not wrapped."""
+    speed: float
+    """[rad/s]"""
+    torque: float
+    """That its motor gave in the last step [N m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """A place where a vehicle's shell touches something."""
+
+    body: int
+    """What it touches."""
+    position: Vec3
+    """In the world's frame [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wheeled:
+    """A body on driven wheels and sliding casters; its frame lies on the ground, x forward."""
+
+    shell: Shape
+    mass: float
+    """Of the whole without wheels and casters [kg]."""
+    inertia: Vec3
+    """About the axes through the centre of mass [kg m2]."""
+    centre_of_mass: Vec3
+    wheels: tuple[Vec3, ...]
+    """Centres of the wheels; they turn about y."""
+    wheel_radius: float
+    wheel_mass: float
+    wheel_friction: float
+    casters: tuple[Vec3, ...]
+    """Centres of the casters."""
+    caster_radius: float
+    caster_mass: float
+    friction: float
+    """Of the shell against other things."""
+
+
+class Bullet:
+    """One world of rigid bodies in discrete time."""
+
+    def __init__(self, *, gui: bool = False) -> None:
+        """An empty world; `gui` opens pybullet's own window, which needs a display."""
+        self._gui = gui
+        with _quiet():
+            self._client: int = p.connect(p.GUI if gui else p.DIRECT)
+        if self._client < 0:
+            raise RuntimeError("The physics engine could not open its window; is there a display?")
+        p.setGravity(0, 0, -GRAVITY, physicsClientId=self._client)
+        p.setPhysicsEngineParameter(
+            fixedTimeStep=1 / STEPS_PER_SECOND,
+            deterministicOverlappingPairs=1,
+            physicsClientId=self._client,
+        )
+        if gui:
+            p.configureDebugVisualizer(p.COV_ENABLE_GUI, 0, physicsClientId=self._client)
+        self._below: dict[int, Vec3] = {}
+
+    def add_ground(self) -> int:
+        """The level ground at z = 0; its number."""
+        shape = p.createCollisionShape(p.GEOM_PLANE, physicsClientId=self._client)
+        return int(p.createMultiBody(0, shape, physicsClientId=self._client))
+
+    def add_static(self, shape: Shape) -> int:
+        """A solid that nothing moves; its number."""
+        return int(
+            p.createMultiBody(
+                0,
+                self._collision(shape),
+                self._visual(shape),
+                shape.position,
+                shape.rotation,
+                physicsClientId=self._client,
+            )
+        )
+
+    def add_body(self, shape: Shape, mass: float) -> int:
+        """A free rigid body of one `shape` and `mass` [kg]; its number."""
+        body = int(
+            p.createMultiBody(
+                mass,
+                self._collision(shape),
+                self._visual(shape),
+                shape.position,
+                shape.rotation,
+                physicsClientId=self._client,
+            )
+        )
+        self._undamp(body)
+        self._below[body] = (0.0, 0.0, 0.0)
+        return body
+
+    def add_wheeled(self, spec: Wheeled, position: Vec3, rotation: Quat) -> int:
+        """A wheeled vehicle; its number. Its wheels are joints 0, 1, … in the order of `spec.wheels`."""
+        com = spec.centre_of_mass
+        wheels, casters = len(spec.wheels), len(spec.casters)
+        count = wheels + casters
+        wheel = self._collision(Shape("sphere", (2 * spec.wheel_radius,) * 3))
+        caster = self._collision(Shape("sphere", (2 * spec.caster_radius,) * 3))
+        centres = [
+            tuple(a - b for a, b in zip(centre, com, strict=True)) for centre in spec.wheels + spec.casters
+        ]
+        offset = tuple(a - b for a, b in zip(spec.shell.position, com, strict=True))
+        start = place(com, position, rotation)
+        body = int(
+            p.createMultiBody(
+                baseMass=spec.mass,
+                baseCollisionShapeIndex=self._collision(spec.shell, offset),
+                baseVisualShapeIndex=self._visual(spec.shell, offset),
+                basePosition=start,
+                baseOrientation=rotation,
+                linkMasses=[spec.wheel_mass] * wheels + [spec.caster_mass] * casters,
+                linkCollisionShapeIndices=[wheel] * wheels + [caster] * casters,
+                linkVisualShapeIndices=[-1] * count,
+                linkPositions=centres,
+                linkOrientations=[(0, 0, 0, 1)] * count,
+                linkInertialFramePositions=[(0, 0, 0)] * count,
+                linkInertialFrameOrientations=[(0, 0, 0, 1)] * count,
+                linkParentIndices=[0] * count,
+                linkJointTypes=[p.JOINT_REVOLUTE] * wheels + [p.JOINT_FIXED] * casters,
+                linkJointAxis=[(0, 1, 0)] * count,
+                physicsClientId=self._client,
+            )
+        )
+        self._undamp(body)
+        self._set_friction(body, spec)
+        for link in range(-1, count):
+            p.setCollisionFilterGroupMask(body, link, _OWN_BODIES, _EVERYTHING, physicsClientId=self._client)
+        self._below[body] = (-com[0], -com[1], -com[2])
+        return body
+
+    def step(self) -> None:
+        """Advance by one fixed step."""
+        p.stepSimulation(physicsClientId=self._client)
+
+    def state(self, body: int) -> State:
+        """Where `body` is and how it moves."""
+        position, rotation = p.getBasePositionAndOrientation(body, physicsClientId=self._client)
+        velocity, turning = p.getBaseVelocity(body, physicsClientId=self._client)
+        return State(place(self._below[body], position, rotation), rotation, velocity, turning)
+
+    def place(self, body: int, position: Vec3, rotation: Quat) -> None:
+        """Put `body` somewhere else, at rest."""
+        below = self._below[body]
+        centre = place((-below[0], -below[1], -below[2]), position, rotation)
+        p.resetBasePositionAndOrientation(body, centre, rotation, physicsClientId=self._client)
+        p.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0), physicsClientId=self._client)
+
+    def joints(self, body: int, count: int) -> list[Joint]:
+        """The first `count` joints of `body`."""
+        states = p.getJointStates(body, range(count), physicsClientId=self._client)
+        return [Joint(angle, speed, torque) for angle, speed, _, torque in states]
+
+    def spin(self, body: int, joint: int, speed: float, torque: float) -> None:
+        """Let the motor of `joint` hold `speed` [rad/s] with at most `torque` [N m], until told otherwise."""
+        p.setJointMotorControl2(
+            body, joint, p.VELOCITY_CONTROL, targetVelocity=speed, force=torque, physicsClientId=self._client
+        )
+
+    def rays(self, body: int, start: Sequence[Vec3], end: Sequence[Vec3]) -> NDArray[np.float64]:
+        """How far each ray gets, as a part of its length: 1 when it hits nothing.
+
+        `start` and `end` are in the frame of the body's centre of mass, see `ray_points`; vehicles are not hit.
+        """
+        hits = p.rayTestBatch(
+            start,
+            end,
+            numThreads=1,
+            parentObjectUniqueId=body,
+            parentLinkIndex=-1,
+            collisionFilterMask=_EVERYTHING ^ _OWN_BODIES,
+            physicsClientId=self._client,
+        )
+        return np.fromiter((hit[2] for hit in hits), dtype=np.float64, count=len(hits))
+
+    def ray_points(self, body: int, points: Sequence[Vec3]) -> list[Vec3]:
+        """`points` of the body's frame as `rays` takes them."""
+        below = self._below[body]
+        return [(x + below[0], y + below[1], z + below[2]) for x, y, z in points]
+
+    def touching(self, body: int) -> list[Contact]:
+        """Where the shell of a vehicle touches something; its wheels and casters do not count."""
+        points = p.getContactPoints(bodyA=body, linkIndexA=-1, physicsClientId=self._client)
+        return [Contact(point[2], point[6]) for point in points or () if point[8] <= 0.0]
+
+    def picture(
+        self, eye: Vec3, target: Vec3, up: Vec3, field_of_view: float, size: tuple[int, int]
+    ) -> NDArray[np.uint8]:
+        """What a camera sees, drawn by pybullet's own slow software renderer: (height, width, 3) RGB.
+
+        `field_of_view` is the vertical one [rad]; only bodies of a world made for drawing have looks.
+        """
+        width, height = size
+        view = p.computeViewMatrix(eye, target, up)
+        projection = p.computeProjectionMatrixFOV(
+            float(np.degrees(field_of_view)), width / height, 0.05, 120.0
+        )
+        image = p.getCameraImage(
+            width,
+            height,
+            view,
+            projection,
+            shadow=0,
+            lightDirection=(0.4, -0.5, 0.9),
+            renderer=p.ER_TINY_RENDERER,
+            flags=p.ER_NO_SEGMENTATION_MASK,
+            physicsClientId=self._client,
+        )
+        return np.ascontiguousarray(np.reshape(image[2], (height, width, 4))[:, :, :3], dtype=np.uint8)
+
+    def close(self) -> None:
+        """Free the world; closing twice does nothing."""
+        if self._client >= 0:
+            with _quiet():
+                p.disconnect(self._client)
+            self._client = -1
+
+    def add_looks(self, shape: Shape) -> int:
+        """Something to see that nothing bumps into, for `picture`; its number."""
+        visual = self._visual(shape, wanted=True)
+        number = p.createMultiBody(
+            0, -1, visual, shape.position, shape.rotation, physicsClientId=self._client
+        )
+        return int(number)
+
+    def move_looks(self, number: int, position: Vec3, rotation: Quat) -> None:
+        """Put something made by `add_looks` somewhere else."""
+        p.resetBasePositionAndOrientation(number, position, rotation, physicsClientId=self._client)
+
+    def _collision(self, shape: Shape, offset: tuple[float, ...] = (0, 0, 0)) -> int:
+        geometry = _geometry(shape)
+        if "radius" in geometry and "length" in geometry:
+            geometry["height"] = geometry.pop("length")
+        number = p.createCollisionShape(
+            **geometry, collisionFramePosition=offset, physicsClientId=self._client
+        )
+        return int(number)
+
+    def _visual(self, shape: Shape, offset: tuple[float, ...] = (0, 0, 0), *, wanted: bool = False) -> int:
+        if not (self._gui or wanted):
+            return -1
+        geometry = _geometry(shape)
+        if "vertices" in geometry:
+            geometry |= _surface(geometry["vertices"], shape)
+        colour = (*shape.colour, 1.0)
+        number = p.createVisualShape(
+            **geometry, rgbaColor=colour, visualFramePosition=offset, physicsClientId=self._client
+        )
+        return int(number)
+
+    def _undamp(self, body: int) -> None:
+        """Bullet's default damping is a drag that no robot has."""
+        for link in range(-1, p.getNumJoints(body, physicsClientId=self._client)):
+            p.changeDynamics(
+                body,
+                link,
+                linearDamping=0,
+                angularDamping=0,
+                activationState=p.ACTIVATION_STATE_DISABLE_SLEEPING,
+                physicsClientId=self._client,
+            )
+
+    def _set_friction(self, body: int, spec: Wheeled) -> None:
+        wheels = len(spec.wheels)
+        p.changeDynamics(
+            body,
+            -1,
+            lateralFriction=spec.friction,
+            localInertiaDiagonal=spec.inertia,
+            physicsClientId=self._client,
+        )
+        for link in range(wheels):
+            p.changeDynamics(
+                body, link, lateralFriction=spec.wheel_friction, jointDamping=0, physicsClientId=self._client
+            )
+        for link in range(wheels, wheels + len(spec.casters)):
+            p.changeDynamics(body, link, lateralFriction=0, physicsClientId=self._client)
+
+
+def _geometry(shape: Shape) -> dict[str, Any]:
+    """The arguments that make `shape` in its own frame."""
+    if shape.kind == "sphere":
+        return {"shapeType": p.GEOM_SPHERE, "radius": shape.size[0] / 2}
+    if shape.taper != (1.0, 1.0):
+        plain = Shape(shape.kind, shape.size, taper=shape.taper)
+        return {"shapeType": p.GEOM_MESH, "vertices": plain.corners()}
+    if shape.kind == "cylinder":
+        return {"shapeType": p.GEOM_CYLINDER, "radius": shape.size[0] / 2, "length": shape.size[2]}
+    return {"shapeType": p.GEOM_BOX, "halfExtents": [extent / 2 for extent in shape.size]}
+
+
+def _surface(points: Sequence[Vec3], shape: Shape) -> dict[str, Any]:
+    """Triangles of the hull that `Shape.corners` spans, with a normal a corner, for drawing."""
+    ring = len(points) // 2
+    corners: list[Vec3] = []
+    normals: list[Vec3] = []
+    for i in range(ring):
+        j = (i + 1) % ring
+        side = (points[i], points[j], points[ring + j], points[ring + i])
+        middle = ((side[0][0] + side[1][0]) / 2, (side[0][1] + side[1][1]) / 2, 0.0)
+        _quad(side, middle, corners, normals)
+    for base, up in ((0, -1.0), (ring, 1.0)):
+        for i in range(1, ring - 1):
+            corners += [points[base], points[base + i], points[base + i + 1]]
+            normals += [(0.0, 0.0, up)] * 3
+    return {"vertices": corners, "normals": normals, "indices": list(range(len(corners)))}
+
+
+def _quad(side: Sequence[Vec3], outward: Vec3, corners: list[Vec3], normals: list[Vec3]) -> None:
+    a, b, c, d = side
+    length = max((outward[0] ** 2 + outward[1] ** 2) ** 0.5, 1e-9)
+    normal = (outward[0] / length, outward[1] / length, 0.0)
+    corners += [a, b, c, a, c, d]
+    normals += [normal] * 6

@@ -1,0 +1,120 @@
+"""A simulated robot as the robot side sees it: the same five verbs as a real one.
+
+robot = make("patrol", "parking_lot", seed=1)
+for topic, message in robot.read(now): ...
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import RobotInfo
+
+from sim.backend_bullet import STEPS_PER_SECOND
+from sim.occupancy import occupancy
+from sim.simulation import Simulation
+
+from sim.world import WORLDS, load
+
+__all__ = ["ROBOTS", "WORLDS", "SimRobot", "make"]
+
+ROBOTS: tuple[str, ...] = ("patrol",)
+"""The names of the robots that can be simulated."""
+
+CAMERA_TOPIC = "/camera/image/compressed"
+TRUTH_TOPIC = "/sim/ground_truth"
+
+_SLACK = 1e-3
+"""Part of a step by which `now` may fall short of it: the clock's own rounding is no reason to wait."""
+
+
+class SimRobot:
+    """Fits `robotside.robot.Robot`.
+
+    Nothing moves between calls: `read(now)` does all the physics up to `now`. It never skips any, so a caller in real
+    time that was held up for long gets the whole backlog computed in one call (about a fiftieth of its length without
+    camera); to bound a call, hand it a `now` that is at most a little after the last one.
+    Not thread-safe; calls may come from different threads, one at a time.
+    """
+
+    def __init__(self, simulation: Simulation, *, camera: bool) -> None:
+        """The robot of `simulation`, which it owns from now on."""
+        self.simulation = simulation
+        """The truth, for tests and benches."""
+        self._wanted: set[str] = set()
+        self._origin: float | None = None
+        self.info = info_of(simulation, camera=camera)
+        """Who it is."""
+
+    def drive(self, twist: Twist) -> None:
+        """Go for `twist` in `base_link`, within its limits, until the next `drive` or `stop`."""
+        self.simulation.vehicle.drive(twist)
+
+    def stop(self) -> None:
+        """Brake to rest as hard as the drive does."""
+        self.simulation.vehicle.stop()
+
+    def want(self, topic: str, wanted: bool) -> None:
+        """Measure an on-demand topic or no longer; other topics always come."""
+        if wanted:
+            self._wanted.add(topic)
+        else:
+            self._wanted.discard(topic)
+
+    def read(self, now: float) -> list[tuple[str, Msg]]:
+        """Simulate up to `now` [s, robot clock] and give everything measured on the way, oldest first.
+
+        The first call sets the origin, simulates nothing and gives the map and one message of each sensor. A `now`
+        before the last one gives nothing.
+        """
+        if self._origin is None:
+            self._origin = now
+            return [("/map", occupancy(self.simulation.world, now)), *self._measure()]
+        goal = int((now - self._origin) * STEPS_PER_SECOND + _SLACK)
+        measured: list[tuple[str, Msg]] = []
+        while self.simulation.steps < goal:
+            self.simulation.advance()
+            measured.extend(self._measure())
+        return measured
+
+    def close(self) -> None:
+        """Free everything; closing twice does nothing."""
+        self.simulation.close()
+
+    def _measure(self) -> Iterator[tuple[str, Msg]]:
+        stamp = (self._origin or 0.0) + self.simulation.time
+        return self.simulation.vehicle.measure(stamp, truth=TRUTH_TOPIC in self._wanted)
+
+
+def info_of(simulation: Simulation, *, camera: bool) -> RobotInfo:
+    """Who the simulated robot is, as it tells the handheld."""
+    parameters, world = simulation.vehicle.parameters, simulation.world
+    return RobotInfo(
+        name=parameters.info.name,
+        kind=parameters.info.kind,
+        model=parameters.info.model,
+        description=parameters.info.description,
+        world=world.name,
+        max_speed=parameters.limits.speed,
+        max_yaw_rate=parameters.limits.yaw_rate,
+        radius=parameters.body.radius,
+        cameras=[parameters.camera.name] if camera else [],
+        latitude=world.datum.latitude,
+        longitude=world.datum.longitude,
+        camera_fov=parameters.camera.field_of_view,
+    )
+
+
+def make(
+    robot: str, world: str, *, seed: int = 0, gui: bool = False, camera: bool = True, noise: bool = True
+) -> SimRobot:
+    """A simulated `robot` in `world`, either one of the names in `ROBOTS` and `WORLDS` or the path of a world's file.
+
+    `seed` decides every random error; `noise` False turns them off. `gui` opens the engine's window.
+    Raises ValueError with one sentence for an unknown name or a faulty file.
+    """
+    if robot not in ROBOTS:
+        raise ValueError(f"There is no simulated robot {robot!r}; there is {', '.join(ROBOTS)}.")
+    return SimRobot(Simulation(load(world), seed=seed, noise=noise, gui=gui), camera=camera)

@@ -1,0 +1,57 @@
+"""A bumper ring, and the count of the bumps."""
+
+from __future__ import annotations
+
+import math
+
+from bridge.msgs.pilothouse_msgs import Bumper
+from bridge.msgs.std_msgs import Header, Time
+
+from sim.backend_bullet import STEPS_PER_SECOND, Contact, State
+from sim.shapes import rotate_back
+
+__all__ = ["BumperRing"]
+
+HOLD = STEPS_PER_SECOND // 10
+"""Steps that the ring stays pressed after the last contact: a body pushed against a wall chatters."""
+SEPARATE = STEPS_PER_SECOND // 2
+"""Steps without contact after which touching the same thing again is another bump."""
+
+
+class BumperRing:
+    """Looks at the shell's contacts after every step."""
+
+    def __init__(self) -> None:
+        """A ring that touches nothing."""
+        self.bumps = 0
+        """Distinct bumps so far."""
+        self.changed = False
+        """Pressed or released since `message` was last called."""
+        self._pressed = False
+        self._bearing = math.nan
+        self._last = -SEPARATE
+        self._touched: dict[int, int] = {}
+
+    def update(self, step: int, contacts: list[Contact], state: State | None) -> None:
+        """Take in the contacts after `step`; `state` may be None when there are none."""
+        if contacts and state is not None:
+            self._press(step, contacts, state)
+        elif self._pressed and step - self._last > HOLD:
+            self._pressed, self._bearing, self.changed = False, math.nan, True
+
+    def message(self, stamp: float) -> Bumper:
+        """The ring at `stamp` [s]."""
+        self.changed = False
+        return Bumper(Header(Time.at(stamp), "base_link"), self._pressed, self._bearing)
+
+    def _press(self, step: int, contacts: list[Contact], state: State) -> None:
+        for contact in contacts:
+            if step - self._touched.get(contact.body, -SEPARATE) >= SEPARATE:
+                self.bumps += 1
+            self._touched[contact.body] = step
+        self._last = step
+        if not self._pressed:
+            offset = zip(contacts[0].position, state.position, strict=True)
+            x, y, z = (there - here for there, here in offset)
+            ahead, left, _ = rotate_back(state.rotation, (x, y, z))
+            self._pressed, self._bearing, self.changed = True, math.atan2(left, ahead), True

@@ -1,0 +1,60 @@
+"""A planar laser that measures distances all round."""
+
+from __future__ import annotations
+
+import math
+
+import msgspec
+import numpy as np
+from bridge.msgs.arrays import Float32Array
+from bridge.msgs.sensor_msgs import LaserScan
+from bridge.msgs.std_msgs import Header, Time
+
+from sim.backend_bullet import Bullet
+from sim.sensors.noise import Noise
+
+__all__ = ["Laser", "LaserParameters"]
+
+
+class LaserParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The `[laser]` table of a vehicle's file."""
+
+    rate: float
+    beams: int
+    height: float
+    range_min: float
+    range_max: float
+    noise: float
+
+
+class Laser:
+    """Beams from `base_link`'s axis at one height, the first one to the rear, then anticlockwise."""
+
+    def __init__(self, parameters: LaserParameters, backend: Bullet, body: int, noise: Noise) -> None:
+        """A laser on `body`."""
+        self._parameters, self._backend, self._body, self._noise = parameters, backend, body, noise
+        step = math.tau / parameters.beams
+        angles = [-math.pi + step * i for i in range(parameters.beams)]
+        reach, height = parameters.range_max, parameters.height
+        ends = [(reach * math.cos(angle), reach * math.sin(angle), height) for angle in angles]
+        self._from = backend.ray_points(body, [(0.0, 0.0, height)] * len(angles))
+        self._to = backend.ray_points(body, ends)
+        self._blank = LaserScan(
+            angle_min=angles[0],
+            angle_max=angles[-1],
+            angle_increment=step,
+            scan_time=1 / parameters.rate,
+            range_min=parameters.range_min,
+            range_max=parameters.range_max,
+        )
+
+    def measure(self, stamp: float) -> LaserScan:
+        """One sweep, all beams at `stamp` [s]; +inf where nothing is in range, -inf where it is too near (REP-117)."""
+        parameters = self._parameters
+        hits = self._backend.rays(self._body, self._from, self._to)
+        missed = hits >= 1.0
+        ranges = hits * parameters.range_max + self._noise.normals(parameters.noise, len(hits))
+        ranges[ranges < parameters.range_min] = -np.inf
+        ranges[missed | (ranges > parameters.range_max)] = np.inf
+        measured = Float32Array(ranges.astype("<f4").tobytes())
+        return msgspec.structs.replace(self._blank, header=Header(Time.at(stamp), "laser"), ranges=measured)

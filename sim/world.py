@@ -1,0 +1,263 @@
+"""A world: what its TOML file says, checked, and the things that stand in it."""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+from functools import cached_property
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+
+from sim.props import CAR_MODELS, Prop, car, cone, lamp, tree, wall
+from sim.shapes import Shape
+
+__all__ = ["WORLDS", "World", "WorldError", "load"]
+
+_FOLDER = Path(__file__).parent / "worlds"
+
+WORLDS: tuple[str, ...] = tuple(sorted(path.stem for path in _FOLDER.glob("*.toml")))
+"""The names of the worlds that come with the simulation."""
+
+Positive = Annotated[float, msgspec.Meta(gt=0)]
+Finite = Annotated[float, msgspec.Meta(ge=-1000, le=1000)]
+Part = Annotated[float, msgspec.Meta(ge=0, le=1)]
+
+
+class WorldError(ValueError):
+    """A world that is not there or whose file is wrong; the text names the file, the key and the reason."""
+
+
+class _Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """One table of the file."""
+
+
+class Datum(_Entry, frozen=True):
+    """Where the map's origin lies on earth, WGS 84."""
+
+    latitude: Annotated[float, msgspec.Meta(ge=-90, le=90)]
+    """[deg]"""
+    longitude: Annotated[float, msgspec.Meta(ge=-180, le=180)]
+    """[deg]"""
+    altitude: Finite = 0.0
+    """[m] above the ellipsoid."""
+
+
+class Ground(_Entry, frozen=True):
+    """The level ground, centred on the map's origin."""
+
+    length: Positive
+    """Along x [m]."""
+    width: Positive
+    """Along y [m]."""
+
+
+class Wall(_Entry, frozen=True):
+    """The wall round the ground."""
+
+    height: Positive
+    """[m]"""
+    thickness: Positive
+    """[m]"""
+
+
+class Spot(_Entry, frozen=True):
+    """A place and a direction."""
+
+    x: Finite
+    """[m]"""
+    y: Finite
+    """[m]"""
+    yaw: Finite = 0.0
+    """[deg] from east, anticlockwise, as people write it in the file."""
+
+    @property
+    def angle(self) -> float:
+        """`yaw` in [rad]."""
+        return math.radians(self.yaw)
+
+
+class Bays(_Entry, frozen=True):
+    """A row of painted parking bays along x."""
+
+    x: Finite
+    """Western end [m]."""
+    y: Finite
+    """Southern edge [m]."""
+    count: Annotated[int, msgspec.Meta(ge=1, le=200)]
+    width: Positive
+    """Of one bay, along x [m]."""
+    depth: Positive
+    """Along y [m]."""
+
+
+class Line(_Entry, frozen=True, rename={"start": "from", "end": "to"}):
+    """A painted line."""
+
+    start: tuple[Finite, Finite]
+    """[m]"""
+    end: tuple[Finite, Finite]
+    """[m]"""
+    width: Positive = 0.12
+    """[m]"""
+
+
+class Car(Spot, frozen=True, kw_only=True):
+    """A parked car; its middle stands on the spot and its nose points to `yaw`."""
+
+    model: str
+    colour: tuple[Part, Part, Part]
+
+
+class Tall(Spot, frozen=True):
+    """A thing with a height."""
+
+    height: Positive = 1.0
+    """[m]"""
+
+
+class Lamp(Tall, frozen=True):
+    """A lamp post, its arm towards `yaw`."""
+
+    height: Positive = 5.0
+
+
+class Cone(Tall, frozen=True):
+    """A traffic cone: it is not on the robot's map."""
+
+    height: Positive = 0.6
+
+
+class Tree(Tall, frozen=True):
+    """A tree."""
+
+    height: Positive = 6.0
+
+
+class World(_Entry, frozen=True, dict=True):
+    """Everything the file says; x east, y north, z up from the ground [m]."""
+
+    name: str
+    description: str
+    datum: Datum
+    ground: Ground
+    start: Spot
+    """Where the robot starts."""
+    wall: Wall | None = None
+    bays: tuple[Bays, ...] = ()
+    lines: tuple[Line, ...] = ()
+    arrows: tuple[Spot, ...] = ()
+    """Arrows painted on the ground."""
+    cars: tuple[Car, ...] = ()
+    lamps: tuple[Lamp, ...] = ()
+    cones: tuple[Cone, ...] = ()
+    trees: tuple[Tree, ...] = ()
+
+    @cached_property
+    def props(self) -> tuple[Prop, ...]:
+        """Everything that stands in the world, in the order of the file."""
+        return (
+            *self._walls(),
+            *(car(entry.model, entry.colour).at(entry.x, entry.y, entry.angle) for entry in self.cars),
+            *(lamp(entry.height).at(entry.x, entry.y, entry.angle) for entry in self.lamps),
+            *(tree(entry.height).at(entry.x, entry.y, entry.angle) for entry in self.trees),
+            *(cone(entry.height).at(entry.x, entry.y, entry.angle) for entry in self.cones),
+        )
+
+    @property
+    def solids(self) -> tuple[Shape, ...]:
+        """What bodies bump into and lasers hit, apart from the ground."""
+        return tuple(shape for prop in self.props for shape in prop.solids)
+
+    @property
+    def mapped(self) -> tuple[Shape, ...]:
+        """The solids that the robot's map knows: all but the cones'."""
+        return tuple(shape for prop in self.props if prop.kind != "cone" for shape in prop.solids)
+
+    @property
+    def visuals(self) -> tuple[Shape, ...]:
+        """What cameras see, apart from ground and sky."""
+        return tuple(shape for prop in self.props for shape in prop.visuals)
+
+    def _walls(self) -> tuple[Prop, ...]:
+        if self.wall is None:
+            return ()
+        length, width, thick = self.ground.length, self.ground.width, self.wall.thickness
+        long, short = (
+            wall(length + 2 * thick, self.wall.height, thick),
+            wall(width, self.wall.height, thick),
+        )
+        north, east = (width + thick) / 2, (length + thick) / 2
+        quarter = math.pi / 2
+        return (
+            long.at(0.0, north, 0.0),
+            long.at(0.0, -north, 0.0),
+            short.at(east, 0.0, quarter),
+            short.at(-east, 0.0, quarter),
+        )
+
+
+def load(world: str | Path) -> World:
+    """The world of that name, or of that TOML file.
+
+    Raises WorldError when there is no such world, or naming the key and the reason when its file is wrong.
+    """
+    path = Path(world) if str(world).endswith(".toml") else _FOLDER / f"{world}.toml"
+    if path.parent == _FOLDER and path.stem not in WORLDS:
+        raise WorldError(f"There is no world {str(world)!r}; there is {', '.join(WORLDS)}.")
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as fault:
+        raise WorldError(f"{path.name}: cannot be read ({fault.strerror}).") from fault
+    return parse(text, path.name)
+
+
+def parse(text: str, source: str) -> World:
+    """The world that a TOML `text` describes; `source` is what a fault calls it."""
+    try:
+        world = msgspec.convert(tomllib.loads(text), World)
+    except tomllib.TOMLDecodeError as fault:
+        raise WorldError(f"{source}: is not TOML: {fault}.") from fault
+    except msgspec.ValidationError as fault:
+        raise WorldError(f"{source}: {_sentence(str(fault))}.") from fault
+    _check(world, source)
+    return world
+
+
+def _sentence(fault: str) -> str:
+    """msgspec's words with the key in front, as in `cars[2].x: expected `float`, got `str``."""
+    missing = re.fullmatch(r"Object missing required field `(.*?)`(?: - at `\$\.?(.*)`)?", fault)
+    if missing:
+        where, key = missing.group(2), missing.group(1)
+        return f"{where + '.' if where else ''}{key}: is missing"
+    unknown = re.fullmatch(r"Object contains unknown field `(.*?)`(?: - at `\$\.?(.*)`)?", fault)
+    if unknown:
+        where, key = unknown.group(2), unknown.group(1)
+        return f"{where + '.' if where else ''}{key}: is not known here"
+    reason, _, key = fault.partition(" - at `$.")
+    return f"{key.rstrip('`')}: {reason[:1].lower()}{reason[1:]}" if key else fault
+
+
+def _check(world: World, source: str) -> None:
+    """Raise WorldError for what types alone cannot say."""
+    for number, entry in enumerate(world.cars):
+        if entry.model not in CAR_MODELS:
+            allowed = ", ".join(CAR_MODELS)
+            raise WorldError(f"{source}: cars[{number}].model: {entry.model!r} is not one of {allowed}.")
+    half_length, half_width = world.ground.length / 2, world.ground.width / 2
+    inside: dict[str, tuple[Spot, ...]] = {
+        "start": (world.start,),
+        "cars": world.cars,
+        "lamps": world.lamps,
+        "cones": world.cones,
+    }
+    for key, spots in inside.items():
+        for number, spot in enumerate(spots):
+            if abs(spot.x) > half_length or abs(spot.y) > half_width:
+                name = key if key == "start" else f"{key}[{number}]"
+                raise WorldError(
+                    f"{source}: {name}: ({spot.x:g}, {spot.y:g}) is off the ground, "
+                    f"which ends at x = ±{half_length:g} and y = ±{half_width:g}."
+                )
