@@ -1,0 +1,108 @@
+"""What a person sees on the glass and where to put the finger for it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Generator, Iterator
+from typing import Any
+
+from kivy.core.window import Window
+from kivy.uix.widget import Widget
+
+from examples.demo.fingers import Hand, Point
+
+__all__ = ["Glass", "Unseen"]
+
+Wait = Generator[None, None, Any]
+
+
+class Unseen(Exception):
+    """What should be on the glass is not; its text is the sentence to print."""
+
+
+def _tree(widget: Widget) -> Iterator[Widget]:
+    for child in widget.children:
+        yield from _tree(child)
+    yield widget
+
+
+def _visible(widget: Widget) -> bool:
+    """Whether its middle lies on the glass and nothing made it transparent."""
+    if widget.width < 1 or widget.height < 1:
+        return False
+    above: Any = widget
+    while above is not None and above is not Window and above is not getattr(above, "parent", None):
+        if above.opacity == 0:
+            return False
+        above = above.parent
+    if above is not Window:
+        return False
+    x, y = middle(widget)
+    return 0 <= x <= Window.width and 0 <= y <= Window.height
+
+
+def middle(widget: Widget) -> Point:
+    """The middle of a widget [px, window]."""
+    return tuple(widget.to_window(*widget.center))  # type: ignore[return-value]
+
+
+class Glass:
+    """Looks for widgets by their class or by the words on them, and touches them with a hand."""
+
+    def __init__(self, hand: Hand) -> None:
+        self.hand = hand
+
+    def all(self, kind: str) -> list[Widget]:
+        """Visible widgets of the class named `kind`, or of one derived from it."""
+        return [w for w in self._seen() if kind in {base.__name__ for base in type(w).__mro__}]
+
+    def _seen(self) -> Iterator[Widget]:
+        for root in Window.children:
+            yield from (widget for widget in _tree(root) if _visible(widget))
+
+    def shows(self, words: str) -> bool:
+        """Whether `words` can be read somewhere."""
+        return any(words.lower() in str(getattr(widget, "text", "")).lower() for widget in self._seen())
+
+    def labelled(self, words: str, kind: str = "Widget") -> list[Widget]:
+        """Visible widgets of class `kind` whose own text is `words`, or begins with them; the best match first."""
+        found = []
+        for widget in self.all(kind):
+            text = str(getattr(widget, "text", "")).strip().lower()
+            if text.startswith(words.lower()):
+                found.append((text != words.lower(), "on_press" not in widget.events(), widget))
+        return [widget for *_, widget in sorted(found, key=lambda item: item[:2])]
+
+    def one(self, kind: str, seconds: float = 5.0) -> Wait:
+        """Wait for a visible widget of the class `kind` and return it; Unseen when there is none in time."""
+        yield from self.until(lambda: self.all(kind), seconds, f"a {kind} on the glass")
+        return self.all(kind)[0]
+
+    def until(self, condition: Callable[[], Any], seconds: float, what: str) -> Wait:
+        """Wait until `condition` holds and return what it gave; Unseen when it does not within `seconds`."""
+        found = yield from self.soon(condition, seconds)
+        if not found:
+            raise Unseen(f"waited {seconds:g} s for {what} in vain.")
+        return found
+
+    def soon(self, condition: Callable[[], Any], seconds: float) -> Wait:
+        """Wait until `condition` holds, at most `seconds`; returns what it gave at last."""
+        end = time.monotonic() + seconds
+        while not (found := condition()) and time.monotonic() < end:
+            yield
+        return found
+
+    def pause(self, seconds: float) -> Wait:
+        """Let so much time pass."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            yield
+
+    def press(self, words: str, seconds: float = 5.0, kind: str = "Widget") -> Wait:
+        """Tap what has `words` written on it; Unseen when there is nothing of the kind in time."""
+        found = yield from self.until(lambda: self.labelled(words, kind), seconds, f"something that says {words!r}")
+        yield from self.tap(found[0])
+
+    def tap(self, widget: Widget) -> Wait:
+        """Tap a widget in its middle."""
+        yield from self.hand.tap(middle(widget))

@@ -1,0 +1,64 @@
+"""The robot side as a process of its own, on free ports."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+__all__ = ["RobotProcess"]
+
+READY = re.compile(r"^robotside: ready bridge=(?P<bridge>\S+)")
+
+
+class RobotProcess:
+    """`with RobotProcess(...) as robot:` serves until the end of the block."""
+
+    def __init__(self, *options: str, log: Path, patience: float = 60.0) -> None:
+        """`options` of `robotside serve`; what it says goes to `log`; it must serve within `patience` [s]."""
+        serve = [sys.executable, "-u", "-m", "robotside", "serve", "--port", "0", "--http-port", "0", *options]
+        log.parent.mkdir(parents=True, exist_ok=True)
+        self._log = log.open("w")
+        self._process = subprocess.Popen(serve, stdout=subprocess.PIPE, stderr=self._log, text=True)
+        self._ready = threading.Event()
+        self._reader = threading.Thread(target=self._read, name="robot's words", daemon=True)
+        self._reader.start()
+        self.url = ""
+        """Where it serves."""
+        self.pid = self._process.pid
+        if not self._ready.wait(patience) or not self.url:
+            self.close()
+            raise RuntimeError(f"The robot side did not serve within {patience:.0f} s; its words are in {log}.")
+
+    def _read(self) -> None:
+        for line in self._process.stdout or ():
+            self._log.write(line)
+            self._log.flush()
+            match = READY.match(line)
+            if match:
+                self.url = match["bridge"]
+                self._ready.set()
+        self._ready.set()
+
+    def close(self) -> int:
+        """End it as `kill` would; returns its exit code, 0 when it brought the robot to rest and left."""
+        if self._process.poll() is None:
+            self._process.terminate()
+        deadline = time.monotonic() + 10
+        try:
+            self._process.wait(10)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._reader.join(max(0.0, deadline - time.monotonic()))
+        self._log.close()
+        return self._process.returncode
+
+    def __enter__(self) -> RobotProcess:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
