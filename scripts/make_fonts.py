@@ -11,12 +11,10 @@ Then `python scripts/make_fonts.py FOLDER`. Needs fonttools and brotli.
 from __future__ import annotations
 
 import gzip
-import os
 import shutil
 import sys
 from pathlib import Path
 
-os.environ.update(KIVY_NO_ARGS="1", KIVY_NO_CONFIG="1", KIVY_LOG_MODE="PYTHON")
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from fontTools.pens.cu2quPen import Cu2QuPen

@@ -1,8 +1,8 @@
 """What every robot widget has: a state with a look of its own, an age, and the message types it takes or gives.
 
-    class Altimeter(RobotWidget):
-        accepts = (Range,)
-        def show(self, msg): self.value = msg.range
+class Altimeter(RobotWidget):
+    accepts = (Range,)
+    def show(self, msg): self.value = msg.range
 """
 
 from __future__ import annotations
@@ -145,7 +145,7 @@ class RobotWidget(Widget):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.fbind("state", self._follow_state)
-        theme.fbind("surface", self._follow_theme)
+        theme.bind(surface=self._follow_theme)
 
     def _follow_theme(self, *_: object) -> None:
         self.property("veil").dispatch(self)

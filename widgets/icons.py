@@ -6,8 +6,6 @@ the same icon. `scripts/make_fonts.py` draws the font from these tables; a new i
 
 from __future__ import annotations
 
-from kivy.lang import global_idmap
-
 __all__ = ["FILLED", "ICONS", "OUTLINED", "filled_code", "icon"]
 
 OUTLINED: dict[str, int] = {
@@ -218,10 +216,8 @@ def filled_code(name: str) -> int:
 
 
 ICONS: dict[str, str] = {name: chr(code) for name, code in OUTLINED.items()}
-"""Icon name to the one character to write with `theme.icons`; kv knows it as `icons`."""
+"""Icon name to the one character to write with `theme.icons`; kv knows it as `icons` (see `widgets.theme`)."""
 ICONS.update({f"{name}_fill": chr(filled_code(name)) for name in FILLED})
-
-global_idmap["icons"] = ICONS
 
 
 def icon(name: str) -> str:

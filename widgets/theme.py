@@ -10,9 +10,19 @@ from pathlib import Path
 from kivy.core.text import DEFAULT_FONT, LabelBase
 from kivy.event import EventDispatcher
 from kivy.lang import global_idmap
-from kivy.metrics import Metrics, dp, mm, sp
-from kivy.properties import AliasProperty, BooleanProperty, ColorProperty, NumericProperty, OptionProperty, StringProperty
+from kivy.metrics import Metrics, mm
+from kivy.properties import (
+    AliasProperty,
+    BooleanProperty,
+    ColorProperty,
+    DictProperty,
+    NumericProperty,
+    OptionProperty,
+    StringProperty,
+)
 from kivy.utils import get_color_from_hex
+
+from widgets.icons import ICONS
 
 __all__ = ["PALETTES", "Theme", "contrast", "theme"]
 
@@ -133,6 +143,9 @@ class Theme(EventDispatcher):
     mono = StringProperty("B612Mono")
     icons = StringProperty("Icons")
 
+    roles = DictProperty({role: get_color_from_hex(colour) for role, colour in PALETTES["dark"].items()})
+    """Role to colour, for a rule that is told the role by name: `theme.roles[root.role]`."""
+
     def _glass(self) -> list[float]:
         return [*self.surface[:3], 0.92]
 
@@ -162,16 +175,14 @@ class Theme(EventDispatcher):
 
     def on_name(self, *_: object) -> None:
         """Take every colour from the palette of that name."""
-        for role, colour in PALETTES[self.name].items():
-            setattr(self, role, get_color_from_hex(colour))
+        roles = {role: get_color_from_hex(colour) for role, colour in PALETTES[self.name].items()}
+        for role, colour in roles.items():
+            setattr(self, role, colour)
+        self.roles = roles
 
     def on_gloves(self, *_: object) -> None:
         """Widen or narrow the targets."""
         self.target = mm(20) if self.gloves else mm(14)
-
-    def role(self, name: str) -> list[float]:
-        """The colour of a role by its name; AttributeError when there is no such role."""
-        return list(getattr(self, name))
 
 
 def contrast(one: str, other: str) -> float:
@@ -181,8 +192,10 @@ def contrast(one: str, other: str) -> float:
 
 
 def _luminance(colour: str) -> float:
-    parts = [value / 12.92 if value <= 0.03928 else ((value + 0.055) / 1.055) ** 2.4
-             for value in get_color_from_hex(colour)[:3]]
+    parts = [
+        value / 12.92 if value <= 0.03928 else ((value + 0.055) / 1.055) ** 2.4
+        for value in get_color_from_hex(colour)[:3]
+    ]
     return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
 
 
@@ -199,5 +212,4 @@ def _register_fonts() -> None:
 _register_fonts()
 theme = Theme()
 """The one theme of this process; kv knows it under the same name."""
-global_idmap["theme"] = theme
-global_idmap["dp"], global_idmap["sp"] = dp, sp
+global_idmap.update(theme=theme, icons=ICONS)

@@ -1,0 +1,210 @@
+"""Things to press: one main button on a card, quiet ones beside it, icons, the entries of a navigation rail."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.properties import BooleanProperty, OptionProperty, StringProperty
+from kivy.uix.anchorlayout import AnchorLayout
+from kivy.uix.behaviors import ButtonBehavior
+from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.widget import Widget
+
+from widgets import labels as labels  # its rules draw the icons
+
+__all__ = ["IconButton", "NavButton", "PrimaryButton", "PushButton", "QuietButton"]
+
+Builder.load_string("""
+<PushButton>:
+    size_hint_y: None
+    height: theme.target
+    padding: dp(10), 0
+    canvas.before:
+        Color:
+            rgba: theme.roles[root.border]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.corner]
+        Color:
+            rgba: theme.roles[root.fill]
+        SmoothRoundedRectangle:
+            pos: self.x + theme.outline, self.y + theme.outline
+            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
+            radius: [theme.corner - theme.outline]
+        Color:
+            rgba: theme.roles[root.ink][:3] + [.16 if root.state == 'down' else 0]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.corner]
+    canvas.after:
+        Color:
+            rgba: theme.surface[:3] + [.62 if root.disabled else 0]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.corner]
+    BoxLayout:
+        orientation: root.flow
+        size_hint: None, None
+        size: self.minimum_size
+        spacing: (dp(9) if root.flow == 'horizontal' else dp(2)) if root.icon and root.text else 0
+        Icon:
+            name: root.icon or 'check'
+            role: root.ink_icon or root.ink
+            size: (self.font_size, self.font_size) if root.icon else (0, 0)
+            opacity: 1 if root.icon else 0
+            pos_hint: {'center_x': .5, 'center_y': .5}
+        Label:
+            id: words
+            text: root.text
+            font_name: theme.font
+            font_size: theme.size_body if root.flow == 'horizontal' else sp(14)
+            bold: True
+            color: theme.roles[root.ink]
+            halign: 'center'
+            size_hint: None, None
+            size: self.texture_size
+            pos_hint: {'center_x': .5, 'center_y': .5}
+
+<PrimaryButton>:
+    fill: self.role
+    border: self.role
+    ink: 'ink_' + self.role
+
+<QuietButton>:
+    fill: 'raised'
+    border: 'line'
+    ink: 'text'
+
+<IconButton>:
+    size_hint: None, None
+    size: theme.target, theme.target
+    canvas.before:
+        Color:
+            rgba: theme.line if not root.bare else (0, 0, 0, 0)
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.corner]
+        Color:
+            rgba: theme.raised if not root.bare else (0, 0, 0, 0)
+        SmoothRoundedRectangle:
+            pos: self.x + theme.outline, self.y + theme.outline
+            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
+            radius: [theme.corner - theme.outline]
+        Color:
+            rgba: theme.text[:3] + [.16 if root.state == 'down' else 0]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.corner]
+    Icon:
+        name: root.icon
+        role: root.role
+        font_size: sp(26)
+        opacity: .4 if root.disabled else 1
+
+<NavButton>:
+    orientation: 'vertical'
+    padding: 0, dp(10), 0, dp(9)
+    spacing: dp(3)
+    size_hint: None, None
+    size: dp(64), max(dp(64), theme.target)
+    canvas.before:
+        Color:
+            rgba: theme.raised if root.active and root.framed else (0, 0, 0, 0)
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.corner]
+        Color:
+            rgba: theme.text[:3] + [.12 if root.state == 'down' else 0]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.corner]
+    Icon:
+        name: root.icon
+        role: 'accent' if root.active else 'muted'
+        pos_hint: {'center_x': .5}
+    Label:
+        text: root.text
+        font_name: theme.font
+        font_size: sp(12.5)
+        color: theme.text if root.active else theme.muted
+""")
+
+
+class PushButton(ButtonBehavior, AnchorLayout):
+    """A button with an icon, words or both; what the named ones below have in common."""
+
+    text = StringProperty("")
+    icon = StringProperty("")
+    """Name of the icon; empty for none."""
+    fill = StringProperty("raised")
+    """Role of its ground."""
+    border = StringProperty("line")
+    """Role of its border."""
+    ink = StringProperty("text")
+    """Role of its words."""
+    ink_icon = StringProperty("")
+    """Role of the icon; that of the words when empty."""
+    flow = OptionProperty("horizontal", options=["horizontal", "vertical"])
+    """Icon before the words, or above them."""
+
+
+class PrimaryButton(PushButton):
+    """What the card is there for: one on each."""
+
+    role = OptionProperty("accent", options=["accent", "plan", "danger", "stop"])
+    """Role of its ground; its words take the ink that belongs to it."""
+
+
+class QuietButton(PushButton):
+    """Everything else that can be done here."""
+
+
+class IconButton(ButtonBehavior, AnchorLayout):
+    """An icon to press, as large as a finger needs; `bare` without a ground, for bars."""
+
+    icon = StringProperty("close")
+    role = StringProperty("text")
+    """Role of the icon's colour."""
+    bare = BooleanProperty(False)
+
+
+class NavButton(ButtonBehavior, BoxLayout):
+    """One entry of a navigation rail or bar."""
+
+    icon = StringProperty("map")
+    text = StringProperty("")
+    active = BooleanProperty(False)
+    """Its screen is the one on the glass."""
+    framed = BooleanProperty(True)
+    """Has a ground while active, as in a rail."""
+
+
+def _button(kind: type[PushButton], **kwargs: Any) -> Callable[[], Widget]:
+    return lambda: kind(size_hint_x=None, **{"width": "200dp", **kwargs})
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """Each kind of button, at rest, pressed and disabled."""
+    return {
+        "primary": _button(PrimaryButton, text="Connect"),
+        "primary pressed": _button(PrimaryButton, text="Connect", state="down"),
+        "primary disabled": _button(PrimaryButton, text="Connect", disabled=True),
+        "plan": _button(PrimaryButton, text="Send 6 points", icon="upload", role="plan"),
+        "quiet": _button(QuietButton, text="Pause", icon="pause"),
+        "quiet pressed": _button(QuietButton, text="Pause", icon="pause", state="down"),
+        "quiet disabled": _button(QuietButton, text="Go home", icon="home", disabled=True),
+        "icon above": _button(QuietButton, text="Home", icon="home", flow="vertical", width="104dp", height="64dp"),
+        "icon": lambda: IconButton(icon="my_location"),
+        "icon bare": lambda: IconButton(icon="arrow_back", bare=True, role="muted"),
+        "nav": lambda: NavButton(icon="sports_esports", text="Drive"),
+        "nav active": lambda: NavButton(icon="map", text="Mission", active=True),
+    }

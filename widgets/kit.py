@@ -1,0 +1,32 @@
+"""The kit that screens are built of, in one place: `from widgets.kit import Card, Chip, PrimaryButton`."""
+
+from __future__ import annotations
+
+from widgets.buttons import IconButton, NavButton, PrimaryButton, PushButton, QuietButton
+from widgets.cards import Banner, Card, Sheet, Toast
+from widgets.choices import Fader, Progress, Segmented, Stepper, Toggle, TextField
+from widgets.labels import Chip, Icon, SectionLabel, Text, ValueUnit, spaced
+
+__all__ = [
+    "Banner",
+    "Card",
+    "Chip",
+    "Fader",
+    "Icon",
+    "IconButton",
+    "NavButton",
+    "PrimaryButton",
+    "Progress",
+    "PushButton",
+    "QuietButton",
+    "SectionLabel",
+    "Segmented",
+    "Sheet",
+    "Stepper",
+    "Toggle",
+    "Text",
+    "TextField",
+    "Toast",
+    "ValueUnit",
+    "spaced",
+]
