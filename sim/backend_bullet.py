@@ -52,7 +52,7 @@ def _quiet() -> Iterator[None]:
 
 
 with _quiet():
-    import pybullet as p  # type: ignore[import-untyped]  # has neither types nor stubs
+    import pybullet as p
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,18 +138,21 @@ class Bullet:
         shape = p.createCollisionShape(p.GEOM_PLANE, physicsClientId=self._client)
         return int(p.createMultiBody(0, shape, physicsClientId=self._client))
 
-    def add_static(self, shape: Shape) -> int:
-        """A solid that nothing moves; its number."""
-        return int(
-            p.createMultiBody(
-                0,
-                self._collision(shape),
-                self._visual(shape),
-                shape.position,
-                shape.rotation,
-                physicsClientId=self._client,
-            )
-        )
+    def add_static(self, shapes: Sequence[Shape]) -> int:
+        """One thing made of solids that nothing moves; its number.
+
+        A step costs time for each thing, not for each solid: what belongs together is added together.
+        """
+        if len(shapes) == 1:
+            shape = shapes[0]
+            number, place_ = self._collision(shape), (shape.position, shape.rotation)
+        else:
+            number, place_ = self._compound(shapes), ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+        body = int(p.createMultiBody(0, number, -1, *place_, physicsClientId=self._client))
+        if self._gui:
+            for shape in shapes:
+                self.add_looks(shape)
+        return body
 
     def add_body(self, shape: Shape, mass: float) -> int:
         """A free rigid body of one `shape` and `mass` [kg]; its number."""
@@ -313,12 +316,26 @@ class Bullet:
         )
         return int(number)
 
+    def _compound(self, shapes: Sequence[Shape]) -> int:
+        """One collision shape made of boxes, straight cylinders and spheres, placed in the world's frame."""
+        return int(
+            p.createCollisionShapeArray(
+                shapeTypes=[_geometry(shape)["shapeType"] for shape in shapes],
+                radii=[shape.size[0] / 2 for shape in shapes],
+                halfExtents=[[extent / 2 for extent in shape.size] for shape in shapes],
+                lengths=[shape.size[2] for shape in shapes],
+                collisionFramePositions=[shape.position for shape in shapes],
+                collisionFrameOrientations=[shape.rotation for shape in shapes],
+                physicsClientId=self._client,
+            )
+        )
+
     def _visual(self, shape: Shape, offset: tuple[float, ...] = (0, 0, 0), *, wanted: bool = False) -> int:
         if not (self._gui or wanted):
             return -1
         geometry = _geometry(shape)
         if "vertices" in geometry:
-            geometry |= _surface(geometry["vertices"], shape)
+            geometry |= _surface(geometry["vertices"])
         colour = (*shape.colour, 1.0)
         number = p.createVisualShape(
             **geometry, rgbaColor=colour, visualFramePosition=offset, physicsClientId=self._client
@@ -366,7 +383,7 @@ def _geometry(shape: Shape) -> dict[str, Any]:
     return {"shapeType": p.GEOM_BOX, "halfExtents": [extent / 2 for extent in shape.size]}
 
 
-def _surface(points: Sequence[Vec3], shape: Shape) -> dict[str, Any]:
+def _surface(points: Sequence[Vec3]) -> dict[str, Any]:
     """Triangles of the hull that `Shape.corners` spans, with a normal a corner, for drawing."""
     ring = len(points) // 2
     corners: list[Vec3] = []

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from bridge.msgs.arrays import Int8Array
 from bridge.msgs.geometry_msgs import Point, Pose
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
 from bridge.msgs.std_msgs import Header, Time
-from numpy.typing import NDArray
-
 from sim.shapes import Shape, rotate_back
 from sim.world import World
 
 __all__ = ["occupancy"]
+
+Grid = NDArray[np.floating[Any]]
 
 RESOLUTION = 0.1
 """Edge of a cell [m]."""
@@ -42,7 +45,7 @@ def occupancy(world: World, stamp: float) -> OccupancyGrid:
     return OccupancyGrid(Header(time, "map"), info, Int8Array(cells.tobytes()))
 
 
-def _full(shapes: Iterable[Shape], x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _full(shapes: Iterable[Shape], x: Grid, y: Grid) -> NDArray[np.bool_]:
     full = np.zeros((len(y), len(x)), dtype=np.bool_)
     grid_x, grid_y = np.meshgrid(x, y)
     for shape in shapes:
@@ -51,7 +54,7 @@ def _full(shapes: Iterable[Shape], x: NDArray[np.float64], y: NDArray[np.float64
     return full
 
 
-def _covers(shape: Shape, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _covers(shape: Shape, x: Grid, y: Grid) -> NDArray[np.bool_]:
     """The cells under an upright `shape`, given the middles of all cells."""
     cosine, minus_sine, _ = rotate_back(shape.rotation, (1.0, 0.0, 0.0))
     dx, dy = x - shape.position[0], y - shape.position[1]

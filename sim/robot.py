@@ -11,11 +11,9 @@ from collections.abc import Iterator
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import RobotInfo
-
 from sim.backend_bullet import STEPS_PER_SECOND
 from sim.occupancy import occupancy
 from sim.simulation import Simulation
-
 from sim.world import WORLDS, load
 
 __all__ = ["ROBOTS", "WORLDS", "SimRobot", "make"]

@@ -18,8 +18,8 @@ class Simulation:
         self.world = world
         self.backend = Bullet(gui=gui)
         self.backend.add_ground()
-        for shape in world.solids:
-            self.backend.add_static(shape)
+        for prop in world.props:
+            self.backend.add_static(prop.solids)
         self.vehicle = Patrol(self.backend, world, seed=seed, noise=noise)
         self.steps = 0
         """Physics steps done."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import msgspec
+
 from bridge.msgs.sensor_msgs import BatteryState
 from bridge.msgs.std_msgs import Header, Time
-
 from sim.backend_bullet import GRAVITY
 
 __all__ = ["Battery", "BatteryParameters"]

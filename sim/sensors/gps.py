@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import msgspec
+
 from bridge.msgs.sensor_msgs import NavSatFix, NavSatStatus
 from bridge.msgs.std_msgs import Header, Time
-
 from sim.backend_bullet import State
 from sim.geodesy import to_geographic
 from sim.sensors.noise import Noise, Wander

@@ -6,10 +6,10 @@ import math
 
 import msgspec
 import numpy as np
+
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.sensor_msgs import LaserScan
 from bridge.msgs.std_msgs import Header, Time
-
 from sim.backend_bullet import Bullet
 from sim.sensors.noise import Noise
 

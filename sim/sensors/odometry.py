@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import msgspec
+
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, Quaternion, Twist, TwistWithCovariance
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import JointState
 from bridge.msgs.std_msgs import Header, Time
-
 from sim.backend_bullet import Joint
 from sim.sensors.noise import Noise
 

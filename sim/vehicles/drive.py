@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from bridge.msgs.geometry_msgs import Twist
-
 from sim.backend_bullet import STEPS_PER_SECOND, Bullet
 from sim.vehicles.parameters import Limits, Wheels
 

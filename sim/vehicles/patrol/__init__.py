@@ -17,7 +17,6 @@ from bridge.msgs.geometry_msgs import (
 )
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.std_msgs import Header, Time
-
 from sim.backend_bullet import STEPS_PER_SECOND, Bullet, State, Wheeled
 from sim.schedule import Schedule
 from sim.sensors.battery import Battery
