@@ -1,1 +1,1 @@
-"""Measurements of Pilothouse: every figure with its target and with what it was measured against."""
+"""Measurements of what the user feels and what the machine pays: `python -m bench`."""

@@ -1,0 +1,1 @@
+"""What the benches share: figures and their arithmetic, the machine's noise, tables, child processes."""

@@ -1,0 +1,80 @@
+"""A process of its own for what must not share one with the measurement; it talks by lines of JSON."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+__all__ = ["Child", "child"]
+
+ROOT = Path(__file__).parents[2]
+GRACE = 0.5
+"""How long a child may take to end after its standard input has [s]; then it is told to."""
+PATIENCE = 10.0
+"""How long it may take to end when told to [s]."""
+
+
+class Child:
+    """The parent's end of the conversation."""
+
+    def __init__(self, process: subprocess.Popen[str]) -> None:
+        self.process = process
+
+    def line(self) -> str:
+        """The next line it prints; RuntimeError when it has ended."""
+        if self.process.stdout is None or not (line := self.process.stdout.readline()):
+            raise RuntimeError(f"{self.process.args!r} ended with {self.process.wait()}.")
+        return line.rstrip("\n")
+
+    def hear(self) -> Any:
+        """The next line of JSON that it prints; other lines are passed over."""
+        while not (line := self.line()).startswith(("{", "[")):
+            pass
+        return json.loads(line)
+
+    def say(self, value: object) -> None:
+        """Send it a line of JSON."""
+        if self.process.stdin is None:
+            raise RuntimeError("This child does not listen.")
+        self.process.stdin.write(json.dumps(value) + "\n")
+        self.process.stdin.flush()
+
+    def ask(self, value: object) -> Any:
+        """Say something and hear the answer."""
+        self.say(value)
+        return self.hear()
+
+
+@contextmanager
+def child(module: str, *arguments: str, environment: Mapping[str, str] | None = None) -> Iterator[Child]:
+    """Run `python -m module arguments…`; at the end its standard input is closed, then it is told to end."""
+    process = subprocess.Popen(  # noqa: S603 - our own modules
+        [sys.executable, "-m", module, *arguments],
+        cwd=ROOT,
+        env={**os.environ, **(environment or {})},
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        yield Child(process)
+    finally:
+        _end(process)
+
+
+def _end(process: subprocess.Popen[str]) -> None:
+    for stream in (process.stdin, process.stdout):
+        if stream:
+            stream.close()
+    for patience, harder in ((GRACE, process.terminate), (PATIENCE, process.kill)):
+        try:
+            process.wait(patience)
+        except subprocess.TimeoutExpired:
+            harder()
+    process.wait()

@@ -1,0 +1,94 @@
+"""A figure, the samples taken of it, and what they say."""
+
+from __future__ import annotations
+
+import math
+import statistics
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+__all__ = ["Figure", "Outcome", "Samples", "percentile"]
+
+Verdict = Literal["reached", "MISSED", ""]
+
+
+def percentile(values: Iterable[float], share: float) -> float:
+    """The value below which `share` [0..1] of the values lie, linear between neighbours; NaN of none."""
+    ordered = sorted(values)
+    if not ordered:
+        return math.nan
+    place = share * (len(ordered) - 1)
+    below = math.floor(place)
+    above = min(below + 1, len(ordered) - 1)
+    return ordered[below] + (place - below) * (ordered[above] - ordered[below])
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """One number that a bench measures."""
+
+    name: str
+    unit: str
+    meaning: str
+    """One line for a reader who has not seen the code."""
+    target: float | None = None
+    """What is to be reached, in `unit`; None where nothing was promised."""
+    better: Literal["less", "more"] = "less"
+    against: str = ""
+    """What the peer's value is of; empty where there is no peer."""
+
+    def verdict(self, value: float) -> Verdict:
+        """Whether `value` reaches the target; empty without a target. NaN reaches nothing."""
+        if self.target is None:
+            return ""
+        fits = value <= self.target if self.better == "less" else value >= self.target
+        return "reached" if fits else "MISSED"
+
+
+@dataclass(frozen=True, slots=True)
+class Samples:
+    """One value a repeat."""
+
+    values: Sequence[float]
+
+    @property
+    def median(self) -> float:
+        """NaN without values."""
+        return statistics.median(self.values) if self.values else math.nan
+
+    @property
+    def low(self) -> float:
+        """The least value; NaN without values."""
+        return min(self.values, default=math.nan)
+
+    @property
+    def high(self) -> float:
+        """The greatest value; NaN without values."""
+        return max(self.values, default=math.nan)
+
+    @property
+    def spread(self) -> float:
+        """Greatest less least, as a share of the median; NaN without values or with a median of 0."""
+        return (self.high - self.low) / self.median if self.values and self.median else math.nan
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What was measured of one figure."""
+
+    figure: Figure
+    ours: Samples
+    peer: Samples = field(default_factory=lambda: Samples(()))
+
+    @property
+    def verdict(self) -> Verdict:
+        """Of the median."""
+        return self.figure.verdict(self.ours.median)
+
+    @property
+    def ratio(self) -> float:
+        """How many times better than the peer, median by median: above 1 is better. NaN without a peer."""
+        ours, peer = self.ours.median, self.peer.median
+        above, below = (peer, ours) if self.figure.better == "less" else (ours, peer)
+        return above / below if below else math.nan

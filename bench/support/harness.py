@@ -1,0 +1,87 @@
+"""Runs a bench: repeats ours and the peer's way in turn, with the machine's noise taken in between."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NamedTuple, Protocol, cast
+
+import bench
+from bench.support.figures import Figure, Outcome, Samples
+from bench.support.noise import Noise
+
+__all__ = ["Bench", "Context", "Result", "Sides", "load", "measure", "names"]
+
+Side = Callable[[], Mapping[str, float]]
+"""Measures once: a value for each figure's name. A figure may be left out."""
+
+
+class Sides(NamedTuple):
+    """The two ways to compare."""
+
+    ours: Side
+    peer: Side | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """What a bench may want to know."""
+
+    data: Path | None = None
+    """A folder of recordings, for the benches that judge a recogniser."""
+
+
+class Bench(Protocol):
+    """What a file in `bench/` must have; its docstring tells how the measuring is done."""
+
+    __doc__: str | None
+    FIGURES: tuple[Figure, ...]
+    REPEATS: int
+
+    def prepare(self, context: Context) -> AbstractContextManager[Sides]:
+        """Set up what is measured; taken down at the end."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """What one bench found."""
+
+    name: str
+    how: str
+    outcomes: list[Outcome]
+    noise: Noise = field(default_factory=Noise)
+
+
+def names() -> list[str]:
+    """Every bench there is."""
+    return sorted(m.name for m in pkgutil.iter_modules(bench.__path__) if not m.ispkg and m.name != "__main__")
+
+
+def load(name: str) -> Bench:
+    """The bench of that name; ImportError when a library that it needs is missing."""
+    return cast("Bench", importlib.import_module(f"bench.{name}"))
+
+
+def measure(name: str, module: Bench, context: Context, noise: Noise) -> Result:
+    """Take `REPEATS` samples a side, in turn; raises what the bench raises."""
+    ours: list[Mapping[str, float]] = []
+    peer: list[Mapping[str, float]] = []
+    noise.sample()
+    with module.prepare(context) as sides:
+        for _ in range(module.REPEATS):
+            ours.append(sides.ours())
+            noise.sample()
+            if sides.peer:
+                peer.append(sides.peer())
+                noise.sample()
+    outcomes = [Outcome(f, _of(f, ours), _of(f, peer)) for f in module.FIGURES]
+    return Result(name, (module.__doc__ or "").strip(), outcomes, noise)
+
+
+def _of(figure: Figure, rounds: Iterable[Mapping[str, float]]) -> Samples:
+    return Samples([values[figure.name] for values in rounds if figure.name in values])
