@@ -45,7 +45,9 @@ class Topic:
 
 TOPICS: tuple[Topic, ...] = (
     Topic("/robot/info", pilothouse_msgs.RobotInfo, 0, "handheld", "who the robot is and what it can do"),
-    Topic("/pose", geometry_msgs.PoseWithCovarianceStamped, 20, "handheld", "where it believes to be in `map`"),
+    Topic(
+        "/pose", geometry_msgs.PoseWithCovarianceStamped, 20, "handheld", "where it believes to be in `map`"
+    ),
     Topic("/odom", nav_msgs.Odometry, 20, "handheld", "pose and speed by its wheels alone, in `odom`"),
     Topic("/imu/data", sensor_msgs.Imu, 50, "handheld", "attitude, turn rate, acceleration"),
     Topic("/fix", sensor_msgs.NavSatFix, 5, "handheld", "position by satellite"),
@@ -61,14 +63,28 @@ TOPICS: tuple[Topic, ...] = (
         "the camera for clients without a binary socket",
         on_demand=True,
     ),
-    Topic("/detections", vision_msgs.Detection2DArray, 5, "handheld", "what the camera sees while a task watches"),
-    Topic("/intruders", pilothouse_msgs.IntruderArray, 0, "handheld", "everything found that does not belong here"),
+    Topic(
+        "/detections",
+        vision_msgs.Detection2DArray,
+        5,
+        "handheld",
+        "what the camera sees while a task watches",
+    ),
+    Topic(
+        "/intruders",
+        pilothouse_msgs.IntruderArray,
+        0,
+        "handheld",
+        "everything found that does not belong here",
+    ),
     Topic("/map", nav_msgs.OccupancyGrid, 0, "handheld", "the robot's own map"),
     Topic("/plan", nav_msgs.Path, 0, "handheld", "the way it means to take; empty when it has none"),
     Topic("/mission", pilothouse_msgs.Mission, 0, "handheld", "the mission stored on the robot"),
     Topic("/task/status", pilothouse_msgs.TaskStatus, 0, "handheld", "what it is doing and why"),
     Topic("/task/progress", pilothouse_msgs.TaskProgress, 2, "handheld", "how far the running task is"),
-    Topic("/control/status", pilothouse_msgs.ControlStatus, 0, "handheld", "who steers and whether it may move"),
+    Topic(
+        "/control/status", pilothouse_msgs.ControlStatus, 0, "handheld", "who steers and whether it may move"
+    ),
     Topic("/events", pilothouse_msgs.Event, 0, "handheld", "what happened, each once", once=True),
     Topic("/diagnostics", diagnostic_msgs.DiagnosticArray, 1, "handheld", "the robot's opinion of its parts"),
     Topic("/tf", tf2_msgs.TFMessage, 20, "handheld", "map, odom and base_link"),

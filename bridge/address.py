@@ -1,0 +1,84 @@
+"""Where a robot is: its address taken apart, its name looked up, and why it could not be reached in plain words."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import errno
+import ipaddress
+import os
+import socket
+import threading
+from urllib.parse import urlsplit
+
+__all__ = ["BadAddress", "LinkLost", "cause", "host_and_port", "look_up"]
+
+
+class LinkLost(Exception):
+    """There is no connection, or it is of no use any more; the text says why."""
+
+
+class BadAddress(LinkLost):
+    """The address can never work, so that trying again makes no sense."""
+
+
+def host_and_port(url: str) -> tuple[str, int]:
+    """The two in `ws://HOST:PORT/...`, port 80 (wss: 443) when it names none; BadAddress when it is none."""
+    try:
+        parts = urlsplit(url)
+        port = parts.port or (443 if parts.scheme == "wss" else 80)
+    except ValueError as error:
+        raise BadAddress(f"The address must be like ws://192.168.1.7:9090, not {url!r} ({error}).") from error
+    if parts.scheme not in ("ws", "wss") or not parts.hostname:
+        raise BadAddress(f"The address must be like ws://192.168.1.7:9090, not {url!r}.")
+    return parts.hostname, port
+
+
+async def look_up(host: str, timeout: float) -> str:
+    """The numeric address of `host`, IPv4 where it has both; OSError when unknown within `timeout` [s].
+
+    It is asked for in a thread that nobody waits for, because a lookup cannot be cancelled.
+    """
+    with contextlib.suppress(ValueError):
+        return str(ipaddress.ip_address(host))
+    loop = asyncio.get_running_loop()
+    found: asyncio.Future[str] = loop.create_future()
+
+    def ask() -> None:
+        try:
+            answer: str | OSError = _resolved(host)
+        except OSError as error:
+            answer = error
+        with contextlib.suppress(RuntimeError):  # the loop is closed: nobody wants to know any more
+            loop.call_soon_threadsafe(_settle, found, answer)
+
+    threading.Thread(target=ask, name=f"look up {host}", daemon=True).start()
+    try:
+        async with asyncio.timeout(timeout):
+            return await found
+    except TimeoutError as error:
+        raise socket.gaierror(socket.EAI_AGAIN, "no answer") from error
+
+
+def cause(error: OSError) -> str:
+    """Why a machine could not be reached, in a few plain words."""
+    if error.errno == errno.ECONNREFUSED:
+        return "connection refused"
+    return os.strerror(error.errno).lower() if error.errno else str(error)
+
+
+def _resolved(host: str) -> str:
+    try:
+        found = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)
+    except UnicodeError as error:
+        raise socket.gaierror(socket.EAI_NONAME, str(error)) from error
+    return str(min(found, key=lambda entry: entry[0] != socket.AF_INET)[4][0])
+
+
+def _settle(found: asyncio.Future[str], answer: str | OSError) -> None:
+    if found.done():
+        return
+    if isinstance(answer, OSError):
+        found.set_exception(answer)
+    else:
+        found.set_result(answer)
