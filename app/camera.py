@@ -104,4 +104,4 @@ class Camera:
             self.bad += 1
             log.info("frame %d is no picture: %s", frame.seq, error)
             return
-        self._mailbox.post(PICTURE, Picture(frame.seq, frame.stamp, width, height, rgba), received)
+        self._mailbox.post(PICTURE, Picture(frame.seq, frame.stamp, width, height, rgba), received, urgent=True)

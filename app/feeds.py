@@ -40,18 +40,22 @@ class Mailbox:
     """Takes values in from any thread and hands them out in one: newest wins, but queued ones all arrive."""
 
     def __init__(self, wake: Callable[[], object]) -> None:
-        """`wake` is called after every post, in the posting thread; it has to bring about a `drain`."""
+        """`wake` is called after what is queued or urgent, in the posting thread; it has to bring about a `drain`.
+
+        What is neither waits for the next regular `drain`: the glass shows no more than its frames.
+        """
         self._wake = wake
         self._lock = threading.Lock()
         self._box: dict[str, Post] = {}
         self._queue: deque[tuple[str, Post]] = deque()
 
-    def post(self, channel: str, value: Any, received: float) -> None:
+    def post(self, channel: str, value: Any, received: float, *, urgent: bool = False) -> None:
         """Put `value` in place of the one that waits in `channel`."""
         with self._lock:
             waiting = self._box.get(channel)
             self._box[channel] = Post(value, received, waiting.count + 1 if waiting else 1)
-        self._wake()
+        if urgent:
+            self._wake()
 
     def queue(self, channel: str, value: Any, received: float) -> None:
         """Append `value`; nothing queued is ever dropped."""

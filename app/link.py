@@ -24,20 +24,18 @@ from bridge.msgs.pilothouse_msgs import ControlStatus, Event, GetEventsResponse
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.topics import TOPICS, Topic
 
-__all__ = ["CAMERA", "EVENT", "LINK", "OUTCOME", "Link"]
+__all__ = ["EVENT", "LINK", "OUTCOME", "Link"]
 
 log = logging.getLogger(__name__)
 
-CAMERA, EVENT, LINK, OUTCOME = "camera", "event", "link", "outcome"
-"""Channels of the mailbox beside the topics: `Frame`s; and, queued, `Event`s, `LinkState`s and `Outcome`s."""
+EVENT, LINK, OUTCOME = "event", "link", "outcome"
+"""Channels of the mailbox beside the topics: `Event`s, `LinkState`s and `Outcome`s, all queued."""
 UNUSED = ("/tf", "/joint_states", "/diagnostics", "/bumper")
 """Topics that no screen shows."""
 FASTEST = 33
 """No stream is asked for more often than this [ms]: the glass shows no more."""
 BULKY = ("/scan", "/map")
 """Topics whose numbers travel as CBOR."""
-CAMERA_PAUSE = 0.5
-"""Before the camera's socket is opened again [s]."""
 TICK = 0.05
 """How often the drive slot is looked at when nothing wakes it [s]."""
 COMPRESSED = "/camera/image/compressed"
@@ -54,10 +52,14 @@ class Link:
         *,
         client_id: str,
         client_name: str,
+        on_picture: Callable[[Frame, float], object] = lambda frame, received: None,
         now: Callable[[], float] = time.monotonic,
         new_id: Callable[[], str] = lambda: uuid.uuid4().hex,
     ) -> None:
-        """`client_id` and `client_name` are who this handheld is to the robot; `now` is our clock [s]."""
+        """`client_id` and `client_name` are who this handheld is to the robot; `now` is our clock [s].
+
+        `on_picture` is called in the network thread with each camera frame and when it came [s].
+        """
         self.url = url
         self._mailbox, self._network, self._now = mailbox, network, now
         self._client = BridgeClient(url, on_state=self._on_state, now=now)
@@ -72,6 +74,7 @@ class Link:
             client_name=client_name,
         )
         self._events = EventStream(lambda event: mailbox.queue(EVENT, event, now()))
+        self._on_picture = on_picture
         self._wake = asyncio.Event()
         self._tasks: set[asyncio.Task[Any]] = set()
         self._running: concurrent.futures.Future[None] | None = None
@@ -237,17 +240,12 @@ class Link:
     async def _show_camera(self, name: str) -> None:
         stream = CameraStream(f"{self.url.rstrip('/')}/camera/{name}", self._on_frame)
         try:
-            while True:
-                try:
-                    await stream.run()
-                except (OSError, BridgeError) as problem:
-                    log.info("camera %s: %s", name, problem)
-                await asyncio.sleep(CAMERA_PAUSE)
+            await stream.run()
         finally:
             await stream.close()
 
     def _on_frame(self, frame: Frame, received: float) -> None:
-        self._mailbox.post(CAMERA, frame, received)
+        self._on_picture(frame, received)
 
     def _on_image(self, image: CompressedImage, received: float) -> None:
         self._on_frame(Frame(0, image.header.stamp.seconds, 0, 0, image.data), received)

@@ -98,13 +98,21 @@ def test_the_rate_starts_anew_after_a_silence(feeds: Feeds) -> None:
 
 
 def test_the_newest_value_of_a_channel_wins_and_the_rest_are_counted() -> None:
-    woken: list[None] = []
-    box = Mailbox(lambda: woken.append(None))
+    box = Mailbox(lambda: None)
     for value in (1, 2, 3):
         box.post("a", value, float(value))
     assert box.drain() == [("a", Post(3, 3.0, 3))]
     assert box.drain() == []
-    assert len(woken) == 3
+
+
+def test_only_what_is_queued_or_urgent_wakes_the_glass() -> None:
+    woken: list[None] = []
+    box = Mailbox(lambda: woken.append(None))
+    box.post("a", 1, 0.0)
+    assert woken == []
+    box.post("a", 2, 0.0, urgent=True)
+    box.queue("b", 3, 0.0)
+    assert len(woken) == 2
 
 
 def test_queued_values_all_arrive_in_their_order() -> None:

@@ -1,0 +1,199 @@
+"""Where everything sits on the glass: rectangles by screen and by the shape of the window.
+
+Pure arithmetic in the window's pixels, origin at the lower left. Turning the device moves widgets and
+makes none anew, so nothing that was entered is lost.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+__all__ = ["Rect", "connect_columns", "drive", "form", "mission", "shell"]
+
+
+@dataclass(frozen=True, slots=True)
+class Rect:
+    """A place on the glass [px]."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+
+    @property
+    def right(self) -> float:
+        """x of the right edge [px]."""
+        return self.x + self.width
+
+    @property
+    def top(self) -> float:
+        """y of the upper edge [px]."""
+        return self.y + self.height
+
+    def overlaps(self, other: Rect) -> bool:
+        """Whether the two share any pixel."""
+        return self.x < other.right and other.x < self.right and self.y < other.top and other.y < self.top
+
+    def holds(self, other: Rect) -> bool:
+        """Whether `other` lies within."""
+        inside = self.x <= other.x and other.right <= self.right + 1e-6
+        return inside and self.y <= other.y and other.top <= self.top + 1e-6
+
+
+def form(width: float, height: float, dp: float = 1.0) -> str:
+    """Shape of a window of that size [px]: `tall`, `short` (a phone on its side) or `wide`; `dp` is one dp [px]."""
+    if height >= width:
+        return "tall"
+    return "short" if height < 600 * dp else "wide"
+
+
+def shell(width: float, height: float, dp: float = 1.0) -> dict[str, Rect]:
+    """Of the frame round every screen of a robot: `bar` on top, `nav`, and the `body` between."""
+    shape = form(width, height, dp)
+    bar = (48 if shape == "short" else 56) * dp
+    top = Rect(0, height - bar, width, bar)
+    if shape == "tall":
+        nav = 60 * dp
+        return {"bar": top, "nav": Rect(0, 0, width, nav), "body": Rect(0, nav, width, height - bar - nav)}
+    rail = (68 if shape == "short" else 76) * dp
+    body = Rect(rail, 0, width - rail, height - bar)
+    return {"bar": top, "nav": Rect(0, 0, rail, height - bar), "body": body}
+
+
+def connect_columns(width: float, dp: float = 1.0) -> int:
+    """How many cards stand side by side."""
+    return max(1, min(4, int(width // (330 * dp))))
+
+
+def mission(body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False) -> dict[str, Rect]:
+    """Of the mission screen: `map`, `panel`, `stop`, and what floats on the map.
+
+    `sheet_open` draws the sheet of the tall form up over most of the map.
+    """
+    if shape == "tall":
+        return _mission_tall(body, dp, sheet_open)
+    gap, wide = 14 * dp, shape == "wide"
+    side = min(max(344 * dp, body.width * 0.22), 420 * dp) if wide else 304 * dp
+    panel = Rect(body.right - side, body.y, side, body.height)
+    stop = Rect(panel.x + gap, body.y + gap, side - 2 * gap, (76 if wide else 68) * dp)
+    area = Rect(body.x, body.y, body.width - side, body.height)
+    places = {"map": area, "panel": _above(panel, stop, gap), "side": panel, "stop": stop}
+    button = (52 if wide else 46) * dp
+    places["tools"] = _column(area, button, 6 if wide else 6, gap, 8 * dp if wide else 6 * dp)
+    places["modes"] = Rect(area.x + gap, area.top - gap - 46 * dp, min(384 * dp, places["tools"].x - area.x - 2 * gap), 46 * dp)
+    if wide:
+        places |= _mission_instruments(area, gap, dp)
+    else:
+        video = Rect(area.x + gap, area.y + gap, 148 * dp, 111 * dp)
+        room = places["tools"].x - area.x - 2 * gap
+        places |= {"video": video, "selection": Rect(area.x + gap, video.top + 8 * dp, min(300 * dp, room), 52 * dp)}
+    return places
+
+
+def _mission_instruments(area: Rect, gap: float, dp: float) -> dict[str, Rect]:
+    """Along the lower edge of the map."""
+    picture = min(252 * dp, area.width * 0.28)
+    video = Rect(area.x + gap, area.y + gap, picture, picture * 0.75)
+    compass = Rect(video.right + 20 * dp, area.y + gap, 154 * dp, 154 * dp)
+    readouts = Rect(area.right - gap - 232 * dp, area.y + gap, 232 * dp, 128 * dp)
+    selection = Rect(area.x + gap, area.top - 2 * gap - 98 * dp, 330 * dp, 52 * dp)
+    return {"video": video, "compass": compass, "readouts": readouts, "selection": selection}
+
+
+def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
+    gap = 12 * dp
+    low = min(318 * dp, body.height * 0.48)
+    height = body.height - 120 * dp if sheet_open else low
+    sheet = Rect(body.x, body.y, body.width, height)
+    stop_width = min(max(158 * dp, body.width * 0.3), 260 * dp)
+    stop = Rect(body.right - gap - stop_width, body.y + gap, stop_width, 64 * dp)
+    tasks = Rect(body.x + gap, stop.y, stop.x - body.x - 2 * gap, stop.height)
+    handle = 22 * dp
+    panel = Rect(sheet.x + gap, stop.top + 8 * dp, sheet.width - 2 * gap, sheet.height - stop.height - gap - 8 * dp - handle)
+    area = Rect(body.x, body.y + low, body.width, body.height - low)
+    picture = min(148 * dp, body.width * 0.4)
+    video = Rect(area.x + gap, area.top - gap - picture * 0.66, picture, picture * 0.66)
+    return {
+        "map": area,
+        "side": sheet,
+        "handle": Rect(sheet.x, sheet.top - handle, sheet.width, handle),
+        "panel": panel,
+        "stop": stop,
+        "tasks": tasks,
+        "tools": _column(area, 50 * dp, 4, gap, 8 * dp),
+        "video": video,
+        "modes": Rect(area.x + gap, area.y + gap, body.width - 3 * gap - 50 * dp, 46 * dp),
+        "selection": Rect(area.x + gap, area.y + 2 * gap + 46 * dp, min(300 * dp, body.width - 3 * gap - 50 * dp), 52 * dp),
+    }
+
+
+def _column(area: Rect, button: float, count: int, gap: float, between: float) -> Rect:
+    """A column of square buttons in the upper right corner; as many as fit of `count`."""
+    fit = max(1, min(count, int((area.height - 2 * gap + between) // (button + between))))
+    height = fit * button + (fit - 1) * between
+    return Rect(area.right - gap - button, area.top - gap - height, button, height)
+
+
+def _above(panel: Rect, stop: Rect, gap: float) -> Rect:
+    low = stop.top + gap
+    return Rect(panel.x + gap, low, panel.width - 2 * gap, panel.top - gap - low)
+
+
+def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+    """Of the drive screen: `video` behind all, the slots `top_left`, `top`, `top_right`, `readouts`, and the controls."""
+    if shape == "tall":
+        return _drive_tall(body, dp)
+    wide = shape == "wide"
+    dp = dp * min(1.0, body.height / ((590 if wide else 364) * dp))
+    gap = (16 if wide else 10) * dp
+    stop = Rect(body.right - gap - (210 if wide else 150) * dp, body.y + gap, *_pair(wide, (210, 180), (150, 132), dp))
+    size = (242 if wide else 176) * dp
+    stick = Rect(body.x + gap, body.y + gap, size, size)
+    slider = Rect(stick.right + (38 if wide else 12) * dp, stick.y, *_pair(wide, (96, 238), (80, 176), dp))
+    actions = Rect(stop.x - gap - (150 if wide else 132) * dp, stop.y, (150 if wide else 132) * dp, stop.height)
+    left = Rect(body.x + gap, body.top - gap - (228 if wide else 148) * dp, *_pair(wide, (326, 228), (212, 148), dp))
+    right_size = _pair(wide, (194, 194), (128, 128), dp)
+    right = Rect(body.right - gap - right_size[0], body.top - gap - right_size[1], *right_size)
+    places = {"video": body, "stop": stop, "stick": stick, "slider": slider, "actions": actions, "top_left": left}
+    tape_width = min((420 if wide else 260) * dp, 2 * (body.x + body.width / 2 - left.right - gap))
+    tape = Rect(body.x + (body.width - tape_width) / 2, body.top - gap - 52 * dp, tape_width, 52 * dp)
+    readouts_size = _pair(wide, (194, 132), (116, 128), dp)
+    readouts = Rect(right.right - readouts_size[0], right.y - 12 * dp - readouts_size[1], *readouts_size)
+    if not wide:
+        readouts = Rect(right.x - gap - readouts_size[0], right.y, *readouts_size)
+        tape = Rect(left.right + gap, tape.y, readouts.x - gap - left.right - gap, 52 * dp)
+    return places | {"top": tape, "top_right": right, "readouts": readouts}
+
+
+def _pair(wide: bool, large: tuple[float, float], small: tuple[float, float], dp: float) -> tuple[float, float]:
+    width, height = large if wide else small
+    return width * dp, height * dp
+
+
+def _drive_tall(body: Rect, dp: float) -> dict[str, Rect]:
+    gap = 12 * dp
+    picture = min(body.width * 0.75, body.height * 0.42)
+    video = Rect(body.x, body.top - picture, body.width, picture)
+    stick = min(196 * dp, body.width * 0.46)
+    controls = Rect(body.x + gap, body.y + gap, stick, stick)
+    right = controls.right + gap
+    stop = Rect(right, body.y + gap, body.right - gap - right, 116 * dp)
+    slider = Rect(right, stop.top + gap, stop.width, controls.height - stop.height - gap)
+    actions = Rect(body.x + gap, controls.top + gap, body.width - 2 * gap, 52 * dp)
+    cards_low = actions.top + gap
+    cards = Rect(body.x + gap, cards_low, body.width - 2 * gap, video.y - gap - cards_low)
+    readouts_height = min(64 * dp, cards.height * 0.34)
+    upper = cards.height - readouts_height - gap
+    horizon = min(upper, cards.width * 0.4)
+    left = Rect(cards.x, cards.y + readouts_height + gap, cards.width - horizon - gap, upper)
+    return {
+        "video": video,
+        "stop": stop,
+        "stick": controls,
+        "slider": slider,
+        "actions": actions,
+        "top_left": left,
+        "top_right": Rect(left.right + gap, left.y, horizon, upper),
+        "readouts": Rect(cards.x, cards.y, cards.width, readouts_height),
+        "top": Rect(body.x + body.width * 0.1, body.top - gap - 52 * dp, body.width * 0.8, 52 * dp),
+    }

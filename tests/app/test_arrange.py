@@ -1,0 +1,80 @@
+"""Places on the glass: nothing overlaps, nothing leaves the window, STOP keeps its corner."""
+
+from __future__ import annotations
+
+import itertools
+
+import pytest
+
+from app.arrange import Rect, connect_columns, drive, form, mission, shell
+
+SIZES = [(412, 892), (892, 412), (1280, 800), (1920, 1200), (800, 1280), (360, 640), (640, 360), (1024, 600)]
+MAY_LIE_ON = {"video", "map", "side"}
+"""Grounds that other things float on."""
+
+
+def screens(width: int, height: int) -> dict[str, dict[str, Rect]]:
+    shape, body = form(width, height), shell(width, height)["body"]
+    return {
+        "mission": mission(body, shape),
+        "sheet": mission(body, shape, sheet_open=True),
+        "drive": drive(body, shape),
+    }
+
+
+CASES = [(size, name) for size in SIZES for name in ("mission", "drive")]
+
+
+@pytest.mark.parametrize(("size", "name"), CASES)
+def test_nothing_overlaps(size: tuple[int, int], name: str) -> None:
+    places = screens(*size)[name]
+    ground = MAY_LIE_ON if name == "drive" else MAY_LIE_ON - {"video"}
+    things = {key: rect for key, rect in places.items() if key not in ground}
+    for (one, first), (two, second) in itertools.combinations(things.items(), 2):
+        assert not first.overlaps(second), f"{one} {first} overlaps {two} {second}"
+
+
+@pytest.mark.parametrize(("size", "name"), CASES)
+def test_nothing_leaves_the_screen(size: tuple[int, int], name: str) -> None:
+    body = shell(*size)["body"]
+    for key, rect in screens(*size)[name].items():
+        assert body.holds(rect), f"{key} {rect} leaves {body}"
+        assert rect.width > 0, key
+        assert rect.height > 0, key
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("name", ["mission", "sheet", "drive"])
+def test_stop_keeps_the_lower_right_corner(size: tuple[int, int], name: str) -> None:
+    stop, body = screens(*size)[name]["stop"], shell(*size)["body"]
+    assert body.right - stop.right <= 16
+    assert stop.y - body.y <= 16
+    assert min(stop.width, stop.height) >= 53
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_stop_does_not_move_when_the_sheet_opens(size: tuple[int, int]) -> None:
+    assert screens(*size)["mission"]["stop"] == screens(*size)["sheet"]["stop"]
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_frame_fills_the_window(size: tuple[int, int]) -> None:
+    places = shell(*size)
+    assert sum(rect.width * rect.height for rect in places.values()) == pytest.approx(size[0] * size[1])
+
+
+@pytest.mark.parametrize(
+    ("size", "shape"), [((412, 892), "tall"), ((892, 412), "short"), ((1280, 800), "wide"), ((800, 1280), "tall")]
+)
+def test_the_form_follows_the_window(size: tuple[int, int], shape: str) -> None:
+    assert form(*size) == shape
+
+
+def test_a_dense_phone_is_still_a_phone() -> None:
+    assert form(2400, 1080, dp=2.625) == "short"
+    assert shell(2400, 1080, dp=2.625)["bar"].height == 48 * 2.625
+
+
+@pytest.mark.parametrize(("width", "columns"), [(412, 1), (892, 2), (1280, 3), (1920, 4)])
+def test_cards_stand_side_by_side_where_there_is_room(width: int, columns: int) -> None:
+    assert connect_columns(width) == columns
