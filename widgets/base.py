@@ -95,6 +95,9 @@ class RobotWidget(Widget):
     accepts: ClassVar[tuple[type[Msg], ...]] = ()
     """Types that `show` takes."""
 
+    veiled: ClassVar[bool] = True
+    """Stale and disabled are drawn as a veil with the age on it; False for a widget that shows them in its own way."""
+
     state = OptionProperty("never", options=STATES)
     """Never heard, live, stale, alarm or disabled: each has its own look."""
     age = NumericProperty(math.nan)
@@ -103,13 +106,13 @@ class RobotWidget(Widget):
     """Corners of the veil and of the alarm's outline [px]; half the width for a round widget."""
 
     def _veil(self) -> list[float]:
-        return [*theme.surface[:3], VEIL[self.state]]
+        return [*theme.surface[:3], VEIL[self.state] if self.veiled else 0.0]
 
     veil = AliasProperty(_veil, bind=["state"])
     """Colour over what is stale or disabled."""
 
     def _badge(self) -> str:
-        return age_text(self.age) if self.state == "stale" else ""
+        return age_text(self.age) if self.veiled and self.state == "stale" else ""
 
     badge = AliasProperty(_badge, bind=["state", "age"], cache=True)
     """How old it is, where that must be said; else empty."""

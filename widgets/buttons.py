@@ -23,26 +23,19 @@ Builder.load_string("""
     padding: dp(10), 0
     canvas.before:
         Color:
-            rgba: theme.roles[root.border]
+            rgba: theme.line if root.disabled else theme.roles[root.border]
         SmoothRoundedRectangle:
             pos: self.pos
             size: self.size
             radius: [theme.corner]
         Color:
-            rgba: theme.roles[root.fill]
+            rgba: theme.surface if root.disabled else theme.roles[root.fill]
         SmoothRoundedRectangle:
             pos: self.x + theme.outline, self.y + theme.outline
             size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
             radius: [theme.corner - theme.outline]
         Color:
             rgba: theme.roles[root.ink][:3] + [.16 if root.state == 'down' else 0]
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.corner]
-    canvas.after:
-        Color:
-            rgba: theme.surface[:3] + [.62 if root.disabled else 0]
         SmoothRoundedRectangle:
             pos: self.pos
             size: self.size
@@ -54,7 +47,7 @@ Builder.load_string("""
         spacing: (dp(9) if root.flow == 'horizontal' else dp(2)) if root.icon and root.text else 0
         Icon:
             name: root.icon or 'check'
-            role: root.ink_icon or root.ink
+            role: 'muted' if root.disabled else root.ink_icon or root.ink
             size: (self.font_size, self.font_size) if root.icon else (0, 0)
             opacity: 1 if root.icon else 0
             pos_hint: {'center_x': .5, 'center_y': .5}
@@ -64,7 +57,8 @@ Builder.load_string("""
             font_name: theme.font
             font_size: theme.size_body if root.flow == 'horizontal' else sp(14)
             bold: True
-            color: theme.roles[root.ink]
+            color: theme.muted if root.disabled else theme.roles[root.ink]
+            disabled_color: self.color
             halign: 'center'
             size_hint: None, None
             size: self.texture_size

@@ -23,6 +23,7 @@ Builder.load_string("""
     font_name: theme.font
     font_size: theme.size_body
     color: theme.roles[self.role]
+    disabled_color: self.color
     text_size: self.width, None
     halign: 'left'
     valign: 'middle'
@@ -33,6 +34,7 @@ Builder.load_string("""
     font_name: theme.icons
     font_size: theme.size_icon
     color: theme.roles[self.role]
+    disabled_color: self.color
     text: icons[self.name]
     size_hint: None, None
     size: self.font_size, self.font_size

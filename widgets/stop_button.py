@@ -1,0 +1,211 @@
+"""STOP: the largest thing to touch, in the same corner of every screen.
+
+    stop = StopButton()
+    stop.bind(on_command=lambda _: commands.stop(), on_release_stop=lambda _: commands.release())
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from kivy.clock import Clock
+from kivy.lang import Builder
+from kivy.properties import AliasProperty, NumericProperty, OptionProperty
+from kivy.uix.anchorlayout import AnchorLayout
+from kivy.uix.widget import Widget
+
+from widgets.base import Control
+from widgets.labels import spaced
+
+__all__ = ["PHASES", "StopButton"]
+
+HOLD = 1.0
+"""How long the finger must stay to release a latched STOP [s]."""
+
+PHASES = {
+    "ready": ("STOP", "", "pan_tool_fill"),
+    "sent": ("STOP", "sent, waiting for the robot", "pan_tool_fill"),
+    "stopped": ("STOPPED", "hold to release", "lock"),
+    "no_answer": ("STOP", "no answer, sending again", "signal_disconnected"),
+}
+"""Phase to its word, its sentence and its icon."""
+
+Builder.load_string("""
+<StopButton>:
+    veil_radius: theme.radius * 1.3
+    canvas.before:
+        Color:
+            rgba: theme.stop
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.radius * 1.3]
+        Color:
+            rgba: theme.surface if root.phase == 'stopped' else theme.stop
+        SmoothRoundedRectangle:
+            pos: self.x + dp(3), self.y + dp(3)
+            size: self.width - dp(6), self.height - dp(6)
+            radius: [theme.radius * 1.3 - dp(3)]
+        Color:
+            rgba: theme.stop[:3] + [.4 if root.held else 0]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: max(self.width * root.held, theme.radius * 2.6), self.height
+            radius: [theme.radius * 1.3]
+        Color:
+            rgba: theme.shade[:3] + [.22 if root.pressed and root.phase != 'stopped' else 0]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.radius * 1.3]
+    BoxLayout:
+        orientation: 'vertical'
+        size_hint: None, None
+        size: self.minimum_size
+        spacing: dp(2)
+        BoxLayout:
+            orientation: 'vertical' if root.upright else 'horizontal'
+            size_hint: None, None
+            size: self.minimum_size
+            spacing: 0 if root.upright else root.word_size * .28
+            pos_hint: {'center_x': .5}
+            Icon:
+                name: root.icon
+                role: root.ink
+                font_size: root.word_size * (1.5 if root.upright else 1.25)
+                pos_hint: {'center_x': .5, 'center_y': .5}
+            Label:
+                text: root.word
+                font_name: theme.font
+                font_size: root.word_size
+                bold: True
+                color: theme.roles[root.ink]
+                size_hint: None, None
+                size: self.texture_size
+                pos_hint: {'center_x': .5, 'center_y': .5}
+        Label:
+            text: root.sentence
+            font_name: theme.font
+            font_size: root.sentence_size
+            color: theme.roles[root.ink]
+            size_hint: None, None
+            size: self.texture_size if root.sentence else (0, 0)
+            pos_hint: {'center_x': .5}
+""")
+
+
+class StopButton(Control, AnchorLayout):
+    """Dispatches `on_command` the moment a finger comes down, and `on_release_stop` after a hold once stopped."""
+
+    veiled = False
+    __events__ = ("on_release_stop",)
+
+    phase = OptionProperty("ready", options=list(PHASES))
+    """`ready`; `sent`, not confirmed; `stopped`, confirmed and latched; `no_answer`, sent and not confirmed in time."""
+    held = NumericProperty(0.0)
+    """How much of the hold that releases is over, 0 to 1."""
+    pressed = NumericProperty(0)
+    """Fingers on it."""
+
+    def _of_phase(index: int) -> AliasProperty:  # noqa: N805
+        return AliasProperty(lambda self: PHASES[self.phase][index], bind=["phase"], cache=True)
+
+    sentence, icon = _of_phase(1), _of_phase(2)
+
+    def _word(self) -> str:
+        return spaced(PHASES[self.phase][0])
+
+    word = AliasProperty(_word, bind=["phase"], cache=True)
+
+    def _ink(self) -> str:
+        return "danger" if self.phase == "stopped" else "ink_stop"
+
+    ink = AliasProperty(_ink, bind=["phase"], cache=True)
+    """Role of the words."""
+
+    def _upright(self) -> bool:
+        return self.width < self.height * 2
+
+    upright = AliasProperty(_upright, bind=["size"], cache=True)
+    """Icon above the word, because it is not wide."""
+
+    def _word_size(self) -> float:
+        width, height = self.size
+        across = width / (5.2 if self.upright else 6.4) * (0.78 if self.phase == "stopped" else 1.0)
+        return min(across, height * (0.23 if self.upright else 0.36))
+
+    word_size = AliasProperty(_word_size, bind=["size", "phase"], cache=True)
+    """Height of the type [px]."""
+
+    def _sentence_size(self) -> float:
+        return min(self.word_size * 0.55, self.width / 16)
+
+    sentence_size = AliasProperty(_sentence_size, bind=["word_size", "size"], cache=True)
+
+    def __init__(self, **kwargs: Any) -> None:
+        self._holding = Clock.create_trigger(self._hold, 0, interval=True)
+        super().__init__(**kwargs)
+
+    def rest(self) -> None:
+        """Forget a hold that has begun. A STOP that was given stays given."""
+        self._holding.cancel()
+        self.held = 0.0
+
+    def _hold(self, elapsed: float) -> None:
+        self.held = min(1.0, self.held + elapsed / HOLD)
+        if self.held >= 1.0 - 1e-9:
+            self.rest()
+            self.dispatch("on_release_stop")
+
+    def on_phase(self, *_: object) -> None:
+        """A hold belongs to the phase that it began in."""
+        self.rest()
+
+    def on_release_stop(self) -> None:
+        """It was held long enough: the operator wants to drive again."""
+
+    def on_touch_down(self, touch: Any) -> bool:
+        """Command at once; when stopped already, begin to count the hold."""
+        if not self.collide_point(*touch.pos):
+            return False
+        touch.grab(self)
+        self.pressed += 1
+        if self.phase == "stopped":
+            self._holding()
+        else:
+            self.dispatch("on_command")
+        return True
+
+    def on_touch_up(self, touch: Any) -> bool:
+        """A hold that ends early releases nothing."""
+        if touch.grab_current is not self:
+            return False
+        touch.ungrab(self)
+        self.pressed = max(0, self.pressed - 1)
+        if not self.pressed:
+            self.rest()
+        return True
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """Every phase, wide as on a tablet's side and square as on the drive screen."""
+
+    def make(width: str, height: str, **kwargs: Any) -> Callable[[], Widget]:
+        return lambda: StopButton(size_hint=(None, None), size=(width, height), **kwargs)
+
+    wide = {phase: make("329dp", "76dp", phase=phase) for phase in PHASES}
+    square = {f"{phase} square": make("210dp", "180dp", phase=phase) for phase in PHASES}
+    return {
+        **wide,
+        **square,
+        "small": make("160dp", "64dp"),
+        "small stopped": make("160dp", "64dp", phase="stopped"),
+        "being released": _being_released,
+    }
+
+
+def _being_released() -> StopButton:
+    button = StopButton(size_hint=(None, None), size=("329dp", "76dp"), phase="stopped")
+    button.held = 0.6
+    return button
