@@ -46,7 +46,9 @@ def _pair(name: str, msg: Msg) -> Iterator[Figure]:
 
 
 def _times(name: str, plain: tuple[float, ...], ours: tuple[float, ...], against: str) -> Figure:
-    return Figure(name, "x", tuple(slow / fast for slow, fast in zip(plain, ours, strict=True)), against=against)
+    return Figure(
+        name, "x", tuple(slow / fast for slow, fast in zip(plain, ours, strict=True)), against=against
+    )
 
 
 def measure() -> Iterator[Figure]:

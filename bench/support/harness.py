@@ -59,7 +59,9 @@ class Result:
 
 def names() -> list[str]:
     """Every bench there is."""
-    return sorted(m.name for m in pkgutil.iter_modules(bench.__path__) if not m.ispkg and m.name != "__main__")
+    return sorted(
+        m.name for m in pkgutil.iter_modules(bench.__path__) if not m.ispkg and m.name != "__main__"
+    )
 
 
 def load(name: str) -> Bench:

@@ -1,0 +1,67 @@
+"""What goes into the Android package, and which mistakes in its description are caught."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from scripts import android_check as check
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def spec():
+    return check.read_spec(ROOT / "buildozer.spec")
+
+
+def test_only_the_handheld_is_packed(spec):
+    files = check.check_files(ROOT, spec)
+    assert {path.parts[0] for path in files} == {"main.py", "app", "widgets", "bridge"}
+
+
+def test_a_stranger_in_the_package_is_refused(spec, tmp_path):
+    for name in ("main.py", "app/a.py", "widgets/a.py", "bridge/a.py", "gateway/a.py"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("")
+    with pytest.raises(check.Failed, match="gateway/a.py"):
+        check.check_files(tmp_path, spec)
+
+
+def test_hidden_files_and_files_without_a_suffix_stay_out(spec, tmp_path):
+    for name in ("main.py", ".secret", "LICENSE", "Makefile", "app/data.csv"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("")
+    assert list(check.selected(tmp_path, spec)) == [Path("main.py")]
+
+
+def test_the_requirements_keep_their_pins(spec):
+    assert "websockets==15.0.1" in check.check_requirements(spec)
+
+
+@pytest.mark.parametrize("bad", ["kivy>=2.3", "charset-normalizer==3.4.2", "Kivy==2.3.1", "pybullet"])
+def test_a_requirement_that_would_break_the_build_is_refused(spec, bad):
+    spec["requirements"] = f"python3,{bad}"
+    with pytest.raises(check.Failed, match=bad.split("=")[0].split(">")[0]):
+        check.check_requirements(spec)
+
+
+def test_the_manifest_options_hold(spec):
+    check.check_manifest(ROOT, spec)
+    spec["android.features"] = "android.hardware.camera"
+    with pytest.raises(check.Failed, match="android.features"):
+        check.check_manifest(ROOT, spec)
+
+
+def test_an_import_that_the_spec_does_not_ask_for_is_refused(tmp_path):
+    (tmp_path / "main.py").write_text("import kivy\nimport requests\n")
+    with pytest.raises(check.Failed, match="requests"):
+        check.check_imports([Path("main.py")], tmp_path, ["python3", "kivy==2.3.1"])
+
+
+def test_shaders_are_found_in_the_code(tmp_path):
+    (tmp_path / "main.py").write_text('FS = "$HEADER$ void main() { gl_FragColor = vec4(1.0); }"\n')
+    ((where, kind, text),) = check.shaders([Path("main.py")], tmp_path)
+    assert (where, kind) == ("main.py:1", "frag")
+    assert check.glsl_es(kind, text).startswith("#version 100\n")
