@@ -18,6 +18,7 @@ from bridge.units import heading_from_yaw, yaw_from_heading
 
 __all__ = [
     "CARDINALS",
+    "Trail",
     "View",
     "cover",
     "contain",
@@ -134,6 +135,38 @@ class View:
         middle = complex(*((low + high) / 2)) * cmath.rect(1.0, -turn)
         at = (box[0] + box[2] / 2, box[1] + box[3] / 2)
         return cls.centred(middle.real, middle.imag, at=at, scale=scale, turn=turn)
+
+
+class Trail:
+    """Where something has been: the newest `most` points, each at least `apart` [m] from the one before."""
+
+    def __init__(self, most: int = 2000, apart: float = 0.05) -> None:
+        self._most, self._apart = most, apart
+        self._buffer = np.zeros((2 * most, 2))
+        self._first = self._end = 0
+
+    @property
+    def points(self) -> Points:
+        """Oldest first, shape (n, 2) [m]."""
+        return self._buffer[self._first : self._end]
+
+    def add(self, x: float, y: float) -> bool:
+        """Go on to (x, y) [m]; False when that is too near to tell, or not a place."""
+        if not (math.isfinite(x) and math.isfinite(y)):
+            return False
+        if self._end and math.hypot(*(self._buffer[self._end - 1] - (x, y))) < self._apart:
+            return False
+        if self._end == len(self._buffer):
+            self._buffer[: self._most] = self._buffer[self._first :]
+            self._first, self._end = 0, self._most
+        self._buffer[self._end] = x, y
+        self._end += 1
+        self._first = max(self._first, self._end - self._most)
+        return True
+
+    def clear(self) -> None:
+        """Forget everything."""
+        self._first = self._end = 0
 
 
 def screen_angle(yaw: float) -> float:

@@ -10,16 +10,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from typing import Any, ClassVar
 
-from kivy.core.text import Label as CoreLabel
+import numpy as np
+from kivy.clock import Clock
 from kivy.graphics import Color, InstructionGroup, Mesh, Rectangle, RenderContext
-from kivy.graphics.context import get_context
-from kivy.graphics.texture import Texture
 
-from widgets.shapes import Shapes
+from widgets.base import RobotWidget, text_texture
+from widgets.shapes import FLOATS, Shapes
+from widgets.theme import theme
 
-__all__ = ["SHADERS", "Ink", "Word", "Words", "shader", "text_texture"]
+__all__ = ["SHADERS", "Drawing", "Ink", "Word", "Words", "shader", "tint"]
 
 VERTEX = """
 #ifdef GL_ES
@@ -80,12 +81,19 @@ void main() {
 SHADERS: dict[str, tuple[str, str]] = {"ink": (VERTEX, FRAGMENT)}
 """Every shader of the widgets by name, vertex and fragment text, for the check against GLES 1.00."""
 
+NO_VERTICES, NO_INDICES = np.zeros(FLOATS, np.float32), np.zeros(3, np.uint16)
+
 FORMAT = [
     (b"at_place", 2, "float"),
     (b"at_local", 2, "float"),
     (b"at_form", 4, "float"),
     (b"at_ink", 4, "float"),
 ]
+
+
+def tint(colour: Sequence[float], alpha: float) -> tuple[float, ...]:
+    """A role's colour made see-through: `alpha` 0 to 1."""
+    return (*colour[:3], alpha)
 
 
 def shader(name: str, fragment: str, **uniforms: float) -> RenderContext:
@@ -109,7 +117,10 @@ class Ink(RenderContext):
 
     def draw(self, shapes: Shapes) -> None:
         """Show these shapes instead of those before."""
-        self._mesh.vertices, self._mesh.indices = shapes.arrays()
+        vertices, indices = shapes.arrays()
+        # Kivy's mesh cannot be emptied: nothing is drawn as a triangle without area
+        self._mesh.vertices = vertices if len(vertices) else NO_VERTICES
+        self._mesh.indices = indices if len(indices) else NO_INDICES
 
     def fade(self, strength: float) -> None:
         """Multiply the opacity of all shapes by `strength`, 0 to 1."""
@@ -132,17 +143,6 @@ class Word:
     """Registered name; `Icons` shows a symbol."""
     anchor: tuple[float, float] = (0.5, 0.5)
     """Which point of the text (x, y) is: 0 left or bottom, 1 right or top."""
-
-
-@lru_cache(maxsize=600)
-def text_texture(text: str, size: float, bold: bool = False, font: str = "B612") -> Texture:
-    """`text` drawn in white, kept for the next time."""
-    label = CoreLabel(text=text, font_size=size, bold=bold, font_name=font, color=(1, 1, 1, 1))
-    label.refresh()
-    return label.texture
-
-
-get_context().add_reload_observer(lambda _: text_texture.cache_clear(), before=True)
 
 
 class Words:
@@ -171,7 +171,7 @@ class Words:
             for instruction in self._slots[index]:
                 self.canvas.add(instruction)
         colour, rectangle = self._slots[index]
-        texture = text_texture(word.text, round(word.size, 1), word.bold, word.font)
+        texture = text_texture(word.text, round(word.size, 1), word.font, bold=word.bold)
         red, green, blue, alpha = word.colour
         colour.rgba = red, green, blue, alpha * strength
         if rectangle.texture is not texture:
@@ -181,3 +181,32 @@ class Words:
             rectangle.size = texture.size
         width, height = texture.size
         rectangle.pos = round(word.x - width * word.anchor[0]), round(word.y - height * word.anchor[1])
+
+
+class Drawing(RobotWidget):
+    """A robot widget that draws itself anew, once before the next frame, when something it shows has changed.
+
+    A subclass names its properties in `drawn_from` and draws in `draw`.
+    """
+
+    drawn_from: ClassVar[tuple[str, ...]] = ()
+    """Properties whose change calls for a new drawing, besides place, size, state and theme."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        self.redraw = Clock.create_trigger(self._draw_now, -1)
+        super().__init__(**kwargs)
+        for name in ("pos", "size", "state", *self.drawn_from):
+            self.fbind(name, self.redraw)
+        theme.bind(name=self._on_theme, gloves=self._on_theme)
+        self.redraw()
+
+    def _on_theme(self, *_: object) -> None:
+        self.redraw()
+
+    def _draw_now(self, *_: object) -> None:
+        if self.width > 1 and self.height > 1:
+            self.draw()
+
+    def draw(self) -> None:
+        """Bring the canvas up to date. Called at most once a frame."""
+        raise NotImplementedError(f"{type(self).__name__} does not say how it is drawn")

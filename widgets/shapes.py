@@ -35,7 +35,10 @@ Colour = Sequence[float]
 
 
 class Shapes:
-    """A pile of shapes, later ones above earlier ones. Methods with `centres` draw many at once."""
+    """A pile of shapes, later ones above earlier ones. Methods with `centres` draw many at once.
+
+    What does not fit into 65,535 vertices any more is left out.
+    """
 
     def __init__(self) -> None:
         self._vertices: list[NDArray[np.float32]] = []
@@ -63,36 +66,42 @@ class Shapes:
         period = math.tau * radius / dashes if dashes else 0.0
         self._rounds(np.array([[x, y]]), radius, width / 2, colour, period)
 
-    def line(self, points: Points, width: float, colour: Colour, period: float = 0.0, dash: float = 0.0) -> None:
-        """A line through `points`; with a `period`, dashes with round ends and `dash` long between the ends."""
-        points = _without_repeats(points)
-        if len(points) < 2:
+    def line(self, points: Points, width: float, colour: Colour | NDArray[np.float32]) -> None:
+        """A line through `points`; `colour` may be one, or one for each point, shape (n, 4)."""
+        kept = _no_repeats(points)
+        if len(kept) < 2:
             return
+        points, colour = points[kept], _per_shape(colour)
         half = width / 2
-        along, across = _strip(points)
+        across = _mitres(points)
         vertices = np.zeros((len(points), 2, FLOATS), np.float32)
         for side, sign in enumerate((-1.0, 1.0)):
             vertices[:, side, :2] = points + across * (sign * (half + _FEATHER))
             vertices[:, side, 3] = sign * (half + _FEATHER)
-        vertices[:, :, 2] = along[:, None]
-        vertices[:, :, 4:8] = LINE, half, period, dash / 2
-        vertices[:, :, 8:] = colour
+        vertices[:, :, 4:6] = LINE, half
+        vertices[:, :, 8:] = colour[kept] if colour.ndim == 3 else colour
         starts = 2 * np.arange(len(points) - 1)[:, None]
         self._add(vertices.reshape(-1, FLOATS), (starts + np.array([0, 1, 3, 3, 2, 0])).ravel())
 
+    def dashes(self, points: Points, width: float, colour: Colour, *, period: float, dash: float) -> None:
+        """A line through `points` in dashes with round ends, `dash` long between the ends, one each `period`."""
+        kept = points[_no_repeats(points)]
+        if len(kept) < 2:
+            return
+        vertices = _straights(kept[:-1], kept[1:], width / 2)
+        length = np.hypot(*np.diff(kept, axis=0).T)
+        done = np.concatenate([[0.0], np.cumsum(length)])
+        vertices[:, :, 2] = np.stack([done[:-1], done[1:], done[1:], done[:-1]], axis=1)
+        vertices[:, :, 4:8] = LINE, width / 2, period, dash / 2
+        vertices[:, :, 8:] = colour
+        self._quads(vertices)
+
     def segments(self, starts: Points, ends: Points, width: float, colour: Colour | NDArray[np.float32]) -> None:
         """Separate straight lines with square ends."""
-        count, half = len(starts), width / 2
-        if not count:
+        if not len(starts):
             return
-        ahead = ends - starts
-        length = np.maximum(np.hypot(ahead[:, 0], ahead[:, 1]), 1e-9)
-        normal = np.stack([-ahead[:, 1], ahead[:, 0]], axis=1) / length[:, None] * (half + _FEATHER)
-        vertices = np.zeros((count, 4, FLOATS), np.float32)
-        for corner, (end, sign) in enumerate(((starts, -1), (ends, -1), (ends, 1), (starts, 1))):
-            vertices[:, corner, :2] = end + normal * sign
-            vertices[:, corner, 3] = sign * (half + _FEATHER)
-        vertices[:, :, 4:8] = LINE, half, 0.0, 0.0
+        vertices = _straights(starts, ends, width / 2)
+        vertices[:, :, 4:6] = LINE, width / 2
         vertices[:, :, 8:] = _per_shape(colour)
         self._quads(vertices)
 
@@ -160,15 +169,28 @@ def _per_shape(colour: Colour | NDArray[np.float32]) -> NDArray[np.float32]:
     return array[:, None, :] if array.ndim == 2 else array
 
 
-def _without_repeats(points: Points) -> Points:
+def _no_repeats(points: Points) -> NDArray[np.int64]:
+    """Indices of the points that are not where the one before them is."""
     if len(points) < 2:
-        return points
+        return np.arange(len(points))
     moved = np.abs(np.diff(points, axis=0)).max(axis=1) > 1e-6
-    return points[np.concatenate([[True], moved])]
+    return np.flatnonzero(np.concatenate([[True], moved]))
 
 
-def _strip(points: Points) -> tuple[NDArray[np.float64], Points]:
-    """Length along the line at each point, and the mitred unit normal there."""
+def _straights(starts: Points, ends: Points, half: float) -> NDArray[np.float32]:
+    """Corners of straight lines, with their distance across filled in."""
+    ahead = ends - starts
+    length = np.maximum(np.hypot(ahead[:, 0], ahead[:, 1]), 1e-9)
+    normal = np.stack([-ahead[:, 1], ahead[:, 0]], axis=1) / length[:, None] * (half + _FEATHER)
+    vertices = np.zeros((len(starts), 4, FLOATS), np.float32)
+    for corner, (end, sign) in enumerate(((starts, -1), (ends, -1), (ends, 1), (starts, 1))):
+        vertices[:, corner, :2] = end + normal * sign
+        vertices[:, corner, 3] = sign * (half + _FEATHER)
+    return vertices
+
+
+def _mitres(points: Points) -> Points:
+    """The normal at each point of a line, long enough for the corner there."""
     ahead = np.diff(points, axis=0)
     length = np.hypot(ahead[:, 0], ahead[:, 1])
     normals = np.stack([-ahead[:, 1], ahead[:, 0]], axis=1) / length[:, None]
@@ -176,5 +198,4 @@ def _strip(points: Points) -> tuple[NDArray[np.float64], Points]:
     after = np.concatenate([normals, normals[-1:]])
     middle = before + after
     squared = np.maximum((middle**2).sum(axis=1), 1e-9)
-    mitre = middle * np.minimum(2.0 / squared, _MITRE / np.sqrt(squared))[:, None]
-    return np.concatenate([[0.0], np.cumsum(length)]), mitre
+    return middle * np.minimum(2.0 / squared, _MITRE / np.sqrt(squared))[:, None]

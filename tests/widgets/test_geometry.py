@@ -96,6 +96,15 @@ def test_one_point_is_fitted_at_the_greatest_scale():
     assert View.fitting(np.array([[5.0, 5.0]]), box=(0, 0, 100, 100), most=40).scale == pytest.approx(40)
 
 
+def test_a_trail_keeps_the_newest_points_that_are_apart():
+    trail = geometry.Trail(most=3, apart=0.5)
+    taken = [trail.add(x, 0.0) for x in (0, 0.4, 1, 2, 3, 4, 5, 6, 7, math.nan)]
+    assert taken == [True, False] + [True] * 7 + [False]
+    assert trail.points[:, 0].tolist() == [5, 6, 7]
+    trail.clear()
+    assert trail.points.shape == (0, 2)
+
+
 @pytest.mark.parametrize(("yaw", "angle"), [(0, 0), (math.pi / 2, 90), (-math.pi / 2, 270)])
 def test_kivy_turns_in_degrees_anticlockwise_like_yaw(yaw, angle):
     assert geometry.screen_angle(yaw) == pytest.approx(angle)

@@ -47,12 +47,20 @@ def test_a_dashed_ring_has_a_whole_number_of_dashes():
     assert math.tau * 10 / vertices(shapes)[0, 6] == pytest.approx(12)
 
 
-def test_a_line_is_measured_along_its_length():
+def test_dashes_go_on_from_one_stretch_to_the_next():
     shapes = Shapes()
-    shapes.line(np.array([[0.0, 0], [3, 0], [3, 4]]), 2, RED)
+    shapes.dashes(np.array([[0.0, 0], [3, 0], [3, 4]]), 2, RED, period=5, dash=2)
     made = vertices(shapes)
-    assert made[:, 2].tolist() == [0, 0, 3, 3, 7, 7]
+    assert made[:, 2].tolist() == [0, 3, 3, 0, 3, 7, 7, 3]
+    assert set(made[:, 6]) == {5}
     assert set(made[:, 4]) == {LINE}
+
+
+def test_a_line_may_change_its_colour_from_point_to_point():
+    shapes = Shapes()
+    colours = np.array([[1, 0, 0, 1], [1, 0, 0, 1], [0, 1, 0, 1]], np.float32)
+    shapes.line(np.array([[0.0, 0], [0, 0], [5, 0]]), 2, colours)
+    assert vertices(shapes)[:, 8].tolist() == [1, 1, 0, 0]
 
 
 def test_a_lines_sharp_corner_does_not_grow_a_spike():

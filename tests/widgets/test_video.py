@@ -1,0 +1,120 @@
+from __future__ import annotations
+
+import math
+
+import pytest
+from bridge.msgs.vision_msgs import (
+    BoundingBox2D,
+    Detection2D,
+    Detection2DArray,
+    ObjectHypothesis,
+    ObjectHypothesisWithPose,
+    Point2D,
+    Pose2D,
+)
+
+from widgets.video import Video, samples
+
+FRAME = bytes(64 * 48 * 4)
+
+
+@pytest.fixture
+def video(stage):
+    return stage.show(Video(), size=(320, 320))
+
+
+def detection(label: str = "cone", score: float = 0.9) -> Detection2D:
+    results = [ObjectHypothesisWithPose(ObjectHypothesis(label, score))] if label else []
+    return Detection2D(results=results, bbox=BoundingBox2D(Pose2D(Point2D(32, 24)), 10, 20))
+
+
+def test_a_detection_becomes_a_box_from_its_top_left_corner(video):
+    video.show(Detection2DArray(detections=[detection()]))
+    assert list(video.boxes) == [("cone", 0.9, 27, 14, 10, 20)]
+
+
+def test_a_detection_without_a_name_has_a_question_mark(video):
+    video.show(Detection2DArray(detections=[detection(label="")]))
+    label, score, *_ = video.boxes[0]
+    assert label == "?"
+    assert math.isnan(score)
+
+
+def test_no_detection_takes_the_boxes_away(video):
+    video.show(Detection2DArray(detections=[detection()]))
+    video.show(Detection2DArray())
+    assert list(video.boxes) == []
+
+
+def test_a_covering_picture_is_cut_at_the_sides(video):
+    video.show_frame(64, 48, FRAME)
+    assert video.picture_size == pytest.approx((320 * 4 / 3, 320))
+    assert video.place_on_glass(32, 24) == pytest.approx(video.center)
+    assert video.place_on_glass(0, 0)[0] < video.x
+
+
+def test_a_contained_picture_is_whole(video):
+    video.fit = "contain"
+    video.show_frame(64, 48, FRAME)
+    assert video.place_on_glass(0, 0) == pytest.approx((0, 280))
+    assert video.place_on_glass(64, 48) == pytest.approx((320, 40))
+
+
+def test_the_texture_is_kept_from_frame_to_frame(video):
+    video.show_frame(64, 48, FRAME)
+    first = video._texture
+    video.show_frame(64, 48, bytearray(FRAME))
+    assert video._texture is first
+    video.show_frame(32, 48, bytes(32 * 48 * 4))
+    assert video._texture is not first
+
+
+def test_a_frame_of_the_wrong_length_is_refused_in_one_sentence(video):
+    with pytest.raises(ValueError, match="64 x 48 has 12288 bytes, not 10"):
+        video.show_frame(64, 48, bytes(10))
+
+
+def test_the_chip_says_size_rate_and_latency(video):
+    video.show_frame(64, 48, FRAME)
+    video.rate, video.latency = 15.2, 0.061
+    assert video.chip_text() == "64×48 · 15 fps · 61 ms"
+
+
+def test_the_chip_leaves_out_what_is_not_known(video):
+    assert video.chip_text() == ""
+    video.show_frame(64, 48, FRAME)
+    assert video.chip_text() == "64×48"
+
+
+def said(video: Video) -> list[str]:
+    return [word.text for word in video._sentence()]
+
+
+def test_before_the_first_frame_it_says_so(video):
+    assert said(video)[-1] == "No picture yet"
+
+
+def test_an_old_picture_says_how_old_it_is(video):
+    video.show_frame(64, 48, FRAME)
+    video.state, video.age = "stale", 3.2
+    assert said(video) == ["Last picture 3 s ago"]
+
+
+def test_a_live_picture_says_nothing(video):
+    video.show_frame(64, 48, FRAME)
+    video.state = "live"
+    assert said(video) == []
+
+
+def test_boxes_that_lie_outside_the_cut_picture_are_not_drawn(video, stage):
+    video.show_frame(64, 48, FRAME)
+    video.state = "live"
+    video.boxes = [("left", 0.5, 0, 10, 6, 10), ("middle", 0.5, 30, 10, 6, 10)]
+    from widgets.shapes import Shapes
+
+    assert [word.text for word in video._box_marks(Shapes())] == ["middle 0.50"]
+
+
+@pytest.mark.parametrize("name", samples())
+def test_every_sample_can_be_shown(stage, name):
+    assert stage.show(samples()[name]()).height > 0

@@ -1,0 +1,182 @@
+"""What is drawn on a map: robot, trail, plan, waypoints, home, intruders, laser points, scale bar.
+
+Each function puts one kind of mark into `Shapes` or gives its `Word`s. Places are in `map` [m], sizes on
+the screen do not depend on the zoom.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from kivy.metrics import dp, sp
+
+from widgets.geometry import Points, View, length_text, nice_floor
+from widgets.icons import icon
+from widgets.ink import Word, tint
+from widgets.shapes import Shapes
+from widgets.theme import theme
+
+__all__ = [
+    "grid_lines",
+    "home_mark",
+    "intruder_marks",
+    "laser_dots",
+    "place_handle",
+    "plan_line",
+    "robot_mark",
+    "route_line",
+    "scale_bar",
+    "trail_line",
+    "waypoint_marks",
+]
+
+Place = Sequence[float]
+"""x and y in `map` [m]."""
+
+HANDLE = 74
+"""From the robot to the handle that turns it [dp]."""
+RANGE = 4.5
+"""How far the camera's view is drawn [robot disc radii]."""
+ARROW = ((0.60, 0.0), (-0.42, 0.44), (-0.22, 0.0), (-0.42, -0.44))
+"""Corners of the robot's arrow, which points along x, in disc radii."""
+
+
+def trail_line(shapes: Shapes, view: View, trail: Points) -> None:
+    """Where the robot has been, fainter the longer ago."""
+    if len(trail) < 2:
+        return
+    colours = np.tile(np.asarray(theme.accent, dtype=np.float32), (len(trail), 1))
+    colours[:, 3] = np.linspace(0.35, 0.85, len(trail))
+    shapes.line(view.many_to_screen(trail), dp(4), colours)
+
+
+def plan_line(shapes: Shapes, view: View, plan: Points) -> None:
+    """The way the robot means to take."""
+    if len(plan) > 1:
+        seen = view.many_to_screen(plan)
+        shapes.line(seen, dp(8), tint(theme.plan, 0.16))
+        shapes.line(seen, dp(2.2), tint(theme.plan, 0.75))
+
+
+def route_line(shapes: Shapes, view: View, waypoints: Sequence[Place], closed: bool) -> None:
+    """The order of the waypoints, as round dashes."""
+    corners = [*waypoints, waypoints[0]] if closed and len(waypoints) > 2 else list(waypoints)
+    if len(corners) > 1:
+        seen = view.many_to_screen(np.array([place[:2] for place in corners], dtype=np.float64))
+        shapes.dashes(seen, dp(4.6), theme.plan, period=dp(12.5), dash=dp(3))
+
+
+def waypoint_marks(
+    shapes: Shapes, view: View, waypoints: Sequence[Place], radius: float, *, visited: int, coming: int, selected: int
+) -> Iterator[Word]:
+    """Numbered discs: the first `visited` filled, the others open; `coming` (from 1) and `selected` (from 0) stand out."""
+    for index, place in enumerate(waypoints):
+        x, y = view.to_screen(*place[:2])
+        if index == selected:
+            shapes.disc(x, y, radius + dp(11), tint(theme.accent, 0.28))
+            shapes.ring(x, y, radius + dp(8), dp(2.5), theme.accent)
+        elif index + 1 == coming:
+            shapes.disc(x, y, radius + dp(10), tint(theme.plan, 0.25))
+        filled = index < visited
+        shapes.disc(x, y, radius, theme.plan if filled else theme.bg)
+        if not filled:
+            shapes.ring(x, y, radius - dp(1.8), dp(3.6), theme.plan)
+        ink = theme.ink_plan if filled else theme.plan
+        yield Word(str(index + 1), x, y, radius * 1.05, ink, bold=True)
+
+
+def home_mark(shapes: Shapes, view: View, home: Place, radius: float) -> Word:
+    """The place to return to."""
+    x, y = view.to_screen(*home[:2])
+    shapes.disc(x, y, radius, theme.ok)
+    shapes.ring(x, y, radius + dp(3), dp(2), tint(theme.ok, 0.4))
+    return Word(icon("home"), x, y, radius * 1.3, theme.bg, font=theme.icons)
+
+
+def intruder_marks(
+    shapes: Shapes, view: View, intruders: Sequence[tuple[float, float, str]], size: float
+) -> Iterator[Word]:
+    """A red triangle in a dashed circle, with a word beside it."""
+    for x, y, label in intruders:
+        px, py = view.to_screen(x, y)
+        shapes.disc(px, py, size * 1.3, tint(theme.danger, 0.14))
+        shapes.ring(px, py, size * 1.3, dp(2.6), theme.danger, dashes=16)
+        half, low, high = size * 0.62, size * 0.6, size * 0.75
+        shapes.polygon([(px, py + high), (px - half, py - low), (px + half, py - low)], theme.danger)
+        yield from _outlined(Word(label, px + size * 1.3 + dp(8), py, size * 0.76, theme.danger, True, anchor=(0, 0.5)))
+
+
+def _outlined(word: Word) -> Iterator[Word]:
+    """The word with the window's colour round it, so that it can be read on any map."""
+    for dx, dy in ((-1, -1), (1, -1), (-1, 1), (1, 1)):
+        x, y = word.x + dx * dp(1), word.y + dy * dp(1)
+        yield Word(word.text, x, y, word.size, theme.bg, word.bold, word.font, word.anchor)
+    yield word
+
+
+def laser_dots(shapes: Shapes, view: View, points: Points) -> None:
+    """What the laser hits."""
+    if len(points):
+        shapes.discs(view.many_to_screen(points), dp(1.8), tint(theme.warn, 0.9))
+
+
+def robot_mark(
+    shapes: Shapes, view: View, pose: tuple[float, float, float], radius: float, *, fov: float, faded: bool, alarm: bool
+) -> None:
+    """A disc with an arrow, and the slice of the world that the camera sees; `pose` is x, y [m] and yaw [rad]."""
+    x, y = view.to_screen(*pose[:2])
+    yaw = pose[2] + view.turn
+    if math.isfinite(fov):
+        shapes.sector(x, y, radius * RANGE, yaw, min(fov / 2, math.pi / 2), tint(theme.accent, 0.18))
+    shapes.disc(x, y, radius + dp(3), tint(theme.bg, 0.35))
+    ring = theme.danger if alarm else theme.text
+    shapes.disc(x, y, radius + dp(1), ring)
+    shapes.disc(x, y, radius - dp(2), theme.muted if faded else theme.accent)
+    shapes.polygon(arrow(x, y, yaw, radius), theme.ink_accent)
+
+
+def arrow(x: float, y: float, yaw: float, radius: float) -> list[tuple[float, float]]:
+    """Corners of the arrow on the screen, for a disc of `radius` [px]."""
+    cos, sin = math.cos(yaw) * radius, math.sin(yaw) * radius
+    return [(x + cos * u - sin * v, y + sin * u + cos * v) for u, v in ARROW]
+
+
+def place_handle(
+    shapes: Shapes, view: View, pose: tuple[float, float, float], radius: float
+) -> tuple[Word, tuple[float, float]]:
+    """The ring round a robot that is being put somewhere and the handle that turns it; gives the handle's place."""
+    x, y = view.to_screen(*pose[:2])
+    yaw, reach = pose[2] + view.turn, dp(HANDLE)
+    hx, hy = x + reach * math.cos(yaw), y + reach * math.sin(yaw)
+    shapes.ring(x, y, reach, dp(2.4), tint(theme.accent, 0.8), dashes=36)
+    shapes.disc(x, y, reach, tint(theme.accent, 0.10))
+    shapes.line(np.array([[x, y], [hx, hy]]), dp(3), theme.accent)
+    shapes.disc(hx, hy, radius * 0.86 + dp(2), theme.text)
+    shapes.disc(hx, hy, radius * 0.86, theme.accent)
+    return Word(icon("autorenew"), hx, hy, radius * 1.1, theme.ink_accent, font=theme.icons), (hx, hy)
+
+
+def scale_bar(shapes: Shapes, view: View, left: float, bottom: float, longest: float) -> Iterator[Word]:
+    """A round length at the scale of the map, with its text above."""
+    metres = nice_floor(longest / view.scale)
+    right, high = left + metres * view.scale, bottom + dp(6)
+    corners = np.array([[left, high], [left, bottom], [right, bottom], [right, high]])
+    shapes.line(corners, dp(5), tint(theme.bg, 0.7))
+    shapes.line(corners, dp(2), theme.text)
+    middle = (left + right) / 2
+    yield from _outlined(Word(length_text(metres), middle, bottom + dp(4), sp(13), theme.text, anchor=(0.5, 0)))
+
+
+def grid_lines(shapes: Shapes, view: View, box: tuple[float, float, float, float], colour: Sequence[float]) -> None:
+    """Lines of a round distance east and north, over the screen's `box` (x, y, width, height) [px]."""
+    step = nice_floor(dp(150) / view.scale)
+    x, y, width, height = box
+    corners = np.array([view.to_world(x + dx, y + dy) for dx in (0, width) for dy in (0, height)])
+    low, high = np.floor(corners.min(axis=0) / step) * step, corners.max(axis=0)
+    easts, norths = np.arange(low[0], high[0] + step, step), np.arange(low[1], high[1] + step, step)
+    starts = [(east, low[1]) for east in easts] + [(low[0], north) for north in norths]
+    ends = [(east, high[1] + step) for east in easts] + [(high[0] + step, north) for north in norths]
+    start, end = view.many_to_screen(np.array(starts)), view.many_to_screen(np.array(ends))
+    shapes.segments(start, end, dp(1), colour)

@@ -1,0 +1,251 @@
+"""A camera's live picture, with what was recognised in it.
+
+    video = Video()
+    video.show_frame(640, 480, rgba)
+    robot.on("/detections", video.show)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any, ClassVar
+
+import numpy as np
+from kivy.graphics import Color, Rectangle, SmoothRoundedRectangle
+from kivy.graphics.texture import Texture
+from kivy.metrics import dp, sp
+from kivy.properties import AliasProperty, BooleanProperty, ListProperty, NumericProperty, OptionProperty
+from kivy.uix.widget import Widget
+
+from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
+from widgets.base import text_texture
+from widgets.geometry import contain, cover
+from widgets.icons import icon
+from widgets.ink import Drawing, Ink, Word, Words, tint
+from widgets.shapes import Shapes
+from widgets.theme import theme
+
+__all__ = ["Video", "samples"]
+
+FADED = 0.45
+"""Opacity of a picture that is old, 0 to 1."""
+
+
+class Video(Drawing):
+    """The newest camera frame on one kept texture."""
+
+    accepts: ClassVar = (Detection2DArray,)
+    drawn_from: ClassVar = (
+        "frame_size", "fit", "boxes", "rate", "latency", "age", "show_chip", "corner", "insets",
+    )  # fmt: skip
+
+    frame_size = ListProperty([0, 0])
+    """Width and height of the picture [pixel]; 0 before the first."""
+    fit = OptionProperty("cover", options=("cover", "contain"))
+    """Fill the frame and cut the picture, or show all of it."""
+    boxes = ListProperty()
+    """What was recognised: (label, score, left, top, width, height), from the picture's top left corner [pixel]."""
+    rate = NumericProperty(math.nan)
+    """Frames a second [Hz]; NaN when not known."""
+    latency = NumericProperty(math.nan)
+    """From the exposure to the glass [s]; NaN when not known."""
+    show_chip = BooleanProperty(True)
+    """Say size, rate and latency in the corner."""
+    corner = NumericProperty("12dp")
+    """Radius of the frame's corners [px]; 0 for a picture that fills the glass."""
+    insets = ListProperty([0, 0, 0, 0])
+    """How much is covered by what lies over the picture [px]: left, bottom, right, top; the chip keeps clear of it."""
+
+    def _veil(self) -> list[float]:
+        return [*theme.surface[:3], 0.62 if self.state == "disabled" else 0.0]
+
+    veil = AliasProperty(_veil, bind=["state"])
+    """An old picture fades by itself, and says so in its middle."""
+    badge = AliasProperty(lambda self: "", cache=True)
+    """Not used: the sentence in the middle says the age."""
+
+    def _picture_size(self) -> tuple[float, float]:
+        if not all(self.frame_size):
+            return self.width, self.height
+        scaled = cover if self.fit == "cover" else contain
+        return scaled(*self.frame_size, *self.size)
+
+    picture_size = AliasProperty(_picture_size, bind=["frame_size", "size", "fit"], cache=True)
+    """Size of the whole picture on the glass, also where it is cut off [px]."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        self._texture: Texture | None = None
+        self._ground, self._light = Color(), Color()
+        self._frame = SmoothRoundedRectangle(radius=[0], size=(0, 0))
+        self._picture = SmoothRoundedRectangle(radius=[0], size=(0, 0))
+        self._ink, self._words, self._chip_words = Ink(), Words(), Words()
+        self._chip_ground, self._chip = Color(), SmoothRoundedRectangle(size=(0, 0))
+        super().__init__(**kwargs)
+        for part in (
+            self._ground, self._frame, self._light, self._picture, self._ink, self._words.canvas,
+            self._chip_ground, self._chip, self._chip_words.canvas,
+        ):  # fmt: skip
+            self.canvas.add(part)
+        self.bind(corner=self.setter("veil_radius"))
+        self.veil_radius = self.corner
+
+    def show_frame(self, width: int, height: int, rgba: bytes | bytearray | memoryview | np.ndarray) -> None:
+        """Show a decoded picture, top row first, four bytes to a pixel, as a worker thread has made it.
+
+        ValueError when `rgba` is not as long as `width` and `height` say.
+        """
+        if len(rgba) != width * height * 4:
+            raise ValueError(f"a picture of {width} x {height} has {width * height * 4} bytes, not {len(rgba)}")
+        if self._texture is None or self._texture.size != (width, height):
+            self._texture = Texture.create(size=(width, height), colorfmt="rgba")
+            self._texture.flip_vertical()
+            self._picture.texture = self._texture
+            self.frame_size = [width, height]
+        self._texture.blit_buffer(rgba, colorfmt="rgba", bufferfmt="ubyte")
+        self.canvas.ask_update()
+
+    def show(self, msg: Detection2DArray) -> None:
+        """Show what was recognised, in place of what was before."""
+        self.boxes = [_box(detection) for detection in msg.detections]
+
+    def place_on_glass(self, x: float, y: float) -> tuple[float, float]:
+        """Where a pixel of the picture, counted from its top left corner, is on the glass [px]."""
+        wide, high = self.picture_size
+        columns, rows = self.frame_size
+        left, top = self.center_x - wide / 2, self.center_y + high / 2
+        return left + x * wide / columns, top - y * high / rows
+
+    def draw(self) -> None:
+        """Bring the frame, the boxes and the words up to date; the picture itself comes by `show_frame`."""
+        self._ground.rgba = theme.raised if self._texture is None else theme.bg
+        self._frame.pos, self._frame.size = self.pos, self.size
+        self._frame.radius = [max(self.corner, 0.01)]
+        self._place_picture()
+        shapes = Shapes()
+        self._words.write([*self._box_marks(shapes), *self._sentence()])
+        self._ink.draw(shapes)
+        self._draw_chip()
+
+    def _place_picture(self) -> None:
+        wide, high = self.picture_size
+        seen = min(wide, self.width), min(high, self.height)
+        light = 0.0 if self._texture is None else FADED if self.state in ("stale", "never") else 1.0
+        self._light.rgba = 1, 1, 1, light
+        self._picture.pos = self.center_x - seen[0] / 2, self.center_y - seen[1] / 2
+        self._picture.size = seen
+        whole = seen == (self.width, self.height)
+        self._picture.radius = [max(self.corner, 0.01) if whole else 0.01]
+        if self._texture is not None:
+            u, v = (1 - seen[0] / wide) / 2, (1 - seen[1] / high) / 2
+            self._picture.tex_coords = u, 1 - v, 1 - u, 1 - v, 1 - u, v, u, v
+
+    def _box_marks(self, shapes: Shapes) -> Iterator[Word]:
+        if self._texture is None or self.state == "stale":
+            return
+        for label, score, left, top, width, height in self.boxes:
+            x1, y1 = self.place_on_glass(left, top)
+            x2, y2 = self.place_on_glass(left + width, top + height)
+            x1, x2 = max(x1, self.x + dp(2)), min(x2, self.right - dp(2))
+            y1, y2 = min(y1, self.top - dp(2)), max(y2, self.y + dp(2))
+            if x2 - x1 > 1 and y1 - y2 > 1:
+                yield self._box_mark(shapes, (x1, y2, x2, y1), f"{label} {score:.2f}")
+
+    def _box_mark(self, shapes: Shapes, box: tuple[float, float, float, float], text: str) -> Word:
+        left, bottom, right, top = box
+        small = min(self.width, self.height) < dp(260)
+        edge, size = (dp(1.6), sp(10)) if small else (dp(3), sp(15))
+        corners = np.array([[left, bottom], [right, bottom], [right, top], [left, top], [left, bottom]])
+        for start, end in zip(corners[:-1], corners[1:], strict=True):
+            ahead = (end - start) / max(np.hypot(*(end - start)), 1e-9) * edge / 2
+            shapes.segments((start - ahead)[None], (end + ahead)[None], edge, theme.danger)
+        wide, high = text_texture(text, round(size, 1), theme.font, bold=True).size
+        x, y = min(left - edge / 2, self.right - wide - size), top if top + high < self.top else bottom - high
+        tab = [(x, y), (x + wide + size * 0.7, y), (x + wide + size * 0.7, y + high), (x, y + high)]
+        shapes.polygon(tab, theme.danger)
+        return Word(text, x + size * 0.35, y + high / 2, size, theme.ink_danger, bold=True, anchor=(0, 0.5))
+
+    def _sentence(self) -> Iterator[Word]:
+        if self._texture is None:
+            yield Word(icon("videocam_off"), self.center_x, self.center_y + dp(14), sp(30), theme.muted, font=theme.icons)
+            yield Word("No picture yet", self.center_x, self.center_y - dp(16), sp(14), theme.muted)
+        elif self.state == "stale":
+            age = "" if math.isnan(self.age) else f" {self.age:.0f} s ago"
+            yield Word(f"Last picture{age}", self.center_x, self.center_y, sp(17), theme.text, bold=True)
+
+    def chip_text(self) -> str:
+        """Size, rate and latency of the picture in words; what is not known is left out."""
+        parts = [f"{self.frame_size[0]}×{self.frame_size[1]}"] if all(self.frame_size) else []
+        if not math.isnan(self.rate):
+            parts.append(f"{self.rate:.0f} fps")
+        if not math.isnan(self.latency):
+            parts.append(f"{self.latency * 1000:.0f} ms")
+        return " · ".join(parts)
+
+    def _draw_chip(self) -> None:
+        text = self.chip_text() if self.show_chip and self.state != "stale" else ""
+        if not text:
+            self._chip.size = 0, 0
+            self._chip_words.write(())
+            return
+        size = sp(12.5)
+        wide, high = text_texture(text, round(size, 1), theme.font).size
+        left, top = self.x + self.insets[0] + dp(8), self.top - self.insets[3] - dp(8)
+        self._chip_ground.rgba = tint(theme.surface, 0.86)
+        self._chip.pos, self._chip.size = (left, top - high - dp(5)), (wide + dp(14), high + dp(5))
+        self._chip.radius = [dp(6)]
+        middle = top - (high + dp(5)) / 2
+        self._chip_words.write([Word(text, left + dp(7), middle, size, theme.text, anchor=(0, 0.5))])
+
+
+def _box(detection: Detection2D) -> tuple[str, float, float, float, float, float]:
+    hypothesis = detection.results[0].hypothesis if detection.results else None
+    label, score = (hypothesis.class_id, hypothesis.score) if hypothesis else ("?", math.nan)
+    box, centre = detection.bbox, detection.bbox.center.position
+    return label, score, centre.x - box.size_x / 2, centre.y - box.size_y / 2, box.size_x, box.size_y
+
+
+def _scene(width: int = 640, height: int = 480) -> bytes:
+    """A lot under a sky with lane lines and a cone, as RGBA bytes, top row first."""
+    rows, columns = np.mgrid[0:height, 0:width].astype(np.float32)
+    down = (rows / height)[..., None]
+    light = np.asarray(theme.knob[:3])
+    picture = np.asarray(theme.sky[:3]) + (light - theme.sky[:3]) * np.minimum(1.5 * down, 0.7)
+    ground = rows > height * 0.48
+    across = (columns - width / 2) / np.maximum(rows - height * 0.46, 1.0)
+    stripes = np.abs((across * 1.1) % 1.0 - 0.5) > 0.475
+    asphalt = light * (0.58 - 0.24 * down)
+    picture[ground] = np.where(stripes[..., None], light * 0.82, asphalt)[ground]
+    hills = (rows > height * (0.44 - 0.035 * np.sin(columns / 62))) & ~ground
+    picture[hills] = np.asarray(theme.ok[:3]) * 0.5
+    high = (rows - height * 0.60) / (height * 0.24)
+    cone = (high > 0) & (high < 1) & (np.abs(columns - width * 0.68) < 38 * high)
+    picture[cone] = np.asarray(theme.warn[:3]) * (1.0, 0.72, 0.6)
+    picture[cone & (np.abs(high - 0.58) < 0.11)] = light
+    opaque = np.concatenate([picture, np.ones((height, width, 1))], axis=2)
+    return (opaque * 255).astype(np.uint8).tobytes()
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """The states of the picture by name."""
+    seen = ("intruder", 0.94, 394.0, 276.0, 84.0, 130.0)
+
+    def made(*, picture: bool = True, size: tuple[float, float] = (320, 240), **more: Any) -> Callable[[], Widget]:
+        def build() -> Video:
+            video = Video(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
+            if picture:
+                video.show_frame(640, 480, _scene())
+            return video
+
+        return build
+
+    live: dict[str, Any] = {"state": "live", "rate": 15.0, "latency": 0.061, "boxes": [seen]}
+    return {
+        "never": made(picture=False),
+        "live": made(**live),
+        "large": made(size=(960, 540), corner=0, **live),
+        "contain": made(size=(420, 240), fit="contain", **live),
+        "stale": made(state="stale", age=3.0, boxes=[seen], rate=0.0),
+        "alarm": made(**{**live, "state": "alarm"}),
+        "disabled": made(**{**live, "state": "disabled"}),
+    }
