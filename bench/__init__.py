@@ -1,1 +1,1 @@
-"""Measurements of what the user feels and what the machine pays: `python -m bench`."""
+"""Measurements of Pilothouse: every figure with its target and with what it was measured against."""
