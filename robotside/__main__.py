@@ -1,0 +1,143 @@
+"""`python -m robotside serve`: the robot side alone."""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import math
+import os
+import random
+import secrets
+import signal
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from bridge.errors import BridgeError
+from robotside.clock import RobotClock
+from robotside.robot import Robot
+from robotside.serving import Addresses, Serving
+from robotside.station import Station
+from robotside.store import Store
+
+__all__ = ["main"]
+
+
+class UserMistake(Exception):
+    """What was typed cannot be done; the text is one sentence."""
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> None:  # type: ignore[override]
+        raise UserMistake(f"{message[0].upper()}{message[1:]}; see python -m robotside serve --help.")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line; returns 0 when done, 2 for the user's mistake, 1 for a fault."""
+    try:
+        options = _options(argv)
+        return _serve(options)
+    except (UserMistake, BridgeError) as problem:
+        print(f"robotside: {problem}", file=sys.stderr)
+        return 2
+
+
+def _options(argv: Sequence[str] | None) -> argparse.Namespace:
+    parser = _Parser(prog="python -m robotside", description="The robot's computer.")
+    serve = parser.add_subparsers(dest="command", required=True).add_parser("serve", help="serve one robot")
+    add = serve.add_argument
+    add("--robot", default="sim:patrol", help="what to serve, as in sim:patrol")
+    add("--world", default="parking_lot", help="where a simulated robot is")
+    add("--host", default="127.0.0.1", help="address to listen on; 0.0.0.0 for all")
+    add("--port", type=int, default=9090, help="of the rosbridge socket; 0 takes a free one")
+    add("--http-port", type=int, default=8080, help="of the web site; 0 takes a free one")
+    add("--payloads", default="", help="what to serve besides; none exist yet")
+    add("--protocols", default="", help="rosbridge and http, which are always up")
+    add("--seed", type=int, default=0, help="of the simulation's and the patrol's random numbers")
+    add("--speed", type=float, default=1.0, help="simulated seconds per second; commands expire in real time")
+    add("--config", default="", help="a settings file; not read yet, so it is refused")
+    add("--state", type=Path, default=None, help="directory where the mission is kept")
+    add("--name", default="", help="what people call the robot")
+    options = parser.parse_args(argv)
+    _check(options)
+    return options
+
+
+def _check(options: argparse.Namespace) -> None:
+    for name in ("port", "http_port"):
+        number = getattr(options, name)
+        if not 0 <= number <= 65535:
+            raise UserMistake(f"A port is 0 to 65535, not {number}.")
+    if not (math.isfinite(options.speed) and 0 < options.speed <= 100):
+        raise UserMistake(f"The speed must be above 0 and at most 100, not {options.speed}.")
+    if options.payloads:
+        raise UserMistake(f"There is no payload {options.payloads!r}; this robot has none to choose.")
+    unknown = set(filter(None, options.protocols.split(","))) - {"rosbridge", "http"}
+    if unknown:
+        raise UserMistake(f"There is no protocol {', '.join(sorted(unknown))}; there are rosbridge and http.")
+    if options.config:
+        raise UserMistake(f"Settings files are not read yet, so {options.config!r} would have no effect.")
+
+
+def _serve(options: argparse.Namespace) -> int:
+    robot = _robot(options)
+    began, steady = time.time(), time.monotonic()
+    try:
+        return asyncio.run(_run(options, robot, lambda: began + time.monotonic() - steady))
+    finally:
+        robot.stop()
+        robot.close()
+
+
+async def _run(options: argparse.Namespace, robot: Robot, wall: object) -> int:
+    if not callable(wall):
+        raise TypeError("wall is a clock")
+    clock = RobotClock(wall(), options.speed)
+    station = Station(
+        robot,
+        Store(_state(options)),
+        now=clock.now,
+        clock=wall,
+        rng=random.Random(options.seed),
+        boot=secrets.token_hex(4),
+        name=options.name,
+    )
+    addresses = Addresses(options.host, options.port, options.http_port)
+    serving = Serving(station, clock, wall, addresses)
+    loop = asyncio.get_running_loop()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        loop.add_signal_handler(number, serving.end)
+    await serving.run(lambda where: _say_ready(where, station))
+    return 0
+
+
+def _say_ready(where: Addresses, station: Station) -> None:
+    name = station.info.name
+    print(f"robotside: ready bridge={where.bridge} http={where.http} robot={name}", flush=True)
+
+
+def _state(options: argparse.Namespace) -> Path:
+    if options.state is not None:
+        return Path(options.state)
+    base = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
+    kind = options.robot.replace(":", "-")
+    return Path(base) / "pilothouse" / f"{kind}-{options.world}"
+
+
+def _robot(options: argparse.Namespace) -> Robot:
+    port, _, model = options.robot.partition(":")
+    if port != "sim" or not model:
+        raise UserMistake(f"There is no robot {options.robot!r}; simulated ones are written as sim:patrol.")
+    try:
+        from sim.robot import make
+    except ImportError as missing:
+        raise UserMistake(f"The simulation is not installed ({missing.name} is missing).") from missing
+    try:
+        return make(model, options.world, seed=options.seed)
+    except ValueError as problem:
+        raise UserMistake(str(problem)) from problem
+
+
+if __name__ == "__main__":
+    sys.exit(main())

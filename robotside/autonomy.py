@@ -1,0 +1,208 @@
+"""What the robot does by itself: knows where it is, runs tasks, watches out, and minds its battery and sensors."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import PoseStamped
+from bridge.msgs.nav_msgs import Odometry, Path
+from bridge.msgs.pilothouse_msgs import Bumper, Intruder, Mission, TaskStatus, Waypoint
+from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, LaserScan
+from bridge.msgs.std_msgs import Header, Time
+from robotside.behaviours.patrol import patrol, patrol_course, single
+from robotside.behaviours.situation import Situation
+from robotside.bus import Bus
+from robotside.demand import Demand
+from robotside.events import Events
+from robotside.grid import Grid
+from robotside.guide import CRUISE, Guide
+from robotside.laser import Laser
+from robotside.pose2 import Points, Pose2
+from robotside.robot import Robot
+from robotside.tasks import Engine, Task
+from robotside.watch import Watch
+from robotside.whereabouts import Whereabouts
+
+__all__ = ["CAMERA", "GO_HOME_BELOW", "Autonomy"]
+
+CAMERA = "/camera/image/compressed"
+
+GO_HOME_BELOW = 0.10
+"""A patrol ends and the robot goes home when the battery has less than this left, 0 to 1."""
+
+SILENCE = 0.6
+"""Odometry or laser silent for this long means that the robot must not drive by itself [s]."""
+
+
+class Autonomy:
+    """The robot's own mind; fed with its messages, it drives when there is a task."""
+
+    def __init__(
+        self, robot: Robot, grid: Grid, bus: Bus, events: Events, demand: Demand, rng: random.Random
+    ) -> None:
+        info = robot.info
+        self._bus, self._events, self._demand, self._rng = bus, events, demand, rng
+        self._now = 0.0
+        self._heard = {"odometry": -math.inf, "laser": -math.inf}
+        self._laser = Laser()
+        self._points: Points = np.empty((0, 2))
+        self._swept: Pose2 | None = None
+        self._bumped = False
+        self.battery = math.nan
+        """0 empty to 1 full; NaN while unknown."""
+        self.mission = Mission()
+        """As it was when the task began."""
+        self.whereabouts = Whereabouts(info, events.say, bus.publish)
+        self.whereabouts.take_map(grid)
+        self.guide = Guide(robot, grid, self._show_plan)
+        self.situation = Situation()
+        self.watch = Watch(self.whereabouts.track, info.camera_fov, bus.publish, self._found)
+        self.engine = Engine(
+            self.guide,
+            self.situation,
+            show=self._show_status,
+            progress=lambda progress: bus.publish("/task/progress", progress),
+            say=events.say,
+            cruise=CRUISE * info.max_speed,
+        )
+        self._show_plan(np.empty((0, 2)))
+        self._take: dict[str, Callable[[Any], None]] = {
+            "/odom": self._odom,
+            "/scan": self._scan,
+            "/fix": self.whereabouts.take_fix,
+            "/imu/data": self.whereabouts.take_imu,
+            "/battery_state": self._battery,
+            "/bumper": self._bumper,
+            CAMERA: self._image,
+        }
+
+    def take(self, topic: str, msg: Msg, now: float) -> None:
+        """Take in one message of the robot, at `now` [s, robot clock]."""
+        self._now = now
+        if topic in self._take:
+            self._take[topic](msg)
+
+    def check(self, now: float) -> None:
+        """Halt the running task when it has become blind; call it often."""
+        if not self.engine.running:
+            return
+        for sense, heard in self._heard.items():
+            if now - heard > SILENCE:
+                self.engine.pause(f"Paused: the {sense} has been silent for {SILENCE} s.", now, "alarm")
+                return
+
+    def start_patrol(self, mission: Mission, now: float) -> None:
+        """Patrol the points of `mission`, which must have some."""
+        self.mission = mission
+        course = patrol_course(mission, self._rng)
+        tree = patrol(course, self.guide, self.situation, self._say_at)
+        self.engine.start(Task("patrol", "Patrol", tree, course), now)
+
+    def start_home(self, home: Waypoint, now: float) -> None:
+        """Go to `home`."""
+        course, tree = single("Home", home, self.guide, self.situation)
+        self.engine.start(Task("go_home", "Way home", tree, course), now)
+
+    def start_goal(self, goal: Waypoint, now: float) -> None:
+        """Go to a single place."""
+        course, tree = single("The goal", goal, self.guide, self.situation)
+        self.engine.start(Task("go_to", "Way to the goal", tree, course), now)
+
+    def place(self, pose: Pose2) -> None:
+        """The operator says where it is; what was seen from the wrong place is forgotten."""
+        self.whereabouts.told(pose)
+        self.guide.obstacles.forget()
+        self.watch.intruders.forget()
+
+    def _odom(self, msg: Odometry) -> None:
+        self._heard["odometry"] = self._now
+        self.whereabouts.take_odom(msg)
+        pose = self.whereabouts.pose
+        if pose is None:
+            return
+        self.guide.sure = self.whereabouts.sure
+        points = self._points
+        if self._swept is not None and self.engine.running:
+            points = pose.inverse().apply(self._swept.apply(points))
+        self.engine.tick(pose, points, self.whereabouts.odometer, self._now)
+
+    def _scan(self, scan: LaserScan) -> None:
+        self._heard["laser"] = self._now
+        stamp = scan.header.stamp.seconds
+        self._points = self._laser.points(scan)
+        self.whereabouts.take_sweep(self._points, stamp)
+        self._swept = self.whereabouts.track.at(stamp)
+        if self._swept is not None and self.engine.active and self.whereabouts.sure:
+            placed = self._swept.apply(self._points)
+            self.guide.obstacles.see(placed, self._now)
+            self.watch.take_sweep(placed, stamp)
+
+    def _image(self, image: CompressedImage) -> None:
+        if self.engine.running:
+            self.watch.take_image(image, placing=self.whereabouts.sure)
+
+    def _battery(self, msg: BatteryState) -> None:
+        self.battery = msg.percentage
+        if not (self.battery < GO_HOME_BELOW and self.engine.running and self.engine.status.task == "patrol"):
+            return
+        said = f"Battery at {self.battery:.0%}"
+        if self.mission.home:
+            self._events.say("battery", f"{said}: going home.", "warn")
+            self.start_home(self.mission.home[0], self._now)
+        else:
+            self._events.say("battery", f"{said}: the patrol ends here, since home is not set.", "alarm")
+            self.engine.cancel(f"{said}: the patrol ended, and home is not set.", self._now)
+
+    def _bumper(self, msg: Bumper) -> None:
+        was, self._bumped = self._bumped, msg.pressed
+        if not msg.pressed or was:
+            return
+        pose = self.whereabouts.pose
+        at = (pose.x, pose.y) if pose else None
+        self._events.say("contact", f"The bumper touched something {_side(msg.bearing)}.", "alarm", at=at)
+        self.engine.pause("Paused: the bumper touched something.", self._now, "alarm")
+
+    def _found(self, intruder: Intruder) -> None:
+        x, y = intruder.position.x, intruder.position.y
+        text = f"Intruder {intruder.id}: a {intruder.class_id} at ({x:.1f}, {y:.1f})."
+        self._events.say("intruder", text, "alarm", at=(x, y))
+        if self.mission.stop_on_intruder and self.engine.status.task == "patrol":
+            self.engine.pause(f"Paused: intruder {intruder.id} was found.", self._now, "warn")
+
+    def _say_at(self, kind: str, text: str, level: str, at: tuple[float, float]) -> None:
+        self._events.say(kind, text, level, at=at)
+
+    def _show_status(self, status: TaskStatus) -> None:
+        self._demand.set(CAMERA, "task", status.state == "RUNNING")
+        self._bus.publish("/task/status", status)
+
+    def _show_plan(self, path: Points) -> None:
+        header = Header(Time.at(self._now), "map")
+        poses = [PoseStamped(header, pose.to_msg()) for pose in _directed(path)]
+        self._bus.publish("/plan", Path(header, poses))
+
+
+def _directed(path: Points) -> list[Pose2]:
+    """The points of a path as poses that look along it."""
+    if len(path) < 2:
+        return []
+    steps = np.diff(path, axis=0)
+    yaws = np.arctan2(steps[:, 1], steps[:, 0])
+    yaws = np.append(yaws, yaws[-1])
+    return [Pose2(float(x), float(y), float(yaw)) for (x, y), yaw in zip(path, yaws, strict=True)]
+
+
+def _side(bearing: float) -> str:
+    if math.isnan(bearing):
+        return "somewhere"
+    if abs(bearing) < 0.5:
+        return "ahead"
+    if abs(bearing) > 2.6:
+        return "behind"
+    return "on the left" if bearing > 0 else "on the right"

@@ -1,0 +1,30 @@
+"""The robot's clock when a simulation runs at another speed than real time, or falls behind it."""
+
+from __future__ import annotations
+
+__all__ = ["MOST", "RobotClock"]
+
+MOST = 0.25
+"""The most real time that one tick makes good [s]: after a longer halt the robot's clock falls behind."""
+
+CATCH_UP = 0.1
+"""Part by which ticks are longer until a clock that fell behind is right again."""
+
+
+class RobotClock:
+    """Turns real time into the robot's; never jumps."""
+
+    def __init__(self, wall: float, speed: float = 1.0) -> None:
+        """`wall` is real time at the start [s], where both clocks agree; `speed` is robot seconds per real second."""
+        self._start = self._last = wall
+        self._speed = speed
+        self.now = wall
+        """The robot's clock [s]."""
+
+    def tick(self, wall: float) -> float:
+        """Advance to real time `wall` [s] as far as is allowed; returns the robot's clock [s]."""
+        passed = min(max(wall - self._last, 0.0), MOST)
+        self._last = max(wall, self._last)
+        due = self._start + (self._last - self._start) * self._speed
+        self.now = min(due, self.now + passed * self._speed * (1.0 + CATCH_UP))
+        return self.now

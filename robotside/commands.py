@@ -1,0 +1,67 @@
+"""One-shot commands: each is judged by age, executed once and answered, however often it is sent."""
+
+from __future__ import annotations
+
+import math
+from collections import OrderedDict
+from collections.abc import Callable
+
+from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
+
+__all__ = ["KEPT", "Commands", "Refusal"]
+
+KEPT = 256
+"""Answers kept for commands that are sent again."""
+
+
+class Refusal(Exception):
+    """The robot will not do it; the text is one sentence for the operator."""
+
+
+class Commands:
+    """Runs commands and remembers what it answered."""
+
+    def __init__(self, now: Callable[[], float]) -> None:
+        self._now = now
+        self._answers: OrderedDict[tuple[str, str], CommandResponse] = OrderedDict()
+
+    def run(
+        self,
+        service: str,
+        request: CommandRequest,
+        action: Callable[[], str],
+        *,
+        ageless: bool = False,
+    ) -> CommandResponse:
+        """Do `action` and answer with the sentence it returns, or with the refusal it raises.
+
+        A request with a known `command_id` gets its first answer again. `ageless` ones are done whenever and
+        however often they come: STOP is as right late as in time.
+        """
+        if ageless:
+            return _answer(action)
+        key = (service, request.command_id)
+        if request.command_id and key in self._answers:
+            return self._answers[key]
+        answer = self._too_old(request) or _answer(action)
+        if request.command_id:
+            self._answers[key] = answer
+            while len(self._answers) > KEPT:
+                self._answers.popitem(last=False)
+        return answer
+
+    def _too_old(self, request: CommandRequest) -> CommandResponse | None:
+        if math.isnan(request.stamp):
+            return None
+        age = self._now() - request.stamp
+        if age <= request.valid_for:
+            return None
+        allowed = f"{request.valid_for:.1f} s"
+        return CommandResponse(False, f"The command is too old: given {age:.1f} s ago, valid for {allowed}.")
+
+
+def _answer(action: Callable[[], str]) -> CommandResponse:
+    try:
+        return CommandResponse(True, action())
+    except Refusal as refusal:
+        return CommandResponse(False, str(refusal))

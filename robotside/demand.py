@@ -1,0 +1,23 @@
+"""Who wants which of the robot's on-demand topics: made while anybody does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+__all__ = ["Demand"]
+
+
+class Demand:
+    """Tells the robot when the first one wants a topic and when the last one does no longer."""
+
+    def __init__(self, want: Callable[[str, bool], None]) -> None:
+        self._want = want
+        self._askers: dict[str, set[str]] = {}
+
+    def set(self, topic: str, asker: str, wanted: bool) -> None:
+        """`asker` wants `topic` from now on, or no longer; saying it twice changes nothing."""
+        askers = self._askers.setdefault(topic, set())
+        before = bool(askers)
+        (askers.add if wanted else askers.discard)(asker)
+        if bool(askers) != before:
+            self._want(topic, bool(askers))

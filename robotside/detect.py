@@ -1,0 +1,117 @@
+"""Finding traffic cones in a camera picture: orange above and below white, tall and narrow."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, UnidentifiedImageError
+from scipy import ndimage
+
+__all__ = ["Sighting", "find_cones"]
+
+WIDTH = 320
+"""Columns of the picture that is searched; larger ones are made smaller first."""
+
+LEAST = 12
+"""Orange pixels of the searched picture that make a thing."""
+
+MASK = NDArray[np.bool_]
+PIXELS = NDArray[np.int16]
+
+
+@dataclass(frozen=True, slots=True)
+class Sighting:
+    """A cone in a picture. Lengths are parts of the picture: 0 is its left or upper edge, 1 the right or lower."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+    score: float
+    """0 to 1."""
+
+    @property
+    def centre(self) -> float:
+        """Across the picture."""
+        return (self.left + self.right) / 2
+
+    @property
+    def width(self) -> float:
+        """Part of the picture's width."""
+        return self.right - self.left
+
+    @property
+    def height(self) -> float:
+        """Part of the picture's height."""
+        return self.bottom - self.top
+
+
+def find_cones(jpeg: bytes) -> list[Sighting]:
+    """The cones in a picture, best first; a picture that cannot be read shows none."""
+    try:
+        with Image.open(io.BytesIO(jpeg)) as image:
+            image.draft("RGB", (WIDTH, WIDTH))
+            rgb = np.asarray(image.convert("RGB"))
+    except (UnidentifiedImageError, OSError, ValueError):
+        return []
+    step = max(1, round(rgb.shape[1] / WIDTH))
+    return _search(rgb[::step, ::step].astype(np.int16))
+
+
+def _search(rgb: PIXELS) -> list[Sighting]:
+    red, green, blue = rgb[..., 0], rgb[..., 1], rgb[..., 2]
+    orange = (red > 90) & (red - green > 45) & (green - blue > 8) & (red - blue > 75) & (green * 20 > red * 5)
+    if np.count_nonzero(orange) < LEAST:
+        return []
+    low = rgb.min(axis=2)
+    pale = (low > 100) & (rgb.max(axis=2) - low < 45)
+    gap = max(3, rgb.shape[0] // 30)
+    joined = ndimage.binary_closing(orange, np.ones((2 * gap + 1, 1)))
+    labels, _ = ndimage.label(joined | orange)
+    found = []
+    for number, box in enumerate(ndimage.find_objects(labels), 1):
+        part = orange[box] & (labels[box] == number)
+        sighting = _judge(part, pale[box], box, rgb.shape)
+        if sighting is not None:
+            found.append(sighting)
+    return sorted(found, key=lambda sighting: -sighting.score)
+
+
+def _judge(
+    orange: MASK, pale: MASK, box: tuple[slice, slice], shape: tuple[int, ...]
+) -> Sighting | None:
+    """The sighting that a group of orange pixels stands for; None when it does not look like a cone."""
+    rows, columns = orange.shape
+    count = int(np.count_nonzero(orange))
+    if count < LEAST or rows < 6 or not 0.9 <= rows / columns <= 5.0:
+        return None
+    white = _white_between(orange, pale)
+    narrowing = _narrowing(orange)
+    if white < 0.25 and rows > 14:
+        return None
+    score = min(1.0, 0.35 + 0.4 * min(white, 1.0) + 0.25 * narrowing)
+    top, left = box[0].start, box[1].start
+    return Sighting(
+        left / shape[1], top / shape[0], (left + columns) / shape[1], (top + rows) / shape[0], score
+    )
+
+
+def _white_between(orange: MASK, pale: MASK) -> float:
+    """Part of the expected white band that is there: pale rows with orange above and below."""
+    full = orange.sum(axis=1)
+    band = (pale & ~orange).sum(axis=1)
+    above = np.cumsum(full) > 0.1 * full.sum()
+    below = np.cumsum(full[::-1])[::-1] > 0.1 * full.sum()
+    middle = (band > full) & above & below
+    return float(middle.sum() / (0.25 * len(full)))
+
+
+def _narrowing(orange: MASK) -> float:
+    """1 when the upper half is clearly narrower than the lower one, 0 when it is not."""
+    widths = orange.sum(axis=1).astype(float)
+    half = len(widths) // 2
+    upper, lower = widths[:half].max(initial=0.0), widths[half:].max(initial=0.0)
+    return float(np.clip(1.6 - 1.2 * upper / max(lower, 1.0), 0.0, 1.0))

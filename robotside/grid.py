@@ -1,0 +1,91 @@
+"""The robot's map as arrays: what is occupied, and how far everything is from that."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from bridge.msgs.nav_msgs import OccupancyGrid
+from robotside.pose2 import Points
+
+__all__ = ["OCCUPIED", "Grid"]
+
+OCCUPIED = 50
+"""Cells of at least this value count as occupied, of 0 to 100."""
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A grid of square cells aligned with the map frame; row i, column j is `cells[i, j]`."""
+
+    occupied: NDArray[np.bool_]
+    """Shape (rows along y, columns along x)."""
+    resolution: float
+    """Edge of a cell [m]."""
+    x: float
+    """Of the outer corner of cell (0, 0) [m]."""
+    y: float
+
+    @classmethod
+    def from_msg(cls, msg: OccupancyGrid) -> Grid:
+        """What the map message says; unknown cells count as occupied."""
+        info = msg.info
+        data = np.asarray(msg.data, dtype=np.int8).reshape(info.height, info.width)
+        corner = info.origin.position
+        return cls((data >= OCCUPIED) | (data < 0), info.resolution, corner.x, corner.y)
+
+    @cached_property
+    def distance(self) -> NDArray[np.float64]:
+        """Of each cell's centre to the nearest surface [m]: positive in the open, negative inside obstacles."""
+        if not self.occupied.any():
+            return np.full(self.occupied.shape, 1e3)
+        outside = ndimage.distance_transform_edt(~self.occupied)
+        inside = ndimage.distance_transform_edt(self.occupied)
+        signed = np.where(self.occupied, 0.5 - inside, outside - 0.5)
+        return np.asarray(signed * self.resolution, dtype=np.float64)
+
+    def coarser(self, factor: int) -> Grid:
+        """The same map in cells `factor` times as wide; a cell is occupied when any part of it is."""
+        rows, columns = self.occupied.shape
+        padded = np.pad(self.occupied, ((0, -rows % factor), (0, -columns % factor)))
+        blocks = padded.reshape(padded.shape[0] // factor, factor, padded.shape[1] // factor, factor)
+        return Grid(blocks.any(axis=(1, 3)), self.resolution * factor, self.x, self.y)
+
+    def marked(self, points: Points) -> Grid:
+        """The same map with the cells of `points` occupied as well; points off the map are left out."""
+        occupied = self.occupied.copy()
+        rows, columns, inside = self._cells(points)
+        occupied[rows[inside], columns[inside]] = True
+        return replace(self, occupied=occupied)
+
+    def cell(self, x: float, y: float) -> tuple[int, int]:
+        """Row and column of a place; off the map when outside `occupied.shape`."""
+        return math.floor((y - self.y) / self.resolution), math.floor((x - self.x) / self.resolution)
+
+    def centre(self, row: int, column: int) -> tuple[float, float]:
+        """x and y [m] of a cell's centre."""
+        return self.x + (column + 0.5) * self.resolution, self.y + (row + 0.5) * self.resolution
+
+    def holds(self, x: float, y: float) -> bool:
+        """The place is on the map."""
+        row, column = self.cell(x, y)
+        return 0 <= row < self.occupied.shape[0] and 0 <= column < self.occupied.shape[1]
+
+    def clearance(self, points: Points) -> NDArray[np.float64]:
+        """How far each of `points` is from the nearest obstacle [m]; negative inside one and off the map."""
+        rows, columns, inside = self._cells(points)
+        shape = self.occupied.shape
+        found = self.distance[rows.clip(0, shape[0] - 1), columns.clip(0, shape[1] - 1)]
+        return np.where(inside, found, -1.0)
+
+    def _cells(self, points: Points) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.bool_]]:
+        columns = np.floor((points[:, 0] - self.x) / self.resolution).astype(np.intp)
+        rows = np.floor((points[:, 1] - self.y) / self.resolution).astype(np.intp)
+        shape = self.occupied.shape
+        inside = (rows >= 0) & (rows < shape[0]) & (columns >= 0) & (columns < shape[1])
+        return rows, columns, inside

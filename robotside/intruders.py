@@ -1,0 +1,79 @@
+"""Keeping count of what does not belong here: each intruder once, however often it is seen."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from bridge.msgs.geometry_msgs import Point
+from bridge.msgs.pilothouse_msgs import Intruder
+from bridge.msgs.std_msgs import Time
+
+__all__ = ["Intruders"]
+
+SAME = 1.2
+"""Sightings within this distance are of the same thing [m]."""
+
+CONFIRM = 3
+"""Sightings before something is reported."""
+
+FORGET = 20.0
+"""A thing not yet reported is forgotten when it was not seen for this long [s]."""
+
+
+@dataclass
+class _Suspect:
+    x: float
+    y: float
+    weight: float
+    first: float
+    last: float
+    sightings: int = 1
+    number: int = 0
+    """The intruder's id; 0 while it is not reported."""
+
+
+class Intruders:
+    """Gathers sightings in `map` into intruders."""
+
+    def __init__(self) -> None:
+        self._suspects: list[_Suspect] = []
+        self._count = 0
+
+    @property
+    def known(self) -> list[Intruder]:
+        """All that were reported, in order."""
+        reported = [suspect for suspect in self._suspects if suspect.number]
+        return [_intruder(suspect) for suspect in sorted(reported, key=lambda suspect: suspect.number)]
+
+    def see(self, x: float, y: float, distance: float, now: float) -> Intruder | None:
+        """Take in one sighting at (x, y) [m], from `distance` [m]; the intruder when it has just become one."""
+        self._suspects = [s for s in self._suspects if s.number or now - s.last < FORGET]
+        suspect = min(self._suspects, key=lambda s: math.hypot(x - s.x, y - s.y), default=None)
+        weight = 1.0 / max(distance, 0.5) ** 2
+        if suspect is None or math.hypot(x - suspect.x, y - suspect.y) > SAME:
+            self._suspects.append(_Suspect(x, y, weight, now, now))
+            return None
+        _add(suspect, x, y, weight, now)
+        if suspect.number or suspect.sightings < CONFIRM:
+            return None
+        self._count += 1
+        suspect.number = self._count
+        return _intruder(suspect)
+
+    def forget(self) -> None:
+        """Drop what was not reported yet: the position was wrong."""
+        self._suspects = [suspect for suspect in self._suspects if suspect.number]
+
+
+def _add(suspect: _Suspect, x: float, y: float, weight: float, now: float) -> None:
+    total = suspect.weight + weight
+    suspect.x += (x - suspect.x) * weight / total
+    suspect.y += (y - suspect.y) * weight / total
+    suspect.weight, suspect.last = total, now
+    suspect.sightings += 1
+
+
+def _intruder(suspect: _Suspect) -> Intruder:
+    place = Point(suspect.x, suspect.y, 0.0)
+    return Intruder(suspect.number, "cone", place, Time.at(suspect.first), suspect.sightings)

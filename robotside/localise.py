@@ -1,0 +1,191 @@
+"""Knowing where it is: wheel odometry, corrected by laying each laser sweep on the map.
+
+The sweep's end points should lie on surfaces of the map. The pose that makes it so is found by Gauss-Newton on the
+map's distance field with a loss that ignores what the map does not know, and is held by what odometry predicts,
+each with its own uncertainty (an iterated Kalman update).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from bridge.units import wrap
+from robotside.grid import Grid
+from robotside.pose2 import Points, Pose2
+
+__all__ = ["Field", "Localiser", "Match"]
+
+HIT_SPREAD = 0.06
+"""Of a sweep's end points about the map's surfaces [m]; the grid's own coarseness is most of it."""
+
+OUTLIER = 0.30
+"""End points farther than this from any surface are taken for something that is not on the map [m]."""
+
+INDEPENDENT = 0.15
+"""Part of the end points that count as independent evidence: neighbours err together."""
+
+BEAMS = 120
+"""End points used of a sweep."""
+
+DRIFT = (0.03, 0.03)
+"""Odometry's error per metre [m/m] and per turned radian [rad/rad], one standard deviation."""
+
+SURE = 0.5
+"""Part of the end points that must lie on surfaces for the position to be trusted."""
+
+UNSURE_AFTER = 8
+"""Sweeps in a row that must disagree before the position is called unsure."""
+
+
+class Field:
+    """A map's distance field, readable between the cells and with slopes."""
+
+    def __init__(self, grid: Grid) -> None:
+        outside = ndimage.distance_transform_edt(~grid.occupied)
+        inside = ndimage.distance_transform_edt(grid.occupied)
+        signed = np.where(grid.occupied, 1.0 - inside, outside) * grid.resolution
+        self._values = np.clip(signed, -1.0, 2.0)
+        slope_y, slope_x = np.gradient(self._values, grid.resolution)
+        self._layers = np.stack([self._values, slope_x, slope_y], axis=-1)
+        self._grid = grid
+
+    def read(self, points: Points) -> NDArray[np.float64]:
+        """Distance to the nearest surface [m] and its slope along x and y, shape (n, 3); constant off the map."""
+        rows, columns = self._values.shape
+        u = ((points[:, 0] - self._grid.x) / self._grid.resolution - 0.5).clip(0, columns - 1.001)
+        v = ((points[:, 1] - self._grid.y) / self._grid.resolution - 0.5).clip(0, rows - 1.001)
+        j, i = u.astype(np.intp), v.astype(np.intp)
+        fu, fv = (u - j)[:, None], (v - i)[:, None]
+        layers = self._layers
+        low = layers[i, j] * (1 - fu) + layers[i, j + 1] * fu
+        high = layers[i + 1, j] * (1 - fu) + layers[i + 1, j + 1] * fu
+        return np.asarray(low * (1 - fv) + high * fv)
+
+    def nearest(self, points: Points) -> NDArray[np.float64]:
+        """Distance to the nearest surface of each point, of any shape (..., 2), to the cell [m]."""
+        rows, columns = self._values.shape
+        j = ((points[..., 0] - self._grid.x) / self._grid.resolution).astype(np.intp).clip(0, columns - 1)
+        i = ((points[..., 1] - self._grid.y) / self._grid.resolution).astype(np.intp).clip(0, rows - 1)
+        return np.asarray(self._values[i, j])
+
+
+@dataclass(frozen=True, slots=True)
+class Match:
+    """A pose found by laying a sweep on the map."""
+
+    pose: Pose2
+    information: NDArray[np.float64]
+    """Inverse covariance of x, y [m] and yaw [rad], 3 x 3."""
+    fit: float
+    """Part of the end points that lie on surfaces of the map, 0 to 1."""
+
+
+class Localiser:
+    """Where the robot is in `map`."""
+
+    def __init__(self, grid: Grid) -> None:
+        self._field = Field(grid)
+        self._odom: Pose2 | None = None
+        self.pose: Pose2 | None = None
+        """In `map`; None until the first guess."""
+        self.covariance = np.zeros((3, 3))
+        """Of x, y [m] and yaw [rad]."""
+        self.fit = math.nan
+        """Of the last sweep, 0 to 1; NaN before the first."""
+        self._bad = 0
+
+    @property
+    def sure(self) -> bool:
+        """The sweeps agree with the map."""
+        return self.pose is not None and self._bad < UNSURE_AFTER
+
+    def map_to_odom(self) -> Pose2:
+        """The pose of the odometry's frame in `map`."""
+        if self.pose is None or self._odom is None:
+            return Pose2(0.0, 0.0, 0.0)
+        return self.pose.then(self._odom.inverse())
+
+    def place(self, pose: Pose2, *, spread: float, turn: float) -> None:
+        """Begin anew at `pose`, believed to `spread` [m] and `turn` [rad] (one standard deviation)."""
+        self.pose = pose
+        self.covariance = np.diag([spread**2, spread**2, turn**2])
+        self._bad = 0
+
+    def predict(self, odom: Pose2) -> None:
+        """Move on by what the wheels say: `odom` is the pose in the odometry's frame."""
+        before, self._odom = self._odom, odom
+        if self.pose is None or before is None:
+            return
+        step = odom.since(before)
+        self.pose = self.pose.then(step)
+        travelled, turned = math.hypot(step.x, step.y), abs(step.yaw)
+        spread = (DRIFT[0] * travelled) ** 2 * 10 + 1e-9
+        turn = (DRIFT[1] * turned) ** 2 + (0.01 * travelled) ** 2 + 1e-9
+        self.covariance += np.diag([spread, spread, turn])
+
+    def correct(self, points: Points) -> None:
+        """Lay one sweep on the map; `points` are its end points in `base_link`."""
+        if self.pose is None or len(points) < 10:
+            self._bad += self.pose is not None
+            return
+        match = self._fit(self.pose, points[:: max(1, len(points) // BEAMS)])
+        self.fit = match.fit
+        if match.fit < SURE:
+            self._bad += 1
+        else:
+            self._bad = 0
+        if match.fit >= 0.5 * SURE:
+            self.pose = match.pose
+            self.covariance = np.linalg.inv(match.information)
+
+    def search(self, points: Points, guess: Pose2, *, reach: float, turn: float) -> None:
+        """Find the pose within `reach` [m] and `turn` [rad] of `guess` that fits best, and begin there."""
+        sample = points[:: max(1, len(points) // 60)]
+        best = guess
+        for step, window, angle in ((0.25, reach, turn), (0.08, 0.3, 0.1)):
+            best = self._best_near(sample, best, step, window, angle)
+        self.place(best, spread=0.1, turn=0.05)
+
+    def _best_near(self, points: Points, guess: Pose2, step: float, reach: float, turn: float) -> Pose2:
+        shifts = np.arange(-reach, reach + step / 2, step)
+        dx, dy = (axis.ravel() for axis in np.meshgrid(shifts, shifts))
+        shift = np.column_stack([dx, dy])
+        best, best_score = guess, -math.inf
+        for yaw in guess.yaw + np.linspace(-turn, turn, 2 * math.ceil(turn / 0.05) + 1):
+            turned = Pose2(guess.x, guess.y, float(yaw)).apply(points)
+            off = self._field.nearest(turned[None, :, :] + shift[:, None, :])
+            scores = np.exp(-((off / (2 * step)) ** 2)).mean(axis=1) - 1e-3 * (dx**2 + dy**2)
+            top = int(scores.argmax())
+            if scores[top] > best_score:
+                best_score = float(scores[top])
+                best = Pose2(guess.x + dx[top], guess.y + dy[top], wrap(float(yaw)))
+        return best
+
+    def _fit(self, start: Pose2, points: Points) -> Match:
+        prior = np.linalg.inv(self.covariance)
+        pose = start
+        for _ in range(6):
+            gradient, information, fit = self._slope(pose, points)
+            off = np.array([pose.x - start.x, pose.y - start.y, wrap(pose.yaw - start.yaw)])
+            total = information + prior
+            step = np.linalg.solve(total, -(gradient + prior @ off))
+            pose = Pose2(pose.x + step[0], pose.y + step[1], wrap(pose.yaw + step[2]))
+            if abs(step[0]) + abs(step[1]) < 1e-3 and abs(step[2]) < 5e-4:
+                break
+        return Match(pose, total, fit)
+
+    def _slope(self, pose: Pose2, points: Points) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+        """Gradient and Gauss-Newton information of the misfit at `pose`, and how many points fit."""
+        placed = pose.apply(points)
+        found = self._field.read(placed)
+        off, gx, gy = found[:, 0], found[:, 1], found[:, 2]
+        jacobian = np.column_stack([gx, gy, gy * (placed[:, 0] - pose.x) - gx * (placed[:, 1] - pose.y)])
+        weight = 1.0 / (1.0 + (off / (0.5 * OUTLIER)) ** 2) ** 2
+        weight *= INDEPENDENT / HIT_SPREAD**2
+        weighted = jacobian * weight[:, None]
+        return weighted.T @ off, weighted.T @ jacobian, float((np.abs(off) < 0.5 * OUTLIER).mean())

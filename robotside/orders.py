@@ -1,0 +1,236 @@
+"""The services that clients call: each checks whether it may, does it, and answers with one sentence."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from typing import Any
+
+import msgspec
+
+from bridge.msgs import Msg
+from bridge.msgs.pilothouse_msgs import (
+    CommandRequest,
+    CommandResponse,
+    GetEventsRequest,
+    GetEventsResponse,
+    GetMissionRequest,
+    GetMissionResponse,
+    Mission,
+    SetMissionRequest,
+    StartTaskRequest,
+    Waypoint,
+)
+from bridge.msgs.std_msgs import Time
+from bridge.server import Service, Session
+from robotside.commands import Commands, Refusal
+from robotside.controls import STOP_SENTENCE, Client
+from robotside.station import Station
+
+__all__ = ["services"]
+
+START_ABOVE = 0.15
+"""Battery needed to start a patrol, 0 to 1."""
+
+MOTIONS = ("loop", "random", "intermittent")
+MOST_POINTS = 500
+LONGEST_DWELL = 3600.0
+MOST_LAPS = 10_000
+
+
+def services(station: Station) -> Iterable[Service]:
+    """What the bridge offers for `station`."""
+    orders = _Orders(station)
+    plain: dict[str, Callable[[Client, CommandRequest], str]] = {
+        "/stop/release": orders.release_stop,
+        "/task/pause": orders.pause,
+        "/task/resume": orders.resume,
+        "/task/cancel": orders.cancel,
+        "/task/go_home": orders.go_home,
+        "/control/acquire": orders.acquire,
+        "/control/release": orders.release,
+    }
+    yield orders.service("/stop", orders.stop, ageless=True)
+    for name, action in plain.items():
+        yield orders.service(name, action)
+    yield orders.service("/task/start", orders.start, "StartTask", StartTaskRequest)
+    yield orders.service("/mission/set", orders.set_mission, "SetMission", SetMissionRequest)
+    yield _service("/mission/get", "GetMission", GetMissionRequest, GetMissionResponse, orders.mission)
+    yield _service("/events/get", "GetEvents", GetEventsRequest, GetEventsResponse, orders.events)
+
+
+def _service(
+    name: str, kind: str, request: type[Msg], response: type[Msg], call: Callable[[Session, Any], Msg]
+) -> Service:
+    return Service(name, f"pilothouse_msgs/{kind}", request, response, call)
+
+
+class _Orders:
+    """What each service does; a method returns the sentence of success or raises Refusal."""
+
+    def __init__(self, station: Station) -> None:
+        self._station = station
+        self._commands = Commands(station.clock)
+
+    def service(
+        self,
+        name: str,
+        action: Callable[[Client, Any], str],
+        kind: str = "Command",
+        request: type[CommandRequest] = CommandRequest,
+        *,
+        ageless: bool = False,
+    ) -> Service:
+        """A service that runs `action` as a command: once, and not when it is too old."""
+
+        def call(client: Session, asked: CommandRequest) -> CommandResponse:
+            self._station.controls.introduce(client, asked.client_id, asked.client_name)
+            answer = self._commands.run(name, asked, lambda: action(client, asked), ageless=ageless)
+            self._station.show_control()
+            return answer
+
+        return _service(name, kind, request, CommandResponse, call)
+
+    def stop(self, client: Client, _: CommandRequest) -> str:
+        self._station.press_stop(self._station.controls.name(client))
+        return "Stopped."
+
+    def release_stop(self, client: Client, _: CommandRequest) -> str:
+        self._need_control(client)
+        if not self._station.controls.stopped:
+            return "STOP was not pressed."
+        self._station.release_stop(self._station.controls.name(client))
+        return "STOP is released."
+
+    def acquire(self, client: Client, _: CommandRequest) -> str:
+        self._need_control(client)
+        return "You have control."
+
+    def release(self, client: Client, _: CommandRequest) -> str:
+        problem = self._station.release_control(client)
+        if problem:
+            raise Refusal(problem)
+        return "Control is free."
+
+    def start(self, client: Client, asked: StartTaskRequest) -> str:
+        if asked.task == "go_home":
+            return self.go_home(client, asked)
+        if asked.task != "patrol":
+            raise Refusal(f"There is no task {asked.task!r}; there are patrol and go_home.")
+        self._may_move(client)
+        station = self._station
+        if station.autonomy.engine.active:
+            state = station.autonomy.engine.status.state.lower()
+            raise Refusal(f"A task is {state} already; stop it first.")
+        mission = station.mission
+        if not mission.waypoints:
+            raise Refusal("The mission has no points; set at least one.")
+        self._check_places(mission)
+        self._check_battery()
+        station.controls.hold()
+        station.autonomy.start_patrol(mission, station.now)
+        count = len(mission.waypoints)
+        return f"Patrol started: {count} {'point' if count == 1 else 'points'}, {mission.motion}."
+
+    def go_home(self, client: Client, _: CommandRequest) -> str:
+        self._may_move(client)
+        station = self._station
+        if not station.mission.home:
+            raise Refusal("Home is not set; set it on the map first.")
+        home = station.mission.home[0]
+        self._check_place("Home", home)
+        station.controls.hold()
+        station.autonomy.start_home(home, station.now)
+        return "Going home."
+
+    def pause(self, client: Client, _: CommandRequest) -> str:
+        self._need_control(client)
+        engine = self._station.autonomy.engine
+        if engine.paused:
+            return "The task is paused already."
+        if not engine.running:
+            raise Refusal("No task is running.")
+        engine.pause(f"Paused by {self._station.controls.name(client)}.", self._station.now)
+        return "Paused."
+
+    def resume(self, client: Client, _: CommandRequest) -> str:
+        self._may_move(client)
+        engine = self._station.autonomy.engine
+        if engine.running:
+            return "The task is running already."
+        if not engine.paused:
+            raise Refusal("No task is paused.")
+        self._station.controls.hold()
+        engine.resume(self._station.now)
+        return "Resumed."
+
+    def cancel(self, client: Client, _: CommandRequest) -> str:
+        self._need_control(client)
+        engine = self._station.autonomy.engine
+        if not engine.active:
+            raise Refusal("No task is running.")
+        engine.cancel(f"Canceled by {self._station.controls.name(client)}.", self._station.now)
+        return "Canceled."
+
+    def set_mission(self, client: Client, asked: SetMissionRequest) -> str:
+        problem = self._station.controls.objection(client)
+        if problem:
+            raise Refusal(problem)
+        mission = asked.mission
+        _check_words(mission)
+        self._check_places(mission)
+        if mission.home:
+            self._check_place("Home", mission.home[0])
+        stamp = Time.at(self._station.now)
+        try:
+            self._station.keep(msgspec.structs.replace(mission, stamp=stamp, home=mission.home[:1]))
+        except OSError as error:
+            raise Refusal(f"The mission cannot be stored: {error.strerror}.") from error
+        count = len(mission.waypoints)
+        later = "; the patrol that is under way keeps its own" if self._station.autonomy.engine.active else ""
+        return f"Stored {count} {'point' if count == 1 else 'points'}{later}."
+
+    def mission(self, _: Client, __: GetMissionRequest) -> GetMissionResponse:
+        mission = self._station.mission
+        stored = mission.stamp.seconds > 0
+        return GetMissionResponse(True, "" if stored else "No mission was stored yet.", mission)
+
+    def events(self, _: Client, asked: GetEventsRequest) -> GetEventsResponse:
+        return GetEventsResponse(self._station.events.since(asked.since, asked.boot))
+
+    def _need_control(self, client: Client) -> None:
+        problem = self._station.controls.acquire(client, self._station.clock())
+        if problem:
+            raise Refusal(problem)
+
+    def _may_move(self, client: Client) -> None:
+        if self._station.controls.stopped:
+            raise Refusal(STOP_SENTENCE)
+        self._need_control(client)
+        if self._station.autonomy.whereabouts.pose is None:
+            raise Refusal("The robot does not know yet where it is; place it on the map.")
+
+    def _check_battery(self) -> None:
+        battery = self._station.autonomy.battery
+        if battery < START_ABOVE:
+            raise Refusal(f"The battery is at {battery:.0%}; a patrol needs at least {START_ABOVE:.0%}.")
+
+    def _check_places(self, mission: Mission) -> None:
+        for number, point in enumerate(mission.waypoints, 1):
+            self._check_place(f"Point {number}", point)
+
+    def _check_place(self, name: str, place: Waypoint) -> None:
+        problem = self._station.autonomy.guide.planner.fault(name, place.x, place.y)
+        if problem:
+            raise Refusal(problem)
+
+
+def _check_words(mission: Mission) -> None:
+    if mission.motion not in MOTIONS:
+        raise Refusal(f"There is no motion {mission.motion!r}; there are {', '.join(MOTIONS)}.")
+    if not (math.isfinite(mission.dwell) and 0 <= mission.dwell <= LONGEST_DWELL):
+        raise Refusal(f"The dwell must be 0 to {LONGEST_DWELL:.0f} s, not {mission.dwell} s.")
+    if not 0 <= mission.laps <= MOST_LAPS:
+        raise Refusal(f"The laps must be 0 to {MOST_LAPS}, not {mission.laps}.")
+    if len(mission.waypoints) > MOST_POINTS:
+        raise Refusal(f"A mission has at most {MOST_POINTS} points, not {len(mission.waypoints)}.")

@@ -1,0 +1,169 @@
+"""The station behind its sockets: bridge, web site, beacon, and the tick that drives all of it."""
+
+from __future__ import annotations
+
+import asyncio
+import socket
+from collections.abc import Callable
+
+import uvicorn
+from bridge.beacon import Beacon, Hello
+
+from bridge import frames
+from bridge.errors import BridgeError
+from bridge.msgs import Msg
+from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.server import BridgeServer
+from robotside.autonomy import CAMERA
+from robotside.clock import RobotClock
+from robotside.http import site
+from robotside.orders import services
+from robotside.station import Station
+from robotside.watch import jpeg_size
+
+__all__ = ["Addresses", "Serving"]
+
+TICK = 1 / 60
+"""Real time between two ticks [s]."""
+
+
+class Addresses:
+    """Where it listens."""
+
+    def __init__(self, host: str, port: int, http_port: int) -> None:
+        self.host, self.port, self.http_port = host, port, http_port
+
+    @property
+    def shown(self) -> str:
+        """The host as others may type it."""
+        if self.host in ("0.0.0.0", "::", ""):
+            return _own_address()
+        return f"[{self.host}]" if ":" in self.host else self.host
+
+    @property
+    def bridge(self) -> str:
+        """Of the rosbridge socket."""
+        return f"ws://{self.shown}:{self.port}"
+
+    @property
+    def http(self) -> str:
+        """Of the web site."""
+        return f"http://{self.shown}:{self.http_port}"
+
+
+class Serving:
+    """Serves one station until told to end."""
+
+    def __init__(self, station: Station, clock: RobotClock, wall: Callable[[], float], addresses: Addresses) -> None:
+        self.addresses = addresses
+        self._station, self._clock, self._wall = station, clock, wall
+        offered = list(services(station))
+        self.server = BridgeServer(
+            services=offered,
+            on_message=station.hear,
+            now=station.clock,
+            on_gone=station.gone,
+            on_demand=lambda topic, wanted: station.demand.set(topic, "clients", wanted),
+            cameras=station.info.cameras,
+        )
+        kinds = {service.name: service.type for service in offered}
+        self._site = site(station, lambda: addresses.bridge, kinds)
+        self._frames = 0
+        self._ending = asyncio.Event()
+
+    async def run(self, ready: Callable[[Addresses], None]) -> None:
+        """Serve until `end`; `ready` is called once everything listens. BridgeError when a port is taken."""
+        where = self.addresses
+        web_socket = _listen(where.host, where.http_port)
+        where.http_port = web_socket.getsockname()[1]
+        web = _Web(uvicorn.Config(self._site, log_level="warning", lifespan="off", access_log=False))
+        beacon = Beacon(self._hello)
+        try:
+            await self.server.start(where.host, where.port)
+            where.port = self.server.port
+            leave = self._station.bus.subscribe(None, self._publish)
+            async with asyncio.TaskGroup() as group:
+                group.create_task(web.serve([web_socket]))
+                beaming = group.create_task(beacon.run())
+                group.create_task(self._tick())
+                ready(where)
+                await self._ending.wait()
+                leave()
+                web.should_exit = True
+                beaming.cancel()
+        finally:
+            await beacon.close()
+            self._station.robot.stop()
+            await self.server.close()
+            web_socket.close()
+
+    def end(self) -> None:
+        """Have `run` come to its end."""
+        self._station.robot.stop()
+        self._ending.set()
+
+    async def _tick(self) -> None:
+        loop = asyncio.get_running_loop()
+        due = loop.time()
+        while not self._ending.is_set():
+            self._station.step(self._clock.tick(self._wall()))
+            due = max(due + TICK, loop.time() - TICK)
+            await asyncio.sleep(max(0.0, due - loop.time()))
+
+    def _publish(self, topic: str, msg: Msg) -> None:
+        if topic in self.server.topics:
+            self.server.publish(topic, msg)
+        if topic == CAMERA and isinstance(msg, CompressedImage) and self._station.info.cameras:
+            width, height = jpeg_size(msg.data)
+            self._frames += 1
+            stamp = msg.header.stamp.seconds
+            frame = frames.pack(self._frames, stamp, msg.data, width, height)
+            self.server.publish_frame(self._station.info.cameras[0], frame)
+
+    def _hello(self) -> Hello:
+        info, driver = self._station.info, self._station.controls.driver
+        return Hello(
+            name=info.name,
+            kind=info.kind,
+            model=info.model,
+            description=info.description,
+            url=self.addresses.bridge,
+            http=self.addresses.http,
+            battery=self._station.autonomy.battery,
+            driver=driver.name if driver else "",
+            boot=self._station.events.boot,
+        )
+
+
+class _Web(uvicorn.Server):
+    """A web server in somebody else's loop, who also minds the signals."""
+
+    def capture_signals(self):  # type: ignore[no-untyped-def]
+        """Leave the process's signals alone."""
+        from contextlib import nullcontext
+
+        return nullcontext()
+
+
+def _listen(host: str, port: int) -> socket.socket:
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    listener = socket.socket(family, socket.SOCK_STREAM)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listener.bind((host, port))
+        listener.listen()
+    except OSError as error:
+        listener.close()
+        why = error.strerror or str(error)
+        raise BridgeError(f"Cannot serve HTTP on {host}:{port}: {why.lower()}.") from error
+    return listener
+
+
+def _own_address() -> str:
+    """The address that this machine has towards others; nothing is sent to find it."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.connect(("192.0.2.1", 9))
+        except OSError:
+            return "127.0.0.1"
+        return str(probe.getsockname()[0])

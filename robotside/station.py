@@ -1,0 +1,231 @@
+"""The robot side as a whole, without sockets: commands in, robot's messages through, everything on one bus.
+
+Two clocks: `now` is the robot's [s], by which things are measured and tasks run; `clock` is the operators' [s], by
+which drive commands and control expire. They are one unless a simulation runs faster or slower than real time.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable, Iterable
+
+import msgspec
+
+from bridge.msgs import Msg
+from bridge.msgs.diagnostic_msgs import DiagnosticArray, DiagnosticStatus
+from bridge.msgs.geometry_msgs import PoseStamped, PoseWithCovarianceStamped, Twist
+from bridge.msgs.nav_msgs import OccupancyGrid
+from bridge.msgs.pilothouse_msgs import ControlStatus, IntruderArray, Mission, Waypoint
+from bridge.msgs.std_msgs import Header, Time
+from robotside.autonomy import Autonomy
+from robotside.bus import Bus
+from robotside.controls import STOP_SENTENCE, Client, Controls
+from robotside.demand import Demand
+from robotside.events import Events
+from robotside.grid import Grid
+from robotside.pose2 import Pose2
+from robotside.robot import Robot
+from robotside.store import Store
+
+__all__ = ["Station"]
+
+REMARK_PERIOD = 3.0
+"""A client that sends bad drive commands is told so at most this often [s]."""
+
+AT_REST = (0.01, 0.03)
+"""Measured speeds below which the wheels stand still [m/s, rad/s]; three times as much means that they do not."""
+
+
+class Station:
+    """One robot, its mind, and who may command it. All calls come from one thread."""
+
+    def __init__(
+        self,
+        robot: Robot,
+        store: Store,
+        *,
+        now: float,
+        clock: Callable[[], float],
+        rng: random.Random,
+        boot: str,
+        name: str = "",
+    ) -> None:
+        """`now` is the robot's clock at the start [s]; ValueError when the robot gives no map with its first messages."""
+        self.robot, self.clock, self.now = robot, clock, now
+        self.info = msgspec.structs.replace(robot.info, name=name or robot.info.name)
+        self.bus = Bus()
+        self.demand = Demand(robot.want)
+        self.controls = Controls(max_speed=self.info.max_speed, max_yaw_rate=self.info.max_yaw_rate)
+        self.events = Events(boot, lambda: self.now, lambda event: self.bus.publish("/events", event))
+        self._store = store
+        self._control = ControlStatus()
+        self._next_remark: dict[str, float] = {}
+        self._next_diagnostics = now
+        first = list(robot.read(now))
+        grid = next((msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None)
+        if grid is None:
+            raise ValueError(f"Robot {self.info.name} gave no map with its first messages.")
+        self.bus.publish("/robot/info", self.info)
+        self.autonomy = Autonomy(robot, Grid.from_msg(grid), self.bus, self.events, self.demand, rng)
+        self.bus.publish("/intruders", IntruderArray(Header(Time.at(now), "map")))
+        self.bus.publish("/control/status", self._control)
+        self.mission, problem = store.load()
+        self.bus.publish("/mission", self.mission)
+        if problem:
+            self.events.say("mission", problem, "warn")
+        self._pass_on(first)
+
+    def step(self, now: float) -> None:
+        """Bring everything up to `now` [s, robot clock]; call it often."""
+        self.now = now
+        if self.controls.expired(self.clock()) and not self.autonomy.engine.running:
+            self.robot.stop()
+        self.controls.lapse(self.clock())
+        self._pass_on(self.robot.read(now))
+        self.autonomy.check(now)
+        self.show_control()
+        if now >= self._next_diagnostics:
+            self._next_diagnostics = now + 1.0
+            self.bus.publish("/diagnostics", self._diagnostics())
+
+    def hear(self, client: Client, topic: str, msg: Msg, stamp: float | None) -> None:
+        """A client published `msg`; `stamp` is when it meant it [s, operators' clock], None when it does not say."""
+        if isinstance(msg, Twist):
+            self._drive(client, msg, stamp)
+        elif isinstance(msg, PoseWithCovarianceStamped):
+            self._place(client, Pose2.from_msg(msg.pose.pose))
+        elif isinstance(msg, PoseStamped):
+            self._go_to(client, Pose2.from_msg(msg.pose))
+        self.show_control()
+
+    def gone(self, client: Client) -> None:
+        """A client's socket closed; if it was driving, the robot stops at once."""
+        self._next_remark.pop(client.id, None)
+        if self.controls.gone(client) and not self.autonomy.engine.running:
+            self.robot.stop()
+        self.show_control()
+
+    def press_stop(self, name: str) -> None:
+        """Latch STOP, bring the robot to rest and hold the task; `name` pressed it."""
+        self.robot.stop()
+        if not self.controls.stopped:
+            self.events.say("stop", f"STOP pressed by {name}.", "alarm")
+        self.controls.stop(name)
+        self.autonomy.engine.pause(f"Stopped by {name}.", self.now, "alarm")
+
+    def release_stop(self, name: str) -> None:
+        """Unlatch STOP; the robot stays where it is."""
+        self.controls.release_stop()
+        self.events.say("stop", f"STOP released by {name}.", "ok")
+
+    def release_control(self, client: Client) -> str:
+        """Give control back; returns why not, empty when done. A robot driven by hand comes to rest."""
+        problem = self.controls.release(client)
+        if not problem and self.controls.driving:
+            self.controls.hold()
+            self.robot.stop()
+        return problem
+
+    def keep(self, mission: Mission) -> None:
+        """Store `mission` and tell everyone; OSError when it cannot be written."""
+        self._store.save(mission)
+        self.mission = mission
+        self.bus.publish("/mission", mission)
+        count = len(mission.waypoints)
+        self.events.say("mission", f"Mission stored: {count} {'point' if count == 1 else 'points'}.", "ok")
+
+    def show_control(self) -> None:
+        """Tell everyone who steers, if that has changed."""
+        fresh = self._control_now()
+        if fresh == self._control:
+            return
+        if fresh.driver_id != self._control.driver_id:
+            said = f"{fresh.driver} has control." if fresh.driver_id else "Control is free."
+            self.events.say("control", said)
+        self._control = fresh
+        self.bus.publish("/control/status", msgspec.structs.replace(fresh, stamp=Time.at(self.now)))
+
+    def close(self) -> None:
+        """Bring the robot to rest and let go of it."""
+        self.robot.stop()
+        self.robot.close()
+
+    def _pass_on(self, messages: Iterable[tuple[str, Msg]]) -> None:
+        for topic, msg in messages:
+            self.bus.publish(topic, msg)
+            self.autonomy.take(topic, msg, self.now)
+
+    def _drive(self, client: Client, twist: Twist, stamp: float | None) -> None:
+        engine = self.autonomy.engine
+        ruling = self.controls.drive(client, twist, self.clock(), stamp=stamp, auto=engine.running)
+        if ruling.twist is None:
+            self._remark(client, ruling.said)
+            return
+        engine.pause(f"Paused: {self.controls.name(client)} took the stick.", self.now, "warn")
+        self.robot.drive(ruling.twist)
+
+    def _place(self, client: Client, pose: Pose2) -> None:
+        problem = self.controls.objection(client)
+        if not all(map(math.isfinite, pose)):
+            problem = "The pose to place the robot at is not all numbers."
+        if problem:
+            self.events.say("command", problem, "warn")
+            return
+        self.autonomy.place(pose)
+        name = self.controls.name(client)
+        text = f"{name} placed the robot at ({pose.x:.1f}, {pose.y:.1f})."
+        self.events.say("localisation", text, at=(pose.x, pose.y))
+
+    def _go_to(self, client: Client, pose: Pose2) -> None:
+        problem = STOP_SENTENCE if self.controls.stopped else self.controls.acquire(client, self.clock())
+        problem = problem or self.autonomy.guide.planner.fault("The goal", pose.x, pose.y)
+        if not problem and self.autonomy.whereabouts.pose is None:
+            problem = "The robot does not know yet where it is; place it on the map."
+        if problem:
+            self.events.say("command", problem, "warn")
+            return
+        self.controls.hold()
+        self.autonomy.start_goal(Waypoint(pose.x, pose.y, pose.yaw), self.now)
+
+    def _remark(self, client: Client, said: str) -> None:
+        now = self.clock()
+        if said and now >= self._next_remark.get(client.id, -math.inf):
+            self._next_remark[client.id] = now + REMARK_PERIOD
+            self.events.say("command", said, "warn")
+
+    def _control_now(self) -> ControlStatus:
+        driver = self.controls.driver
+        return ControlStatus(
+            mode=self._mode(),
+            driver=driver.name if driver else "",
+            driver_id=driver.client_id if driver else "",
+            stopped=self.controls.stopped,
+            stopped_by=self.controls.stopped_by,
+            at_rest=self._at_rest(),
+        )
+
+    def _mode(self) -> str:
+        engine = self.autonomy.engine
+        if self.controls.stopped:
+            return "STOPPED"
+        return "PAUSED" if engine.paused else "AUTO" if engine.running else "MANUAL"
+
+    def _at_rest(self) -> bool:
+        factor = 3.0 if self._control.at_rest else 1.0
+        where = self.autonomy.whereabouts
+        return abs(where.speed) < AT_REST[0] * factor and abs(where.turn) < AT_REST[1] * factor
+
+    def _diagnostics(self) -> DiagnosticArray:
+        where, battery = self.autonomy.whereabouts, self.autonomy.battery
+        low = battery < 0.15
+        status = [
+            DiagnosticStatus(0 if where.sure else 1, "position", _fit_sentence(where.fit)),
+            DiagnosticStatus(1 if low else 0, "battery", "low" if low else "good"),
+            DiagnosticStatus(0, "drive commands", f"{self.controls.dropped} dropped since the start"),
+        ]
+        return DiagnosticArray(Header(Time.at(self.now)), status)
+
+
+def _fit_sentence(fit: float) -> str:
+    return "not known yet" if math.isnan(fit) else f"{fit:.0%} of what the laser sees is on the map"

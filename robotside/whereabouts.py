@@ -1,0 +1,199 @@
+"""Where the robot believes to be: from the first guess on, told to everyone who needs it."""
+
+from __future__ import annotations
+
+import bisect
+import math
+from collections import deque
+from collections.abc import Callable
+
+from bridge.geo import Datum
+
+from bridge.msgs.geometry_msgs import (
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Transform,
+    TransformStamped,
+    Vector3,
+    zeros36,
+)
+from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.pilothouse_msgs import RobotInfo
+from bridge.msgs.sensor_msgs import Imu, NavSatFix
+from bridge.msgs.std_msgs import Header, Time
+from bridge.msgs.tf2_msgs import TFMessage
+from bridge.units import wrap
+from robotside.bus import Publish
+from robotside.grid import Grid
+from robotside.localise import Localiser
+from robotside.pose2 import Points, Pose2
+
+__all__ = ["Track", "Whereabouts"]
+
+FIXES = 5
+"""Satellite fixes averaged for the first guess."""
+
+PATIENCE = 3.0
+"""Without fix and compass for this long the robot supposes to stand at the map's origin [s]."""
+
+GUESS_REACH, GUESS_TURN = 4.0, 0.35
+"""How wrong a guess by satellite and compass may be [m, rad]."""
+
+TOLD_REACH, TOLD_TURN = 1.0, 0.5
+"""How wrong a pose told by an operator's finger may be [m, rad]."""
+
+
+class Track:
+    """The last seconds of poses, to ask where the robot was when a sensor measured."""
+
+    def __init__(self) -> None:
+        self._poses: deque[tuple[float, Pose2]] = deque(maxlen=60)
+
+    def add(self, stamp: float, pose: Pose2) -> None:
+        """Remember `pose` at `stamp` [s]."""
+        self._poses.append((stamp, pose))
+
+    def at(self, stamp: float) -> Pose2 | None:
+        """The pose at `stamp` [s], between its neighbours; the nearest one outside of what is remembered."""
+        poses = self._poses
+        if not poses:
+            return None
+        after = bisect.bisect_left(poses, stamp, key=lambda entry: entry[0])
+        if after in (0, len(poses)):
+            return poses[min(after, len(poses) - 1)][1]
+        (start, a), (end, b) = poses[after - 1], poses[after]
+        part = (stamp - start) / (end - start) if end > start else 0.0
+        return Pose2(
+            a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), wrap(a.yaw + part * wrap(b.yaw - a.yaw))
+        )
+
+
+class Whereabouts:
+    """Takes odometry, sweeps, fixes and compass; gives the pose in `map`, and says when it is not sure of it."""
+
+    def __init__(
+        self, info: RobotInfo, say: Callable[[str, str, str], None], publish: Publish
+    ) -> None:
+        self._say, self._publish = say, publish
+        has_place = not (math.isnan(info.latitude) or math.isnan(info.longitude))
+        self._datum = Datum(info.latitude, info.longitude) if has_place else None
+        self._localiser: Localiser | None = None
+        self._fixes: deque[tuple[float, float]] = deque(maxlen=FIXES)
+        self._compass = math.nan
+        self._since = math.nan
+        self._search: tuple[Pose2, float, float] | None = None
+        self._odom: Pose2 | None = None
+        self._was_sure = True
+        self.track = Track()
+        """Poses in `map` of the last seconds."""
+        self.odometer = 0.0
+        """All that was driven since the start, by the wheels [m]."""
+        self.speed = self.turn = 0.0
+        """As the wheels measure [m/s], [rad/s]."""
+
+    @property
+    def pose(self) -> Pose2 | None:
+        """In `map`; None while it has no idea."""
+        return self._localiser.pose if self._localiser else None
+
+    @property
+    def sure(self) -> bool:
+        """What the laser sees agrees with the map."""
+        return self._localiser is not None and self._localiser.sure
+
+    @property
+    def fit(self) -> float:
+        """Part of the last sweep that lies on the map's surfaces, 0 to 1; NaN before the first."""
+        return self._localiser.fit if self._localiser else math.nan
+
+    def take_map(self, grid: Grid) -> None:
+        """Begin anew on `grid`."""
+        self._localiser = Localiser(grid)
+
+    def take_fix(self, fix: NavSatFix) -> None:
+        """Remember a position by satellite for the first guess."""
+        if self._datum and fix.status.status >= 0 and math.isfinite(fix.latitude + fix.longitude):
+            self._fixes.append(self._datum.to_local(fix.latitude, fix.longitude))
+
+    def take_imu(self, imu: Imu) -> None:
+        """Remember the compass for the first guess."""
+        if imu.orientation_covariance[0] >= 0:
+            self._compass = imu.orientation.yaw
+
+    def told(self, pose: Pose2) -> None:
+        """The operator says that the robot is at `pose`; the next sweep corrects the finger's error."""
+        if self._localiser:
+            self._localiser.place(pose, spread=0.3, turn=0.2)
+            self._search = (pose, TOLD_REACH, TOLD_TURN)
+
+    def take_odom(self, msg: Odometry) -> None:
+        """Move on by the wheels and tell everyone the new pose."""
+        odom = Pose2.from_msg(msg.pose.pose)
+        stamp = msg.header.stamp
+        if self._odom is not None:
+            self.odometer += odom.distance(self._odom.x, self._odom.y)
+        self._odom = odom
+        self.speed, self.turn = msg.twist.twist.linear.x, msg.twist.twist.angular.z
+        if self._localiser is None:
+            return
+        self._localiser.predict(odom)
+        pose = self._localiser.pose
+        if pose is not None:
+            self.track.add(stamp.seconds, pose)
+            self._tell(stamp, pose, odom, self._localiser)
+
+    def take_sweep(self, points: Points, stamp: float) -> None:
+        """Correct the pose by what the laser saw at `stamp` [s], in `base_link`."""
+        localiser = self._localiser
+        if localiser is None:
+            return
+        if self._search is None and localiser.pose is None:
+            self._search = self._guess(stamp)
+        if self._search is not None and len(points):
+            guess, reach, turn = self._search
+            self._search = None
+            localiser.search(points, guess, reach=reach, turn=turn)
+        now, then = localiser.pose, self.track.at(stamp)
+        lag = then.inverse().then(now) if now is not None and then is not None else Pose2(0.0, 0.0, 0.0)
+        localiser.correct(points if abs(lag.x) > 0.5 else lag.inverse().apply(points))
+        self._watch(localiser)
+
+    def _guess(self, stamp: float) -> tuple[Pose2, float, float] | None:
+        if math.isnan(self._since):
+            self._since = stamp
+        if len(self._fixes) == FIXES and not math.isnan(self._compass):
+            x, y = (sum(axis) / FIXES for axis in zip(*self._fixes, strict=True))
+            return Pose2(x, y, self._compass), GUESS_REACH, GUESS_TURN
+        if stamp - self._since > PATIENCE:
+            return Pose2(0.0, 0.0, 0.0), GUESS_REACH, math.pi
+        return None
+
+    def _watch(self, localiser: Localiser) -> None:
+        if localiser.pose is None or localiser.sure is self._was_sure:
+            return
+        self._was_sure = localiser.sure
+        if localiser.sure:
+            self._say("localisation", "Position sure again.", "ok")
+        else:
+            text = "Position unsure: the laser does not see what the map says. Place the robot on the map."
+            self._say("localisation", text, "warn")
+
+    def _tell(self, stamp: Time, pose: Pose2, odom: Pose2, localiser: Localiser) -> None:
+        covariance = zeros36()
+        spread = localiser.covariance
+        for row, i in enumerate((0, 1, 5)):
+            for column, j in enumerate((0, 1, 5)):
+                covariance[6 * i + j] = float(spread[row, column])
+        header = Header(stamp, "map")
+        said = PoseWithCovariance(pose.to_msg(), covariance)
+        self._publish("/pose", PoseWithCovarianceStamped(header, said))
+        edges = [
+            _edge(header, "odom", localiser.map_to_odom()),
+            _edge(Header(stamp, "odom"), "base_link", odom),
+        ]
+        self._publish("/tf", TFMessage(edges))
+
+
+def _edge(header: Header, child: str, pose: Pose2) -> TransformStamped:
+    placed = pose.to_msg()
+    return TransformStamped(header, child, Transform(Vector3(pose.x, pose.y, 0.0), placed.orientation))
