@@ -10,7 +10,6 @@ import math
 import random
 import socket
 import time
-from collections import deque
 from collections.abc import AsyncIterator, Callable
 from dataclasses import dataclass
 from typing import TypeVar
@@ -22,12 +21,13 @@ from websockets.asyncio.connection import broadcast
 from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidStatus
 from websockets.protocol import State
 
-from bridge.codec import from_builtins, from_json, to_json
 from bridge.address import BadAddress, LinkLost, cause, host_and_port, look_up
+from bridge.codec import from_builtins, from_json, to_json
 from bridge.errors import NoReply, NotConnected, ProtocolError, Refused
 from bridge.frames import Frame, unpack
 from bridge.msgs import Msg
 from bridge.msgs.std_msgs import Time
+from bridge.pings import Ping, Pings
 from bridge.protocol import (
     BinaryPublish,
     ClientSession,
@@ -40,6 +40,7 @@ from bridge.protocol import (
     parse,
     parse_binary,
 )
+from bridge.reconnecting import Reconnecting
 
 __all__ = ["BridgeClient", "CameraStream", "LinkState", "Phase"]
 
@@ -54,9 +55,6 @@ SILENCE = 3.0
 """A link on which nothing came for this long is lost [s]."""
 PING_PERIOD = 0.5
 """[s]"""
-PING_LOST = 1.5
-"""A ping without answer for this long counts as lost [s]."""
-_PINGS = 20
 _UNSENT = 65536
 """With more bytes than this waiting in the socket nothing is published."""
 
@@ -91,54 +89,7 @@ class GetTimeResponse(Msg, frozen=True, gc=False):
     time: Time = Time()
 
 
-@dataclass(slots=True)
-class _Ping:
-    sent: float
-    rtt: float = math.nan
-    offset: float = math.nan
-
-
-class _Reconnecting:
-    """Something that keeps one connection open until it is closed for good."""
-
-    def __init__(
-        self, url: str, now: Callable[[], float], backoff: tuple[float, float], rng: random.Random | None
-    ) -> None:
-        self.url = url
-        self._now = now
-        self._backoff = backoff
-        self._rng = random.Random() if rng is None else rng
-        self._work: asyncio.Task[None] | None = None
-        self._closed = False
-
-    async def run(self) -> None:
-        """Connect, and connect again whenever the connection is lost, until `close()`; not twice at a time."""
-        if self._closed:
-            return
-        self._work = asyncio.create_task(self._stay_connected())
-        try:
-            await self._work
-        except asyncio.CancelledError:
-            if _cancelled_from_outside():
-                raise
-
-    async def close(self) -> None:
-        """End it for good; `run` returns. Takes 0.3 s at most."""
-        self._closed = True
-        if self._work is not None and not self._work.done():
-            self._work.cancel()
-            await asyncio.wait({self._work})
-
-    async def _stay_connected(self) -> None:
-        raise NotImplementedError
-
-    def _wait_before(self, attempt: int) -> float:
-        """How long to wait before attempt number `attempt`, from 1 [s]: doubles each time."""
-        first, longest = self._backoff
-        return min(longest, first * 2.0 ** min(attempt - 1, 30)) * self._rng.uniform(0.8, 1.0)
-
-
-class BridgeClient(_Reconnecting):
+class BridgeClient(Reconnecting):
     """A link to one robot; all methods belong to the event loop that `run` runs in."""
 
     def __init__(
@@ -156,22 +107,27 @@ class BridgeClient(_Reconnecting):
         """
         super().__init__(url, now, backoff, rng)
         self.state = LinkState(Phase.CLOSED, "Not connected.", 0, 0.0)
-        self.rtt = math.nan
-        """Time from the last answered ping to its answer [s]; NaN until there is one."""
-        self.offset = math.nan
-        """The robot's clock minus `now()` [s], from the ping with the shortest way; NaN until known."""
         self._on_state = on_state
         self._session = ClientSession()
         self._ws: ClientConnection | None = None
-        self._pings: deque[_Ping] = deque(maxlen=_PINGS)
+        self._pings = Pings()
         self._heard = -math.inf
         self._complained: set[str] = set()
 
     @property
+    def rtt(self) -> float:
+        """How long the last answered ping took [s]; NaN until there is one."""
+        return self._pings.rtt
+
+    @property
+    def offset(self) -> float:
+        """The robot's clock minus `now()` [s], by the least rtt of the last 20 pings; NaN until known."""
+        return self._pings.offset
+
+    @property
     def lost(self) -> int:
         """How many of the last 20 pings were not answered within 1.5 s."""
-        late = self._now() - PING_LOST
-        return sum(1 for ping in self._pings if math.isnan(ping.rtt) and ping.sent < late)
+        return self._pings.lost(self._now())
 
     def robot_time(self) -> float:
         """The robot's clock now [s]; NaN until it is known."""
@@ -242,7 +198,7 @@ class BridgeClient(_Reconnecting):
         op = self._session.call(service, args, answered)
         try:
             if not self._send(op):
-                raise NotConnected(f"There is no connection to {self.url}.")
+                raise NotConnected(f"There is no connection to {self.place}.")
             async with asyncio.timeout(timeout):
                 found = await answer
         except TimeoutError as error:
@@ -259,11 +215,11 @@ class BridgeClient(_Reconnecting):
         if self.state.phase is not Phase.CLOSED:
             self._become(Phase.CLOSED, "Not connected.")
 
-    async def _stay_connected(self) -> None:
+    async def stay_connected(self) -> None:
         attempt, trouble = 0, ""
         while True:
             attempt += 1
-            opening = f"{trouble} Trying again." if trouble else f"Connecting to {self.url}."
+            opening = f"{trouble} Trying again." if trouble else f"Connecting to {self.place}."
             self._become(Phase.CONNECTING, opening, attempt)
             try:
                 await self._connect_once()
@@ -274,15 +230,14 @@ class BridgeClient(_Reconnecting):
                 trouble = str(error)
             if self.state.phase is Phase.CONNECTED:
                 attempt = 0
-            wait = self._wait_before(max(1, attempt))
+            wait = self.wait_before(max(1, attempt))
             self._become(Phase.WAITING, trouble, attempt, wait)
             await asyncio.sleep(wait)
 
     async def _connect_once(self) -> None:
         """Connect and serve the link until it is lost; raises LinkLost or BadAddress always."""
         ws = await _dial(self.url)
-        self._pings.clear()
-        self.rtt = self.offset = math.nan
+        self._pings = Pings()
         self._heard = self._now()
         self._ws = ws
         work = {asyncio.create_task(self._listen(ws)), asyncio.create_task(self._watch())}
@@ -308,7 +263,7 @@ class BridgeClient(_Reconnecting):
                 self._receive(parse_binary(raw) if raw[:1] > b"\x7f" else parse(raw))
             except ProtocolError as error:
                 log.debug("%s sent what is no operation: %s", self.url, error)
-        raise LinkLost(f"The connection to {self.url} was cut.")
+        raise LinkLost(f"The connection to {self.place} was cut.")
 
     async def _watch(self) -> None:
         """Ping; raise LinkLost when the link is silent or never was a rosbridge."""
@@ -319,26 +274,21 @@ class BridgeClient(_Reconnecting):
             now = self._now()
             if self.state.phase is not Phase.CONNECTED and now - opened >= SILENCE:
                 raise LinkLost(
-                    f"{self.url} is a WebSocket but no robot: it did not answer within {SILENCE:g} s."
+                    f"{self.place} is a WebSocket but no robot: it did not answer within {SILENCE:g} s."
                 )
             if now - self._heard >= SILENCE:
-                raise LinkLost(f"Nothing came from {self.url} for {SILENCE:g} s.")
+                raise LinkLost(f"Nothing came from {self.place} for {SILENCE:g} s.")
 
     def _ping(self) -> None:
-        ping = _Ping(self._now())
-        self._pings.append(ping)
+        ping = self._pings.send(self._now())
         self._send(self._session.call("/rosapi/get_time", b"{}", lambda found: self._pong(ping, found)))
 
-    def _pong(self, ping: _Ping, answer: ServiceResponse | None) -> None:
+    def _pong(self, ping: Ping, answer: ServiceResponse | None) -> None:
         if answer is None:
             return
-        self.rtt = ping.rtt = self._now() - ping.sent
-        with contextlib.suppress(ProtocolError):
-            ping.offset = _time_in(answer) - (ping.sent + ping.rtt / 2)
-        known = [ping for ping in self._pings if not math.isnan(ping.offset)]
-        self.offset = min(known, key=lambda ping: ping.rtt).offset if known else math.nan
+        self._pings.answer(ping, self._now(), _time_in(answer))
         if self.state.phase is not Phase.CONNECTED:
-            self._become(Phase.CONNECTED, f"Connected to {self.url}.")
+            self._become(Phase.CONNECTED, f"Connected to {self.place}.")
 
     def _receive(self, op: Op | BinaryPublish) -> None:
         if isinstance(op, ServiceResponse):
@@ -381,7 +331,7 @@ class BridgeClient(_Reconnecting):
                 log.exception("Telling the state of %s failed", self.url)
 
 
-class CameraStream(_Reconnecting):
+class CameraStream(Reconnecting):
     """The pictures of one camera, over a WebSocket of their own; connects again by itself."""
 
     def __init__(
@@ -399,7 +349,7 @@ class CameraStream(_Reconnecting):
         """Why there are no pictures; empty while connected."""
         self._on_frame = on_frame
 
-    async def _stay_connected(self) -> None:
+    async def stay_connected(self) -> None:
         attempt = 0
         while True:
             attempt += 1
@@ -413,7 +363,7 @@ class CameraStream(_Reconnecting):
                 return
             except LinkLost as error:
                 self.sentence = str(error)
-            await asyncio.sleep(self._wait_before(max(1, attempt)))
+            await asyncio.sleep(self.wait_before(max(1, attempt)))
 
     async def _watch(self, ws: ClientConnection) -> None:
         try:
@@ -427,18 +377,13 @@ class CameraStream(_Reconnecting):
                 self._show(frame)
         finally:
             await _hang_up(ws)
-        raise LinkLost(f"The pictures from {self.url} were cut off.")
+        raise LinkLost(f"The pictures from {self.place} were cut off.")
 
     def _show(self, frame: Frame) -> None:
         try:
             self._on_frame(frame, self._now())
         except Exception:
             log.exception("Showing a picture of %s failed", self.url)
-
-
-def _cancelled_from_outside() -> bool:
-    task = asyncio.current_task()
-    return task is not None and task.cancelling() > 0
 
 
 def _decoded(op: Publish | BinaryPublish, type: type[M]) -> M:
@@ -453,7 +398,11 @@ def _response(answer: ServiceResponse, type: type[M]) -> M:
 
 
 def _time_in(answer: ServiceResponse) -> float:
-    return from_json(answer.values, GetTimeResponse).time.seconds if answer.result else math.nan
+    """The robot's clock [s]; NaN when the robot cannot say."""
+    try:
+        return from_json(answer.values, GetTimeResponse).time.seconds if answer.result else math.nan
+    except ProtocolError:
+        return math.nan
 
 
 async def _dial(url: str, *, ping_interval: float | None = None) -> ClientConnection:

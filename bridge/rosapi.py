@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+import msgspec
+from msgspec import Raw
+
 from bridge.msgs import ros1_name
 from bridge.msgs.std_msgs import Time
 from bridge.topics import Topic
@@ -25,7 +28,7 @@ class RosApi:
         self._topics = topics
         self._services = services
         self._now = now
-        self._answers: dict[str, Callable[[dict[str, Any]], dict[str, Any]]] = {
+        self._answers: dict[str, Callable[[str], dict[str, Any]]] = {
             "/rosapi/get_time": self._get_time,
             "/rosapi/topics": self._all_topics,
             "/rosapi/topic_type": self._topic_type,
@@ -38,40 +41,43 @@ class RosApi:
             "/rosapi/get_param_names": lambda _: {"names": []},
         }
 
-    def answer(self, service: str, args: dict[str, Any]) -> dict[str, Any] | None:
-        """The response of `service` (absolute name); None when this is none of ours."""
+    def answer(self, service: str, args: Raw) -> bytes | None:
+        """The response of `service` (absolute name) as JSON text; None when it is not answered here.
+
+        `args` holds the one value that is asked about, in an object or a list; what is neither counts as empty.
+        """
         found = self._answers.get(service)
-        return None if found is None else found(args)
+        return None if found is None else msgspec.json.encode(found(_asked_about(args)))
 
-    @property
-    def names(self) -> list[str]:
-        """The services that are answered here."""
-        return list(self._answers)
-
-    def _get_time(self, _: dict[str, Any]) -> dict[str, Any]:
+    def _get_time(self, _: str) -> dict[str, Any]:
         now = Time.at(self._now())
         return {"time": {"secs": now.secs, "nsecs": now.nsecs}}
 
-    def _all_topics(self, _: dict[str, Any]) -> dict[str, Any]:
-        return {
-            "topics": list(self._topics),
-            "types": [topic.type.MSGTYPE for topic in self._topics.values()],
-        }
+    def _all_topics(self, _: str) -> dict[str, Any]:
+        types = [topic.type.MSGTYPE for topic in self._topics.values()]
+        return {"topics": list(self._topics), "types": types}
 
-    def _topic_type(self, args: dict[str, Any]) -> dict[str, Any]:
-        topic = self._topics.get(str(args.get("topic", "")))
-        return {"type": topic.type.MSGTYPE if topic else ""}
+    def _topic_type(self, topic: str) -> dict[str, Any]:
+        found = self._topics.get(topic)
+        return {"type": found.type.MSGTYPE if found else ""}
 
-    def _topics_for_type(self, args: dict[str, Any]) -> dict[str, Any]:
-        wanted = ros1_name(str(args.get("type", "")))
-        return {"topics": [name for name, topic in self._topics.items() if topic.type.MSGTYPE == wanted]}
+    def _topics_for_type(self, type: str) -> dict[str, Any]:
+        wanted = ros1_name(type)
+        return {"topics": [name for name, topic in self._topics.items() if wanted == topic.type.MSGTYPE]}
 
-    def _all_services(self, _: dict[str, Any]) -> dict[str, Any]:
+    def _all_services(self, _: str) -> dict[str, Any]:
         return {"services": [*self._services, *self._answers]}
 
-    def _service_type(self, args: dict[str, Any]) -> dict[str, Any]:
-        return {"type": self._services.get(str(args.get("service", "")), "")}
+    def _service_type(self, service: str) -> dict[str, Any]:
+        return {"type": self._services.get(service, "")}
 
-    def _services_for_type(self, args: dict[str, Any]) -> dict[str, Any]:
-        wanted = ros1_name(str(args.get("type", "")))
-        return {"services": [name for name, type in self._services.items() if type == wanted]}
+    def _services_for_type(self, type: str) -> dict[str, Any]:
+        wanted = ros1_name(type)
+        return {"services": [name for name, known in self._services.items() if known == wanted]}
+
+
+def _asked_about(args: Raw) -> str:
+    """The first text among the arguments."""
+    values = msgspec.json.decode(args)
+    given = values.values() if isinstance(values, dict) else values if isinstance(values, list) else ()
+    return next((value for value in given if isinstance(value, str)), "")

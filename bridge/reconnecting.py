@@ -1,0 +1,57 @@
+"""The life of a connection that is opened again whenever it is lost."""
+
+from __future__ import annotations
+
+import asyncio
+import random
+from collections.abc import Callable
+
+__all__ = ["Reconnecting"]
+
+
+class Reconnecting:
+    """Something that keeps one connection open until it is closed for good."""
+
+    def __init__(
+        self, url: str, now: Callable[[], float], backoff: tuple[float, float], rng: random.Random | None
+    ) -> None:
+        self.url = url
+        self.place = url.partition("://")[2].strip("/") or url
+        """The address as people say it."""
+        self._now = now
+        self._backoff = backoff
+        self._rng = random.Random() if rng is None else rng
+        self._work: asyncio.Task[None] | None = None
+        self._closed = False
+
+    async def run(self) -> None:
+        """Connect, and connect again whenever the connection is lost, until `close()`; not twice at a time."""
+        if self._closed:
+            return
+        self._work = asyncio.create_task(self.stay_connected())
+        try:
+            await self._work
+        except asyncio.CancelledError:
+            if _cancelled_from_outside():
+                raise
+
+    async def close(self) -> None:
+        """End it for good; `run` returns. Takes 0.3 s at most."""
+        self._closed = True
+        if self._work is not None and not self._work.done():
+            self._work.cancel()
+            await asyncio.wait({self._work})
+
+    async def stay_connected(self) -> None:
+        """Connect again and again; returns only when the address can never work."""
+        raise NotImplementedError
+
+    def wait_before(self, attempt: int) -> float:
+        """How long to wait before attempt number `attempt`, from 1 [s]: doubles each time."""
+        first, longest = self._backoff
+        return min(longest, first * 2.0 ** min(attempt - 1, 30)) * self._rng.uniform(0.8, 1.0)
+
+
+def _cancelled_from_outside() -> bool:
+    task = asyncio.current_task()
+    return task is not None and task.cancelling() > 0
