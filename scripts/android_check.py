@@ -87,6 +87,10 @@ def check_files(root: Path, spec: configparser.SectionProxy) -> list[Path]:
     strangers = [str(path) for path in files if path.parts[0] not in SHIPPED]
     if strangers:
         raise Failed(f"the package would carry {', '.join(strangers[:5])}, which is no part of the handheld.")
+    ours = {path.relative_to(root) for name in SHIPPED for path in (root / name).rglob("*") if path.is_file()}
+    left = [str(path) for path in sorted(ours - set(files)) if "__pycache__" not in path.parts]
+    if left:
+        raise Failed(f"the package would lack {', '.join(left[:5])}, which the handheld's folders hold.")
     absent = SHIPPED - {path.parts[0] for path in files}
     if absent:
         raise Failed(f"the package would lack {', '.join(sorted(absent))}.")

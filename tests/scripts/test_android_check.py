@@ -29,6 +29,14 @@ def test_a_stranger_in_the_package_is_refused(spec, tmp_path):
         check.check_files(tmp_path, spec)
 
 
+def test_a_file_of_the_handheld_that_would_be_left_behind_is_told(spec, tmp_path):
+    for name in ("main.py", "app/a.py", "app/layout.csv", "widgets/a.py", "bridge/a.py"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("")
+    with pytest.raises(check.Failed, match="lack app/layout.csv"):
+        check.check_files(tmp_path, spec)
+
+
 def test_hidden_files_and_files_without_a_suffix_stay_out(spec, tmp_path):
     for name in ("main.py", ".secret", "LICENSE", "Makefile", "app/data.csv"):
         (tmp_path / name).parent.mkdir(exist_ok=True)
