@@ -137,7 +137,7 @@ class BridgeClient(Reconnecting):
         self,
         topic: str,
         type: type[M],
-        callback: Callable[[M, float], None],
+        callback: Callable[[M, float], object],
         *,
         throttle_rate: int = 0,
         queue_length: int = 1,
@@ -216,6 +216,7 @@ class BridgeClient(Reconnecting):
             self._become(Phase.CLOSED, "Not connected.")
 
     async def stay_connected(self) -> None:
+        """Connect again and again; returns when the address can never work."""
         attempt, trouble = 0, ""
         while True:
             attempt += 1
@@ -350,6 +351,7 @@ class CameraStream(Reconnecting):
         self._on_frame = on_frame
 
     async def stay_connected(self) -> None:
+        """Connect again and again; returns when the address can never work."""
         attempt = 0
         while True:
             attempt += 1

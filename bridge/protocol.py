@@ -327,7 +327,7 @@ class Subscription:
 
     op: Subscribe
     type: type[Msg]
-    callback: Callable[[Any, float], None]
+    callback: Callable[[Any, float], object]
     """Takes the message and when it was received [s], the client's clock."""
 
 
@@ -344,7 +344,7 @@ class ClientSession:
     _numbers: Iterator[int] = field(default_factory=lambda: itertools.count(1))
 
     def subscribe(
-        self, op: Subscribe, type: type[Msg], callback: Callable[[Any, float], None]
+        self, op: Subscribe, type: type[Msg], callback: Callable[[Any, float], object]
     ) -> tuple[Subscribe, Unsubscribe]:
         """Remember a subscription; gives what to send now and what to send at its end."""
         named = msgspec.structs.replace(op, id=f"subscribe:{op.topic}:{next(self._numbers)}")

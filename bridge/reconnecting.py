@@ -6,7 +6,7 @@ import asyncio
 import random
 from collections.abc import Callable
 
-__all__ = ["Reconnecting"]
+__all__ = ["Reconnecting", "cancelled_from_outside"]
 
 
 class Reconnecting:
@@ -32,7 +32,7 @@ class Reconnecting:
         try:
             await self._work
         except asyncio.CancelledError:
-            if _cancelled_from_outside():
+            if cancelled_from_outside():
                 raise
 
     async def close(self) -> None:
@@ -52,6 +52,7 @@ class Reconnecting:
         return min(longest, first * 2.0 ** min(attempt - 1, 30)) * self._rng.uniform(0.8, 1.0)
 
 
-def _cancelled_from_outside() -> bool:
+def cancelled_from_outside() -> bool:
+    """Whether the running task itself is told to end, not only the one it waits for."""
     task = asyncio.current_task()
     return task is not None and task.cancelling() > 0

@@ -146,7 +146,7 @@ class Client:
         try:
             self._send(message.frame(self.remembered.subscriptions[entry.name]))
         except ProtocolError as error:
-            log.error("%s is not sent: %s", entry.name, error)
+            log.warning("%s is not sent: %s", entry.name, error)
 
     def _receive(self, text: str | bytes) -> None:
         try:
@@ -204,13 +204,13 @@ class Client:
                 self._answer(op, to_json(outcome))
             else:
                 self._begin(self._await_answer(op, outcome))
-        except Exception as error:
+        except Exception as error:  # noqa: BLE001 -- a service may fail in any way; the caller and the log are told
             self._refuse(op, error)
 
     async def _await_answer(self, op: CallService, outcome: Awaitable[Msg]) -> None:
         try:
             self._answer(op, to_json(await outcome))
-        except Exception as error:
+        except Exception as error:  # noqa: BLE001 -- a service may fail in any way; the caller and the log are told
             self._refuse(op, error)
 
     def _refuse(self, op: CallService, error: Exception) -> None:
@@ -251,7 +251,7 @@ class Client:
             try:
                 return self._outbox.take(now)
             except ProtocolError as error:
-                log.error("A message is not sent: %s", error)
+                log.warning("A message is not sent: %s", error)
 
     def _begin(self, work: Coroutine[Any, Any, None]) -> None:
         task = asyncio.create_task(work)
