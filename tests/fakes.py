@@ -1,0 +1,208 @@
+"""Small real objects that stand in for large ones and record what is done to them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bridge.msgs import Msg
+from bridge.msgs.arrays import Float32Array, Int8Array
+from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, Quaternion, Twist, TwistWithCovariance
+from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid, Odometry
+from bridge.msgs.pilothouse_msgs import Bumper, RobotInfo
+from bridge.msgs.sensor_msgs import BatteryState, LaserScan
+from bridge.msgs.std_msgs import Header, Time
+
+__all__ = ["Box", "FakeClient", "FakeRobot", "Pillar"]
+
+STEP = 0.05
+"""Between two moves [s]; odometry comes with each, the laser with every other, the battery once a second."""
+
+ROOM = 1.0
+"""Of unknown cells round the walls [m]."""
+
+
+@dataclass(frozen=True)
+class Box:
+    """Something rectangular [m], on the map."""
+
+    west: float
+    south: float
+    east: float
+    north: float
+
+    def sides(self) -> list[tuple[float, float, float, float]]:
+        """As lines from (x, y) to (x, y)."""
+        w, s, e, n = self.west, self.south, self.east, self.north
+        return [(w, s, e, s), (e, s, e, n), (e, n, w, n), (w, n, w, s)]
+
+
+@dataclass(frozen=True)
+class Pillar:
+    """Something round [m], not on the map."""
+
+    x: float
+    y: float
+    radius: float = 0.12
+
+
+class FakeClient:
+    """A connected client."""
+
+    def __init__(self, name: str = "a", now: float = 0.0) -> None:
+        self.id = name
+        self.address = "192.0.2.1:5000"
+        self.last_heard = now
+
+
+class FakeRobot:
+    """A disc that moves exactly as told in a walled hall; its laser and odometry err by nothing unless told to."""
+
+    def __init__(
+        self,
+        *,
+        start: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        hall: Box = Box(-10.0, -6.0, 10.0, 6.0),
+        boxes: Sequence[Box] = (),
+        pillars: Sequence[Pillar] = (),
+        drift: float = 0.0,
+        beams: int = 180,
+    ) -> None:
+        """`drift` is how much farther the wheels believe to have gone, as a part of the way."""
+        self.info = RobotInfo("Fake-1", "wheels", "fake", "Differential drive", "hall", 0.7, 1.9, 0.18)
+        self.pose = start
+        self.hall, self.boxes, self.pillars = hall, list(boxes), list(pillars)
+        self.commands: list[Twist | None] = []
+        """Every drive, and None for every stop, in order."""
+        self.twist = Twist()
+        self.battery = 0.8
+        self.silent: set[str] = set()
+        """Topics that have stopped coming."""
+        self.wanted: dict[str, bool] = {}
+        self.closed = False
+        self.contacts = 0
+        self._odom, self._drift = (0.0, 0.0, 0.0), drift
+        self._angles = np.linspace(-math.pi, math.pi, beams, endpoint=False)
+        self._origin: float | None = None
+        self._steps = 0
+
+    @property
+    def at_rest(self) -> bool:
+        """Told to stand still."""
+        return self.twist == Twist()
+
+    def drive(self, twist: Twist) -> None:
+        self.commands.append(twist)
+        self.twist = twist
+
+    def stop(self) -> None:
+        self.commands.append(None)
+        self.twist = Twist()
+
+    def want(self, topic: str, wanted: bool) -> None:
+        self.wanted[topic] = wanted
+
+    def close(self) -> None:
+        self.closed = True
+
+    def read(self, now: float) -> Iterator[tuple[str, Msg]]:
+        if self._origin is None:
+            self._origin = now
+            yield "/map", self.map()
+        while self._origin + self._steps * STEP <= now + 1e-9:
+            stamp = self._origin + self._steps * STEP
+            for topic, msg in self._measure(Time.at(stamp)):
+                if topic not in self.silent:
+                    yield topic, msg
+            self._move()
+            self._steps += 1
+
+    def map(self, resolution: float = 0.1) -> OccupancyGrid:
+        """What the robot knows of the hall: walls and boxes, not pillars."""
+        hall = self.hall
+        columns = round((hall.east - hall.west + 2 * ROOM) / resolution)
+        rows = round((hall.north - hall.south + 2 * ROOM) / resolution)
+        x = hall.west - ROOM + (np.arange(columns) + 0.5) * resolution
+        y = hall.south - ROOM + (np.arange(rows) + 0.5) * resolution
+        cells = np.full((rows, columns), 100, dtype=np.int8)
+        cells[np.ix_((y > hall.south) & (y < hall.north), (x > hall.west) & (x < hall.east))] = 0
+        for box in self.boxes:
+            inside = np.ix_((y > box.south) & (y < box.north), (x > box.west) & (x < box.east))
+            cells[inside] = 100
+        corner = Pose(Point(hall.west - ROOM, hall.south - ROOM))
+        info = MapMetaData(Time(), resolution, columns, rows, corner)
+        return OccupancyGrid(Header(frame_id="map"), info, Int8Array(cells.tobytes()))
+
+    def room(self) -> float:
+        """Between the body and the nearest thing [m]."""
+        return float(self._ranges().min()) - self.info.radius
+
+    def _measure(self, stamp: Time) -> Iterator[tuple[str, Msg]]:
+        x, y, yaw = self._odom
+        pose = PoseWithCovariance(Pose(Point(x, y), Quaternion.from_yaw(yaw)))
+        twist = TwistWithCovariance(self.twist)
+        yield "/odom", Odometry(Header(stamp, "odom"), "base_link", pose, twist)
+        if self._steps % 2 == 0:
+            yield "/scan", self._scan(stamp)
+            yield "/bumper", Bumper(Header(stamp, "base_link"), self.room() < 0.0)
+        if self._steps % 20 == 0:
+            yield "/battery_state", BatteryState(Header(stamp), percentage=self.battery)
+
+    def _scan(self, stamp: Time) -> LaserScan:
+        step = float(self._angles[1] - self._angles[0])
+        ranges = self._ranges()
+        ranges[ranges > 12.0] = math.inf
+        values = Float32Array(ranges.astype(np.float32).tobytes())
+        first, last = float(self._angles[0]), float(self._angles[-1])
+        return LaserScan(Header(stamp, "laser"), first, last, step, 0.0, 0.1, 0.05, 12.0, values)
+
+    def _ranges(self) -> NDArray[np.float64]:
+        x, y, yaw = self.pose
+        dx, dy = np.cos(self._angles + yaw), np.sin(self._angles + yaw)
+        nearest = np.full(len(dx), np.inf)
+        for box in (self.hall, *self.boxes):
+            for side in box.sides():
+                nearest = np.minimum(nearest, _to_line(x, y, dx, dy, side))
+        for pillar in self.pillars:
+            nearest = np.minimum(nearest, _to_circle(x - pillar.x, y - pillar.y, dx, dy, pillar.radius))
+        return nearest
+
+    def _move(self) -> None:
+        v, turn = self.twist.linear.x, self.twist.angular.z
+        self.pose = _moved(self.pose, v * STEP, turn * STEP)
+        self._odom = _moved(self._odom, v * STEP * (1 + self._drift), turn * STEP * (1 + self._drift))
+        if self.room() < 0.0:
+            self.contacts += 1
+
+
+def _moved(pose: tuple[float, float, float], way: float, turn: float) -> tuple[float, float, float]:
+    x, y, yaw = pose
+    middle = yaw + turn / 2
+    return x + way * math.cos(middle), y + way * math.sin(middle), math.remainder(yaw + turn, math.tau)
+
+
+def _to_line(
+    x: float, y: float, dx: NDArray[np.float64], dy: NDArray[np.float64], line: tuple[float, float, float, float]
+) -> NDArray[np.float64]:
+    ax, ay, bx, by = line
+    ex, ey = bx - ax, by - ay
+    with np.errstate(divide="ignore", invalid="ignore"):
+        cross = dx * ey - dy * ex
+        distance = ((ax - x) * ey - (ay - y) * ex) / cross
+        part = ((ax - x) * dy - (ay - y) * dx) / cross
+        hit = (distance > 0) & (part >= 0) & (part <= 1)
+    return np.where(hit, distance, np.inf)
+
+
+def _to_circle(
+    x: float, y: float, dx: NDArray[np.float64], dy: NDArray[np.float64], radius: float
+) -> NDArray[np.float64]:
+    along = x * dx + y * dy
+    inside = along**2 - (x * x + y * y - radius * radius)
+    with np.errstate(invalid="ignore"):
+        distance = -along - np.sqrt(inside)
+    return np.where((inside > 0) & (distance > 0), distance, np.inf)

@@ -1,0 +1,193 @@
+"""Whose word moves the robot, and for how long."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from bridge.msgs.geometry_msgs import Twist, Vector3
+from robotside.controls import LAPSE, STOP_SENTENCE, VALID, Controls
+from tests.fakes import FakeClient
+
+AHEAD = Twist.planar(0.3, 0.1)
+REST = Twist()
+
+
+@pytest.fixture
+def controls() -> Controls:
+    return Controls(max_speed=0.7, max_yaw_rate=1.9)
+
+
+@pytest.fixture
+def anna() -> FakeClient:
+    return FakeClient("anna", now=10.0)
+
+
+@pytest.fixture
+def bert() -> FakeClient:
+    return FakeClient("bert", now=10.0)
+
+
+def test_a_drive_command_within_the_limits_passes_unchanged(controls: Controls, anna: FakeClient) -> None:
+    assert controls.drive(anna, AHEAD, 10.0).twist == AHEAD
+
+
+def test_a_drive_command_expires_after_its_validity_and_only_once(controls: Controls, anna: FakeClient) -> None:
+    controls.drive(anna, AHEAD, 10.0)
+    assert not controls.expired(10.0 + VALID - 0.01)
+    assert controls.expired(10.0 + VALID)
+    assert not controls.expired(10.0 + VALID + 1.0)
+
+
+def test_a_newer_drive_command_extends_the_time(controls: Controls, anna: FakeClient) -> None:
+    controls.drive(anna, AHEAD, 10.0)
+    controls.drive(anna, AHEAD, 10.2)
+    assert not controls.expired(10.4)
+    assert controls.expired(10.5)
+
+
+def test_the_first_valid_drive_command_takes_free_control(controls: Controls, anna: FakeClient) -> None:
+    controls.introduce(anna, "tablet-1", "Anna's tablet")
+    controls.drive(anna, AHEAD, 10.0)
+    driver = controls.driver
+    assert driver is not None
+    assert (driver.client_id, driver.name) == ("tablet-1", "Anna's tablet")
+
+
+def test_somebody_else_is_refused_with_the_drivers_name(
+    controls: Controls, anna: FakeClient, bert: FakeClient
+) -> None:
+    controls.introduce(anna, "tablet-1", "Anna's tablet")
+    controls.acquire(anna, 10.0)
+    ruling = controls.drive(bert, AHEAD, 10.0)
+    assert ruling.twist is None
+    assert ruling.said.startswith("Anna's tablet has control")
+    assert controls.dropped == 1
+
+
+def test_a_refused_command_does_not_keep_the_robot_moving(
+    controls: Controls, anna: FakeClient, bert: FakeClient
+) -> None:
+    controls.drive(anna, AHEAD, 10.0)
+    controls.drive(bert, AHEAD, 10.29)
+    assert controls.expired(10.0 + VALID)
+
+
+def test_control_lapses_when_its_driver_falls_silent(
+    controls: Controls, anna: FakeClient, bert: FakeClient
+) -> None:
+    controls.acquire(anna, 10.0)
+    assert controls.lapse(10.0 + LAPSE) == ""
+    assert controls.acquire(bert, 10.0 + LAPSE) != ""
+    assert controls.acquire(bert, 10.1 + LAPSE) == ""
+
+
+def test_the_same_client_takes_its_control_back_over_a_new_socket(
+    controls: Controls, anna: FakeClient, bert: FakeClient
+) -> None:
+    controls.introduce(anna, "tablet-1", "Anna")
+    controls.acquire(anna, 10.0)
+    controls.introduce(bert, "tablet-1", "Anna")
+    assert controls.acquire(bert, 10.0) == ""
+    assert not controls.gone(anna)
+    assert controls.driver is not None
+
+
+def test_closing_the_socket_while_driving_stops_the_robot_and_frees_control(
+    controls: Controls, anna: FakeClient
+) -> None:
+    controls.drive(anna, AHEAD, 10.0)
+    assert controls.gone(anna)
+    assert controls.driver is None
+    assert not controls.expired(11.0)
+
+
+def test_closing_a_watchers_socket_stops_nothing(controls: Controls, anna: FakeClient, bert: FakeClient) -> None:
+    controls.drive(anna, AHEAD, 10.0)
+    assert not controls.gone(bert)
+    assert controls.driver is not None
+
+
+def test_a_late_command_is_dropped_and_says_how_late(controls: Controls, anna: FakeClient) -> None:
+    ruling = controls.drive(anna, AHEAD, 10.0, stamp=9.5)
+    assert ruling.twist is None
+    assert "0.5 s late" in ruling.said
+
+
+def test_a_command_as_old_as_allowed_passes(controls: Controls, anna: FakeClient) -> None:
+    assert controls.drive(anna, AHEAD, 10.0, stamp=9.75).twist == AHEAD
+
+
+@pytest.mark.parametrize("stamp", [9.9, 9.95])
+def test_a_command_that_was_overtaken_is_dropped(controls: Controls, anna: FakeClient, stamp: float) -> None:
+    controls.drive(anna, REST, 10.0, stamp=9.95)
+    assert controls.drive(anna, AHEAD, 10.0, stamp=stamp).twist is None
+
+
+def test_each_client_has_its_own_order(controls: Controls, anna: FakeClient, bert: FakeClient) -> None:
+    controls.drive(anna, AHEAD, 10.0, stamp=9.95)
+    controls.release(anna)
+    assert controls.drive(bert, AHEAD, 10.0, stamp=9.9).twist == AHEAD
+
+
+def test_a_command_from_a_wrong_clock_does_not_lock_its_sender_out(controls: Controls, anna: FakeClient) -> None:
+    assert "ahead of the robot's" in controls.drive(anna, AHEAD, 10.0, stamp=99.0).said
+    assert controls.drive(anna, AHEAD, 10.1, stamp=10.1).twist == AHEAD
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+@pytest.mark.parametrize("part", range(6))
+def test_a_command_with_a_speed_that_is_no_number_is_dropped(
+    controls: Controls, anna: FakeClient, bad: float, part: int
+) -> None:
+    numbers = [0.1] * 6
+    numbers[part] = bad
+    ruling = controls.drive(anna, Twist(Vector3(*numbers[:3]), Vector3(*numbers[3:])), 10.0)
+    assert ruling.twist is None
+    assert "not all numbers" in ruling.said
+    assert controls.driver is None
+
+
+def test_speeds_are_cut_to_the_limits_with_their_direction_kept(controls: Controls, anna: FakeClient) -> None:
+    twist = controls.drive(anna, Twist(Vector3(-3.0, 4.0), Vector3(0.0, 0.0, -9.0)), 10.0).twist
+    assert twist is not None
+    assert math.hypot(twist.linear.x, twist.linear.y) == pytest.approx(0.7)
+    assert twist.linear.y / twist.linear.x == pytest.approx(-4 / 3)
+    assert twist.angular.z == -1.9
+
+
+def test_after_stop_nothing_drives_until_it_is_released(controls: Controls, anna: FakeClient) -> None:
+    controls.drive(anna, AHEAD, 10.0)
+    controls.stop("Bert")
+    assert controls.drive(anna, AHEAD, 10.1).said == STOP_SENTENCE
+    assert not controls.expired(11.0)
+    controls.release_stop()
+    assert controls.drive(anna, AHEAD, 10.2).twist == AHEAD
+
+
+def test_a_stick_at_rest_is_not_scolded_while_stopped(controls: Controls, anna: FakeClient) -> None:
+    controls.stop("Bert")
+    ruling = controls.drive(anna, REST, 10.0)
+    assert (ruling.twist, ruling.said, controls.dropped) == (None, "", 0)
+
+
+def test_the_first_who_pressed_stop_is_remembered(controls: Controls) -> None:
+    controls.stop("Bert")
+    controls.stop("Anna")
+    assert controls.stopped_by == "Bert"
+
+
+def test_a_stick_at_rest_does_not_disturb_a_robot_that_drives_itself(
+    controls: Controls, anna: FakeClient
+) -> None:
+    assert controls.drive(anna, REST, 10.0, auto=True).twist is None
+    assert controls.driver is None
+    assert controls.drive(anna, AHEAD, 10.0, auto=True).twist == AHEAD
+
+
+def test_only_its_holder_releases_control(controls: Controls, anna: FakeClient, bert: FakeClient) -> None:
+    controls.acquire(anna, 10.0)
+    assert "has control" in controls.release(bert)
+    assert controls.release(anna) == ""
+    assert controls.driver is None
