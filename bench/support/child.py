@@ -54,7 +54,7 @@ class Child:
 @contextmanager
 def child(module: str, *arguments: str, environment: Mapping[str, str] | None = None) -> Iterator[Child]:
     """Run `python -m module arguments…`; at the end its standard input is closed, then it is told to end."""
-    process = subprocess.Popen(  # noqa: S603 - our own modules
+    process = subprocess.Popen(
         [sys.executable, "-m", module, *arguments],
         cwd=ROOT,
         env={**os.environ, **(environment or {})},
