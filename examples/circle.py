@@ -2,12 +2,13 @@
 
 import time
 
-from bridge.msgs.geometry_msgs import Twist, Vector3
+from bridge.msgs.geometry_msgs import Twist
 from bridge.remote import RemoteRobot
 
 with RemoteRobot("ws://127.0.0.1:9090") as robot:
+    robot.wait()
     robot.on("/pose", lambda msg: print(msg.pose.pose.position))
     for _ in range(40):
-        robot.publish("/cmd_vel", Twist(Vector3(0.2, 0, 0), Vector3(0, 0, 0.5)))
+        robot.publish("/cmd_vel", Twist.planar(0.2, 0.5))
         time.sleep(0.05)
     print(robot.call("/task/go_home").message)
