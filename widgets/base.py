@@ -54,7 +54,7 @@ Builder.load_string("""
             size: root.badge_texture.size
             texture: root.badge_texture
         Color:
-            rgba: theme.danger if root.state == 'alarm' else (0, 0, 0, 0)
+            rgba: theme.danger if root.alarmed else (0, 0, 0, 0)
         SmoothLine:
             rounded_rectangle: root.pos + root.size + [root.veil_radius]
             width: dp(1.5)
@@ -96,7 +96,7 @@ class RobotWidget(Widget):
     """Types that `show` takes."""
 
     veiled: ClassVar[bool] = True
-    """Stale and disabled are drawn as a veil with the age on it; False for a widget that shows them in its own way."""
+    """The states are drawn here: a veil with the age on it, an outline. False for a widget that draws its own."""
 
     state = OptionProperty("never", options=STATES)
     """Never heard, live, stale, alarm or disabled: each has its own look."""
@@ -110,6 +110,12 @@ class RobotWidget(Widget):
 
     veil = AliasProperty(_veil, bind=["state"])
     """Colour over what is stale or disabled."""
+
+    def _alarmed(self) -> bool:
+        return self.veiled and self.state == "alarm"
+
+    alarmed = AliasProperty(_alarmed, bind=["state"], cache=True)
+    """Has the outline of an alarm."""
 
     def _badge(self) -> str:
         return age_text(self.age) if self.veiled and self.state == "stale" else ""

@@ -12,7 +12,7 @@ from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
-from widgets import labels as labels  # its rules draw the icons
+import widgets.labels  # noqa: F401 - its rules draw the icons
 
 __all__ = ["IconButton", "NavButton", "PrimaryButton", "PushButton", "QuietButton"]
 
@@ -196,7 +196,9 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "quiet": _button(QuietButton, text="Pause", icon="pause"),
         "quiet pressed": _button(QuietButton, text="Pause", icon="pause", state="down"),
         "quiet disabled": _button(QuietButton, text="Go home", icon="home", disabled=True),
-        "icon above": _button(QuietButton, text="Home", icon="home", flow="vertical", width="104dp", height="64dp"),
+        "icon above": _button(
+            QuietButton, text="Home", icon="home", flow="vertical", width="104dp", height="64dp"
+        ),
         "icon": lambda: IconButton(icon="my_location"),
         "icon bare": lambda: IconButton(icon="arrow_back", bare=True, role="muted"),
         "nav": lambda: NavButton(icon="sports_esports", text="Drive"),

@@ -23,7 +23,7 @@ from kivy.uix.label import Label
 from kivy.uix.textinput import TextInput
 from kivy.uix.widget import Widget
 
-from widgets import buttons as buttons  # its rules draw the icons
+import widgets.buttons  # noqa: F401 - its rules draw the icons
 from widgets.labels import Icon
 from widgets.theme import theme
 
@@ -480,7 +480,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "stepper": lambda: Stepper(value=5, unit="s"),
         "stepper at its end": lambda: Stepper(value=0, unit="laps", zero="until stopped"),
         "switch on": lambda: Toggle(active=True),
-        "switch off": lambda: Toggle(),
+        "switch off": Toggle,
         "switch disabled": lambda: Toggle(active=True, disabled=True),
         "progress": lambda: Progress(value=0.38, **wide),
         "progress unknown": lambda: Progress(**wide),

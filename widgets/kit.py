@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from widgets.buttons import IconButton, NavButton, PrimaryButton, PushButton, QuietButton
 from widgets.cards import Banner, Card, Sheet, Toast
-from widgets.choices import Fader, Progress, Segmented, Stepper, Toggle, TextField
+from widgets.choices import Fader, Progress, Segmented, Stepper, TextField, Toggle
 from widgets.labels import Chip, Icon, SectionLabel, Text, ValueUnit, spaced
 
 __all__ = [

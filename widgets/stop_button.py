@@ -1,7 +1,7 @@
 """STOP: the largest thing to touch, in the same corner of every screen.
 
-    stop = StopButton()
-    stop.bind(on_command=lambda _: commands.stop(), on_release_stop=lambda _: commands.release())
+stop = StopButton()
+stop.bind(on_command=lambda _: commands.stop(), on_release_stop=lambda _: commands.release())
 """
 
 from __future__ import annotations

@@ -1,0 +1,120 @@
+"""How to patrol: the motion, the dwell, the laps, and whether an intruder stops it.
+
+motion = MotionSelector()
+motion.show(mission)
+motion.bind(on_command=lambda _, choice: editor.set_motion(**choice))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.properties import BooleanProperty, NumericProperty, OptionProperty
+from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.widget import Widget
+
+import widgets.choices  # noqa: F401 - its rules draw the controls
+from bridge.msgs.pilothouse_msgs import Mission
+from widgets.base import Control
+
+__all__ = ["MOTIONS", "MotionSelector"]
+
+MOTIONS = [("loop", "Loop"), ("random", "Random"), ("intermittent", "Intermittent")]
+"""Each motion and its word."""
+
+Builder.load_string("""
+<MotionSelector>:
+    orientation: 'vertical'
+    size_hint_y: None
+    height: self.minimum_height
+    spacing: theme.gap * .6
+    SectionLabel:
+        title: 'Motion'
+    Segmented:
+        options: root.motions
+        value: root.motion_name
+        on_choose: root.choose('motion', args[1])
+    MotionRow:
+        title: 'Dwell at each point'
+        opacity: 1 if root.motion_name == 'intermittent' else .45
+        Stepper:
+            value: root.dwell
+            unit: 's'
+            minimum: 1
+            maximum: 600
+            disabled: root.motion_name != 'intermittent'
+            pos_hint: {'center_y': .5}
+            on_change: root.choose('dwell', args[1])
+    MotionRow:
+        title: 'Laps'
+        Stepper:
+            value: root.laps
+            zero: 'until stopped'
+            maximum: 99
+            pos_hint: {'center_y': .5}
+            on_change: root.choose('laps', int(args[1]))
+    MotionRow:
+        title: 'Stop when an intruder is seen'
+        Toggle:
+            active: root.stop_on_intruder
+            pos_hint: {'center_y': .5}
+            on_change: root.choose('stop_on_intruder', args[1])
+
+<MotionRow@BoxLayout>:
+    title: ''
+    size_hint_y: None
+    height: max(dp(44), theme.target * .8)
+    spacing: dp(8)
+    Text:
+        text: root.title
+        pos_hint: {'center_y': .5}
+""")
+
+
+class MotionSelector(Control, BoxLayout):
+    """Dispatches `on_command({name: value})` for the one thing that a finger changed."""
+
+    accepts = (Mission,)
+    sends = (Mission,)
+
+    motions = MOTIONS
+    motion_name = OptionProperty("loop", options=[value for value, _ in MOTIONS])
+    """A property called `motion` would be given Kivy's touches by its `on_motion`."""
+    dwell = NumericProperty(5.0)
+    """How long it stands at each point in intermittent motion [s]."""
+    laps = NumericProperty(0)
+    """0 goes on until stopped."""
+    stop_on_intruder = BooleanProperty(False)
+
+    def show(self, msg: Mission) -> None:
+        """Take over how a mission moves; nothing is dispatched."""
+        self.motion_name = msg.motion
+        self.dwell = msg.dwell
+        self.laps = msg.laps
+        self.stop_on_intruder = msg.stop_on_intruder
+
+    def choose(self, name: str, value: Any) -> None:
+        """Change `motion`, `dwell`, `laps` or `stop_on_intruder` as a finger would."""
+        setattr(self, "motion_name" if name == "motion" else name, value)
+        self.dispatch("on_command", {name: value})
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """Each motion."""
+
+    def make(mission: Mission, **kwargs: Any) -> Callable[[], Widget]:
+        def build() -> Widget:
+            selector = MotionSelector(size_hint_x=None, width="330dp", **kwargs)
+            selector.show(mission)
+            return selector
+
+        return build
+
+    return {
+        "loop": make(Mission(stop_on_intruder=True)),
+        "random": make(Mission(motion="random", laps=3)),
+        "intermittent": make(Mission(motion="intermittent", dwell=8.0)),
+        "disabled": make(Mission(), state="disabled"),
+    }
