@@ -25,6 +25,13 @@ STEPS_PER_SECOND = 240
 GRAVITY = 9.81
 """[m/s2]"""
 
+SKY = (160, 200, 238)
+"""What `Bullet.picture` shows where there is nothing: red, green, blue, 0 to 255."""
+
+Picture = NDArray[np.uint8]
+
+_NOTHING = 0.99999
+"""Depth, 0 near to 1 far, from which on a pixel shows nothing."""
 _EVERYTHING = -1
 _OWN_BODIES = 64
 """Collision group of vehicles, which their own lasers look through."""
@@ -265,28 +272,31 @@ class Bullet:
 
     def picture(
         self, eye: Vec3, target: Vec3, up: Vec3, field_of_view: float, size: tuple[int, int]
-    ) -> NDArray[np.uint8]:
+    ) -> Picture:
         """What a camera sees, drawn by pybullet's own slow software renderer: (height, width, 3) RGB.
 
-        `field_of_view` is the vertical one [rad]; only bodies of a world made for drawing have looks.
+        `field_of_view` is the vertical one [rad]; only bodies made by `add_looks` have looks. Where there is nothing,
+        the picture is `SKY`.
         """
         width, height = size
         view = p.computeViewMatrix(eye, target, up)
         projection = p.computeProjectionMatrixFOV(
             float(np.degrees(field_of_view)), width / height, 0.05, 120.0
         )
-        image = p.getCameraImage(
+        _, _, colours, depths, _ = p.getCameraImage(
             width,
             height,
             view,
             projection,
             shadow=0,
-            lightDirection=(0.4, -0.5, 0.9),
+            lightDirection=(-0.46, -0.52, 0.72),
             renderer=p.ER_TINY_RENDERER,
             flags=p.ER_NO_SEGMENTATION_MASK,
             physicsClientId=self._client,
         )
-        return np.ascontiguousarray(np.reshape(image[2], (height, width, 4))[:, :, :3], dtype=np.uint8)
+        picture: Picture = np.array(np.reshape(colours, (height, width, 4))[:, :, :3], dtype=np.uint8)
+        picture[np.reshape(depths, (height, width)) >= _NOTHING] = SKY
+        return picture
 
     def close(self) -> None:
         """Free the world; closing twice does nothing."""

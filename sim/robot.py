@@ -12,6 +12,7 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from sim.backend_bullet import STEPS_PER_SECOND
+from sim.camera import Camera
 from sim.occupancy import occupancy
 from sim.simulation import Simulation
 from sim.world import WORLDS, load
@@ -45,6 +46,7 @@ class SimRobot:
         self._origin: float | None = None
         self.info = info_of(simulation, camera=camera)
         """Who it is."""
+        self._camera = Camera(simulation.world, simulation.vehicle.parameters.camera) if camera else None
 
     def drive(self, twist: Twist) -> None:
         """Go for `twist` in `base_link`, within its limits, until the next `drive` or `stop`."""
@@ -75,15 +77,23 @@ class SimRobot:
         while self.simulation.steps < goal:
             self.simulation.advance()
             measured.extend(self._measure())
+        if self._camera is not None:
+            measured.extend((CAMERA_TOPIC, image) for image in self._camera.collect())
         return measured
 
     def close(self) -> None:
         """Free everything; closing twice does nothing."""
+        if self._camera is not None:
+            self._camera.close()
         self.simulation.close()
 
     def _measure(self) -> Iterator[tuple[str, Msg]]:
-        stamp = (self._origin or 0.0) + self.simulation.time
-        return self.simulation.vehicle.measure(stamp, truth=TRUTH_TOPIC in self._wanted)
+        simulation = self.simulation
+        stamp = (self._origin or 0.0) + simulation.time
+        yield from simulation.vehicle.measure(stamp, truth=TRUTH_TOPIC in self._wanted)
+        if self._camera is not None and self._camera.due(simulation.steps) and CAMERA_TOPIC in self._wanted:
+            for image in self._camera.shoot(simulation.vehicle.state(), stamp):
+                yield CAMERA_TOPIC, image
 
 
 def info_of(simulation: Simulation, *, camera: bool) -> RobotInfo:

@@ -1,0 +1,109 @@
+"""A camera on a vehicle: from what is drawn to JPEG pictures with the stamp of their moment."""
+
+from __future__ import annotations
+
+import io
+import logging
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.msgs.std_msgs import Header, Time
+from sim.backend_bullet import State
+from sim.renderer import NoRendererError, Renderer
+from sim.schedule import Schedule
+from sim.shapes import place
+from sim.tiny_renderer import TinyRenderer
+from sim.vehicles.parameters import CameraParameters
+from sim.view import View
+from sim.world import World
+
+__all__ = ["Camera"]
+
+QUALITY = 80
+"""Of the JPEG."""
+
+_log = logging.getLogger(__name__)
+
+Picture = NDArray[np.uint8]
+"""(height, width, 3) RGB, top row first."""
+
+
+class Eye(Protocol):
+    """Something that draws views, at once or a little later."""
+
+    def show(self, view: View, stamp: float) -> list[tuple[float, Picture]]:
+        """Draw `view` as of `stamp`; gives the pictures that are ready, oldest first, each with its stamp."""
+
+    def ready(self) -> list[tuple[float, Picture]]:
+        """Pictures that became ready since the last call, without waiting."""
+
+    def close(self) -> None:
+        """Free everything."""
+
+
+class _Quick:
+    """Draws by OpenGL, at once."""
+
+    def __init__(self, world: World) -> None:
+        self._renderer = Renderer(world)
+
+    def show(self, view: View, stamp: float) -> list[tuple[float, Picture]]:
+        return [(stamp, self._renderer.render(view))]
+
+    def ready(self) -> list[tuple[float, Picture]]:
+        return []
+
+    def close(self) -> None:
+        self._renderer.close()
+
+
+def _eye(world: World) -> Eye:
+    try:
+        return _Quick(world)
+    except NoRendererError as fault:
+        _log.warning("%s The camera gives 320 x 240 pictures instead.", fault)
+        return TinyRenderer(world)
+
+
+class Camera:
+    """Looks ahead from its place on the vehicle."""
+
+    def __init__(self, world: World, parameters: CameraParameters) -> None:
+        """A camera in `world`; where OpenGL cannot draw without a window it is a smaller one, and the log says so."""
+        self._parameters = parameters
+        self._eye = _eye(world)
+        self._schedule = Schedule({"camera": parameters.rate})
+
+    def due(self, step: int) -> bool:
+        """It is time for a picture after physics step `step`; to be asked after every step."""
+        return bool(self._schedule.due(step))
+
+    def shoot(self, state: State, stamp: float) -> list[CompressedImage]:
+        """Take a picture from a vehicle in `state` at `stamp` [s]; gives those that are ready, oldest first."""
+        parameters = self._parameters
+        eye = place(parameters.position, state.position, state.rotation)
+        view = View(eye, state.rotation, (parameters.width, parameters.height), parameters.field_of_view)
+        return [_message(picture, taken) for taken, picture in self._eye.show(view, stamp)]
+
+    def collect(self) -> list[CompressedImage]:
+        """Pictures taken earlier that have become ready."""
+        return [_message(picture, taken) for taken, picture in self._eye.ready()]
+
+    def close(self) -> None:
+        """Free everything; closing twice does nothing."""
+        self._eye.close()
+
+
+def _message(picture: Picture, stamp: float) -> CompressedImage:
+    return CompressedImage(Header(Time.at(stamp), "camera"), "jpeg", jpeg(picture))
+
+
+def jpeg(picture: Picture) -> bytes:
+    """The picture as a JPEG file."""
+    file = io.BytesIO()
+    Image.fromarray(picture).save(file, "JPEG", quality=QUALITY)
+    return file.getvalue()

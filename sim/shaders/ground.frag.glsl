@@ -1,0 +1,59 @@
+#version 330
+// Asphalt with painted lines and baked shadows where the lot is, grass round it. ROWS and LINES are set per world.
+uniform sampler2D markings;   // red: painted signs; green: light that is left by shadows
+uniform sampler2D grain;
+uniform vec2 extent;          // of the lot, centred on the origin [m]
+uniform vec3 eye;
+uniform vec3 haze;
+uniform vec4 rows[ROWS];      // rows of bays: x and y of the south-west corner, breadth of a bay, depth [m]
+uniform float bays[ROWS];     // bays in the row
+uniform vec4 lines[LINES];    // from x, y to x, y [m]
+uniform float widths[LINES];  // [m]
+in vec2 place;
+out vec3 colour;
+
+const float HALF_LINE = 0.06;
+
+// Part of a pixel, `size` broad round `at`, that lies between `low` and `high`.
+float covered(float at, float size, float low, float high) {
+    return clamp((min(at + size, high) - max(at - size, low)) / (2.0 * size), 0.0, 1.0);
+}
+
+// Drawn by formula and not from a picture: a picture seen at this low angle would blur or flicker.
+float lines_here() {
+    float most = 0.0;
+    vec2 pixel = max(fwidth(place) * 0.5, vec2(1e-5));
+    for (int i = 0; i < ROWS; i++) {
+        float along = (place.x - rows[i].x) / rows[i].z;
+        float nearest = clamp(floor(along + 0.5), 0.0, bays[i]) * rows[i].z + rows[i].x;
+        float x = covered(place.x, pixel.x, nearest - HALF_LINE, nearest + HALF_LINE);
+        most = max(most, x * covered(place.y, pixel.y, rows[i].y, rows[i].y + rows[i].w));
+    }
+    for (int i = 0; i < LINES; i++) {
+        vec2 way = lines[i].zw - lines[i].xy;
+        float size = length(way);
+        vec2 ahead = way / size;
+        vec2 from = place - lines[i].xy;
+        vec2 local = vec2(dot(from, ahead), dot(from, vec2(-ahead.y, ahead.x)));
+        vec2 spread = max(fwidth(local) * 0.5, vec2(1e-5));
+        float across = covered(local.y, spread.y, -widths[i] * 0.5, widths[i] * 0.5);
+        most = max(most, across * covered(local.x, spread.x, 0.0, size));
+    }
+    return most;
+}
+
+void main() {
+    float away = distance(vec3(place, 0.0), eye);
+    float rough = texture(grain, place * 0.43).r;
+    vec2 outside = abs(place) - extent * 0.5;
+    if (max(outside.x, outside.y) < 0.0) {
+        vec2 mark = texture(markings, place / extent + 0.5, -1.5).rg;
+        vec3 asphalt = vec3(0.415, 0.425, 0.44) * (0.87 + 0.26 * rough);
+        float paint = max(mark.r, lines_here());
+        colour = mix(asphalt, vec3(0.92, 0.93, 0.92), paint * (0.78 + 0.20 * rough)) * mark.g;
+    } else {
+        colour = mix(vec3(0.26, 0.37, 0.18), vec3(0.42, 0.53, 0.28), rough);
+    }
+    float far = max(away - 12.0, 0.0) * 0.006;
+    colour = mix(colour, haze, far / (1.0 + far));
+}
