@@ -11,7 +11,7 @@ import secrets
 import signal
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from bridge.errors import BridgeError
@@ -90,9 +90,7 @@ def _serve(options: argparse.Namespace) -> int:
         robot.close()
 
 
-async def _run(options: argparse.Namespace, robot: Robot, wall: object) -> int:
-    if not callable(wall):
-        raise TypeError("wall is a clock")
+async def _run(options: argparse.Namespace, robot: Robot, wall: Callable[[], float]) -> int:
     clock = RobotClock(wall(), options.speed)
     station = Station(
         robot,

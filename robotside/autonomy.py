@@ -44,7 +44,7 @@ class Autonomy:
     """The robot's own mind; fed with its messages, it drives when there is a task."""
 
     def __init__(
-        self, robot: Robot, grid: Grid, bus: Bus, events: Events, demand: Demand, rng: random.Random
+        self, robot: Robot, grid: Grid, *, bus: Bus, events: Events, demand: Demand, rng: random.Random
     ) -> None:
         info = robot.info
         self._bus, self._events, self._demand, self._rng = bus, events, demand, rng
@@ -101,7 +101,7 @@ class Autonomy:
         """Patrol the points of `mission`, which must have some."""
         self.mission = mission
         course = patrol_course(mission, self._rng)
-        tree = patrol(course, self.guide, self.situation, self._say_at)
+        tree = patrol(course, self.guide, self.situation, self._events.say)
         self.engine.start(Task("patrol", "Patrol", tree, course), now)
 
     def start_home(self, home: Waypoint, now: float) -> None:
@@ -174,9 +174,6 @@ class Autonomy:
         self._events.say("intruder", text, "alarm", at=(x, y))
         if self.mission.stop_on_intruder and self.engine.status.task == "patrol":
             self.engine.pause(f"Paused: intruder {intruder.id} was found.", self._now, "warn")
-
-    def _say_at(self, kind: str, text: str, level: str, at: tuple[float, float]) -> None:
-        self._events.say(kind, text, level, at=at)
 
     def _show_status(self, status: TaskStatus) -> None:
         self._demand.set(CAMERA, "task", status.state == "RUNNING")

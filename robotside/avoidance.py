@@ -91,7 +91,7 @@ class Avoidance:
         best = self._best(curvatures, free, wanted, needed)
         if free[best] < min(ENOUGH, distance * 0.5):
             return Way(Twist.planar(0.0, self._rate(1.5 * bearing)), True)
-        return Way(self._along(curvatures[best], free[best], speed), False)
+        return Way(self._along(float(curvatures[best]), float(free[best]), speed), False)
 
     def _best(
         self, curvatures: NDArray[np.float64], free: NDArray[np.float64], wanted: float, needed: float

@@ -187,7 +187,9 @@ class Controls:
         if stamp is None or math.isnan(stamp):
             return ""
         if now - stamp > VALID:
-            return f"A drive command was dropped: it came {now - stamp:.1f} s late and is valid for {VALID} s."
+            return (
+                f"A drive command was dropped: it came {now - stamp:.1f} s late and is valid for {VALID} s."
+            )
         if stamp - now > AHEAD:
             return f"A drive command was dropped: its clock is {stamp - now:.1f} s ahead of the robot's."
         if stamp <= self._last_stamp.get(client.id, -math.inf):

@@ -80,9 +80,7 @@ def _search(rgb: PIXELS) -> list[Sighting]:
     return sorted(found, key=lambda sighting: -sighting.score)
 
 
-def _judge(
-    orange: MASK, pale: MASK, box: tuple[slice, slice], shape: tuple[int, ...]
-) -> Sighting | None:
+def _judge(orange: MASK, pale: MASK, box: tuple[slice, slice], shape: tuple[int, ...]) -> Sighting | None:
     """The sighting that a group of orange pixels stands for; None when it does not look like a cone."""
     rows, columns = orange.shape
     count = int(np.count_nonzero(orange))

@@ -5,15 +5,25 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable
+from typing import Protocol
 
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
 
-__all__ = ["KEPT", "Events"]
+__all__ = ["KEPT", "Events", "Say"]
 
 KEPT = 500
 """Events that can still be asked for."""
+
+
+class Say(Protocol):
+    """Tells the operator something."""
+
+    def __call__(
+        self, kind: str, text: str, level: str = "info", *, at: tuple[float, float] | None = None
+    ) -> object:
+        """One sentence of a kind and level; `at` is where in `map` [m], None when it has no place."""
 
 
 class Events:

@@ -55,12 +55,12 @@ class Follower:
 
     def remaining(self, pose: Pose2) -> float:
         """Along the path to its end [m]."""
-        x, y = self.path[self._index]
+        x, y = self.path[self._index].tolist()
         return float(self._left[self._index]) + pose.distance(x, y)
 
     def arrived(self, pose: Pose2) -> bool:
         """The end of the path is reached, or was passed closely."""
-        distance = pose.distance(*self.path[-1])
+        distance = pose.distance(*self.path[-1].tolist())
         passed = distance < MISSED and distance > self._nearest_goal + 0.02
         self._nearest_goal = min(self._nearest_goal, distance)
         return distance < ARRIVED or passed
@@ -71,7 +71,7 @@ class Follower:
         reach = LOOKAHEAD + LOOKAHEAD_TIME * abs(speed)
         ahead = self.ahead
         beyond = np.flatnonzero(np.hypot(ahead[:, 0] - pose.x, ahead[:, 1] - pose.y) >= reach)
-        x, y = ahead[beyond[0]] if len(beyond) else self.path[-1]
+        x, y = (ahead[beyond[0]] if len(beyond) else self.path[-1]).tolist()
         return pose.distance(x, y), pose.bearing(x, y)
 
     def speed(self, pose: Pose2, bearing: float, distance: float) -> float:

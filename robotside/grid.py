@@ -37,7 +37,8 @@ class Grid:
         info = msg.info
         data = np.asarray(msg.data, dtype=np.int8).reshape(info.height, info.width)
         corner = info.origin.position
-        return cls((data >= OCCUPIED) | (data < 0), info.resolution, corner.x, corner.y)
+        occupied: NDArray[np.bool_] = np.logical_or(data >= OCCUPIED, data < 0)
+        return cls(occupied, info.resolution, corner.x, corner.y)
 
     @cached_property
     def distance(self) -> NDArray[np.float64]:
@@ -74,7 +75,8 @@ class Grid:
     def holds(self, x: float, y: float) -> bool:
         """The place is on the map."""
         row, column = self.cell(x, y)
-        return 0 <= row < self.occupied.shape[0] and 0 <= column < self.occupied.shape[1]
+        rows, columns = self.occupied.shape
+        return bool(0 <= row < rows and 0 <= column < columns)
 
     def clearance(self, points: Points) -> NDArray[np.float64]:
         """How far each of `points` is from the nearest obstacle [m]; negative inside one and off the map."""

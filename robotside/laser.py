@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bridge.msgs.sensor_msgs import LaserScan
-from robotside.pose2 import Points, Pose2
+from robotside.pose2 import ORIGIN, Points, Pose2
 
 __all__ = ["Laser"]
 
@@ -14,7 +14,7 @@ __all__ = ["Laser"]
 class Laser:
     """Turns sweeps into end points, for a laser mounted at `mount` in `base_link`."""
 
-    def __init__(self, mount: Pose2 = Pose2(0.0, 0.0, 0.0)) -> None:
+    def __init__(self, mount: Pose2 = ORIGIN) -> None:
         self._mount = mount
         self._shape: tuple[int, float, float] | None = None
         self._beams: NDArray[np.float64] = np.empty((0, 2))
@@ -29,4 +29,4 @@ class Laser:
         with np.errstate(invalid="ignore"):
             hit = (ranges > scan.range_min) & (ranges < scan.range_max)
         points = self._beams[hit] * ranges[hit][:, None]
-        return points if self._mount == (0.0, 0.0, 0.0) else self._mount.apply(points)
+        return points if self._mount == ORIGIN else self._mount.apply(points)

@@ -93,7 +93,7 @@ class Localiser:
         self._odom: Pose2 | None = None
         self.pose: Pose2 | None = None
         """In `map`; None until the first guess."""
-        self.covariance = np.zeros((3, 3))
+        self.covariance: NDArray[np.float64] = np.zeros((3, 3))
         """Of x, y [m] and yaw [rad]."""
         self.fit = math.nan
         """Of the last sweep, 0 to 1; NaN before the first."""
@@ -141,7 +141,7 @@ class Localiser:
             self._bad = 0
         if match.fit >= 0.5 * SURE:
             self.pose = match.pose
-            self.covariance = np.linalg.inv(match.information)
+            self.covariance = np.asarray(np.linalg.inv(match.information), dtype=np.float64)
 
     def search(self, points: Points, guess: Pose2, *, reach: float, turn: float) -> None:
         """Find the pose within `reach` [m] and `turn` [rad] of `guess` that fits best, and begin there."""
@@ -163,7 +163,7 @@ class Localiser:
             top = int(scores.argmax())
             if scores[top] > best_score:
                 best_score = float(scores[top])
-                best = Pose2(guess.x + dx[top], guess.y + dy[top], wrap(float(yaw)))
+                best = Pose2(guess.x + float(dx[top]), guess.y + float(dy[top]), wrap(float(yaw)))
         return best
 
     def _fit(self, start: Pose2, points: Points) -> Match:
@@ -173,7 +173,7 @@ class Localiser:
             gradient, information, fit = self._slope(pose, points)
             off = np.array([pose.x - start.x, pose.y - start.y, wrap(pose.yaw - start.yaw)])
             total = information + prior
-            step = np.linalg.solve(total, -(gradient + prior @ off))
+            step = np.linalg.solve(total, -(gradient + prior @ off)).tolist()
             pose = Pose2(pose.x + step[0], pose.y + step[1], wrap(pose.yaw + step[2]))
             if abs(step[0]) + abs(step[1]) < 1e-3 and abs(step[2]) < 5e-4:
                 break

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from robotside.grid import Grid
 from robotside.pose2 import Points
@@ -42,10 +41,10 @@ class Obstacles:
         """Start with nothing: the position was wrong, and so is all that was seen from it."""
         self._seen.clear()
 
-    def near(self, path: Points, reach: float, now: float) -> NDArray[np.float64]:
+    def near(self, path: Points, reach: float, now: float) -> Points:
         """The remembered places within `reach` [m] of the points of `path`."""
         known = self.points(now)
         if not len(known) or not len(path):
             return known[:0]
         gaps = np.hypot(known[:, None, 0] - path[None, :, 0], known[:, None, 1] - path[None, :, 1])
-        return known[gaps.min(axis=1) < reach]
+        return np.asarray(known[gaps.min(axis=1) < reach])

@@ -88,10 +88,7 @@ class Planner:
         cost[from_cell] = 1.0
         if not math.isfinite(cost[to_cell]):
             raise Unreachable(f"{place_sentence(name, *goal)} is too close to an obstacle.")
-        try:
-            cells, total = route_through_array(cost, from_cell, to_cell, fully_connected=True, geometric=True)
-        except ValueError:
-            total = math.inf
+        cells, total = _search(cost, from_cell, to_cell)
         if not math.isfinite(total):
             raise Unreachable(f"There is no way to {place_sentence(name, *goal)}.")
         inner = [grid.centre(row, column) for row, column in cells[1:-1]]
@@ -146,6 +143,17 @@ def _rounded(path: Points) -> Points:
     smooth = ndimage.gaussian_filter1d(path, 2.0, axis=0, mode="nearest")
     smooth[0], smooth[-1] = path[0], path[-1]
     return np.asarray(smooth)
+
+
+def _search(
+    cost: NDArray[np.float64], start: tuple[int, int], goal: tuple[int, int]
+) -> tuple[list[tuple[int, int]], float]:
+    """The cheapest cells from `start` to `goal`, and what they cost; infinite when there is no way."""
+    try:
+        cells, total = route_through_array(cost, start, goal, fully_connected=True, geometric=True)  # type: ignore[no-untyped-call]
+    except ValueError:
+        return [], math.inf
+    return cells, float(total)
 
 
 def _room_along(grid: Grid, line: Points) -> float:

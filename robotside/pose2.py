@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from bridge.msgs.geometry_msgs import Point, Pose, Quaternion
 from bridge.units import wrap
 
-__all__ = ["Points", "Pose2"]
+__all__ = ["ORIGIN", "Points", "Pose2"]
 
 Points = NDArray[np.float64]
 """Places in the plane, shape (n, 2) [m]."""
@@ -69,3 +69,7 @@ class Pose2(NamedTuple):
     def from_msg(cls, pose: Pose) -> Pose2:
         """Seen from above."""
         return cls(pose.position.x, pose.position.y, pose.orientation.yaw)
+
+
+ORIGIN = Pose2(0.0, 0.0, 0.0)
+"""The frame's own pose."""

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import asyncio
 import socket
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 import uvicorn
-from bridge.beacon import Beacon, Hello
 
 from bridge import frames
+from bridge.beacon import Beacon, Hello
 from bridge.errors import BridgeError
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.server import BridgeServer
+from bridge.topics import TOPICS
 from robotside.autonomy import CAMERA
 from robotside.clock import RobotClock
 from robotside.http import site
@@ -22,6 +24,10 @@ from robotside.station import Station
 from robotside.watch import jpeg_size
 
 __all__ = ["Addresses", "Serving"]
+
+_EVERYWHERE = ("0.0.0.0", "::", "")  # noqa: S104 - compared with, not bound to
+
+_TABLE = frozenset(entry.name for entry in TOPICS)
 
 TICK = 1 / 60
 """Real time between two ticks [s]."""
@@ -36,7 +42,7 @@ class Addresses:
     @property
     def shown(self) -> str:
         """The host as others may type it."""
-        if self.host in ("0.0.0.0", "::", ""):
+        if self.host in _EVERYWHERE:
             return _own_address()
         return f"[{self.host}]" if ":" in self.host else self.host
 
@@ -54,7 +60,9 @@ class Addresses:
 class Serving:
     """Serves one station until told to end."""
 
-    def __init__(self, station: Station, clock: RobotClock, wall: Callable[[], float], addresses: Addresses) -> None:
+    def __init__(
+        self, station: Station, clock: RobotClock, wall: Callable[[], float], addresses: Addresses
+    ) -> None:
         self.addresses = addresses
         self._station, self._clock, self._wall = station, clock, wall
         offered = list(services(station))
@@ -84,15 +92,14 @@ class Serving:
             leave = self._station.bus.subscribe(None, self._publish)
             async with asyncio.TaskGroup() as group:
                 group.create_task(web.serve([web_socket]))
-                beaming = group.create_task(beacon.run())
+                group.create_task(beacon.run())
                 group.create_task(self._tick())
                 ready(where)
                 await self._ending.wait()
                 leave()
                 web.should_exit = True
-                beaming.cancel()
+                await beacon.close()
         finally:
-            await beacon.close()
             self._station.robot.stop()
             await self.server.close()
             web_socket.close()
@@ -111,7 +118,7 @@ class Serving:
             await asyncio.sleep(max(0.0, due - loop.time()))
 
     def _publish(self, topic: str, msg: Msg) -> None:
-        if topic in self.server.topics:
+        if topic in _TABLE:
             self.server.publish(topic, msg)
         if topic == CAMERA and isinstance(msg, CompressedImage) and self._station.info.cameras:
             width, height = jpeg_size(msg.data)
@@ -138,11 +145,10 @@ class Serving:
 class _Web(uvicorn.Server):
     """A web server in somebody else's loop, who also minds the signals."""
 
-    def capture_signals(self):  # type: ignore[no-untyped-def]
+    @contextmanager
+    def capture_signals(self) -> Iterator[None]:
         """Leave the process's signals alone."""
-        from contextlib import nullcontext
-
-        return nullcontext()
+        yield
 
 
 def _listen(host: str, port: int) -> socket.socket:

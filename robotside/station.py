@@ -67,7 +67,9 @@ class Station:
         if grid is None:
             raise ValueError(f"Robot {self.info.name} gave no map with its first messages.")
         self.bus.publish("/robot/info", self.info)
-        self.autonomy = Autonomy(robot, Grid.from_msg(grid), self.bus, self.events, self.demand, rng)
+        self.autonomy = Autonomy(
+            robot, Grid.from_msg(grid), bus=self.bus, events=self.events, demand=self.demand, rng=rng
+        )
         self.bus.publish("/intruders", IntruderArray(Header(Time.at(now), "map")))
         self.bus.publish("/control/status", self._control)
         self.mission, problem = store.load()

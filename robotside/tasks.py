@@ -14,6 +14,7 @@ from bridge.msgs.pilothouse_msgs import TaskProgress, TaskStatus
 from bridge.msgs.std_msgs import Time
 from robotside.behaviours.course import Course
 from robotside.behaviours.situation import Situation
+from robotside.events import Say
 from robotside.guide import Guide
 from robotside.pose2 import Points, Pose2
 
@@ -45,7 +46,7 @@ class Engine:
         *,
         show: Callable[[TaskStatus], None],
         progress: Callable[[TaskProgress], None],
-        say: Callable[[str, str, str], None],
+        say: Say,
         cruise: float,
     ) -> None:
         self._guide, self._situation = guide, situation

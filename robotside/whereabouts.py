@@ -5,10 +5,8 @@ from __future__ import annotations
 import bisect
 import math
 from collections import deque
-from collections.abc import Callable
 
 from bridge.geo import Datum
-
 from bridge.msgs.geometry_msgs import (
     PoseWithCovariance,
     PoseWithCovarianceStamped,
@@ -24,6 +22,7 @@ from bridge.msgs.std_msgs import Header, Time
 from bridge.msgs.tf2_msgs import TFMessage
 from bridge.units import wrap
 from robotside.bus import Publish
+from robotside.events import Say
 from robotside.grid import Grid
 from robotside.localise import Localiser
 from robotside.pose2 import Points, Pose2
@@ -71,9 +70,7 @@ class Track:
 class Whereabouts:
     """Takes odometry, sweeps, fixes and compass; gives the pose in `map`, and says when it is not sure of it."""
 
-    def __init__(
-        self, info: RobotInfo, say: Callable[[str, str, str], None], publish: Publish
-    ) -> None:
+    def __init__(self, info: RobotInfo, say: Say, publish: Publish) -> None:
         self._say, self._publish = say, publish
         has_place = not (math.isnan(info.latitude) or math.isnan(info.longitude))
         self._datum = Datum(info.latitude, info.longitude) if has_place else None

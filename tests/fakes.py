@@ -186,7 +186,11 @@ def _moved(pose: tuple[float, float, float], way: float, turn: float) -> tuple[f
 
 
 def _to_line(
-    x: float, y: float, dx: NDArray[np.float64], dy: NDArray[np.float64], line: tuple[float, float, float, float]
+    x: float,
+    y: float,
+    dx: NDArray[np.float64],
+    dy: NDArray[np.float64],
+    line: tuple[float, float, float, float],
 ) -> NDArray[np.float64]:
     ax, ay, bx, by = line
     ex, ey = bx - ax, by - ay

@@ -1,10 +1,10 @@
 """Patrolling: point after point in a loop, at random or with a halt at each; and the ways to a single place.
 
-    repeat ── visit ─┬─ choose the next point
-                     ├─ try ─┬─ arrive ─┬─ drive to point
-                     │       │          └─ reached
-                     │       └─ skip it
-                     └─ dwell
+repeat ── visit ─┬─ choose the next point
+                 ├─ try ─┬─ arrive ─┬─ drive to point
+                 │       │          └─ reached
+                 │       └─ skip it
+                 └─ dwell
 """
 
 from __future__ import annotations
@@ -22,12 +22,10 @@ from robotside.behaviours.course import Course
 from robotside.behaviours.drive_to import DriveTo
 from robotside.behaviours.dwell import Dwell
 from robotside.behaviours.situation import Situation
+from robotside.events import Say
 from robotside.guide import Goal, Guide
 
-__all__ = ["Say", "patrol", "patrol_course", "single"]
-
-Say = Callable[[str, str, str, tuple[float, float]], None]
-"""Tells the operator: kind, sentence, level, place in `map` [m]."""
+__all__ = ["patrol", "patrol_course", "single"]
 
 
 class _Act(Behaviour):
@@ -60,14 +58,19 @@ def patrol(course: Course, guide: Guide, situation: Situation, say: Say) -> Beha
     def reached() -> bool:
         course.reached()
         goal = course.goal
-        say("waypoint", f"{goal.name} reached.", "ok", (goal.x, goal.y))
+        say("waypoint", f"{goal.name} reached.", "ok", at=(goal.x, goal.y))
         return True
 
     def skip() -> bool:
         goal = course.goal
         goes_on = course.skip()
         after = "going on to the next" if goes_on else "and no other point can be either"
-        say("waypoint", f"{goal.name} is skipped, {after}: {drive.feedback_message}", "warn", (goal.x, goal.y))
+        say(
+            "waypoint",
+            f"{goal.name} is skipped, {after}: {drive.feedback_message}",
+            "warn",
+            at=(goal.x, goal.y),
+        )
         return goes_on
 
     arrive = Sequence("arrive", memory=True, children=[drive, _Act("reached", reached)])

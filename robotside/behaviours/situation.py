@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from robotside.pose2 import Points, Pose2
+from robotside.pose2 import ORIGIN, Points, Pose2
 
 __all__ = ["Situation"]
 
@@ -17,7 +17,7 @@ class Situation:
 
     now: float = 0.0
     """[s], robot clock."""
-    pose: Pose2 = Pose2(0.0, 0.0, 0.0)
+    pose: Pose2 = ORIGIN
     """Of the robot in `map`."""
     points: Points = field(default_factory=lambda: np.empty((0, 2)))
     """What the laser sees, in `base_link`."""

@@ -33,7 +33,9 @@ def test_a_drive_command_within_the_limits_passes_unchanged(controls: Controls, 
     assert controls.drive(anna, AHEAD, 10.0).twist == AHEAD
 
 
-def test_a_drive_command_expires_after_its_validity_and_only_once(controls: Controls, anna: FakeClient) -> None:
+def test_a_drive_command_expires_after_its_validity_and_only_once(
+    controls: Controls, anna: FakeClient
+) -> None:
     controls.drive(anna, AHEAD, 10.0)
     assert not controls.expired(10.0 + VALID - 0.01)
     assert controls.expired(10.0 + VALID)
@@ -103,7 +105,9 @@ def test_closing_the_socket_while_driving_stops_the_robot_and_frees_control(
     assert not controls.expired(11.0)
 
 
-def test_closing_a_watchers_socket_stops_nothing(controls: Controls, anna: FakeClient, bert: FakeClient) -> None:
+def test_closing_a_watchers_socket_stops_nothing(
+    controls: Controls, anna: FakeClient, bert: FakeClient
+) -> None:
     controls.drive(anna, AHEAD, 10.0)
     assert not controls.gone(bert)
     assert controls.driver is not None
@@ -131,7 +135,9 @@ def test_each_client_has_its_own_order(controls: Controls, anna: FakeClient, ber
     assert controls.drive(bert, AHEAD, 10.0, stamp=9.9).twist == AHEAD
 
 
-def test_a_command_from_a_wrong_clock_does_not_lock_its_sender_out(controls: Controls, anna: FakeClient) -> None:
+def test_a_command_from_a_wrong_clock_does_not_lock_its_sender_out(
+    controls: Controls, anna: FakeClient
+) -> None:
     assert "ahead of the robot's" in controls.drive(anna, AHEAD, 10.0, stamp=99.0).said
     assert controls.drive(anna, AHEAD, 10.1, stamp=10.1).twist == AHEAD
 
