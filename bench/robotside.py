@@ -1,0 +1,162 @@
+"""The robot's computer with the simulated patrol robot, laser and camera, and one handheld connected.
+
+The share of a core is CPU time of the whole process (physics, drawing, JPEG, autonomy, sockets and the threads of
+the software GL) over 20 s; the handheld is the app's own link with every subscription that it makes. The other way
+takes the camera's pictures through the JSON topic and not through the binary socket. The patrol is the same station without
+sockets and camera, on a clock that waits for nobody, until 100 m are driven.
+"""
+
+from __future__ import annotations
+
+import random
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+
+from app.feeds import Mailbox
+from app.link import Link
+from app.network import NetworkThread
+from bench.support.figures import Figure
+from bench.support.harness import Context, Sides
+from bench.support.station import ROUND, Serving, patrol, serving
+from bridge.frames import Frame
+from bridge.msgs.pilothouse_msgs import Mission, SetMissionRequest, StartTaskRequest, TaskProgress
+from bridge.server import Session
+from robotside.orders import services
+from robotside.station import Station
+from robotside.store import Store
+from sim.robot import make
+from sim.vehicles.patrol import PARAMETERS
+
+JSON = "pictures as base64 in JSON"
+FIGURES = (
+    Figure("standing", "% of a core", "the robot stands, camera watched", target=30, against=JSON),
+    Figure("patrolling", "% of a core", "it patrols, camera watched", target=30, against=JSON),
+    Figure("pictures", "1/s", "camera pictures that arrive meanwhile", better="more", against=JSON),
+    Figure("patrol_speed", "×", "a patrol of 100 m over real time", target=20, better="more"),
+    Figure("patrol_speed_cpu", "×", "the same over the CPU time that it takes", better="more"),
+)
+REPEATS = 2
+
+WATCHED = 20.0
+"""How long the CPU time is watched [s]."""
+FAR = 100.0
+"""How long the patrol is [m]."""
+TICK = 1 / 60
+"""Between two steps of the station [s], as when it serves."""
+
+
+@contextmanager
+def prepare(_: Context) -> Iterator[Sides]:
+    """Nothing is kept: each sample starts a robot side of its own."""
+    yield Sides(lambda: {**share(PARAMETERS.camera.name), **fast()}, lambda: share(""))
+
+
+def share(camera: str) -> dict[str, float]:
+    """Shares of a core; `camera` is the stream to watch, empty for the JSON topic."""
+    with serving() as robot, handheld(robot.url, camera) as pictures:
+        time.sleep(2.0)
+        standing = watched(robot)
+        patrol(robot.url)
+        time.sleep(3.0)
+        before = len(pictures)
+        patrolling = watched(robot)
+        rate = (len(pictures) - before) / WATCHED
+    return {"standing": standing, "patrolling": patrolling, "pictures": rate}
+
+
+def watched(robot: Serving) -> float:
+    """Its share of a core over `WATCHED` [%]."""
+    began, cpu = time.monotonic(), robot.cpu()
+    time.sleep(WATCHED)
+    return (robot.cpu() - cpu) / (time.monotonic() - began) * 100
+
+
+@contextmanager
+def handheld(url: str, camera: str) -> Iterator[list[float]]:
+    """The app's link without the app; gives the list of when pictures came [s], which grows."""
+    pictures: list[float] = []
+
+    def show(_: Frame, received: float) -> None:
+        pictures.append(received)
+
+    with closing(NetworkThread()) as network:
+        link = Link(
+            url,
+            Mailbox(lambda: None),
+            network,
+            client_id="bench",
+            client_name="bench",
+            on_picture=show,
+        )
+        link.start()
+        link.watch(camera)
+        try:
+            yield pictures
+        finally:
+            link.close()
+
+
+def fast() -> dict[str, float]:
+    """A patrol as fast as this machine can."""
+    robot = make("patrol", "parking_lot", camera=False)
+    with tempfile.TemporaryDirectory() as folder, closing(robot):
+        clock = Clock()
+        station = Station(
+            robot, Store(Path(folder)), now=0.0, clock=clock, rng=random.Random(0), boot="bench"
+        )
+        driven = Odometer()
+        station.bus.subscribe("/task/progress", driven)
+        run(station, clock, 2.0)
+        begin(station)
+        began, wall, cpu = clock.now, time.monotonic(), time.process_time()
+        while driven.metres < FAR:
+            run(station, clock, 1.0)
+            if clock.now - began > 1000:
+                raise RuntimeError(f"The patrol has come {driven.metres:.0f} m in 1000 s.")
+        simulated = clock.now - began
+        wall, cpu = time.monotonic() - wall, time.process_time() - cpu
+    return {"patrol_speed": simulated / wall, "patrol_speed_cpu": simulated / cpu}
+
+
+class Clock:
+    """A clock that is told the time."""
+
+    now = 0.0
+
+    def __call__(self) -> float:
+        """The time [s]."""
+        return self.now
+
+
+class Odometer:
+    """How far the running task has come."""
+
+    metres = 0.0
+
+    def __call__(self, _: str, progress: object) -> None:
+        """Take in what the task says."""
+        if isinstance(progress, TaskProgress):
+            self.metres = progress.distance_driven
+
+
+def run(station: Station, clock: Clock, seconds: float) -> None:
+    """Let so much of the robot's time pass."""
+    for _ in range(round(seconds / TICK)):
+        clock.now += TICK
+        station.step(clock.now)
+
+
+def begin(station: Station) -> None:
+    """Start patrolling `ROUND`, as a client would."""
+    session = Session("1", "bench", 0.0)
+    offered = {service.name: service for service in services(station)}
+    for name, request in (
+        ("/mission/set", SetMissionRequest(mission=Mission(waypoints=ROUND))),
+        ("/task/start", StartTaskRequest()),
+    ):
+        answer = offered[name].call(session, request)
+        if not getattr(answer, "success", False):
+            raise RuntimeError(f"{name}: {answer}")

@@ -1,0 +1,69 @@
+"""The robot's computer as a process of its own, on free ports, with a state folder that is thrown away."""
+
+from __future__ import annotations
+
+import re
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import psutil
+
+from bench.support.child import Child, child
+from bridge.errors import BridgeError
+from bridge.msgs.pilothouse_msgs import (
+    CommandRequest,
+    CommandResponse,
+    Mission,
+    SetMissionRequest,
+    StartTaskRequest,
+    Waypoint,
+)
+from bridge.remote import RemoteRobot
+
+__all__ = ["ROUND", "Serving", "patrol", "serving"]
+
+READY = re.compile(r"^robotside: ready bridge=(\S+)")
+ROUND = [Waypoint(-17.0, -7.5), Waypoint(17.0, -7.5), Waypoint(17.0, 7.5), Waypoint(-17.0, 7.5)]
+"""Corners of the parking lot's two aisles: a lap of 98 m."""
+
+
+@dataclass(frozen=True, slots=True)
+class Serving:
+    """A robot side that serves."""
+
+    child: Child
+    url: str
+    """Of its rosbridge socket."""
+
+    def cpu(self) -> float:
+        """CPU time of all its threads since its start [s]."""
+        times = psutil.Process(self.child.process.pid).cpu_times()
+        return float(times.user + times.system)
+
+
+@contextmanager
+def serving(module: str = "robotside") -> Iterator[Serving]:
+    """Run `python -m module serve` with the simulated patrol robot until the end of the block."""
+    options = ("serve", "--port", "0", "--http-port", "0", "--state")
+    with tempfile.TemporaryDirectory() as state, child(module, *options, state) as process:
+        while not (ready := READY.match(process.line())):
+            pass
+        yield Serving(process, ready[1])
+
+
+def patrol(url: str) -> None:
+    """Have the robot patrol `ROUND` until it is told otherwise; BridgeError when it does not want to."""
+    with RemoteRobot(url) as robot:
+        robot.wait()
+        order(robot, "/mission/set", SetMissionRequest(mission=Mission(waypoints=ROUND)))
+        order(robot, "/task/start", StartTaskRequest())
+        order(robot, "/control/release", CommandRequest())
+
+
+def order(robot: RemoteRobot, service: str, request: CommandRequest) -> None:
+    """Give a command; BridgeError with the robot's own sentence when it refuses."""
+    answer = robot.call(service, request, CommandResponse)
+    if not isinstance(answer, CommandResponse) or not answer.success:
+        raise BridgeError(f"{service}: {answer}")
