@@ -1,0 +1,84 @@
+"""The handheld as a program: `python main.py [ws://HOST:PORT] [--layout NAME] [--screen NAME] [--theme NAME] [--size WxH]`."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import os
+import re
+import sys
+from collections.abc import Sequence
+from typing import NoReturn
+
+from app import layout as layouts
+from app.discovery import check_address
+
+__all__ = ["main"]
+
+SCREENS = ("mission", "drive")
+THEMES = ("dark", "sunlight", "night")
+SIZE = re.compile(r"(\d{3,5})x(\d{3,5})")
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one sentence."""
+
+    def error(self, message: str) -> NoReturn:
+        raise ValueError(message[:1].upper() + message[1:] + ("" if message.endswith(".") else "."))
+
+
+def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
+    parser = _Parser(prog="main.py", description="Pilothouse: supervise and drive robots.")
+    parser.add_argument("url", nargs="?", help="robot to connect to, as in ws://192.168.1.7:9090")
+    parser.add_argument("--layout", default="patrol", help=f"drive screen: {', '.join(layouts.names())}")
+    parser.add_argument("--screen", default="mission", choices=SCREENS, help="screen to show once connected")
+    parser.add_argument("--theme", choices=THEMES, help="look; the last one unless given")
+    parser.add_argument("--size", help="of the window [px], as in 412x892")
+    arguments = parser.parse_args(argv)
+    if arguments.url is not None:
+        arguments.url = check_address(arguments.url)
+    if arguments.layout not in layouts.names():
+        raise ValueError(f"There is no layout {arguments.layout!r}; there are: {', '.join(layouts.names())}.")
+    if arguments.size is not None and not SIZE.fullmatch(arguments.size):
+        raise ValueError(f"A size is written as 412x892, not {arguments.size!r}.")
+    return arguments
+
+
+def prepare(size: str | None = None) -> None:
+    """Set Kivy up before any of it is imported: `size` is that of the window [px], as in `412x892`."""
+    os.environ.setdefault("KIVY_NO_ARGS", "1")
+    os.environ.setdefault("KIVY_CLOCK", "free_all")
+    os.environ.setdefault("KIVY_LOG_MODE", "MIXED")
+    os.environ.setdefault("KIVY_NO_FILELOG", "1")
+    from kivy.config import Config
+
+    width, height = SIZE.fullmatch(size or "1280x800").groups()  # type: ignore[union-attr]
+    Config.set("graphics", "width", width)
+    Config.set("graphics", "height", height)
+    Config.set("graphics", "multisamples", "0")
+    Config.set("kivy", "exit_on_escape", "0")
+    Config.set("input", "mouse", "mouse,disable_multitouch")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the handheld until its window is closed; returns 0, or 2 after saying a mistake in one sentence."""
+    try:
+        arguments = _parse(argv)
+    except ValueError as mistake:
+        print(mistake, file=sys.stderr)
+        return 2
+    logging.basicConfig(level=logging.WARNING)
+    prepare(arguments.size)
+    from app.application import PilothouseApp
+
+    try:
+        app = PilothouseApp(arguments.url, arguments.screen, arguments.theme, arguments.layout)
+    except layouts.LayoutError as mistake:
+        print(mistake, file=sys.stderr)
+        return 2
+    app.run()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,495 @@
+"""The app as a whole: what it owns, what it shows, and what the life of a phone does to it."""
+
+from __future__ import annotations
+
+import logging
+import math
+import time
+import uuid
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from kivy.app import App
+from kivy.clock import Clock
+from kivy.core.window import Window
+from kivy.uix.floatlayout import FloatLayout
+
+from app import simulator as simulators
+from app.camera import PICTURE, Camera, Picture
+from app.commands import Commands
+from app.device import device_name, is_android
+from app.discovery import Robots
+from app.feeds import Feeds, Mailbox, Post
+from app.layout import Layout, load
+from app.link import Link
+from app.mission import MissionEditor
+from app.network import NetworkThread
+from app.nearby import HELLO, LATENCY, Nearby
+from app.recorder import Recorder
+from app.screens.connect import THEMES, ConnectScreen
+from app.screens.dialogs import AddressDialog
+from app.session import Session
+from app.settings import Settings
+from bridge.frames import Frame
+from bridge.msgs import Msg
+from bridge.msgs.pilothouse_msgs import Event
+from bridge.topics import TOPICS
+from widgets import CATALOGUE
+from widgets.theme import theme
+
+__all__ = ["PilothouseApp"]
+
+log = logging.getLogger(__name__)
+
+GLASS = 1 / 30
+"""Between two looks at what came that is not urgent [s]."""
+TICK = 0.1
+"""Between two looks at what only time changes [s]."""
+BEAT = 0.03
+"""Between two heartbeats of the user interface [s]; without one for 0.15 s the robot rests."""
+LIST = 0.5
+"""Between two looks at the list of robots [s]."""
+BACK = 27
+"""Key code of Android's Back and of Escape."""
+
+
+class Root(FloatLayout):
+    """The whole glass: one page, and at times a question over it."""
+
+    def show_page(self, page: Any) -> None:
+        """Put a page in the place of the one before."""
+        self.clear_widgets()
+        self.add_widget(page)
+
+
+class PilothouseApp(App):
+    """The handheld. Everything here happens in the UI thread."""
+
+    title = "Pilothouse"
+    use_kivy_settings = False
+
+    def __init__(
+        self,
+        url: str | None = None,
+        screen: str | None = None,
+        theme: str | None = None,
+        layout: str = "patrol",
+        settings_dir: Path | str | None = None,
+        simulator: Sequence[str] | None = None,
+        *,
+        discover: bool = True,
+        now: Callable[[], float] = time.monotonic,
+        **kwargs: Any,
+    ) -> None:
+        """`url` is connected to at once; `screen` is `mission` or `drive`, shown once connected.
+
+        `theme` overrides the remembered one; `simulator` is the command that starts the built-in simulator;
+        `discover` listens to robots saying HELLO. Raises LayoutError for a layout that cannot be shown.
+        """
+        super().__init__(**kwargs)
+        self._url, self._first_screen, self._theme = url, screen or "mission", theme
+        self.layout_file: Layout = load(layout, CATALOGUE)
+        self._settings_dir = settings_dir
+        self._simulator_command = simulator
+        self._discover, self._now = discover, now
+        self.session: Session | None = None
+        self.shell: Any = None
+        """The frame round the robot's screens; None on the connect screen."""
+        self.simulator: simulators.Simulator | None = None
+        self.recorder: Recorder | None = None
+        self.last_frame: Frame | None = None
+        """The newest camera frame as it came; None before the first."""
+        self._pictures: list[float] = []
+        self._camera_wanted: str | None = None
+
+    # what tests and the demo look at
+
+    @property
+    def link(self) -> Link | None:
+        """The link to the robot; None while none is wanted."""
+        return self.session.link if self.session else None
+
+    @property
+    def feeds(self) -> Feeds | None:
+        """The newest message of each topic; None while no robot is wanted."""
+        return self.session.feeds if self.session else None
+
+    @property
+    def commands(self) -> Commands | None:
+        """The one-shot commands; None while no robot is wanted."""
+        return self.session.link.commands if self.session else None
+
+    @property
+    def mission(self) -> MissionEditor | None:
+        """The mission being edited; None while no robot is wanted."""
+        return self.session.mission if self.session else None
+
+    @property
+    def screens(self) -> dict[str, Any]:
+        """Every screen there is now by its name: `connect`, and with a robot `mission` and `drive`."""
+        return {"connect": self.connect, **(self.shell.screens if self.shell else {})}
+
+    # life
+
+    def build(self) -> Root:
+        """Make the connect screen; the others are made when there is a robot to show."""
+        folder = Path(self._settings_dir or self.user_data_dir)
+        self.settings = Settings(folder)
+        self.folder = folder
+        theme.name = self._theme or self._remembered_theme()
+        self.client_id = self._identity()
+        self.client_name = str(self.settings.get("client_name") or device_name())
+        self.robots = Robots(self._now, self.settings.get("robots") or ())
+        self.connect = ConnectScreen(app=self, can_simulate=bool(self._simulator_command) or simulators.available())
+        root = Root()
+        root.show_page(self.connect)
+        return root
+
+    def _remembered_theme(self) -> str:
+        name = self.settings.get("theme")
+        return name if name in THEMES else "dark"
+
+    def _identity(self) -> str:
+        if not isinstance(self.settings.get("client_id"), str):
+            self.settings.set("client_id", uuid.uuid4().hex)
+        return str(self.settings.get("client_id"))
+
+    def on_start(self) -> None:
+        """Open the network and begin to look at the clock."""
+        make = getattr(Clock, "create_trigger_free", None) if hasattr(Clock, "get_min_free_timeout") else None
+        wake = (make or Clock.create_trigger)(lambda _: self._drain(), 0)
+        self.mailbox = Mailbox(wake)
+        self.network = NetworkThread()
+        self.camera = Camera(self.mailbox)
+        self.nearby = Nearby(self.mailbox, self.network, now=self._now)
+        if self._discover:
+            self.nearby.start()
+        self._events = [
+            Clock.schedule_interval(lambda _: self._drain(), GLASS),
+            Clock.schedule_interval(lambda _: self._beat(), BEAT),
+            Clock.schedule_interval(lambda _: self._tick(), TICK),
+            Clock.schedule_interval(lambda _: self._list(), LIST),
+        ]
+        Window.bind(on_keyboard=self._key, size=self._rest, focus=self._focus, on_hide=self._rest, on_minimize=self._rest)
+        Window.allow_screensaver = False
+        self._list()
+        if self.settings.problem:
+            self.connect.say(self.settings.problem, "warn")
+        if self._url:
+            self.open(self._url)
+
+    def on_stop(self) -> None:
+        """Leave the robot at rest, end every thread and the simulator."""
+        Window.unbind(on_keyboard=self._key, size=self._rest, focus=self._focus, on_hide=self._rest, on_minimize=self._rest)
+        for event in self._events:
+            event.cancel()
+        self.leave()
+        self.stop_recording()
+        self.nearby.close()
+        self.camera.close()
+        self.network.close()
+        if self.simulator is not None:
+            self.simulator.close()
+        self.settings.close()
+
+    def on_pause(self) -> bool:
+        """The glass is taken away: rest, and let go of the robot; the patrol goes on without us."""
+        self._rest()
+        if self.session is not None:
+            self.session.link.close(0.3)
+        self.stop_recording()
+        return True
+
+    def on_resume(self) -> None:
+        """Come back: connect again; whoever wants to drive has to push the stick anew."""
+        if self.session is not None:
+            self.session.resume(self._new_link(self.session.link.url))
+            self._camera_wanted = None
+
+    def _focus(self, _: object, focus: bool) -> None:
+        if not focus:
+            self._rest()
+
+    def _rest(self, *_: object) -> None:
+        """Every control lets go."""
+        if self.shell is not None:
+            self.shell.rest()
+
+    def _key(self, _window: object, key: int, *_: object) -> bool:
+        """Back closes a question, then leaves the robot; on the connect screen it is left to the system."""
+        if key != BACK:
+            return False
+        dialogs = [child for child in self.root.children if isinstance(child, AddressDialog)]
+        if dialogs:
+            dialogs[0].close()
+            return True
+        if self.session is not None:
+            self.leave()
+            return True
+        return not is_android()
+
+    # what comes in
+
+    def _drain(self) -> None:
+        for channel, post in self.mailbox.drain():
+            self._deliver(channel, post)
+
+    def _deliver(self, channel: str, post: Post) -> None:
+        if channel.startswith(HELLO):
+            self.robots.heard(post.value, post.received)
+        elif channel.startswith(LATENCY):
+            self.robots.measured(*post.value)
+        elif channel == PICTURE:
+            self._show_picture(post.value, post.received)
+        elif channel.startswith("simulator"):
+            self._simulator_said(*post.value)
+        elif self.session is not None:
+            self.session.deliver(channel, post)
+            self._record(channel, post.value)
+            if channel == "/robot/info":
+                self.robots.name(self.session.link.url, post.value.name, post.value.kind, post.value.description)
+                self._save_robots()
+
+    def _show_picture(self, picture: Picture, received: float) -> None:
+        if self.shell is None or not self.shell.screen:
+            return
+        self._pictures = [at for at in self._pictures if received - at < 1.0] + [received]
+        rate = float(len(self._pictures)) if len(self._pictures) > 1 else math.nan
+        latency = self.session.link.robot_time() - picture.stamp if self.session and picture.stamp else math.nan
+        self.shell.screens[self.shell.screen].show_picture(picture, rate, latency)
+
+    def _on_frame(self, frame: Frame, received: float) -> None:
+        """In the network thread: keep the frame for a snapshot and have it decoded."""
+        self.last_frame = frame
+        self.camera.show(frame, received)
+
+    def _beat(self) -> None:
+        if self.session is not None:
+            self.session.link.beat()
+
+    def _tick(self) -> None:
+        if self.session is None:
+            return
+        if self.shell is None:
+            self._tick_connecting()
+        else:
+            self.shell.tick()
+            self._watch_camera()
+            self._tick_recording()
+
+    def _tick_connecting(self) -> None:
+        session = self.session
+        if session.ever_connected:
+            self._enter_robot()
+            return
+        state = session.link_state
+        waiting = f" Trying again in {math.ceil(session.retry_in)} s." if session.retry_in > 0 else ""
+        trouble = state.attempt > 1 or state.retry_in > 0
+        sentence = state.sentence + ("" if "Trying again" in state.sentence else waiting)
+        self.connect.say(f"{sentence} Tap to cancel." if trouble else sentence, "warn" if trouble else "info", self.leave)
+        if state.phase.name == "CLOSED" and state.attempt:
+            self.leave()
+            self.connect.say(state.sentence, "danger")
+
+    def _watch_camera(self) -> None:
+        """Ask for the picture that the robot offers, once it has said what there is."""
+        session = self.session
+        if not session.connected:
+            return
+        info = session.feeds.latest("/robot/info")
+        wanted = (info.cameras[0] if info.cameras else None) if info is not None else self._camera_wanted
+        if wanted != self._camera_wanted:
+            self._camera_wanted = wanted
+            session.link.watch(wanted)
+
+    # the list of robots
+
+    def _list(self) -> None:
+        if self.session is None:
+            entries = self.robots.entries()
+            self.connect.show_entries(entries, self.client_name)
+            self.nearby.measure(entries)
+
+    def _save_robots(self) -> None:
+        self.settings.set("robots", self.robots.save())
+
+    def ask_address(self) -> None:
+        """Ask for an address to connect to."""
+        dialog = AddressDialog(self._add_address)
+        self.root.add_widget(dialog)
+        dialog.ids.field.focus = True
+
+    def _add_address(self, text: str) -> None:
+        url = self.robots.add(text)
+        self._save_robots()
+        self._list()
+        self.open(url)
+
+    def forget(self, url: str) -> None:
+        """Take a saved address off the list."""
+        self.robots.remove(url)
+        self._save_robots()
+        self._list()
+
+    def next_theme(self) -> None:
+        """Go on to the next theme and remember it."""
+        theme.name = THEMES[theme.name][2]
+        self.settings.set("theme", theme.name)
+
+    # the simulator
+
+    def start_simulator(self) -> None:
+        """Start the built-in simulator; it is on the list when it serves, and connected to at once."""
+        if self.simulator is not None:
+            self.simulator.close()
+        said = lambda what, text: self.mailbox.queue("simulator", (what, text), self._now())  # noqa: E731
+        self.simulator = simulators.Simulator(
+            self._simulator_command or simulators.command(),
+            lambda url: said("ready", url),
+            lambda sentence: said("failed", sentence),
+        )
+        self.connect.simulating, self.connect.simulator_text = True, "Starting the simulator …"
+        self.connect.say("")
+        self.simulator.start()
+
+    def _simulator_said(self, what: str, text: str) -> None:
+        self.connect.simulating = what == "ready"
+        self.connect.simulator_text = "The simulator runs" if what == "ready" else "Start the built-in simulator"
+        if what == "failed":
+            (self.shell or self.connect).say(text, "danger")
+        elif self.session is None:
+            self.open(text)
+
+    # a robot
+
+    def _new_link(self, url: str) -> Link:
+        link = Link(
+            url,
+            self.mailbox,
+            self.network,
+            client_id=self.client_id,
+            client_name=self.client_name,
+            on_picture=self._on_frame,
+            now=self._now,
+        )
+        link.start()
+        return link
+
+    def open(self, url: str, *, watch: bool = False) -> None:
+        """Connect to a robot; with `watch` without asking for control. Its screens come when it answers."""
+        self.leave()
+        self.session = Session(
+            self._new_link(url),
+            Feeds(self._now),
+            self.settings,
+            now=self._now,
+            client_id=self.client_id,
+            wants_control=not watch,
+        )
+        self.connect.say(f"Connecting to {url} …", "info", self.leave)
+
+    def _enter_robot(self) -> None:
+        from app.screens.drive import DriveScreen
+        from app.screens.mission import MissionScreen
+        from app.screens.shell import Shell
+
+        self.connect.say("")
+        screens = {
+            "mission": MissionScreen(app=self, session=self.session),
+            "drive": DriveScreen(self.layout_file, app=self, session=self.session),
+        }
+        self.shell = Shell(screens, app=self, session=self.session)
+        self.root.show_page(self.shell)
+        for post in self.session.early:
+            self.shell.replay(post)
+        self.show(self._first_screen)
+
+    def show(self, screen: str) -> None:
+        """Put `mission` or `drive` on the glass; KeyError for another."""
+        self.shell.go(screen)
+        self._first_screen = screen
+
+    def leave(self) -> None:
+        """Back to the connect screen; the robot goes on with what it does."""
+        if self.session is None:
+            return
+        self._rest()
+        if self.shell is not None:
+            self.shell.close()
+            self.shell = None
+        self.stop_recording()
+        self.session.link.close()
+        self.session = None
+        self._camera_wanted, self.last_frame = None, None
+        self.connect.say("")
+        self.root.show_page(self.connect)
+        self._list()
+
+    def alarm(self, event: Event) -> None:
+        """Something happened that the operator must not miss."""
+        if self.shell is not None:
+            self.shell.say(event.text, "danger")
+
+    # pictures and recordings
+
+    def snapshot(self) -> Path | None:
+        """Keep the newest camera frame as a file; None when there is none or it cannot be written."""
+        frame = self.last_frame
+        if frame is None:
+            return None
+        path = self.folder / "pictures" / time.strftime("%Y-%m-%d_%H-%M-%S.jpg")
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(frame.jpeg)
+        except OSError as error:
+            self.shell.say(f"The snapshot could not be saved: {error.strerror or error}.", "warn")
+            return None
+        self.shell.say(f"Snapshot saved as {path.name}.", "ok")
+        return path
+
+    def toggle_recording(self) -> None:
+        """Start recording, or finish the one that runs."""
+        if self.recorder is None:
+            self.start_recording(self.folder / "recordings" / time.strftime("%Y-%m-%d_%H-%M-%S.mcap"))
+        else:
+            name = self.recorder.path.name
+            self.stop_recording()
+            self.shell.say(f"Recording saved as {name}.", "ok")
+
+    def start_recording(self, path: Path) -> bool:
+        """Record everything that comes into an MCAP file; False, and said, when it cannot be written."""
+        self.stop_recording()
+        try:
+            self.recorder = Recorder(path)
+        except OSError as error:
+            self.shell.say(f"The recording could not start: {error.strerror or error}.", "warn")
+            return False
+        for entry in TOPICS:
+            message = self.session.feeds.latest(entry.name) if entry.rate == 0 else None
+            self._record(entry.name, message)
+        self.shell.recording = True
+        return True
+
+    def stop_recording(self) -> None:
+        """Finish the recording; nothing when none runs."""
+        recorder, self.recorder = self.recorder, None
+        if recorder is not None:
+            recorder.close()
+        if self.shell is not None:
+            self.shell.recording = False
+
+    def _record(self, channel: str, message: object) -> None:
+        if self.recorder is None or not isinstance(message, Msg):
+            return
+        self.recorder.put("/events" if channel == "event" else channel, message)
+
+    def _tick_recording(self) -> None:
+        if self.recorder is None:
+            return
+        seconds = int(time.time() - self.recorder.started)
+        self.shell.ids.record.text = f"{seconds // 60:02d}:{seconds % 60:02d}"
+        if self.recorder.sentence:
+            self.shell.say(self.recorder.sentence, "warn")
+            if self.recorder.problem:
+                self.stop_recording()

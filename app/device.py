@@ -1,0 +1,44 @@
+"""The only file that knows whether it runs on a phone."""
+
+from __future__ import annotations
+
+import platform
+import sys
+
+__all__ = ["device_name", "is_android", "sees_broadcasts"]
+
+
+def is_android() -> bool:
+    """It runs in an APK."""
+    return hasattr(sys, "getandroidapilevel")
+
+
+def device_name() -> str:
+    """What to call this handheld to others, as in `tablet-B`: the phone's model or the computer's host name."""
+    if is_android():
+        from jnius import autoclass
+
+        return str(autoclass("android.os.Build").MODEL)
+    return platform.node().partition(".")[0] or "handheld"
+
+
+class sees_broadcasts:  # noqa: N801 - used as a word in `with`
+    """While it is entered, Android's Wi-Fi hands broadcasts to the app; elsewhere it does nothing."""
+
+    def __init__(self) -> None:
+        self._lock = None
+
+    def __enter__(self) -> None:
+        if not is_android():
+            return
+        from jnius import autoclass
+
+        context = autoclass("org.kivy.android.PythonActivity").mActivity.getApplicationContext()
+        wifi = context.getSystemService(autoclass("android.content.Context").WIFI_SERVICE)
+        self._lock = wifi.createMulticastLock("pilothouse")
+        self._lock.acquire()
+
+    def __exit__(self, *_: object) -> None:
+        if self._lock is not None:
+            self._lock.release()
+            self._lock = None

@@ -1,0 +1,348 @@
+"""The connect screen: a card for each robot with one big button, and the ways to get to others."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.metrics import Metrics
+from kivy.properties import BooleanProperty, ListProperty, NumericProperty, ObjectProperty, StringProperty
+from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.floatlayout import FloatLayout
+
+from app.arrange import connect_columns
+from app.discovery import Entry
+from widgets.kit import Banner, Card
+from widgets.theme import theme
+
+__all__ = ["ConnectScreen", "RobotCard"]
+
+KINDS = {
+    "wheels": ("smart_toy_fill", "Differential drive"),
+    "ackermann": ("agriculture", "Ackermann truck"),
+    "boat": ("sailing", "Surface boat"),
+    "hexapod": ("scuba_diving", "Underwater hexapod"),
+    "quadrotor": ("mode_fan", "Quadrotor"),
+}
+"""Kind of robot to its icon and its name in plain words."""
+THEMES = {"dark": ("light_mode", "Sunlight", "sunlight"), "sunlight": ("bedtime", "Night", "night")}
+THEMES["night"] = ("dark_mode", "Dark", "dark")
+"""Theme to icon, words and name of the one that a tap brings."""
+LOW, MIDDLE = 0.15, 0.40
+"""Below these a battery is empty or getting low, 0 to 1."""
+
+Builder.load_string("""
+<RobotCard>:
+    size_hint_y: None
+    height: dp(84) + dp(34) + self.button_height + dp(18) * 3
+    padding: dp(18), dp(18)
+    spacing: dp(14)
+    outline: 'danger' if root.lost else 'line'
+    BoxLayout:
+        size_hint_y: None
+        height: dp(50)
+        spacing: dp(11)
+        Icon:
+            name: root.icon
+            role: 'muted' if root.lost else 'accent'
+            font_size: sp(44)
+            pos_hint: {'center_y': .5}
+        BoxLayout:
+            orientation: 'vertical'
+            Text:
+                text: root.title
+                bold: True
+                font_size: theme.size_title
+                size_hint_y: 1
+                shorten: True
+                shorten_from: 'right'
+            Text:
+                text: root.subtitle
+                role: 'muted'
+                font_size: sp(15)
+                size_hint_y: 1
+                shorten: True
+                shorten_from: 'right'
+        IconButton:
+            id: remove
+            icon: 'delete'
+            role: 'muted'
+            bare: True
+            size: (theme.target if root.saved else 0, dp(50))
+            opacity: 1 if root.saved else 0
+            disabled: not root.saved
+            on_release: root.dispatch('on_remove')
+    BoxLayout:
+        size_hint_y: None
+        height: dp(34)
+        spacing: dp(10)
+        Chip:
+            icon: 'bolt'
+            role: root.battery_role
+            text: root.battery_text
+        Chip:
+            icon: 'signal_disconnected' if root.lost else 'wifi'
+            role: root.link_role
+            text: root.link_text
+        Chip:
+            text: root.driver_text
+            role: root.driver_role
+            tinted: True
+            opacity: 1 if root.driver_text else 0
+        Widget:
+    PushButton:
+        id: connect
+        height: root.button_height
+        text: root.action
+        fill: 'raised' if root.quiet else 'accent'
+        border: 'line' if root.quiet else 'accent'
+        ink: 'text' if root.quiet else 'ink_accent'
+        on_release: root.dispatch('on_connect')
+
+<ConnectScreen>:
+    canvas.before:
+        Color:
+            rgba: theme.bg
+        Rectangle:
+            pos: self.pos
+            size: self.size
+    BoxLayout:
+        orientation: 'vertical'
+        BoxLayout:
+            size_hint_y: None
+            height: dp(56)
+            padding: dp(16), 0
+            spacing: dp(12)
+            canvas.before:
+                Color:
+                    rgba: theme.surface
+                Rectangle:
+                    pos: self.pos
+                    size: self.size
+                Color:
+                    rgba: theme.line
+                Rectangle:
+                    pos: self.pos
+                    size: self.width, theme.outline
+            Text:
+                text: 'Pilothouse'
+                bold: True
+                font_size: theme.size_title
+                pos_hint: {'center_y': .5}
+            Chip:
+                icon: 'wifi_find'
+                role: 'accent'
+                text: root.nearby
+                pos_hint: {'center_y': .5}
+            Chip:
+                id: theme
+                icon: root.theme_icon
+                role: 'text'
+                text: root.theme_text
+                pressable: True
+                pos_hint: {'center_y': .5}
+                on_release: root.app.next_theme()
+        ScrollView:
+            do_scroll_x: False
+            BoxLayout:
+                orientation: 'vertical'
+                size_hint_y: None
+                height: self.minimum_height
+                padding: root.edge, dp(22)
+                spacing: dp(22)
+                BoxLayout:
+                    id: notices
+                    orientation: 'vertical'
+                    size_hint_y: None
+                    height: self.minimum_height
+                    spacing: dp(10)
+                Text:
+                    text: root.hint
+                    role: 'muted'
+                    halign: 'center'
+                    padding: dp(16), dp(30)
+                    opacity: 1 if root.hint else 0
+                    height: self.texture_size[1] if root.hint else 0
+                GridLayout:
+                    id: cards
+                    cols: root.columns
+                    spacing: dp(18)
+                    size_hint_y: None
+                    height: self.minimum_height
+                GridLayout:
+                    id: actions
+                    cols: min(root.columns, 2 if root.can_simulate else 1) if root.columns < 3 else 3
+                    spacing: dp(18)
+                    size_hint_y: None
+                    height: self.minimum_height
+                    QuietButton:
+                        id: add
+                        icon: 'add_link'
+                        text: 'Add by address'
+                        on_release: root.app.ask_address()
+                    QuietButton:
+                        id: simulate
+                        icon: 'play_circle'
+                        text: root.simulator_text
+                        disabled: not root.can_simulate or root.simulating
+                        opacity: 1 if root.can_simulate else 0
+                        on_release: root.app.start_simulator()
+""")
+
+
+class RobotCard(Card):
+    """One robot: what it is, its battery, how far, who drives, and one big button."""
+
+    __events__ = ("on_connect", "on_remove")
+
+    title = StringProperty("")
+    subtitle = StringProperty("")
+    icon = StringProperty("smart_toy_fill")
+    lost = BooleanProperty(False)
+    saved = BooleanProperty(False)
+    quiet = BooleanProperty(False)
+    """The button offers nothing to look forward to: it tries again."""
+    battery_text = StringProperty("—")
+    battery_role = StringProperty("muted")
+    link_text = StringProperty("")
+    link_role = StringProperty("ok")
+    driver_text = StringProperty("")
+    driver_role = StringProperty("ok")
+    action = StringProperty("Connect")
+    button_height = NumericProperty("52dp")
+    entry = ObjectProperty(None, allownone=True)
+    """The robot, as of the list."""
+
+    def show_entry(self, entry: Entry, me: str) -> None:
+        """Take over what is known of the robot; `me` is this handheld's name."""
+        self.entry = entry
+        icon, words = KINDS.get(entry.kind, ("smart_toy_fill", ""))
+        self.icon, self.lost = icon, entry.state == "lost"
+        self.title = entry.name or entry.address
+        about = [entry.description or words or "Saved address"]
+        self.subtitle = " · ".join([*about, entry.address] if entry.name else about)
+        self.saved = entry.saved
+        self._show_battery(entry)
+        self._show_link(entry)
+        self._show_driver(entry, me)
+
+    def _show_battery(self, entry: Entry) -> None:
+        known = not math.isnan(entry.battery) and not self.lost
+        self.battery_text = f"{entry.battery * 100:.0f} %" if known else "—"
+        level = "danger" if entry.battery < LOW else "warn" if entry.battery < MIDDLE else "ok"
+        self.battery_role = level if known else "muted"
+
+    def _show_link(self, entry: Entry) -> None:
+        if entry.state == "lost":
+            self.link_text, self.link_role = f"no heartbeat for {entry.silent:.0f} s", "danger"
+        elif not math.isnan(entry.latency):
+            self.link_text, self.link_role = f"{entry.latency * 1000:.0f} ms", "ok"
+        elif entry.state == "live":
+            self.link_text, self.link_role = "in reach", "ok"
+        else:
+            self.link_text, self.link_role = "not heard yet", "muted"
+
+    def _show_driver(self, entry: Entry, me: str) -> None:
+        mine, other = entry.driver == me and bool(me), bool(entry.driver)
+        if entry.state != "live":
+            self.driver_text, self.driver_role = ("lost" if self.lost else ""), "danger"
+        elif mine:
+            self.driver_text, self.driver_role = "driven by you", "accent"
+        else:
+            self.driver_text = f"driven by {entry.driver}" if other else "free"
+            self.driver_role = "warn" if other else "ok"
+        self.quiet = self.lost
+        self.action = "Retry" if self.lost else "Watch" if other and not mine else "Connect"
+
+    def on_connect(self) -> None:
+        """The big button was pressed."""
+
+    def on_remove(self) -> None:
+        """The saved address is to be forgotten."""
+
+
+class ConnectScreen(FloatLayout):
+    """All robots that can be connected to."""
+
+    app = ObjectProperty()
+    nearby = StringProperty("Looking for robots")
+    hint = StringProperty("")
+    columns = NumericProperty(1)
+    edge = NumericProperty("26dp")
+    theme_icon = StringProperty("light_mode")
+    theme_text = StringProperty("Sunlight")
+    can_simulate = BooleanProperty(False)
+    simulating = BooleanProperty(False)
+    simulator_text = StringProperty("Start the built-in simulator")
+    cards = ListProperty()
+    """The cards on the glass, in their order."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._banner: Banner | None = None
+        self.bind(size=self._arrange)
+        theme.bind(name=self._follow_theme)
+        self._follow_theme()
+        self._arrange()
+
+    def _follow_theme(self, *_: object) -> None:
+        self.theme_icon, self.theme_text, _name = THEMES[theme.name]
+
+    def _arrange(self, *_: object) -> None:
+        dp = Metrics.density
+        self.columns = connect_columns(self.width, dp)
+        self.edge = (26 if self.width > 600 * dp else 14) * dp
+
+    def show_entries(self, entries: list[Entry], me: str) -> None:
+        """Bring the cards up to date; a card stays where it is while its robot is listed."""
+        if [card.entry.url for card in self.cards] != [entry.url for entry in entries]:
+            self._rebuild(entries)
+        for card, entry in zip(self.cards, entries, strict=True):
+            card.show_entry(entry, me)
+        live = sum(entry.state == "live" for entry in entries)
+        self.nearby = f"{live} robot{'' if live == 1 else 's'} nearby" if live else "Looking for robots"
+        self.hint = "" if entries else (
+            "No robot has said hello on this network yet.\\n"
+            "Switch one on, enter its address, or start the built-in simulator."
+        ).replace("\\n", "\n")
+
+    def _rebuild(self, entries: list[Entry]) -> None:
+        known = {card.entry.url: card for card in self.cards}
+        self.ids.cards.clear_widgets()
+        self.cards = [known.get(entry.url) or self._card() for entry in entries]
+        for card in self.cards:
+            self.ids.cards.add_widget(card)
+
+    def _card(self) -> RobotCard:
+        card = RobotCard()
+        card.bind(
+            on_connect=lambda one: self.app.open(one.entry.url, watch=one.action == "Watch"),
+            on_remove=lambda one: self.app.forget(one.entry.url),
+        )
+        return card
+
+    def say(self, text: str, level: str = "info", on_tap: Callable[[], object] | None = None) -> None:
+        """Show one sentence above the cards; empty takes it away. A tap takes it away and calls `on_tap`."""
+        if not text:
+            self.ids.notices.clear_widgets()
+            self._banner = None
+            return
+        if self._banner is None or self._banner.parent is None:
+            self._banner = Banner(closable=True)
+            self.ids.notices.clear_widgets()
+            self.ids.notices.add_widget(self._banner)
+        self._banner.text, self._banner.level = text, level
+        self._tap = on_tap
+        self._banner.unbind(on_close=self._tapped)
+        self._banner.bind(on_close=self._tapped)
+
+    def _tapped(self, *_: object) -> None:
+        if self._tap is not None:
+            self._tap()
+
+    def rest(self) -> None:
+        """Nothing here moves a robot."""
+
+

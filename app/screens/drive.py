@@ -1,0 +1,235 @@
+"""The drive screen: video fills the glass, instruments float on it, the stick is under one thumb and STOP under the other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.properties import NumericProperty, ObjectProperty
+from kivy.uix.floatlayout import FloatLayout
+from kivy.uix.gridlayout import GridLayout
+from kivy.uix.widget import Widget
+
+import widgets
+from app import arrange
+from app.camera import Picture
+from app.dashboard import Dashboard
+from app.feeds import Post
+from app.layout import Instrument, Layout, LayoutError
+from app.session import Session
+from bridge.msgs.geometry_msgs import Twist
+from bridge.topics import topic
+from widgets import Joystick, Readout, Video
+from widgets.kit import Card, QuietButton
+
+__all__ = ["DriveScreen"]
+
+SPEED, YAW_RATE = 0.5, 1.0
+"""Greatest speeds of the stick until the robot tells its own [m/s, rad/s]."""
+FIRST = 0.6
+"""Share of the robot's greatest speed that the slider begins with."""
+
+Builder.load_string("""
+<SpeedCard>:
+    floating: True
+    padding: dp(6), dp(10)
+    spacing: dp(4)
+    SectionLabel:
+        title: 'Max speed'
+        halign: 'center'
+    Fader:
+        id: fader
+        size_hint_x: 1
+        on_change: root.maximum_speed = args[1]
+    ValueUnit:
+        value: '%.2f' % root.maximum_speed
+        unit: 'm/s'
+        font_size: sp(18)
+        unit_size: sp(14)
+        pos_hint: {'center_x': .5}
+""")
+
+
+class SpeedCard(Card):
+    """How fast the stick may drive at its rim."""
+
+    maximum_speed = NumericProperty(SPEED)
+    """[m/s]"""
+
+
+class DriveScreen(FloatLayout):
+    """Drive one robot by hand."""
+
+    app = ObjectProperty()
+    session: Session = ObjectProperty()
+
+    def __init__(self, layout: Layout, **kwargs: Any) -> None:
+        """`layout` says which instruments sit where; LayoutError when one cannot show its topic."""
+        super().__init__(**kwargs)
+        self.dashboard = Dashboard(self.session.feeds)
+        self.video = Video(fit="cover", corner=0)
+        self.stick = Joystick()
+        self.speed = SpeedCard()
+        self.actions = GridLayout(spacing="10dp")
+        self.places: dict[str, list[Widget]] = {"video": [self.video]}
+        self.add_widget(self.video)
+        self._build_instruments(layout)
+        self._build_controls()
+        self.dashboard.bind(self.video, "/detections", fresh=False)
+        self._limited = False
+        self._arranged: dict[str, arrange.Rect] = {}
+
+    def _build_instruments(self, layout: Layout) -> None:
+        readouts = [one for one in layout.instruments if one.slot == "readouts"]
+        for one in layout.instruments:
+            if one.slot != "readouts":
+                self._place(one.slot, self._instrument(one))
+        card = Card(floating=True, padding=("12dp", "8dp"))
+        self.readouts = GridLayout(cols=2, spacing=("10dp", "4dp"))
+        for one in readouts:
+            self.readouts.add_widget(self._instrument(one))
+        card.add_widget(self.readouts)
+        self._place("readouts", card)
+
+    def _instrument(self, one: Instrument) -> Widget:
+        kind = getattr(widgets, one.widget)
+        if kind is Readout:
+            widget = Readout(
+                name=one.title,
+                unit=one.unit,
+                path=one.field,
+                scale=one.factor,
+                decimals=one.digits,
+                fitted=False,
+                size_hint_x=1,
+                font_size="22sp",
+            )
+        else:
+            wanted = topic(one.topic).type
+            if wanted not in kind.accepts:
+                allowed = ", ".join(accepted.MSGTYPE for accepted in kind.accepts) or "nothing"
+                raise LayoutError(f"{one.widget} shows {allowed}, not {one.topic}, which is {wanted.MSGTYPE}.")
+            offered = {"card": True, "title": one.title}
+            widget = kind(**{name: value for name, value in offered.items() if hasattr(kind, name) and value})
+        self.dashboard.bind(widget, one.topic)
+        return widget
+
+    def _place(self, slot: str, widget: Widget) -> None:
+        widget.size_hint = (None, None)
+        self.places.setdefault(slot, []).append(widget)
+        self.add_widget(widget)
+
+    def _build_controls(self) -> None:
+        self.stick.bind(on_command=self._drive)
+        self.speed.bind(maximum_speed=self._limit)
+        self._place("stick", self.stick)
+        self._place("slider", self.speed)
+        self._place("actions", self.actions)
+        buttons: tuple[tuple[str, str, str, Callable[..., object]], ...] = (
+            ("snapshot", "photo_camera", "Snapshot", lambda *_: self.app.snapshot()),
+            ("pause", "pause", "Pause", lambda *_: self._pause()),
+            ("home", "home", "Go home", lambda *_: self.session.command("home")),
+        )
+        for name, icon, text, act in buttons:
+            button = QuietButton(icon=icon, text=text, size_hint_y=1)
+            button.bind(on_release=act)
+            self.ids[name] = button
+            self.actions.add_widget(button)
+        self.ids.update(stick=self.stick, speed=self.speed, fader=self.speed.ids.fader, video=self.video)
+
+    # what the shell calls
+
+    def arrange(self, body: arrange.Rect, form: str, dp: float) -> arrange.Rect:
+        """Put everything into its place; returns where STOP goes."""
+        places = self._arranged = arrange.drive(body, form, dp)
+        for slot, found in self.places.items():
+            for widget in found:
+                widget.pos, widget.size = (places[slot].x, places[slot].y), (places[slot].width, places[slot].height)
+        tall = form == "tall"
+        self.actions.cols = 3 if tall else 1
+        self.readouts.cols = 4 if tall else 2 if form == "wide" else 1
+        self._trim(form)
+        top = places["top"]
+        self.video.insets = [0, 0, 0, body.top - top.y if not tall else 0]
+        return places["stop"]
+
+    def _trim(self, form: str) -> None:
+        """A phone on its side has room for two figures."""
+        shown = list(reversed(self.readouts.children)) if not hasattr(self, "_figures") else self._figures
+        self._figures = shown
+        wanted = shown[:2] if form == "short" else shown
+        if list(reversed(self.readouts.children)) != wanted:
+            self.readouts.clear_widgets()
+            for widget in wanted:
+                self.readouts.add_widget(widget)
+
+    def hear(self, channel: str, post: Post) -> None:
+        """A message came."""
+        self.dashboard.deliver(channel, post.value)
+        if channel == "/robot/info":
+            self._take_limits()
+
+    def enter(self) -> None:
+        """Come onto the glass."""
+        self._take_limits()
+        self.dashboard.enter()
+        self.tick()
+
+    def leave(self) -> None:
+        """Leave the glass."""
+        self.rest()
+        self.dashboard.leave()
+
+    def rest(self) -> None:
+        """The stick springs back."""
+        self.stick.rest()
+
+    def tick(self) -> None:
+        """Bring up to date what time changes."""
+        self.dashboard.tick()
+        session = self.session
+        self.stick.state = "live" if session.may_drive else "disabled"
+        mine = session.connected and session.control != "other"
+        self.ids.home.disabled = not mine
+        status = session.feeds.latest("/task/status")
+        paused = status is not None and status.state == "PAUSED"
+        pause = self.ids.pause
+        pause.text, pause.icon = ("Resume", "play_arrow") if paused else ("Pause", "pause")
+        pause.disabled = not (mine and session.running)
+        self.ids.snapshot.disabled = self.app.last_frame is None
+
+    def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
+        """A decoded camera frame; `rate` [Hz] and `latency` [s] are said on it, NaN for unknown."""
+        self.video.show_frame(picture.width, picture.height, picture.rgba)
+        self.video.rate, self.video.latency = rate, latency
+
+    # what the fingers do
+
+    def _drive(self, _: object, twist: Twist) -> None:
+        self.session.link.drive(twist)
+
+    def _pause(self) -> None:
+        status = self.session.feeds.latest("/task/status")
+        paused = status is not None and status.state == "PAUSED"
+        self.session.command("resume" if paused else "pause")
+
+    def _take_limits(self) -> None:
+        """The slider's range is the robot's; where it stood is kept."""
+        info = self.session.info
+        fader = self.speed.ids.fader
+        fastest = info.max_speed or SPEED
+        if self._limited and fader.maximum == fastest:
+            return
+        fader.minimum, fader.maximum, fader.step = fastest / 10, fastest, 0.0
+        wanted = self.speed.maximum_speed if self._limited else fastest * FIRST
+        self._limited = self._limited or bool(info.max_speed)
+        fader.value = min(max(wanted, fader.minimum), fastest)
+        self.speed.maximum_speed = fader.value
+        self._limit()
+
+    def _limit(self, *_: object) -> None:
+        """Slow on the slider is slow in turning as well, but never below half."""
+        info, share = self.session.info, self.speed.maximum_speed / (self.session.info.max_speed or SPEED)
+        self.stick.max_speed = self.speed.maximum_speed
+        self.stick.max_yaw_rate = (info.max_yaw_rate or YAW_RATE) * (0.5 + 0.5 * min(1.0, share))

@@ -1,0 +1,383 @@
+"""The mission screen: the map with everything on it, and beside it (or on a sheet for the thumb) what to do about it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.properties import ListProperty, NumericProperty, ObjectProperty, StringProperty
+from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.floatlayout import FloatLayout
+from kivy.uix.widget import Widget
+
+from app import arrange
+from app.camera import Picture
+from app.commands import Outcome
+from app.dashboard import Dashboard
+from app.feeds import Post
+from app.link import EVENT, OUTCOME
+from app.screens.panel import MissionPanel
+from app.session import Session
+from bridge.msgs.pilothouse_msgs import RobotInfo, TaskStatus
+from widgets import Compass, GridMap, Video
+from widgets.kit import IconButton, QuietButton
+
+__all__ = ["MissionScreen"]
+
+MODES = [("view", "View"), ("points", "Points"), ("home", "Home"), ("place_robot", "Robot")]
+"""What a finger on the map does, and its word."""
+HINTS = {
+    "points": "Tap to add a point, drag to move one.",
+    "home": "Tap where the robot shall return to.",
+    "place_robot": "Drag the robot to where it is, turn it by its handle.",
+}
+
+Builder.load_string("""
+<SelectionBar>:
+    size_hint: None, None
+    padding: dp(14), 0, 0, 0
+    spacing: dp(2)
+    canvas.before:
+        Color:
+            rgba: theme.line
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.corner]
+        Color:
+            rgba: theme.surface
+        SmoothRoundedRectangle:
+            pos: self.x + theme.outline, self.y + theme.outline
+            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
+            radius: [theme.corner - theme.outline]
+    Text:
+        text: root.text
+        font_size: sp(15)
+        pos_hint: {'center_y': .5}
+
+<MissionScreen>:
+    FloatLayout:
+        id: ground
+    FloatLayout:
+        id: floats
+    BoxLayout:
+        id: side
+        size_hint: None, None
+        canvas.before:
+            Color:
+                rgba: theme.line
+            Rectangle:
+                pos: self.x - theme.outline, self.y
+                size: self.width + theme.outline, self.height + theme.outline
+            Color:
+                rgba: theme.surface
+            Rectangle:
+                pos: self.pos
+                size: self.size
+    SheetGrip:
+        id: handle
+        size_hint: None, None
+    Segmented:
+        id: modes
+        options: root.modes
+        value: root.mode
+        size_hint: None, None
+        font_size: sp(15)
+        on_choose: root.mode = args[1]
+""")
+
+
+class SelectionBar(BoxLayout):
+    """What is selected on the map, and what can be done with it."""
+
+    text = StringProperty("")
+
+
+class MissionScreen(FloatLayout):
+    """Supervise one robot on its map."""
+
+    app = ObjectProperty()
+    session: Session = ObjectProperty()
+    modes = ListProperty(MODES)
+    mode = StringProperty("view")
+    """What a finger on the map does: one of `MODES`."""
+    sheet = NumericProperty(0)
+    """The sheet of a phone is drawn up: 0 no, 1 yes."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.dashboard = Dashboard(self.session.feeds)
+        self.map = GridMap()
+        self.video = Video(fit="cover")
+        self.compass = Compass(transparent=True)
+        self.panel = MissionPanel(self.session, self.dashboard)
+        self.selection = SelectionBar()
+        self._form, self._body, self._dp = "wide", arrange.Rect(0, 0, 1, 1), 1.0
+        self._build()
+        self._bind_map()
+        self.bind(mode=self._mode_changed, sheet=self._rearrange)
+        self.session.mission.on_change = self._chain(self.session.mission.on_change)
+        self._show_draft()
+
+    def _chain(self, first: Callable[[], object]) -> Callable[[], None]:
+        def both() -> None:
+            first()
+            self._show_draft()
+
+        return both
+
+    def _build(self) -> None:
+        ids = self.ids
+        ids.ground.add_widget(self.map)
+        for widget in (self.video, self.compass, self.panel.readouts):
+            widget.size_hint = (None, None)
+        self._build_tools()
+        ids.side.add_widget(self.panel)
+        self.panel.size_hint = (None, None)
+        self.panel.parent.remove_widget(self.panel)
+        ids.side.unbind()
+        self.add_widget(self.panel)
+        self.panel.tasks.size_hint = (None, None)
+        ids.handle.bind(on_touch_down=self._pull)
+        for button, icon, act in (
+            ("earlier", "arrow_upward", lambda *_: self._reorder(-1)),
+            ("later", "arrow_downward", lambda *_: self._reorder(1)),
+            ("delete", "delete", lambda *_: self._delete()),
+        ):
+            widget = IconButton(icon=icon, bare=True, pos_hint={"center_y": 0.5})
+            widget.bind(on_release=act)
+            ids[button] = widget
+        for button, text, act in (
+            ("place_cancel", "Cancel", lambda *_: setattr(self, "mode", "view")),
+            ("place_here", "Set here", lambda *_: self._place_robot()),
+        ):
+            word = QuietButton(text=text, size_hint_x=None, width="96dp", height="46dp", pos_hint={"center_y": 0.5})
+            word.bind(on_release=act)
+            ids[button] = word
+        ids.update(map=self.map, video=self.video, selection=self.selection, panel=self.panel, tasks=self.panel.tasks)
+        ids.update(send=self.panel.ids.send, motion=self.panel.motion)
+
+    def _build_tools(self) -> None:
+        self._tools: dict[str, IconButton] = {}
+        for name, icon, act in (
+            ("zoom_in", "add", self.map.zoom_in),
+            ("zoom_out", "remove", self.map.zoom_out),
+            ("centre", "my_location", self.map.centre_on_robot),
+            ("fit", "fit_screen", self.map.fit),
+            ("undo", "undo", self.session.mission.undo),
+            ("redo", "redo", self.session.mission.redo),
+        ):
+            button = IconButton(icon=icon)
+            button.bind(on_release=lambda _, act=act: act())
+            self._tools[name] = self.ids[name] = button
+
+    def _bind_map(self) -> None:
+        mission, bind = self.session.mission, self.dashboard.bind
+        self.map.bind(
+            on_add=lambda _, x, y: mission.add(x, y),
+            on_move=lambda _, index, x, y: mission.move(index, x, y),
+            on_select=lambda _, index: self._show_selection(),
+            on_set_home=lambda _, x, y: mission.set_home(x, y),
+        )
+        bind(self.map, "/pose", always=True)
+        bind(self.map, "/map", fresh=False)
+        bind(self.map, "/plan", fresh=False)
+        bind(self.map, "/intruders", fresh=False)
+        bind(self.map, "/scan", fresh=False)
+        bind(self.map, "/robot/info", self._show_info, fresh=False)
+        bind(self.map, "/task/status", self._show_task, fresh=False)
+        bind(self.compass, "/pose")
+        bind(self.video, "/detections", fresh=False)
+
+    # what the shell calls
+
+    def arrange(self, body: arrange.Rect, form: str, dp: float) -> arrange.Rect:
+        """Put everything into its place; returns where STOP goes."""
+        self._form, self._body, self._dp = form, body, dp
+        places = arrange.mission(body, form, dp, sheet_open=bool(self.sheet))
+        tall = form == "tall"
+        for name, widget in (("side", self.ids.side), ("modes", self.ids.modes), ("selection", self.selection)):
+            _put(widget, places[name])
+        _put(self.map, places["map"])
+        self._float(self.video, places.get("video"))
+        self._float(self.compass, places.get("compass"))
+        self.panel.take_form(form)
+        self._float(self.panel.readouts, places.get("readouts")) if form == "wide" else None
+        _put(self.panel, places["panel"])
+        _put(self.ids.handle, places.get("handle", arrange.Rect(-100, -100, 1, 1)))
+        self.ids.handle.opacity = 1 if tall else 0
+        self._place_tasks(places.get("tasks"))
+        self._place_tools(places["tools"], dp, tall)
+        self._place_floats(places)
+        return places["stop"]
+
+    def _place_floats(self, places: dict[str, arrange.Rect]) -> None:
+        """With the sheet up, what would lie on it is away; the map fits into what is left free."""
+        area, up = places["map"], bool(self.sheet) and self._form == "tall"
+        self.ids.modes.opacity = 0 if up else 1
+        self.ids.modes.disabled = up
+        top = area.top - places["modes"].y if self._form != "tall" else 0
+        low = places["modes"].top - area.y if self._form == "tall" else 0
+        if "compass" in places:
+            low = places["compass"].top - area.y
+        self.map.insets = [0, low, area.right - places["tools"].x, top]
+
+    def _place_tasks(self, rect: arrange.Rect | None) -> None:
+        """On a phone the task's buttons stand beside STOP, elsewhere in the panel."""
+        tasks = self.panel.tasks
+        self.panel.keep_tasks(rect is None)
+        if rect is not None:
+            if tasks.parent is not self:
+                self.add_widget(tasks)
+            tasks.size_hint = (None, None)
+            tasks.width, tasks.pos = rect.width, (rect.x, rect.y)
+
+    def _place_tools(self, rect: arrange.Rect, dp: float, tall: bool) -> None:
+        names = ["centre", "fit", "undo", "redo"] if tall else list(self._tools)
+        side = rect.width
+        fit = max(1, int((rect.height + 8 * dp) // (side + 6 * dp)))
+        for name, button in self._tools.items():
+            self._float(button, None)
+            if name in names[-fit:]:
+                index = names[-fit:].index(name)
+                step = (rect.height - side) / max(1, min(fit, len(names)) - 1)
+                self._float(button, arrange.Rect(rect.x, rect.top - side - index * step, side, side))
+
+    def _float(self, widget: Widget, rect: arrange.Rect | None) -> None:
+        """Put a widget over the map, or away where there is no room for it."""
+        floats = self.ids.floats
+        if rect is None:
+            if widget.parent is floats:
+                floats.remove_widget(widget)
+            return
+        if widget.parent is None:
+            floats.add_widget(widget)
+        _put(widget, rect)
+
+    def _rearrange(self, *_: object) -> None:
+        self.arrange(self._body, self._form, self._dp)
+
+    def _pull(self, _: object, touch: Any) -> bool:
+        if self._form != "tall" or not self.ids.handle.collide_point(*touch.pos):
+            return False
+        self.sheet = 1 - self.sheet
+        return True
+
+    def hear(self, channel: str, post: Post) -> None:
+        """A message came."""
+        self.dashboard.deliver(channel, post.value)
+        if channel == EVENT:
+            self.panel.events.show(post.value)
+        elif channel == OUTCOME:
+            self._show_outcome(post.value)
+
+    def enter(self) -> None:
+        """Come onto the glass."""
+        self.dashboard.enter()
+        self._show_draft()
+        self.tick()
+
+    def leave(self) -> None:
+        """Leave the glass."""
+        self.rest()
+        self.dashboard.leave()
+
+    def rest(self) -> None:
+        """Fingers on the map let go of what they hold."""
+        self.map.let_go()
+
+    def tick(self) -> None:
+        """Bring up to date what time changes."""
+        self.dashboard.tick()
+        self.panel.tick()
+        self.ids.undo.disabled = not self.session.mission.can_undo
+        self.ids.redo.disabled = not self.session.mission.can_redo
+        self.ids.place_here.disabled = not self.session.connected
+
+    def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
+        """A decoded camera frame; `rate` [Hz] and `latency` [s] are said on it, NaN for unknown."""
+        self.video.show_frame(picture.width, picture.height, picture.rgba)
+        self.video.rate, self.video.latency = rate, latency
+
+    # what the map shows
+
+    def _show_draft(self) -> None:
+        draft = self.session.mission.draft
+        self.map.waypoints = list(draft.points)
+        self.map.home = list(draft.home or ())
+        if self.map.selected >= len(draft.points):
+            self.map.selected = -1
+        self.map.motion = draft.motion
+        self.panel.show_draft()
+        self._show_selection()
+
+    def _show_info(self, info: RobotInfo) -> None:
+        self.map.robot_radius = info.radius or 0.2
+        self.map.camera_fov = info.camera_fov
+
+    def _show_task(self, status: TaskStatus) -> None:
+        """Points are marked as visited only while the robot drives the very points that are drawn."""
+        same = self.session.running and status.waypoints == len(self.map.waypoints)
+        coming = status.waypoint if same and status.task == "patrol" else 0
+        self.map.coming = coming - 1 if coming else -1
+        self.map.visited = max(0, coming - 1) if status.motion != "random" else 0
+
+    def _show_outcome(self, outcome: Outcome) -> None:
+        name = {"cancel": "stop"}.get(outcome.name, outcome.name)
+        if name in ("start", "pause", "resume", "home") or outcome.name == "cancel":
+            self.panel.tasks.answer(name, outcome.phase, outcome.reason, outcome.latency)
+
+    # what the fingers do
+
+    def _mode_changed(self, *_: object) -> None:
+        self.map.mode = self.mode
+        self._show_selection()
+
+    def _show_selection(self) -> None:
+        bar, index = self.selection, int(self.map.selected)
+        wanted: list[Widget] = []
+        if self.mode == "place_robot":
+            bar.text = "Drag it, turn it."
+            wanted = [self.ids.place_cancel, self.ids.place_here]
+        elif self.mode == "points" and 0 <= index < len(self.map.waypoints):
+            bar.text = f"Point {index + 1} of {len(self.map.waypoints)}"
+            wanted = [self.ids.earlier, self.ids.later, self.ids.delete]
+            self.ids.earlier.disabled = index == 0
+            self.ids.later.disabled = index == len(self.map.waypoints) - 1
+        else:
+            bar.text = HINTS.get(self.mode, "")
+        for child in bar.children[:-1]:
+            bar.remove_widget(child)
+        for widget in wanted:
+            bar.add_widget(widget)
+        shown = bool(bar.text)
+        if shown and bar.parent is None:
+            self.ids.floats.add_widget(bar)
+        elif not shown and bar.parent is not None:
+            bar.parent.remove_widget(bar)
+
+    def _reorder(self, step: int) -> None:
+        index = int(self.map.selected)
+        target = index + step
+        if 0 <= index < len(self.map.waypoints) and 0 <= target < len(self.map.waypoints):
+            self.map.selected = target
+            self.session.mission.reorder(index, target)
+
+    def _delete(self) -> None:
+        index = int(self.map.selected)
+        if 0 <= index < len(self.map.waypoints):
+            self.map.selected = -1
+            self.session.mission.remove(index)
+
+    def _place_robot(self) -> None:
+        if len(self.map.placed) == 3 and all(map(math.isfinite, self.map.placed)):
+            self.session.place_robot(*self.map.placed)
+            self.app.shell.say("Told the robot where it is.", "info")
+            self.mode = "view"
+
+
+def _put(widget: Widget, rect: arrange.Rect) -> None:
+    widget.size_hint = (None, None)
+    widget.pos, widget.size = (rect.x, rect.y), (rect.width, rect.height)

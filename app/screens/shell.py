@@ -1,0 +1,412 @@
+"""The frame round every screen of a connected robot: top bar, navigation, banner, and STOP in its corner."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.metrics import Metrics
+from kivy.properties import BooleanProperty, ListProperty, ObjectProperty, OptionProperty, StringProperty
+from kivy.uix.floatlayout import FloatLayout
+from kivy.uix.widget import Widget
+
+from app import arrange
+from app.commands import Outcome
+from app.feeds import Post
+from app.link import EVENT, OUTCOME
+from app.dashboard import Dashboard
+from app.screens.connect import THEMES
+from app.session import Session
+from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
+from bridge.msgs.sensor_msgs import NavSatFix
+from widgets import StopButton
+from widgets.battery import BatteryChip as BatteryChip  # for the rule above
+from widgets.link_quality import LinkQuality as LinkQuality
+from widgets.kit import Banner, NavButton, Toast
+from widgets.theme import theme
+
+__all__ = ["Shell"]
+
+MODES = {
+    "MANUAL": ("sports_esports", "accent"),
+    "AUTO": ("autorenew", "plan"),
+    "PAUSED": ("pause_fill", "warn"),
+    "STOPPED": ("front_hand", "danger"),
+}
+"""Mode of the robot to icon and role."""
+CONTROLS = {
+    "mine": ("person", "accent", "you have control"),
+    "free": ("lock_open", "text", "take control"),
+    "unknown": ("help", "muted", "control unknown"),
+}
+"""Who has control to icon, role and words of the chip."""
+Builder.load_string("""
+<Shell>:
+    canvas.before:
+        Color:
+            rgba: theme.bg
+        Rectangle:
+            pos: self.pos
+            size: self.size
+    FloatLayout:
+        id: body
+        size_hint: None, None
+    BoxLayout:
+        id: bar
+        size_hint: None, None
+        padding: (dp(4), 0) if root.form == 'tall' else (dp(6), 0, dp(16), 0)
+        spacing: dp(6) if root.form == 'tall' else dp(12)
+        canvas.before:
+            Color:
+                rgba: theme.surface
+            Rectangle:
+                pos: self.pos
+                size: self.size
+            Color:
+                rgba: theme.line
+            Rectangle:
+                pos: self.pos
+                size: self.width, theme.outline
+        IconButton:
+            id: back
+            icon: 'arrow_back'
+            role: 'muted'
+            bare: True
+            width: dp(46)
+            pos_hint: {'center_y': .5}
+            on_release: root.app.leave()
+        Text:
+            id: name
+            text: root.robot_name
+            bold: True
+            font_size: theme.size_title if root.form != 'tall' else sp(18)
+            shorten: True
+            shorten_from: 'right'
+            pos_hint: {'center_y': .5}
+            size_hint_x: 1 if root.form == 'tall' else None
+            width: min(self.name_width, dp(200))
+            name_width: dp(12) + sp(12) * len(self.text)
+        Chip:
+            id: mode
+            icon: root.mode_icon if root.form != 'tall' else ''
+            role: root.mode_role
+            text: root.mode_text
+            outlined: True
+            pos_hint: {'center_y': .5}
+        BatteryChip:
+            id: battery
+            brief: root.form == 'tall'
+            pos_hint: {'center_y': .5}
+        LinkQuality:
+            id: link
+            brief: root.form == 'tall'
+            pos_hint: {'center_y': .5}
+        Chip:
+            id: satellites
+            icon: 'satellite_alt'
+            role: root.fix_role
+            text: root.fix_text
+            pos_hint: {'center_y': .5}
+        Widget:
+            id: gap
+        Chip:
+            id: control
+            icon: root.control_icon
+            role: root.control_role
+            text: root.control_text
+            pressable: True
+            pos_hint: {'center_y': .5}
+            on_release: root.toggle_control()
+    FloatLayout:
+        id: nav
+        size_hint: None, None
+        canvas.before:
+            Color:
+                rgba: theme.surface
+            Rectangle:
+                pos: self.pos
+                size: self.size
+            Color:
+                rgba: theme.line
+            Rectangle:
+                pos: (self.x, self.top - theme.outline) if root.form == 'tall' else (self.right - theme.outline, self.y)
+                size: (self.width, theme.outline) if root.form == 'tall' else (theme.outline, self.height)
+    BoxLayout:
+        id: notices
+        orientation: 'vertical'
+        size_hint: None, None
+        height: self.minimum_height
+        spacing: dp(8)
+""")
+
+
+class Shell(FloatLayout):
+    """Everything on the glass while a robot is connected."""
+
+    app = ObjectProperty()
+    session: Session = ObjectProperty()
+    form = OptionProperty("wide", options=["wide", "short", "tall"])
+    """Shape of the window, as in `app.arrange.form`."""
+    screen = StringProperty("")
+    """Name of the screen on the glass: `mission` or `drive`."""
+    robot_name = StringProperty("")
+    mode_text = StringProperty("—")
+    mode_icon = StringProperty("help")
+    mode_role = StringProperty("muted")
+    fix_text = StringProperty("—")
+    fix_role = StringProperty("muted")
+    control_text = StringProperty("")
+    control_icon = StringProperty("help")
+    control_role = StringProperty("muted")
+    recording = BooleanProperty(False)
+    rail = ListProperty()
+    """Buttons of the navigation, in their order."""
+
+    def __init__(self, screens: dict[str, Any], **kwargs: Any) -> None:
+        """`screens` are the screens by name, each with `arrange`, `enter`, `leave`, `tick` and `rest`."""
+        super().__init__(**kwargs)
+        self.screens = screens
+        self.stop = StopButton(size_hint=(None, None))
+        self.stop.bind(on_command=self._stop, on_release_stop=self._release_stop)
+        self.ids["stop"] = self.stop
+        self.add_widget(self.stop, index=1)
+        self._banner = Banner(level="danger")
+        self._banner.bind(height=self._place_notices)
+        self._build_rail()
+        self._dashboard = Dashboard(self.session.feeds)
+        self._dashboard.bind(self.ids.battery, "/battery_state")
+        self._dashboard.enter()
+        self.session.listeners.append(self._hear)
+        self.bind(size=self._arrange, pos=self._arrange)
+        theme.bind(target=self._arrange)
+        self._arrange()
+
+    def close(self) -> None:
+        """Let go of the session."""
+        self.rest()
+        theme.unbind(target=self._arrange)
+        if self._hear in self.session.listeners:
+            self.session.listeners.remove(self._hear)
+        for screen in self.screens.values():
+            screen.leave()
+
+    # navigation
+
+    def _build_rail(self) -> None:
+        entries: list[tuple[str, str, str, Callable[[], object]]] = [
+            ("drive", "sports_esports", "Drive", lambda: self.app.show("drive")),
+            ("mission", "map", "Mission", lambda: self.app.show("mission")),
+            ("control_nav", "person", "Control", self.toggle_control),
+            ("record", "fiber_manual_record", "Record", lambda: self.app.toggle_recording()),
+            ("theme", "light_mode", "Sunlight", lambda: self.app.next_theme()),
+        ]
+        for name, icon, text, act in entries:
+            button = NavButton(icon=icon, text=text)
+            button.bind(on_release=lambda _, act=act: act())
+            self.ids[name] = button
+            self.rail.append(button)
+
+    def go(self, name: str) -> None:
+        """Put a screen on the glass; every control of the last one rests. KeyError for an unknown one."""
+        screen = self.screens[name]
+        if name == self.screen:
+            return
+        self.rest()
+        if self.screen:
+            self.screens[self.screen].leave()
+        self.ids.body.clear_widgets()
+        self.ids.body.add_widget(screen)
+        self.screen = name
+        self._arrange()
+        screen.enter()
+        self._show_rail()
+
+    def _show_rail(self) -> None:
+        for name in self.screens:
+            self.ids[name].active = self.screen == name
+        icon, text, _ = THEMES[theme.name]
+        self.ids.theme.icon, self.ids.theme.text = icon, text
+        self.ids.record.active = self.recording
+        self.ids.control_nav.active = self.session.control == "mine"
+
+    # places
+
+    def _arrange(self, *_: object) -> None:
+        dp = Metrics.density
+        self.form = arrange.form(self.width, self.height, dp)
+        places = arrange.shell(self.width, self.height, dp)
+        for name in ("bar", "nav", "body"):
+            _put(self.ids[name], places[name])
+        self._arrange_bar()
+        self._arrange_rail(places["nav"], dp)
+        if self.screen:
+            screen = self.screens[self.screen]
+            _put(screen, places["body"])
+            stop = screen.arrange(places["body"], self.form, dp)
+            _put(self.stop, stop)
+        self._place_notices()
+
+    def _arrange_bar(self) -> None:
+        """The narrow bar leaves out what is said elsewhere."""
+        bar, tall = self.ids.bar, self.form == "tall"
+        wanted = ["back", "name", "mode", "battery", "link"] + ([] if tall else ["satellites", "gap", "control"])
+        if self.form == "short" and self.width < 840 * Metrics.density:
+            wanted.remove("satellites")
+        widgets = [self.ids[name].__self__ for name in wanted]
+        if list(reversed(bar.children)) != widgets:
+            bar.clear_widgets()
+            for widget in widgets:
+                bar.add_widget(widget)
+
+    def _arrange_rail(self, rect: arrange.Rect, dp: float) -> None:
+        nav, tall = self.ids.nav, self.form == "tall"
+        buttons = [self.ids[name] for name in ("drive", "mission", "control_nav", "record", "theme")]
+        if not tall:
+            buttons.remove(self.ids.control_nav)
+        nav.clear_widgets()
+        step = rect.width / len(buttons) if tall else 72 * dp
+        for index, button in enumerate(buttons):
+            nav.add_widget(button)
+            button.framed = not tall
+            button.size = (min(step, 82 * dp), rect.height) if tall else (rect.width - 12 * dp, 64 * dp)
+            button.pos_hint = {}
+            if tall:
+                button.pos = (rect.x + step * index + (step - button.width) / 2, rect.y)
+            else:
+                low = index >= 2
+                y = rect.y + 12 * dp + (len(buttons) - 1 - index) * step if low else rect.top - 12 * dp - 64 * dp - index * step
+                button.pos = (rect.x + 6 * dp, y)
+
+    def _place_notices(self, *_: object) -> None:
+        notices, body, dp = self.ids.notices, self.ids.body, Metrics.density
+        notices.width = min(560 * dp, body.width - 24 * dp)
+        notices.pos = (body.center_x - notices.width / 2, body.top - notices.height - 10 * dp)
+
+    # what is heard
+
+    def _hear(self, channel: str, post: Post) -> None:
+        self._dashboard.deliver(channel, post.value)
+        for screen in self.screens.values():
+            screen.hear(channel, post)
+        if channel == OUTCOME:
+            self._show_outcome(post.value)
+        elif channel == EVENT and post.value.level == "alarm":
+            self.app.alarm(post.value)
+
+    def replay(self, post: Post) -> None:
+        """An event that came before this frame was there."""
+        for screen in self.screens.values():
+            screen.hear(EVENT, post)
+
+    def _show_outcome(self, outcome: Outcome) -> None:
+        """What went wrong is said over every screen; what went well is said where it was asked."""
+        if outcome.phase in ("refused", "no_reply") and outcome.name != "stop":
+            self.say(outcome.sentence, "warn")
+
+    def say(self, text: str, level: str = "info") -> None:
+        """One sentence over the screen, for a few seconds."""
+        for child in list(self.ids.notices.children):
+            if isinstance(child, Toast):
+                self.ids.notices.remove_widget(child)
+        self.ids.notices.add_widget(Toast(text=text, level=level, stay=6.0))
+        self._place_notices()
+
+    def tick(self) -> None:
+        """Bring everything up to date that time changes; ten times a second."""
+        self._tick_banner()
+        self._tick_mode()
+        self._dashboard.tick()
+        self._tick_link()
+        self._tick_control()
+        self.stop.phase = self.session.stop_phase
+        self._show_rail()
+        for name, screen in self.screens.items():
+            if name == self.screen:
+                screen.tick()
+        self._place_notices()
+
+    def _tick_banner(self) -> None:
+        session, notices = self.session, self.ids.notices
+        if session.connected:
+            if self._banner.parent is not None:
+                notices.remove_widget(self._banner)
+            return
+        self.rest()
+        wait = session.retry_in
+        again = f" Trying again in {math.ceil(wait)} s." if wait > 0 else ""
+        sentence = session.link_state.sentence
+        self._banner.text = sentence + ("" if "Trying again" in sentence else again)
+        if self._banner.parent is None:
+            notices.add_widget(self._banner, index=len(notices.children))
+
+    def _tick_mode(self) -> None:
+        self.robot_name = self.session.name
+        status: ControlStatus | None = self.session.feeds.latest("/control/status")
+        if status is None or not self.session.connected:
+            self.mode_text = "no link" if not self.session.connected else "—"
+            self.mode_icon, self.mode_role = "signal_disconnected", "muted"
+            return
+        self.mode_icon, self.mode_role = MODES.get(status.mode, ("help", "muted"))
+        task: TaskStatus | None = self.session.feeds.latest("/task/status")
+        words = {"patrol": "patrol", "go_home": "going home"}.get(task.task, "") if task is not None else ""
+        busy = status.mode in ("AUTO", "PAUSED") and words and self.form != "tall"
+        self.mode_text = f"{status.mode} · {words}" if busy else status.mode
+
+    def _tick_link(self) -> None:
+        session, chip = self.session, self.ids.link
+        chip.state = "live"
+        chip.rtt, chip.lost = session.link.rtt, session.link.lost
+        chip.sentence = "" if session.connected else "no link"
+        fix: NavSatFix | None = session.feeds.latest("/fix")
+        live = session.feeds.state("/fix") == "live"
+        good = fix is not None and fix.status.status >= 0
+        self.fix_role = "ok" if good and live else "muted"
+        self.fix_text = _accuracy(fix) if good else "—" if fix is None else "no fix"
+
+    def _tick_control(self) -> None:
+        control = self.session.control
+        if control == "other":
+            driver = self.session.feeds.latest("/control/status").driver
+            self.control_icon, self.control_role, self.control_text = "person", "warn", f"driven by {driver}"
+        else:
+            self.control_icon, self.control_role, self.control_text = CONTROLS[control]
+        asked = self.session.outcomes.get("acquire")
+        if control == "free" and asked is not None and asked.phase == "sent":
+            self.control_text = "asking …"
+
+    # what is asked
+
+    def toggle_control(self) -> None:
+        """Take control, or give it up when it is ours."""
+        if self.session.control == "mine":
+            self.rest()
+            self.session.release_control()
+        else:
+            self.session.take_control()
+
+    def _stop(self, *_: object) -> None:
+        self.rest()
+        self.session.link.stop()
+
+    def _release_stop(self, *_: object) -> None:
+        self.session.command("stop_release")
+
+    def rest(self) -> None:
+        """Every control of every screen lets go."""
+        for screen in self.screens.values():
+            screen.rest()
+        self.stop.rest()
+
+
+def _accuracy(fix: NavSatFix) -> str:
+    """How far off the position may be, as in `±1.2 m`; the bare fact where the receiver does not say."""
+    if not fix.position_covariance_type or not fix.position_covariance:
+        return "fix"
+    return f"±{math.sqrt(max(0.0, fix.position_covariance[0])):.1f} m"
+
+
+def _put(widget: Widget, rect: arrange.Rect) -> None:
+    widget.size_hint = (None, None)
+    widget.pos, widget.size = (rect.x, rect.y), (rect.width, rect.height)

@@ -1,0 +1,216 @@
+"""Being connected to one robot, as the UI thread sees it: what it said, what it was asked, what is being edited."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+from urllib.parse import urlsplit
+
+from app.commands import Outcome
+from app.feeds import Feeds, Post
+from app.link import EVENT, LINK, OUTCOME, Link
+from app.mission import MissionEditor
+from app.settings import Settings
+from bridge.client import LinkState, Phase
+from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
+from bridge.msgs.pilothouse_msgs import ControlStatus, Mission, RobotInfo, TaskStatus
+from bridge.msgs.std_msgs import Header, Time
+
+__all__ = ["Session"]
+
+STOP_SETTLES = 1.0
+"""An accepted STOP shows in the robot's status within this [s]."""
+PLACED_WITHIN = (0.25, 0.25, 0.07)
+"""Variance of a place pointed at by finger: x, y [m2] and yaw [rad2]."""
+
+
+class Session:
+    """One robot, from Connect to Back. Everything here happens in the UI thread."""
+
+    def __init__(
+        self,
+        link: Link,
+        feeds: Feeds,
+        settings: Settings,
+        *,
+        now: Callable[[], float],
+        client_id: str,
+        wants_control: bool,
+    ) -> None:
+        """`wants_control` takes control whenever it is free; without it the robot is only watched."""
+        self.link, self.feeds = link, feeds
+        self.client_id = client_id
+        self.wants_control = wants_control
+        self.mission = MissionEditor(on_change=self._mission_changed)
+        self.outcomes: dict[str, Outcome] = {}
+        """The last outcome of each command by its name."""
+        self.listeners: list[Callable[[str, Post], None]] = []
+        """Called with each channel and post, after the session took it in."""
+        self.early: list[Post] = []
+        """Events that came while nobody listened."""
+        self.link_state: LinkState = link.state
+        self.ever_connected = False
+        self._settings, self._now = settings, now
+        self._state_since = self._stop_at = now()
+        self._asked_control = False
+        self._known = False
+        self._told_mission: Mission | None = None
+
+    # what the robot is
+
+    @property
+    def connected(self) -> bool:
+        """The link stands."""
+        return self.link_state.phase is Phase.CONNECTED
+
+    @property
+    def info(self) -> RobotInfo:
+        """Who the robot is; all fields empty until it said so."""
+        return self.feeds.latest("/robot/info") or RobotInfo()
+
+    @property
+    def name(self) -> str:
+        """What to call the robot: its name, else its address."""
+        return self.info.name or urlsplit(self.link.url).hostname or self.link.url
+
+    @property
+    def control(self) -> str:
+        """Who has control: `mine`, `free`, `other` or, while the link is down or nothing was heard, `unknown`."""
+        status: ControlStatus | None = self.feeds.latest("/control/status")
+        if status is None or not self.connected:
+            return "unknown"
+        if not status.driver_id and not status.driver:
+            return "free"
+        return "mine" if status.driver_id == self.client_id else "other"
+
+    @property
+    def may_drive(self) -> bool:
+        """The stick may be pushed: the link stands and nobody else has control."""
+        status: ControlStatus | None = self.feeds.latest("/control/status")
+        return self.connected and self.control != "other" and not (status is not None and status.stopped)
+
+    @property
+    def stop_phase(self) -> str:
+        """What became of STOP: `ready`, `sent`, `stopped` (the robot says so) or `no_answer`."""
+        status: ControlStatus | None = self.feeds.latest("/control/status")
+        if status is not None and status.stopped:
+            return "stopped"
+        outcome = self.outcomes.get("stop")
+        if outcome is None:
+            return "ready"
+        if outcome.phase == "accepted":
+            fresh = self._now() - self._stop_at < STOP_SETTLES
+            return "stopped" if status is None else "sent" if fresh else "ready"
+        return "sent" if outcome.phase == "sent" else "no_answer"
+
+    @property
+    def retry_in(self) -> float:
+        """Until the next attempt to connect [s]; 0 while one is under way."""
+        return max(0.0, self.link_state.retry_in - (self._now() - self._state_since))
+
+    @property
+    def running(self) -> bool:
+        """A task runs or is paused."""
+        status: TaskStatus | None = self.feeds.latest("/task/status")
+        return status is not None and status.state in ("RUNNING", "PAUSED")
+
+    # what comes in
+
+    def deliver(self, channel: str, post: Post) -> None:
+        """Take in what the mailbox held."""
+        if channel in self.feeds:
+            self.feeds.put(channel, post)
+        if channel == LINK:
+            self._link_changed(post.value)
+        elif channel == OUTCOME:
+            self._outcome(post.value)
+        elif channel == "/robot/info":
+            self._introduced()
+        elif channel == "/mission":
+            self._told_mission = post.value
+            self._take_mission()
+        elif channel == "/control/status":
+            self._take_control()
+        if channel == EVENT and not self.listeners:
+            self.early.append(post)
+        for listener in list(self.listeners):
+            listener(channel, post)
+
+    def resume(self, link: Link) -> None:
+        """Go on over a new link to the same robot; what was entered and heard stays."""
+        self.link = link
+        self._link_changed(link.state)
+
+    def _link_changed(self, state: LinkState) -> None:
+        self.link_state, self._state_since = state, self._now()
+        self.feeds.link(self.connected)
+        if self.connected:
+            self.ever_connected = True
+            self._asked_control = False
+
+    def _outcome(self, outcome: Outcome) -> None:
+        self.outcomes[outcome.name] = outcome
+        if outcome.name == "stop":
+            self._stop_at = self._now()
+        if outcome.name == "mission" and outcome.phase != "sent":
+            self.mission.answered(outcome.phase == "accepted", outcome.sentence)
+
+    def _introduced(self) -> None:
+        if not self._known:
+            self._known = True
+            self.mission.load(self._drafts().get(self.name))
+            self._take_mission()
+
+    def _take_mission(self) -> None:
+        """A draft of an earlier day is brought back before the robot's mission is compared with it."""
+        if self._known and self._told_mission is not None:
+            self.mission.robot_has(self._told_mission)
+            self._told_mission = None
+
+    def _take_control(self) -> None:
+        if self.wants_control and not self._asked_control and self.control == "free":
+            self._asked_control = True
+            self.command("acquire")
+
+    def _drafts(self) -> dict[str, Any]:
+        drafts = self._settings.get("drafts", {})
+        return drafts if isinstance(drafts, dict) else {}
+
+    def _mission_changed(self) -> None:
+        if not self._known:
+            return
+        drafts = {name: draft for name, draft in self._drafts().items() if name != self.name}
+        if self.mission.dirty:
+            drafts[self.name] = self.mission.save()
+        self._settings.set("drafts", drafts)
+
+    # what goes out
+
+    def command(self, name: str, **fields: Any) -> None:
+        """Send a one-shot command of `app.commands.COMMANDS`."""
+        self.link.command(name, **fields)
+
+    def take_control(self) -> None:
+        """Ask for control, and for it again after a reconnect."""
+        self.wants_control = True
+        self.command("acquire")
+
+    def release_control(self) -> None:
+        """Give control up, and do not ask for it again."""
+        self.wants_control = False
+        self.command("release")
+
+    def send_mission(self) -> None:
+        """Send the draft to the robot."""
+        self.command("mission", mission=self.mission.sending())
+
+    def place_robot(self, x: float, y: float, yaw: float) -> None:
+        """Tell the robot that it is at (x, y) in `map` [m], turned to `yaw` [rad]."""
+        covariance = [0.0] * 36
+        for index, variance in zip((0, 7, 35), PLACED_WITHIN, strict=True):
+            covariance[index] = variance
+        stamp = self.link.robot_time()
+        header = Header(Time.at(stamp) if math.isfinite(stamp) else Time(), "map")
+        pose = Pose(Point(x, y), Quaternion.from_yaw(yaw))
+        self.link.place(PoseWithCovarianceStamped(header, PoseWithCovariance(pose, covariance)))
