@@ -36,7 +36,7 @@ from bridge.protocol import (
     ServiceResponse,
     Status,
     Subscribe,
-    encode,
+    dump,
     parse,
     parse_binary,
 )
@@ -320,7 +320,7 @@ class BridgeClient(Reconnecting):
     def _send(self, op: Op) -> bool:
         if self._ws is None or self._ws.state is not State.OPEN:
             return False
-        broadcast([self._ws], encode(op), text=True)
+        broadcast([self._ws], dump(op))
         return True
 
     def _become(self, phase: Phase, sentence: str, attempt: int = 0, retry_in: float = 0.0) -> None:

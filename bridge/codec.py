@@ -42,7 +42,7 @@ def to_json(msg: Msg) -> bytes:
     """`msg` as JSON text in UTF-8; NaN and infinities become `null`. ProtocolError for what JSON cannot say."""
     try:
         return _ENCODER.encode(msg)
-    except (OverflowError, UnicodeEncodeError, TypeError) as error:
+    except (UnicodeEncodeError, TypeError) as error:
         raise ProtocolError(f"{msg.MSGTYPE} cannot be sent: {error}.") from error
 
 

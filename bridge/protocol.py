@@ -89,9 +89,9 @@ class Subscribe(Op, frozen=True, tag="subscribe"):
 
     topic: str
     type: str | None = None
-    throttle_rate: float | None = 0
+    throttle_rate: int | float | None = 0
     """Shortest time between two messages [ms]."""
-    queue_length: float | None = 0
+    queue_length: int | float | None = 0
     compression: str | None = "none"
     """`none` or `cbor`; anything else counts as `none`."""
 

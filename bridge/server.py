@@ -100,7 +100,7 @@ class BridgeServer:
     async def close(self) -> None:
         """Close all connections and stop listening; nothing is left running."""
         if self._server is not None:
-            self._server.close(reason="the robot side is closing")
+            self._server.close()
             await self._server.wait_closed()
             self._server = None
 

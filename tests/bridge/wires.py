@@ -1,0 +1,159 @@
+"""Doubles for the network: a clock that only the test moves, a record to wait on, a wire that can be cut or freeze."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+from typing import Any
+
+from bridge.client import BridgeClient, LinkState, Phase
+from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
+from bridge.server import BridgeServer, Service
+
+PATIENCE = 5.0
+"""How long a test waits for what must happen [s]; a fault, not a delay, uses it up."""
+
+
+class Clock:
+    """Time that the test moves [s]."""
+
+    def __init__(self, start: float = 1000.0) -> None:
+        self.time = start
+
+    def __call__(self) -> float:
+        return self.time
+
+
+class Record(list[Any]):
+    """Keeps what it is called with and wakes who waits for it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._changed = asyncio.Event()
+
+    def __call__(self, *args: Any) -> None:
+        self.append(args[0] if len(args) == 1 else args)
+        self._changed.set()
+
+    async def until(self, condition: Callable[[Record], bool]) -> Record:
+        async with asyncio.timeout(PATIENCE):
+            while not condition(self):
+                self._changed.clear()
+                await self._changed.wait()
+        return self
+
+    async def reach(self, count: int) -> Record:
+        return await self.until(lambda record: len(record) >= count)
+
+
+class Link:
+    """A running client and what it told."""
+
+    def __init__(self, url: str, **options: Any) -> None:
+        self.states = Record()
+        options = {"backoff": (0.01, 0.02)} | options
+        self.client = BridgeClient(url, on_state=self.states, **options)
+        self.running = asyncio.create_task(self.client.run())
+
+    async def sentence(self, phase: Phase) -> str:
+        """Of the next state with this phase."""
+        states = await self.states.until(lambda all: any(state.phase is phase for state in all))
+        found: LinkState = next(state for state in states if state.phase is phase)
+        states.clear()
+        return found.sentence
+
+    async def connected(self) -> BridgeClient:
+        await self.states.until(lambda _: self.client.state.phase is Phase.CONNECTED)
+        self.states.clear()
+        return self.client
+
+
+@asynccontextmanager
+async def link(url: str, **options: Any) -> AsyncIterator[Link]:
+    """A client that runs until the end of the block."""
+    made = Link(url, **options)
+    try:
+        yield made
+    finally:
+        await made.client.close()
+        await made.running
+
+
+def accept(session: Any, request: CommandRequest) -> CommandResponse:
+    return CommandResponse(success=True, message=f"Accepted {request.command_id}.")
+
+
+def service(name: str = "/stop", call: Callable[..., Any] = accept) -> Service:
+    return Service(name, "pilothouse_msgs/Command", CommandRequest, CommandResponse, call)
+
+
+@asynccontextmanager
+async def server(**options: Any) -> AsyncIterator[BridgeServer]:
+    """A server on a free port of loopback."""
+    options = {"services": [service()], "on_message": Record()} | options
+    port = options.pop("port", 0)
+    made = BridgeServer(**options)
+    await made.start(port=port)
+    try:
+        yield made
+    finally:
+        await made.close()
+
+
+def url(made: BridgeServer | Wire) -> str:
+    return f"ws://127.0.0.1:{made.port}"
+
+
+class Wire:
+    """A stretch of cable to a port: passes everything on until it is frozen or cut."""
+
+    def __init__(self, to: int) -> None:
+        self.port = 0
+        self._to = to
+        self._open: set[asyncio.StreamWriter] = set()
+        self._pumps: set[asyncio.Task[None]] = set()
+        self._thawed = asyncio.Event()
+        self._thawed.set()
+
+    def cut(self) -> None:
+        """Every connection through it breaks; new ones may come."""
+        for writer in self._open:
+            writer.transport.abort()
+
+    def freeze(self) -> None:
+        """Nothing passes any more, and nobody is told."""
+        self._thawed.clear()
+
+    async def _join(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        far_reader, far_writer = await asyncio.open_connection("127.0.0.1", self._to)
+        self._open |= {writer, far_writer}
+        for source, sink in ((reader, far_writer), (far_reader, writer)):
+            self._pumps.add(asyncio.create_task(self._pump(source, sink)))
+
+    async def _pump(self, source: asyncio.StreamReader, sink: asyncio.StreamWriter) -> None:
+        try:
+            while data := await source.read(65536):
+                await self._thawed.wait()
+                sink.write(data)
+                await sink.drain()
+        except OSError:
+            pass
+        finally:
+            sink.close()
+
+
+@asynccontextmanager
+async def wire(to: int) -> AsyncIterator[Wire]:
+    made = Wire(to)
+    listening = await asyncio.start_server(made._join, "127.0.0.1", 0)
+    made.port = listening.sockets[0].getsockname()[1]
+    try:
+        yield made
+    finally:
+        listening.close()
+        made.cut()
+        for pump in made._pumps:
+            pump.cancel()
+        await asyncio.gather(*made._pumps, return_exceptions=True)
+        await listening.wait_closed()
