@@ -10,7 +10,7 @@ __all__ = ["Prop", "block", "car", "cone", "lamp", "tree", "wall"]
 
 ORANGE: Colour = (1.0, 0.36, 0.04)
 WHITE: Colour = (0.95, 0.95, 0.93)
-CONCRETE: Colour = (0.62, 0.61, 0.58)
+CONCRETE: Colour = (0.72, 0.71, 0.68)
 STEEL: Colour = (0.42, 0.45, 0.48)
 GLASS: Colour = (0.10, 0.14, 0.19)
 RUBBER: Colour = (0.06, 0.06, 0.07)
@@ -49,7 +49,7 @@ def cone(height: float = 0.6) -> Prop:
     """A traffic cone, orange with a white band, on a square foot; `height` [m]."""
     foot = 0.03
     body = height - foot
-    bottom, top = 0.3 * height * 0.82, 0.055
+    bottom, top = 0.38 * height, 0.06
 
     def slice_(start: float, end: float, colour: Colour, grow: float = 0.0) -> Shape:
         low, high = (bottom + (top - bottom) * part for part in (start, end))
@@ -62,7 +62,7 @@ def cone(height: float = 0.6) -> Prop:
             glow=0.18,
         )
 
-    side = bottom * 1.45
+    side = bottom * 1.5
     solid = Shape("cylinder", (bottom, bottom, height), (0.0, 0.0, height / 2), taper=(top / bottom,) * 2)
     plate = Shape("box", (side, side, foot), (0.0, 0.0, foot / 2), colour=ORANGE, glow=0.12)
     bands = (slice_(0.0, 0.42, ORANGE), slice_(0.42, 0.70, WHITE), slice_(0.70, 1.0, ORANGE))
@@ -78,7 +78,7 @@ def wall(length: float, height: float, thickness: float) -> Prop:
         (Shape("box", size, (0.0, 0.0, height / 2)),),
         (
             Shape("box", (length, thickness, height - 0.06), (0.0, 0.0, height / 2 - 0.03), colour=CONCRETE),
-            Shape("box", coping, (0.0, 0.0, height - 0.03), colour=(0.74, 0.73, 0.70)),
+            Shape("box", coping, (0.0, 0.0, height - 0.03), colour=(0.80, 0.79, 0.76)),
         ),
     )
 

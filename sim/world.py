@@ -37,7 +37,7 @@ class _Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 class Datum(_Entry, frozen=True):
     """Where the map's origin lies on earth, WGS 84."""
 
-    latitude: Annotated[float, msgspec.Meta(ge=-90, le=90)]
+    latitude: Annotated[float, msgspec.Meta(gt=-90, lt=90)]
     """[deg]"""
     longitude: Annotated[float, msgspec.Meta(ge=-180, le=180)]
     """[deg]"""

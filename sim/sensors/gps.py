@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import msgspec
 
+import bridge.geo
 from bridge.msgs.sensor_msgs import NavSatFix, NavSatStatus
 from bridge.msgs.std_msgs import Header, Time
 from sim.backend_bullet import State
-from sim.geodesy import to_geographic
 from sim.sensors.noise import Noise, Wander
 from sim.world import Datum
 
@@ -31,7 +31,9 @@ class Gps:
 
     def __init__(self, parameters: GpsParameters, datum: Datum, noise: Noise) -> None:
         """A receiver in the world whose map's origin lies at `datum`."""
-        self._parameters, self._datum, self._noise = parameters, datum, noise
+        self._parameters, self._noise = parameters, noise
+        self._altitude = datum.altitude
+        self._origin = bridge.geo.Datum(datum.latitude, datum.longitude)
         self._errors = tuple(
             Wander(noise, parameters.wander_error * worse, parameters.wander, 1 / parameters.rate)
             for worse in (1.0, 1.0, 2.0)
@@ -45,13 +47,13 @@ class Gps:
             true + error.step() + self._noise.normal(self._parameters.noise)
             for true, error in zip(state.position, self._errors, strict=True)
         )
-        latitude, longitude = to_geographic(self._datum, east, north)
+        latitude, longitude = self._origin.to_geographic(east, north)
         return NavSatFix(
             Header(Time.at(stamp), "gps"),
             NavSatStatus(),
             latitude,
             longitude,
-            self._datum.altitude + up,
+            self._altitude + up,
             self._covariance,
             _DIAGONAL_KNOWN,
         )

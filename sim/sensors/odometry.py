@@ -21,6 +21,7 @@ class OdometryParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True
 
     rate: float
     radius_error: float
+    mismatch: float
     base_error: float
     slip: float
 
@@ -43,7 +44,8 @@ class WheelOdometry:
     ) -> None:
         """Wheels of `radius` [m], `base` [m] apart, `ticks` a turn; `pose` is x, y [m], yaw [rad] in `odom`."""
         self._slip, self._noise = parameters.slip, noise
-        self._radii = tuple(radius * (1 + noise.normal(parameters.radius_error)) for _ in range(2))
+        common = 1 + noise.normal(parameters.radius_error)
+        self._radii = tuple(radius * (common + noise.normal(parameters.mismatch)) for _ in range(2))
         self._base = base * (1 + noise.normal(parameters.base_error))
         self._tick = math.tau / ticks
         self._angles = (0.0, 0.0)
