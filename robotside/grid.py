@@ -55,7 +55,8 @@ class Grid:
         rows, columns = self.occupied.shape
         padded = np.pad(self.occupied, ((0, -rows % factor), (0, -columns % factor)))
         blocks = padded.reshape(padded.shape[0] // factor, factor, padded.shape[1] // factor, factor)
-        return Grid(blocks.any(axis=(1, 3)), self.resolution * factor, self.x, self.y)
+        occupied = np.asarray(np.any(blocks, axis=(1, 3)), dtype=np.bool_)
+        return Grid(occupied, self.resolution * factor, self.x, self.y)
 
     def marked(self, points: Points) -> Grid:
         """The same map with the cells of `points` occupied as well; points off the map are left out."""

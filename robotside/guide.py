@@ -95,13 +95,13 @@ class Guide:
     def rest(self) -> None:
         """Stand still and forget the path; a leg that goes on later is planned from wherever it is then."""
         self._robot.stop()
-        self._follower, self._speed = None, 0.0
+        self._follower, self._speed, self._left = None, 0.0, math.nan
         self._moved = -math.inf
 
     def finish(self) -> None:
         """Stand still; there is no goal any more."""
         self.rest()
-        self._goal, self._left = None, math.nan
+        self._goal = None
         self._show(np.empty((0, 2)))
 
     def update(self, pose: Pose2, points: Points, now: float) -> Leg:

@@ -23,8 +23,8 @@ __all__ = ["Field", "Localiser", "Match"]
 HIT_SPREAD = 0.06
 """Of a sweep's end points about the map's surfaces [m]; the grid's own coarseness is most of it."""
 
-OUTLIER = 0.30
-"""End points farther than this from any surface are taken for something that is not on the map [m]."""
+FITS = 0.15
+"""End points within this of a surface agree with the map [m]."""
 
 INDEPENDENT = 0.15
 """Part of the end points that count as independent evidence: neighbours err together."""
@@ -32,8 +32,14 @@ INDEPENDENT = 0.15
 BEAMS = 120
 """End points used of a sweep."""
 
-DRIFT = (0.03, 0.03)
-"""Odometry's error per metre [m/m] and per turned radian [rad/rad], one standard deviation."""
+SLIP = 0.1
+"""Odometry's error of place from sweep to sweep [m/m], one standard deviation."""
+
+SWERVE = (0.03, 0.03)
+"""Odometry's error of yaw per metre [rad/m] and per turned radian [rad/rad]: wheels that are not quite equal."""
+
+LOSS = 0.25
+"""End points count less the farther they are from a surface; at this distance a quarter [m]."""
 
 SURE = 0.5
 """Part of the end points that must lie on surfaces for the position to be trusted."""
@@ -124,8 +130,8 @@ class Localiser:
         step = odom.since(before)
         self.pose = self.pose.then(step)
         travelled, turned = math.hypot(step.x, step.y), abs(step.yaw)
-        spread = (DRIFT[0] * travelled) ** 2 * 10 + 1e-9
-        turn = (DRIFT[1] * turned) ** 2 + (0.01 * travelled) ** 2 + 1e-9
+        spread = (SLIP * travelled) ** 2 + 1e-9
+        turn = (SWERVE[0] * travelled + SWERVE[1] * turned) ** 2 + 1e-9
         self.covariance += np.diag([spread, spread, turn])
 
     def correct(self, points: Points) -> None:
@@ -159,7 +165,8 @@ class Localiser:
         for yaw in guess.yaw + np.linspace(-turn, turn, 2 * math.ceil(turn / 0.05) + 1):
             turned = Pose2(guess.x, guess.y, float(yaw)).apply(points)
             off = self._field.nearest(turned[None, :, :] + shift[:, None, :])
-            scores = np.exp(-((off / (2 * step)) ** 2)).mean(axis=1) - 1e-3 * (dx**2 + dy**2)
+            scores = np.exp(-((off / (2 * step)) ** 2)).mean(axis=1)
+            scores -= 1e-3 * (dx**2 + dy**2 + (float(yaw) - guess.yaw) ** 2)
             top = int(scores.argmax())
             if scores[top] > best_score:
                 best_score = float(scores[top])
@@ -185,7 +192,7 @@ class Localiser:
         found = self._field.read(placed)
         off, gx, gy = found[:, 0], found[:, 1], found[:, 2]
         jacobian = np.column_stack([gx, gy, gy * (placed[:, 0] - pose.x) - gx * (placed[:, 1] - pose.y)])
-        weight = 1.0 / (1.0 + (off / (0.5 * OUTLIER)) ** 2) ** 2
+        weight = 1.0 / (1.0 + (off / LOSS) ** 2) ** 2
         weight *= INDEPENDENT / HIT_SPREAD**2
         weighted = jacobian * weight[:, None]
-        return weighted.T @ off, weighted.T @ jacobian, float((np.abs(off) < 0.5 * OUTLIER).mean())
+        return weighted.T @ off, weighted.T @ jacobian, float((np.abs(off) < FITS).mean())

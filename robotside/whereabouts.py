@@ -42,6 +42,9 @@ TOLD_REACH, TOLD_TURN = 1.0, 0.5
 """How wrong a pose told by an operator's finger may be [m, rad]."""
 
 
+_NO_IDEA = "There is no fix or compass: the robot supposes to be near the map's origin. Place it on the map."
+
+
 class Track:
     """The last seconds of poses, to ask where the robot was when a sensor measured."""
 
@@ -162,6 +165,7 @@ class Whereabouts:
             x, y = (sum(axis) / FIXES for axis in zip(*self._fixes, strict=True))
             return Pose2(x, y, self._compass), GUESS_REACH, GUESS_TURN
         if stamp - self._since > PATIENCE:
+            self._say("localisation", _NO_IDEA, "warn")
             return Pose2(0.0, 0.0, 0.0), GUESS_REACH, math.pi
         return None
 

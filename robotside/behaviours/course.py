@@ -36,6 +36,7 @@ class Course:
         self.passed = 0
         """Points reached or given up."""
         self.skipped_in_a_row = 0
+        self._longest = 0.0
 
     @property
     def total(self) -> int:
@@ -56,7 +57,7 @@ class Course:
 
     def advance(self) -> Goal:
         """Choose the next point: the one after this, or in random motion any but this."""
-        count = len(self.goals)
+        count, self._longest = len(self.goals), 0.0
         if self.motion == "random" and self._rng is not None and count > 1:
             others = [number for number in range(count) if number != self.index]
             self.index = self._rng.choice(others)
@@ -80,8 +81,8 @@ class Course:
         """Done of this lap, or of the whole where laps are counted, 0 to 1; `remaining` [m] of this leg."""
         visits = self.total or len(self.goals)
         done = self.passed if self.total else self.passed % len(self.goals)
-        leg = self._leg(self.index - 1, self.index)
-        part = 0.0 if math.isnan(remaining) else max(0.0, 1.0 - remaining / max(leg, remaining, 0.1))
+        self._longest = max(self._longest, remaining)
+        part = 0.0 if math.isnan(remaining) else 1.0 - remaining / max(self._longest, 0.1)
         return min(1.0, (done + part * (done < visits)) / visits)
 
     def time_left(self, remaining: float, cruise: float) -> float:

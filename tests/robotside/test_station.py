@@ -101,9 +101,7 @@ class Scene:
         self.station.hear(client or self.anna, "/cmd_vel", twist, stamp)
 
     def events(self, kind: str = "") -> list[str]:
-        return [
-            msg.text for _, msg in self.said if isinstance(msg, Event) and (not kind or msg.kind == kind)
-        ]
+        return [msg.text for _, msg in self.said if isinstance(msg, Event) and (not kind or msg.kind == kind)]
 
     def of(self, topic: str) -> list[Msg]:
         return [msg for name, msg in self.said if name == topic]
@@ -208,7 +206,11 @@ def test_stop_holds_a_patrol_and_release_does_not_resume_it(scene: Scene) -> Non
 def test_with_stop_pressed_tasks_are_refused(scene: Scene) -> None:
     scene.set(*SQUARE)
     scene.ask("/stop")
-    for name, request in (("/task/start", StartTaskRequest()), ("/task/go_home", None), ("/task/resume", None)):
+    for name, request in (
+        ("/task/start", StartTaskRequest()),
+        ("/task/go_home", None),
+        ("/task/resume", None),
+    ):
         assert "STOP is pressed" in scene.refused(name, request)
 
 
@@ -219,9 +221,7 @@ def test_a_patrol_visits_every_point_and_ends(scene: Scene) -> None:
     while scene.station.autonomy.engine.running:
         scene.run(0.1)
         x, y, _ = scene.robot.pose
-        near = [
-            min(best, math.hypot(x - p.x, y - p.y)) for best, p in zip(near, SQUARE, strict=True)
-        ]
+        near = [min(best, math.hypot(x - p.x, y - p.y)) for best, p in zip(near, SQUARE, strict=True)]
     assert max(near) < 0.15
     assert (scene.task.state, scene.task.visited) == ("SUCCEEDED", 3)
     assert scene.robot.at_rest
@@ -309,7 +309,8 @@ def test_home_is_reached_from_within_a_patrol(scene: Scene) -> None:
     scene.run(5.0)
     assert scene.ask("/task/go_home").success
     first, second = scene.of("/task/status")[-2:]
-    assert isinstance(first, TaskStatus) and isinstance(second, TaskStatus)
+    assert isinstance(first, TaskStatus)
+    assert isinstance(second, TaskStatus)
     assert (first.state, second.task, second.task_id) == ("CANCELED", "go_home", 2)
     status = scene.run_task()
     assert (status.state, status.reason) == ("SUCCEEDED", "Home.")
@@ -350,7 +351,11 @@ def test_a_command_from_somebody_without_control_names_the_driver(scene: Scene) 
     scene.set(*SQUARE)
     scene.ask("/control/acquire", CommandRequest(client_id="t1", client_name="tablet-A"))
     bert = scene.client("bert")
-    for name, request in (("/task/start", StartTaskRequest()), ("/task/pause", None), ("/mission/set", SetMissionRequest())):
+    for name, request in (
+        ("/task/start", StartTaskRequest()),
+        ("/task/pause", None),
+        ("/mission/set", SetMissionRequest()),
+    ):
         assert scene.refused(name, request, bert).startswith("tablet-A has control")
 
 
