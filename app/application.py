@@ -50,6 +50,8 @@ BEAT = 0.03
 """Between two heartbeats of the user interface [s]; without one for 0.15 s the robot rests."""
 LIST = 0.5
 """Between two looks at the list of robots [s]."""
+PICTURE_LIVES = 1.0
+"""A camera that shows nothing new for longer is stale [s]."""
 BACK = 27
 """Key code of Android's Back and of Escape."""
 
@@ -101,6 +103,8 @@ class PilothouseApp(App):
         self.last_frame: Frame | None = None
         """The newest camera frame as it came; None before the first."""
         self._pictures: list[float] = []
+        """When the pictures of the last second came [s]."""
+        self._picture_at = math.nan
         self._camera_wanted: str | None = None
 
     # what tests and the demo look at
@@ -252,12 +256,21 @@ class PilothouseApp(App):
                 self._save_robots()
 
     def _show_picture(self, picture: Picture, received: float) -> None:
+        self._picture_at = received
         if self.shell is None or not self.shell.screen:
             return
         self._pictures = [at for at in self._pictures if received - at < 1.0] + [received]
         rate = float(len(self._pictures)) if len(self._pictures) > 1 else math.nan
         latency = self.session.link.robot_time() - picture.stamp if self.session and picture.stamp else math.nan
         self.shell.screens[self.shell.screen].show_picture(picture, rate, latency)
+
+    def _judge_picture(self) -> None:
+        """A picture is believed for a second; after that it says how old it is."""
+        video = self.shell.screens[self.shell.screen].video
+        age = self._now() - self._picture_at
+        video.state = "never" if math.isnan(age) else "live" if age < PICTURE_LIVES else "stale"
+        if video.state == "stale" and not abs(age - video.age) < 0.5:
+            video.age = age
 
     def _on_frame(self, frame: Frame, received: float) -> None:
         """In the network thread: keep the frame for a snapshot and have it decoded."""
@@ -275,6 +288,7 @@ class PilothouseApp(App):
             self._tick_connecting()
         else:
             self.shell.tick()
+            self._judge_picture()
             self._watch_camera()
             self._tick_recording()
 
@@ -421,7 +435,7 @@ class PilothouseApp(App):
         self.stop_recording()
         self.session.link.close()
         self.session = None
-        self._camera_wanted, self.last_frame = None, None
+        self._camera_wanted, self.last_frame, self._picture_at = None, None, math.nan
         self.connect.say("")
         self.root.show_page(self.connect)
         self._list()

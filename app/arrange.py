@@ -102,11 +102,11 @@ def _mission_instruments(area: Rect, gap: float, dp: float) -> dict[str, Rect]:
 
 def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
     gap = 12 * dp
-    low = min(318 * dp, body.height * 0.48)
+    low = min(346 * dp, body.height * 0.5)
     height = body.height - 120 * dp if sheet_open else low
     sheet = Rect(body.x, body.y, body.width, height)
     stop_width = min(max(158 * dp, body.width * 0.3), 260 * dp)
-    stop = Rect(body.right - gap - stop_width, body.y + gap, stop_width, 64 * dp)
+    stop = Rect(body.right - gap - stop_width, body.y + gap, stop_width, 93 * dp)
     tasks = Rect(body.x + gap, stop.y, stop.x - body.x - 2 * gap, stop.height)
     handle = 22 * dp
     panel = Rect(sheet.x + gap, stop.top + 8 * dp, sheet.width - 2 * gap, sheet.height - stop.height - gap - 8 * dp - handle)
@@ -174,11 +174,11 @@ def _drive_tall(body: Rect, dp: float) -> dict[str, Rect]:
     gap = 12 * dp
     picture = min(body.width * 0.75, body.height * 0.42)
     video = Rect(body.x, body.top - picture, body.width, picture)
-    stick = min(196 * dp, body.width * 0.46)
+    stick = min(176 * dp, body.width * 0.42)
     controls = Rect(body.x + gap, body.y + gap, stick, stick)
-    right = controls.right + gap
-    stop = Rect(right, body.y + gap, body.right - gap - right, 116 * dp)
-    slider = Rect(right, stop.top + gap, stop.width, controls.height - stop.height - gap)
+    slider = Rect(controls.right + gap, body.y + gap, 80 * dp, stick)
+    spare = body.right - gap - slider.right - gap
+    stop = Rect(body.right - gap - min(spare, 240 * dp), body.y + gap, min(spare, 240 * dp), stick)
     actions = Rect(body.x + gap, controls.top + gap, body.width - 2 * gap, 52 * dp)
     cards_low = actions.top + gap
     cards = Rect(body.x + gap, cards_low, body.width - 2 * gap, video.y - gap - cards_low)

@@ -71,7 +71,7 @@ class DriveScreen(FloatLayout):
         self.video = Video(fit="cover", corner=0)
         self.stick = Joystick()
         self.speed = SpeedCard()
-        self.actions = GridLayout(spacing="10dp")
+        self.actions = GridLayout(cols=1, spacing="10dp")
         self.places: dict[str, list[Widget]] = {"video": [self.video]}
         self.add_widget(self.video)
         self._build_instruments(layout)
@@ -102,9 +102,9 @@ class DriveScreen(FloatLayout):
                 scale=one.factor,
                 decimals=one.digits,
                 fitted=False,
-                size_hint_x=1,
-                font_size="22sp",
+                font_size="21sp",
             )
+            widget.size_hint_x = 1
         else:
             wanted = topic(one.topic).type
             if wanted not in kind.accepts:
@@ -136,7 +136,7 @@ class DriveScreen(FloatLayout):
             button.bind(on_release=act)
             self.ids[name] = button
             self.actions.add_widget(button)
-        self.ids.update(stick=self.stick, speed=self.speed, fader=self.speed.ids.fader, video=self.video)
+        self.ids.update({"stick": self.stick, "speed": self.speed, "fader": self.speed.ids.fader, "video": self.video})
 
     # what the shell calls
 
@@ -150,8 +150,8 @@ class DriveScreen(FloatLayout):
         self.actions.cols = 3 if tall else 1
         self.readouts.cols = 4 if tall else 2 if form == "wide" else 1
         self._trim(form)
-        top = places["top"]
-        self.video.insets = [0, 0, 0, body.top - top.y if not tall else 0]
+        top, left = places["top"], places["top_left"]
+        self.video.insets = [0, 0, 0, 0] if tall else [left.right - body.x, 0, 0, body.top - top.y]
         return places["stop"]
 
     def _trim(self, form: str) -> None:

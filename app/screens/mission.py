@@ -134,10 +134,6 @@ class MissionScreen(FloatLayout):
         for widget in (self.video, self.compass, self.panel.readouts):
             widget.size_hint = (None, None)
         self._build_tools()
-        ids.side.add_widget(self.panel)
-        self.panel.size_hint = (None, None)
-        self.panel.parent.remove_widget(self.panel)
-        ids.side.unbind()
         self.add_widget(self.panel)
         self.panel.tasks.size_hint = (None, None)
         ids.handle.bind(on_touch_down=self._pull)
@@ -156,8 +152,8 @@ class MissionScreen(FloatLayout):
             word = QuietButton(text=text, size_hint_x=None, width="96dp", height="46dp", pos_hint={"center_y": 0.5})
             word.bind(on_release=act)
             ids[button] = word
-        ids.update(map=self.map, video=self.video, selection=self.selection, panel=self.panel, tasks=self.panel.tasks)
-        ids.update(send=self.panel.ids.send, motion=self.panel.motion)
+        ids.update({"map": self.map, "video": self.video, "selection": self.selection, "panel": self.panel})
+        ids.update({"tasks": self.panel.tasks, "send": self.panel.ids.send, "motion": self.panel.motion})
 
     def _build_tools(self) -> None:
         self._tools: dict[str, IconButton] = {}
@@ -221,7 +217,7 @@ class MissionScreen(FloatLayout):
         top = area.top - places["modes"].y if self._form != "tall" else 0
         low = places["modes"].top - area.y if self._form == "tall" else 0
         if "compass" in places:
-            low = places["compass"].top - area.y
+            low = max(places["compass"].top, places["video"].top) - area.y
         self.map.insets = [0, low, area.right - places["tools"].x, top]
 
     def _place_tasks(self, rect: arrange.Rect | None) -> None:
@@ -309,7 +305,7 @@ class MissionScreen(FloatLayout):
         self.map.home = list(draft.home or ())
         if self.map.selected >= len(draft.points):
             self.map.selected = -1
-        self.map.motion = draft.motion
+        self.map.motion_name = draft.motion
         self.panel.show_draft()
         self._show_selection()
 

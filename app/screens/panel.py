@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from kivy.lang import Builder
-from kivy.properties import NumericProperty, OptionProperty, StringProperty
+from kivy.properties import BooleanProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.gridlayout import GridLayout
 
@@ -76,6 +76,8 @@ Builder.load_string("""
     spacing: dp(5)
     SectionLabel:
         title: 'Progress'
+        height: self.texture_size[1] if root.titled else 0
+        opacity: 1 if root.titled else 0
     Progress:
         value: root.value
     BoxLayout:
@@ -116,6 +118,8 @@ class ProgressRow(BoxLayout):
     value = NumericProperty(math.nan)
     """0 to 1; NaN while nothing runs."""
     where = StringProperty("")
+    titled = BooleanProperty(True)
+    """Has its name over it."""
 
 
 class MissionPanel(BoxLayout):
@@ -168,6 +172,8 @@ class MissionPanel(BoxLayout):
         for figure in (self.speed, self.next, self.lap, self.left):
             figure.font_size = "22sp" if tall else "26sp"
         self.tasks.brief = tall
+        self.next.name = "Next" if tall else "Next point"
+        self._progress.titled = not tall
         self.events.size_hint_y = 1 if form == "wide" else None
         self.events.height = "190dp"
         if form == "wide":

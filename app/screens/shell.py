@@ -82,12 +82,12 @@ Builder.load_string("""
             text: root.robot_name
             bold: True
             font_size: theme.size_title if root.form != 'tall' else sp(18)
-            shorten: True
+            shorten: root.form == 'tall'
             shorten_from: 'right'
             pos_hint: {'center_y': .5}
             size_hint_x: 1 if root.form == 'tall' else None
-            width: min(self.name_width, dp(200))
-            name_width: dp(12) + sp(12) * len(self.text)
+            text_size: (self.width, None) if root.form == 'tall' else (None, None)
+            width: self.texture_size[0]
         Chip:
             id: mode
             icon: root.mode_icon if root.form != 'tall' else ''
