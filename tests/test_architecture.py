@@ -25,7 +25,7 @@ ALSO = {
     "bridge/client.py": {"websockets"},
     "robotside/__main__.py": {"sim"},
 }
-WIDGETS_USE = ("bridge.msgs", "bridge.units")
+WIDGETS_USE = ("bridge.msgs", "bridge.units", "bridge.geo")
 
 
 def imports(path: Path) -> Iterator[str]:

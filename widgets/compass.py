@@ -1,7 +1,7 @@
 """A compass card: it turns under a fixed pointer, and says the heading in the middle.
 
-    compass = Compass()
-    robot.on("/imu/data", compass.show)
+compass = Compass()
+robot.on("/imu/data", compass.show)
 """
 
 from __future__ import annotations
@@ -16,11 +16,10 @@ from kivy.metrics import dp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
 from kivy.uix.widget import Widget
 
-from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Quaternion
+from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import Imu
-from bridge.units import heading_from_yaw
-from widgets.geometry import dial_point, dial_text, heading_text
+from widgets.geometry import dial_point, dial_text, heading_of, heading_text
 from widgets.ink import Drawing, Ink, Word, Words, tint
 from widgets.shapes import Shapes
 from widgets.theme import theme
@@ -57,7 +56,15 @@ class Compass(Drawing):
         self._place, self._turn = Translate(), Rotate(axis=(0, 0, 1))
         self._card_look: tuple[object, ...] = ()
         super().__init__(**kwargs)
-        parts = (PushMatrix(), self._place, self._turn, self._card, PopMatrix(), self._marks, self._words.canvas)
+        parts = (
+            PushMatrix(),
+            self._place,
+            self._turn,
+            self._card,
+            PopMatrix(),
+            self._marks,
+            self._words.canvas,
+        )
         for part in parts:
             self.canvas.add(part)
         self.bind(side=self._round)
@@ -68,11 +75,7 @@ class Compass(Drawing):
 
     def show(self, msg: Imu | Odometry | PoseWithCovarianceStamped) -> None:
         """Take the heading out of the message; an Imu that measures no orientation gives NaN."""
-        if isinstance(msg, Imu):
-            known = msg.orientation_covariance[:1] != [-1]
-            self.heading = _heading(msg.orientation) if known else math.nan
-        else:
-            self.heading = _heading(msg.pose.pose.orientation)
+        self.heading = heading_of(msg)
 
     def draw(self) -> None:
         """Turn the card; draw it anew only when its size or colours have changed."""
@@ -128,10 +131,6 @@ class Compass(Drawing):
         text = heading_text(self.heading)
         shift = radius * 0.06 if known else 0.0  # the degree sign hangs over, so that the figures are centred
         yield Word(text, self.center_x + shift, self.center_y, radius * 0.345, theme.text, bold=True)
-
-
-def _heading(orientation: Quaternion) -> float:
-    return heading_from_yaw(orientation.yaw)
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

@@ -14,22 +14,29 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
+from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.sensor_msgs import Imu
 from bridge.units import heading_from_yaw, yaw_from_heading
 
 __all__ = [
     "CARDINALS",
+    "DASH",
     "Trail",
     "View",
     "cover",
     "contain",
     "dial_point",
     "dial_text",
+    "heading_of",
     "heading_text",
+    "horizon_rise",
     "length_text",
     "nearest",
     "nice_floor",
     "occupancy_pixels",
     "scan_points",
+    "scan_reach",
     "screen_angle",
     "shortest_turn",
     "spread",
@@ -179,6 +186,22 @@ def shortest_turn(start: float, end: float) -> float:
     return (end - start + 180.0) % 360.0 - 180.0
 
 
+def heading_of(msg: Imu | Odometry | PoseWithCovarianceStamped) -> float:
+    """Heading [deg] of the bow that a message tells; NaN for an Imu that measures no orientation."""
+    if isinstance(msg, Imu):
+        known = msg.orientation_covariance[:1] != [-1]
+        return heading_from_yaw(msg.orientation.yaw) if known else math.nan
+    return heading_from_yaw(msg.pose.pose.orientation.yaw)
+
+
+def horizon_rise(pitch: float, radius: float, rung: float) -> float:
+    """How far `pitch` [rad, positive nose down] raises a level view on an instrument of `radius` [px].
+
+    `rung` is the share of the radius that stands for ten degrees.
+    """
+    return shortest_turn(heading_from_yaw(pitch), 90.0) / 10.0 * rung * radius
+
+
 def dial_point(bearing: float, radius: float, heading: float = 0.0) -> tuple[float, float]:
     """Where `bearing` [deg] is on a dial with `heading` [deg] at its top, from the dial's centre."""
     angle = yaw_from_heading(bearing - heading)
@@ -251,6 +274,16 @@ def scan_points(
     units = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     with np.errstate(invalid="ignore"):
         return measured, angles, units * measured[:, None]
+
+
+REACHES = (1.5, 3.0, 6.0, 9.0, 12.0, 15.0, 24.0, 30.0, 60.0)
+"""Distances [m] that a laser's picture may end at; each has three rings at round distances."""
+
+
+def scan_reach(farthest: float, before: float = 0.0) -> float:
+    """How far the picture of a sweep should go that sees to `farthest` [m]; it grows at once and shrinks late."""
+    wanted = next((reach for reach in REACHES if reach >= farthest), REACHES[-1])
+    return before if wanted < before < 1.6 * farthest else wanted
 
 
 def spread(points: Iterable[tuple[float, float]]) -> Points:

@@ -1,7 +1,7 @@
 """A map of the robot's own world in metres: its occupancy grid, or a plain squared ground where it has none.
 
-    map = GridMap(mode="points")
-    robot.on("/map", map.show), robot.on("/pose", map.show)
+map = GridMap(mode="points")
+robot.on("/map", map.show), robot.on("/pose", map.show)
 """
 
 from __future__ import annotations
@@ -19,7 +19,15 @@ from kivy.uix.widget import Widget
 from numpy.typing import NDArray
 
 from bridge.msgs import Msg
-from bridge.msgs.nav_msgs import OccupancyGrid
+from bridge.msgs.arrays import Int8Array
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Pose,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Quaternion,
+)
+from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
 from widgets.geometry import Points, occupancy_pixels, screen_angle, spread, tween
 from widgets.ink import Ink, tint
 from widgets.map_marks import grid_lines
@@ -27,7 +35,7 @@ from widgets.map_overlay import MapOverlay
 from widgets.shapes import Shapes
 from widgets.theme import theme
 
-__all__ = ["GridMap", "samples"]
+__all__ = ["GridMap", "patrol", "samples"]
 
 
 class GridMap(MapOverlay):
@@ -48,7 +56,15 @@ class GridMap(MapOverlay):
         self._texture: Texture | None = None
         self._texture_look: tuple[object, ...] = ()
         super().__init__(**kwargs)
-        placing = (PushMatrix(), self._shift, self._turn, self._scale, self._grid_colour, self._cells, PopMatrix())
+        placing = (
+            PushMatrix(),
+            self._shift,
+            self._turn,
+            self._scale,
+            self._grid_colour,
+            self._cells,
+            PopMatrix(),
+        )
         for part in (self._ground_colour, self._ground, *placing, self._squares):
             self.canvas.before.add(part)
 
@@ -121,10 +137,6 @@ class GridMap(MapOverlay):
 
 def _parking_lot() -> OccupancyGrid:
     """A walled lot of 36 m x 24 m with two rows of parked cars, at 0.1 m a cell."""
-    from bridge.msgs.arrays import Int8Array
-    from bridge.msgs.geometry_msgs import Point, Pose
-    from bridge.msgs.nav_msgs import MapMetaData
-
     cells = np.full((240, 360), 0, np.int8)
     cells[:4], cells[-4:], cells[:, :4], cells[:, -4:] = 100, 100, 100, 100
     for row in (18, 178):
@@ -136,15 +148,17 @@ def _parking_lot() -> OccupancyGrid:
     return OccupancyGrid(info=info, data=Int8Array(cells.tobytes()))
 
 
-def _patrol(map_: MapOverlay) -> None:
+def patrol(map_: MapOverlay) -> None:
     """Put a patrol half done onto a map."""
     map_.waypoints = [(-11.0, 3.0), (-2.0, 3.6), (7.5, 2.6), (11.0, -2.6), (0.5, -3.4), (-9.0, -2.8)]
     map_.home, map_.visited, map_.coming = [-15.5, -4.0], 2, 3
     steps = np.linspace(0.0, 1.0, 240)
     for share in steps:
         bend = math.sin(share * math.pi)
-        map_._trail.add(-15.5 + 19.0 * share, -4.0 + 7.0 * share + 2.4 * bend)
-    map_.robot, map_.camera_fov = [3.5, 3.0, -0.06], 1.2
+        place = Point(-15.5 + 19.0 * share, -4.0 + 7.0 * share + 2.4 * bend)
+        pose = Pose(place, Quaternion.from_yaw(-0.06))
+        map_.show(PoseWithCovarianceStamped(pose=PoseWithCovariance(pose)))
+    map_.camera_fov = 1.2
     map_.plan = np.stack([3.5 + 4 * steps, 3.0 - 0.4 * np.sin(steps * math.pi / 2)], axis=1)
     map_.intruders = [(5.8, -0.4, "cone")]
 
@@ -152,13 +166,15 @@ def _patrol(map_: MapOverlay) -> None:
 def samples() -> dict[str, Callable[[], Widget]]:
     """The states of the map by name."""
 
-    def made(*, patrol: bool = True, grid: bool = True, size: tuple[float, float] = (760, 500), **more: Any) -> Any:
+    def made(
+        *, driven: bool = True, grid: bool = True, size: tuple[float, float] = (760, 500), **more: Any
+    ) -> Any:
         def build() -> GridMap:
             map_ = GridMap(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
             if grid:
                 map_.show(_parking_lot())
-            if patrol:
-                _patrol(map_)
+            if driven:
+                patrol(map_)
             map_.fit()
             return map_
 
@@ -171,7 +187,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         return map_
 
     return {
-        "never": made(patrol=False, grid=False, size=(380, 300)),
+        "never": made(driven=False, grid=False, size=(380, 300)),
         "live": made(state="live"),
         "points": made(state="live", mode="points", selected=3),
         "place": placing,

@@ -1,9 +1,9 @@
 """Ink: smooth shapes and texts on a canvas, in one draw call for the shapes and few instructions for the texts.
 
-    self.ink, self.words = Ink(), Words()
-    self.canvas.add(self.ink), self.canvas.add(self.words.canvas)
-    self.ink.draw(shapes)
-    self.words.write([Word("N", x, y, sp(16), theme.danger)])
+self.ink, self.words = Ink(), Words()
+self.canvas.add(self.ink), self.canvas.add(self.words.canvas)
+self.ink.draw(shapes)
+self.words.write([Word("N", x, y, sp(16), theme.danger)])
 """
 
 from __future__ import annotations
@@ -152,15 +152,15 @@ class Words:
         self.canvas = InstructionGroup()
         self._slots: list[tuple[Color, Rectangle]] = []
         self._shown = 0
+        self.texts: list[str] = []
+        """What is written now."""
 
     def write(self, words: Iterable[Word], strength: float = 1.0) -> None:
         """Show these texts instead of those before; `strength` multiplies their opacity."""
-        count = 0
-        for word in words:
-            if not word.text:
-                continue
-            self._put(count, word, strength)
-            count += 1
+        shown = [word for word in words if word.text]
+        for index, word in enumerate(shown):
+            self._put(index, word, strength)
+        self.texts, count = [word.text for word in shown], len(shown)
         for _, rectangle in self._slots[count : self._shown]:
             rectangle.size = 0, 0
         self._shown = count

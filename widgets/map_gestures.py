@@ -97,6 +97,7 @@ class MapGestures(Widget):
         self._tapping, self.grip = False, None
 
     def on_touch_down(self, touch: MotionEvent) -> bool:
+        """Take a finger that comes down on the map."""
         if self.disabled or not self.collide_point(*touch.pos):
             return False
         if super().on_touch_down(touch):
@@ -114,6 +115,7 @@ class MapGestures(Widget):
         return True
 
     def on_touch_move(self, touch: MotionEvent) -> bool:
+        """Follow the map's own fingers."""
         if touch.grab_current is not self or touch.uid not in self._fingers:
             return super().on_touch_move(touch)
         before = dict(self._fingers)
@@ -127,6 +129,7 @@ class MapGestures(Widget):
         return True
 
     def on_touch_up(self, touch: MotionEvent) -> bool:
+        """Let go of what the finger held, or take it as a tap."""
         if touch.grab_current is not self or touch.uid not in self._fingers:
             return super().on_touch_up(touch)
         touch.ungrab(self)

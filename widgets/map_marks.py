@@ -23,6 +23,7 @@ __all__ = [
     "home_mark",
     "intruder_marks",
     "laser_dots",
+    "outlined",
     "place_handle",
     "plan_line",
     "robot_mark",
@@ -49,7 +50,9 @@ def trail_line(shapes: Shapes, view: View, trail: Points) -> None:
         return
     colours = np.tile(np.asarray(theme.accent, dtype=np.float32), (len(trail), 1))
     colours[:, 3] = np.linspace(0.35, 0.85, len(trail))
-    shapes.line(view.many_to_screen(trail), dp(4), colours)
+    seen = view.many_to_screen(trail)
+    shapes.line(seen, dp(7), tint(theme.bg, 0.35))
+    shapes.line(seen, dp(4), colours)
 
 
 def plan_line(shapes: Shapes, view: View, plan: Points) -> None:
@@ -69,7 +72,14 @@ def route_line(shapes: Shapes, view: View, waypoints: Sequence[Place], closed: b
 
 
 def waypoint_marks(
-    shapes: Shapes, view: View, waypoints: Sequence[Place], radius: float, *, visited: int, coming: int, selected: int
+    shapes: Shapes,
+    view: View,
+    waypoints: Sequence[Place],
+    radius: float,
+    *,
+    visited: int,
+    coming: int,
+    selected: int,
 ) -> Iterator[Word]:
     """Numbered discs: the first `visited` filled, the others open; `coming` (from 1) and `selected` (from 0) stand out."""
     for index, place in enumerate(waypoints):
@@ -105,10 +115,12 @@ def intruder_marks(
         shapes.ring(px, py, size * 1.3, dp(2.6), theme.danger, dashes=16)
         half, low, high = size * 0.62, size * 0.6, size * 0.75
         shapes.polygon([(px, py + high), (px - half, py - low), (px + half, py - low)], theme.danger)
-        yield from _outlined(Word(label, px + size * 1.3 + dp(8), py, size * 0.76, theme.danger, True, anchor=(0, 0.5)))
+        yield from outlined(
+            Word(label, px + size * 1.3 + dp(8), py, size * 0.76, theme.danger, True, anchor=(0, 0.5))
+        )
 
 
-def _outlined(word: Word) -> Iterator[Word]:
+def outlined(word: Word) -> Iterator[Word]:
     """The word with the window's colour round it, so that it can be read on any map."""
     for dx, dy in ((-1, -1), (1, -1), (-1, 1), (1, 1)):
         x, y = word.x + dx * dp(1), word.y + dy * dp(1)
@@ -123,13 +135,21 @@ def laser_dots(shapes: Shapes, view: View, points: Points) -> None:
 
 
 def robot_mark(
-    shapes: Shapes, view: View, pose: tuple[float, float, float], radius: float, *, fov: float, faded: bool, alarm: bool
+    shapes: Shapes,
+    view: View,
+    pose: tuple[float, float, float],
+    radius: float,
+    *,
+    fov: float,
+    faded: bool,
+    alarm: bool,
 ) -> None:
     """A disc with an arrow, and the slice of the world that the camera sees; `pose` is x, y [m] and yaw [rad]."""
     x, y = view.to_screen(*pose[:2])
     yaw = pose[2] + view.turn
     if math.isfinite(fov):
-        shapes.sector(x, y, radius * RANGE, yaw, min(fov / 2, math.pi / 2), tint(theme.accent, 0.18))
+        half = min(fov / 2, math.pi / 2)
+        shapes.sector(x, y, radius * RANGE, yaw=yaw, half_angle=half, colour=tint(theme.accent, 0.18))
     shapes.disc(x, y, radius + dp(3), tint(theme.bg, 0.35))
     ring = theme.danger if alarm else theme.text
     shapes.disc(x, y, radius + dp(1), ring)
@@ -166,10 +186,14 @@ def scale_bar(shapes: Shapes, view: View, left: float, bottom: float, longest: f
     shapes.line(corners, dp(5), tint(theme.bg, 0.7))
     shapes.line(corners, dp(2), theme.text)
     middle = (left + right) / 2
-    yield from _outlined(Word(length_text(metres), middle, bottom + dp(4), sp(13), theme.text, anchor=(0.5, 0)))
+    yield from outlined(
+        Word(length_text(metres), middle, bottom + dp(4), sp(13), theme.text, anchor=(0.5, 0))
+    )
 
 
-def grid_lines(shapes: Shapes, view: View, box: tuple[float, float, float, float], colour: Sequence[float]) -> None:
+def grid_lines(
+    shapes: Shapes, view: View, box: tuple[float, float, float, float], colour: Sequence[float]
+) -> None:
     """Lines of a round distance east and north, over the screen's `box` (x, y, width, height) [px]."""
     step = nice_floor(dp(150) / view.scale)
     x, y, width, height = box

@@ -1,7 +1,7 @@
 """What every map shows above its ground, and how it is looked at; `GridMap` and `GeoMap` add the ground.
 
-    map.waypoints = [(2.0, 1.0), (8.0, 1.0)]
-    map.bind(on_add=lambda _, x, y: map.waypoints.append((x, y)))
+map.waypoints = [(2.0, 1.0), (8.0, 1.0)]
+map.bind(on_add=lambda _, x, y: map.waypoints.append((x, y)))
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class MapOverlay(MapGestures, Drawing):
     accepts: ClassVar = (PoseWithCovarianceStamped, Path, IntruderArray, LaserScan)
     drawn_from: ClassVar = (
         "view", "waypoints", "selected", "home", "placed", "grip", "mode", "robot", "robot_radius", "camera_fov",
-        "plan", "intruders", "visited", "coming", "motion", "laser", "show_laser", "insets",
+        "plan", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets",
     )  # fmt: skip
 
     robot = ListProperty([math.nan] * 3)
@@ -72,7 +72,7 @@ class MapOverlay(MapGestures, Drawing):
     """How many of the first waypoints are done; they are drawn filled."""
     coming = NumericProperty(0)
     """Number, from 1, of the waypoint it is heading for; 0 for none."""
-    motion = OptionProperty("loop", options=("loop", "random", "intermittent"))
+    motion_name = OptionProperty("loop", options=("loop", "random", "intermittent"))
     """How the waypoints follow each other: round and round, in any order, or to the last and done."""
     follow = BooleanProperty(False)
     """Keep the robot in the middle; a finger that moves the map ends that."""
@@ -256,8 +256,8 @@ class MapOverlay(MapGestures, Drawing):
         view, places, home = self.view, self._places(), self._home_place()
         marks.trail_line(shapes, view, self._trail.points)
         marks.plan_line(shapes, view, self.plan)
-        if self.motion != "random":
-            marks.route_line(shapes, view, places, closed=self.motion == "loop")
+        if self.motion_name != "random":
+            marks.route_line(shapes, view, places, closed=self.motion_name == "loop")
         if self.show_laser:
             marks.laser_dots(shapes, view, self.laser)
         if home:
@@ -273,7 +273,7 @@ class MapOverlay(MapGestures, Drawing):
             self._robot_shapes(shapes, tuple(self.robot), faded=self.state == "stale" or bool(self.placed))
         else:
             x, y = self._free_middle()
-            yield Word("Waiting for the robot's position", x, y, sp(16), theme.muted)
+            yield from marks.outlined(Word("Waiting for the robot's position", x, y, sp(16), theme.muted))
         if self.placed:
             pose = tuple(self.placed)
             word, _ = marks.place_handle(shapes, self.view, pose, self.mark_radius)

@@ -28,6 +28,8 @@ _QUAD = np.array([0, 1, 2, 2, 3, 0], dtype=np.uint16)
 _FEATHER = 1.0
 _MITRE = 2.0
 """Longest mitre at a sharp corner, in half widths."""
+_FAR = 1e3
+"""Distance to an edge that is none [px]."""
 _MOST = 65_535
 """Vertices that 16-bit indices can name."""
 
@@ -60,7 +62,7 @@ class Shapes:
         self._rounds(np.array([[x, y]]), 0.0, radius, colour)
 
     def ring(
-        self, x: float, y: float, radius: float, width: float, colour: Colour, dashes: int = 0
+        self, x: float, y: float, radius: float, width: float, colour: Colour, *, dashes: int = 0
     ) -> None:
         """A circle `width` wide, in `dashes` dashes when that is not 0."""
         period = math.tau * radius / dashes if dashes else 0.0
@@ -96,7 +98,9 @@ class Shapes:
         vertices[:, :, 8:] = colour
         self._quads(vertices)
 
-    def segments(self, starts: Points, ends: Points, width: float, colour: Colour | NDArray[np.float32]) -> None:
+    def segments(
+        self, starts: Points, ends: Points, width: float, colour: Colour | NDArray[np.float32]
+    ) -> None:
         """Separate straight lines with square ends."""
         if not len(starts):
             return
@@ -105,16 +109,28 @@ class Shapes:
         vertices[:, :, 8:] = _per_shape(colour)
         self._quads(vertices)
 
-    def sector(self, x: float, y: float, radius: float, yaw: float, half_angle: float, colour: Colour) -> None:
+    def sector(
+        self, x: float, y: float, radius: float, *, yaw: float, half_angle: float, colour: Colour
+    ) -> None:
         """A slice of a disc to `half_angle` (below pi / 2) [rad] on both sides of the direction `yaw` [rad]."""
         local = _CORNERS * (radius + _FEATHER)
         turned = local @ np.array([[math.cos(yaw), math.sin(yaw)], [-math.sin(yaw), math.cos(yaw)]])
         vertices = np.zeros((1, 4, FLOATS), np.float32)
-        vertices[0, :, :2] = turned + (x, y)
+        vertices[0, :, :2] = turned + np.array([x, y])
         vertices[0, :, 2:4] = local
         vertices[0, :, 4:8] = SECTOR, radius, math.sin(half_angle), math.cos(half_angle)
         vertices[0, :, 8:] = colour
         self._quads(vertices)
+
+    def fan(self, x: float, y: float, rim: Points, joined: NDArray[np.bool_], colour: Colour) -> None:
+        """Triangles from (x, y) to each two neighbours of `rim` that are `joined`, shape (n - 1,); edges not smooth."""
+        vertices = np.zeros((len(rim) + 1, FLOATS), np.float32)
+        vertices[0, :2] = x, y
+        vertices[1:, :2] = rim
+        vertices[:, 2:6] = _FAR, _FAR, EDGES, _FAR
+        vertices[:, 8:] = colour
+        first = np.flatnonzero(joined) + 1
+        self._add(vertices, np.stack([np.zeros_like(first), first, first + 1], axis=1).ravel())
 
     def polygon(self, points: Sequence[tuple[float, float]], colour: Colour) -> None:
         """A filled shape that can be seen whole from its first corner; corners in order."""
@@ -132,7 +148,7 @@ class Shapes:
         distances = np.diag(heights)
         for vertex, hidden in ((1, inner[0]), (0, inner[1]), (2, inner[2])):
             if hidden:
-                distances[:, vertex] = 1e3
+                distances[:, vertex] = _FAR
         vertices = np.zeros((3, FLOATS), np.float32)
         vertices[:, :2] = corners
         vertices[:, 2:4] = distances[:, :2]
@@ -142,7 +158,12 @@ class Shapes:
         self._add(vertices, np.arange(3))
 
     def _rounds(
-        self, centres: Points, radius: float, half: float, colour: Colour | NDArray[np.float32], period: float = 0.0
+        self,
+        centres: Points,
+        radius: float,
+        half: float,
+        colour: Colour | NDArray[np.float32],
+        period: float = 0.0,
     ) -> None:
         reach = radius + half + _FEATHER
         vertices = np.zeros((len(centres), 4, FLOATS), np.float32)

@@ -1,18 +1,19 @@
 """A camera's live picture, with what was recognised in it.
 
-    video = Video()
-    video.show_frame(640, 480, rgba)
-    robot.on("/detections", video.show)
+video = Video()
+video.show_frame(640, 480, rgba)
+robot.on("/detections", video.show)
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from itertools import pairwise
 from typing import Any, ClassVar
 
 import numpy as np
-from kivy.graphics import Color, Rectangle, SmoothRoundedRectangle
+from kivy.graphics import Color, SmoothRoundedRectangle
 from kivy.graphics.texture import Texture
 from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, BooleanProperty, ListProperty, NumericProperty, OptionProperty
@@ -62,7 +63,7 @@ class Video(Drawing):
 
     veil = AliasProperty(_veil, bind=["state"])
     """An old picture fades by itself, and says so in its middle."""
-    badge = AliasProperty(lambda self: "", cache=True)
+    badge = AliasProperty(lambda _: "", cache=True)
     """Not used: the sentence in the middle says the age."""
 
     def _picture_size(self) -> tuple[float, float]:
@@ -96,7 +97,9 @@ class Video(Drawing):
         ValueError when `rgba` is not as long as `width` and `height` say.
         """
         if len(rgba) != width * height * 4:
-            raise ValueError(f"a picture of {width} x {height} has {width * height * 4} bytes, not {len(rgba)}")
+            raise ValueError(
+                f"a picture of {width} x {height} has {width * height * 4} bytes, not {len(rgba)}"
+            )
         if self._texture is None or self._texture.size != (width, height):
             self._texture = Texture.create(size=(width, height), colorfmt="rgba")
             self._texture.flip_vertical()
@@ -156,7 +159,7 @@ class Video(Drawing):
         small = min(self.width, self.height) < dp(260)
         edge, size = (dp(1.6), sp(10)) if small else (dp(3), sp(15))
         corners = np.array([[left, bottom], [right, bottom], [right, top], [left, top], [left, bottom]])
-        for start, end in zip(corners[:-1], corners[1:], strict=True):
+        for start, end in pairwise(corners):
             ahead = (end - start) / max(np.hypot(*(end - start)), 1e-9) * edge / 2
             shapes.segments((start - ahead)[None], (end + ahead)[None], edge, theme.danger)
         wide, high = text_texture(text, round(size, 1), theme.font, bold=True).size
@@ -167,7 +170,14 @@ class Video(Drawing):
 
     def _sentence(self) -> Iterator[Word]:
         if self._texture is None:
-            yield Word(icon("videocam_off"), self.center_x, self.center_y + dp(14), sp(30), theme.muted, font=theme.icons)
+            yield Word(
+                icon("videocam_off"),
+                self.center_x,
+                self.center_y + dp(14),
+                sp(30),
+                theme.muted,
+                font=theme.icons,
+            )
             yield Word("No picture yet", self.center_x, self.center_y - dp(16), sp(14), theme.muted)
         elif self.state == "stale":
             age = "" if math.isnan(self.age) else f" {self.age:.0f} s ago"
@@ -230,7 +240,9 @@ def samples() -> dict[str, Callable[[], Widget]]:
     """The states of the picture by name."""
     seen = ("intruder", 0.94, 394.0, 276.0, 84.0, 130.0)
 
-    def made(*, picture: bool = True, size: tuple[float, float] = (320, 240), **more: Any) -> Callable[[], Widget]:
+    def made(
+        *, picture: bool = True, size: tuple[float, float] = (320, 240), **more: Any
+    ) -> Callable[[], Widget]:
         def build() -> Video:
             video = Video(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
             if picture:

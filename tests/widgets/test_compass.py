@@ -3,9 +3,9 @@ from __future__ import annotations
 import math
 
 import pytest
+
 from bridge.msgs.geometry_msgs import Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
 from bridge.msgs.sensor_msgs import Imu
-
 from widgets.compass import Compass, samples
 
 
@@ -25,7 +25,9 @@ def test_an_imu_turned_to_a_yaw_shows_the_heading(compass, yaw, heading):
 
 
 def test_a_pose_shows_its_heading_too(compass):
-    compass.show(PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(orientation=Quaternion.from_yaw(0.0)))))
+    compass.show(
+        PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(orientation=Quaternion.from_yaw(0.0))))
+    )
     assert compass.heading == pytest.approx(90)
 
 

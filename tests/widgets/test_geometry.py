@@ -110,7 +110,9 @@ def test_kivy_turns_in_degrees_anticlockwise_like_yaw(yaw, angle):
     assert geometry.screen_angle(yaw) == pytest.approx(angle)
 
 
-@pytest.mark.parametrize(("start", "end", "turn"), [(359, 0, 1), (0, 359, -1), (10, 190, -180), (90, 100, 10)])
+@pytest.mark.parametrize(
+    ("start", "end", "turn"), [(359, 0, 1), (0, 359, -1), (10, 190, -180), (90, 100, 10)]
+)
 def test_a_heading_turns_the_short_way(start, end, turn):
     assert geometry.shortest_turn(start, end) == pytest.approx(turn)
 

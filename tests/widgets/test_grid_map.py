@@ -4,13 +4,20 @@ import math
 
 import numpy as np
 import pytest
+
 from bridge.msgs import nav_msgs
 from bridge.msgs.arrays import Float32Array, Int8Array
-from bridge.msgs.geometry_msgs import Point, Pose, PoseStamped, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Pose,
+    PoseStamped,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Quaternion,
+)
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
 from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray
 from bridge.msgs.sensor_msgs import Imu, LaserScan
-
 from widgets.geometry import View
 from widgets.grid_map import GridMap, samples
 from widgets.theme import theme
@@ -38,9 +45,7 @@ def map_(stage):
 
 
 def pose(x: float, y: float, yaw: float = 0.0) -> PoseWithCovarianceStamped:
-    return PoseWithCovarianceStamped(
-        pose=PoseWithCovariance(Pose(Point(x, y), Quaternion.from_yaw(yaw)))
-    )
+    return PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(x, y), Quaternion.from_yaw(yaw))))
 
 
 def near(*values):

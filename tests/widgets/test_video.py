@@ -3,6 +3,7 @@ from __future__ import annotations
 import math
 
 import pytest
+
 from bridge.msgs.vision_msgs import (
     BoundingBox2D,
     Detection2D,
@@ -12,7 +13,6 @@ from bridge.msgs.vision_msgs import (
     Point2D,
     Pose2D,
 )
-
 from widgets.video import Video, samples
 
 FRAME = bytes(64 * 48 * 4)

@@ -1,0 +1,133 @@
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from bridge.msgs.arrays import Float32Array
+from bridge.msgs.sensor_msgs import LaserScan
+from widgets.geometry import scan_reach
+from widgets.laser_scan import LaserScanView, samples
+from widgets.shapes import EDGES, FLOATS
+from widgets.theme import theme
+
+
+def sweep(*ranges: float, half: float = math.pi / 2, least: float = 0.1) -> LaserScan:
+    step = 2 * half / max(len(ranges) - 1, 1)
+    return LaserScan(
+        angle_min=-half,
+        angle_max=half,
+        angle_increment=step,
+        range_min=least,
+        range_max=10.0,
+        ranges=Float32Array(ranges),
+    )
+
+
+@pytest.fixture
+def view(stage):
+    made = stage.show(LaserScanView(title="Front laser"), size=(326, 228))
+    made.state = "live"
+    return made
+
+
+def drawn(view: LaserScanView, stage) -> np.ndarray:
+    stage.frames(2)
+    return np.asarray(view._ink._mesh.vertices).reshape(-1, FLOATS)
+
+
+def dots(view: LaserScanView, stage) -> np.ndarray:
+    """Centres of the dots [px], shape (n, 2)."""
+    made = drawn(view, stage)
+    corners = made[made[:, 4] == 0][:, :2].reshape(-1, 4, 2)
+    return corners.mean(axis=1)
+
+
+def said(view: LaserScanView) -> list[str]:
+    return [word.text for word in view._header()]
+
+
+def test_ahead_is_up_and_left_is_left(view, stage):
+    view.show(sweep(2.0, 2.0, 2.0))
+    right, ahead, left = dots(view, stage)
+    assert right[0] > view.center_x + 30
+    assert left[0] < view.center_x - 30
+    assert ahead[0] == pytest.approx(view.center_x)
+    assert ahead[1] > left[1]
+
+
+def test_only_returns_are_dots(view, stage):
+    view.show(sweep(2.0, math.inf, math.nan, -math.inf, 0.02, 2.0))
+    assert len(dots(view, stage)) == 3
+
+
+def test_too_close_to_measure_is_a_danger_at_the_least_range(view):
+    view.show(sweep(2.0, -math.inf, 2.0))
+    assert view.nearest == pytest.approx(0.1)
+
+
+def test_a_dot_has_the_colour_of_its_distance(view):
+    colours = view._colours(np.array([0.5, 0.6, 1.19, 1.2, 5.0]))
+    roles = [theme.danger, theme.warn, theme.warn, theme.accent, theme.accent]
+    assert colours == pytest.approx(np.array(roles))
+
+
+def test_free_space_ends_where_nothing_is_known(view, stage):
+    view.show(sweep(2.0, 2.0, math.nan, 2.0, math.inf))
+    view.scan = view.scan
+    stage.frames(2)
+    made = np.asarray(view._ink._mesh.vertices).reshape(-1, FLOATS)
+    see_through = (made[:, 4] == EDGES) & (made[:, 11] < 0.5)
+    assert see_through.sum() == 6
+    indices = np.asarray(view._ink._mesh.indices).reshape(-1, 3)
+    assert see_through[indices].all(axis=1).sum() == 2
+
+
+def test_everything_stays_inside_the_card(view, stage):
+    for scan in (sweep(2.0, 30.0, 2.0), sweep(*[9.0] * 90, half=math.pi), sweep(*[0.3] * 9, half=0.4)):
+        view.show(scan)
+        places = drawn(view, stage)[:, :2]
+        assert (places >= 0).all()
+        assert (places <= view.size).all()
+
+
+def test_the_rings_grow_at_once_and_shrink_late():
+    assert scan_reach(5.5) == 6
+    assert scan_reach(7.0, 6) == 9
+    assert scan_reach(5.8, 9) == 9
+    assert scan_reach(5.0, 9) == 6
+    assert scan_reach(500.0) == 60
+
+
+def test_the_nearest_return_is_said_when_it_is_near(view):
+    view.show(sweep(2.0, 1.04, 3.0))
+    assert said(view) == ["FRONT LASER", "1.0 m"]
+    view.show(sweep(2.0, 1.5, 3.0))
+    assert said(view) == ["FRONT LASER"]
+
+
+def test_a_danger_has_a_sign_besides_its_colour(view):
+    view.show(sweep(2.0, 0.4, 3.0))
+    assert len(said(view)) == 3
+
+
+def test_the_rate_is_in_the_title(view):
+    view.rate = 30.2
+    assert said(view)[0] == "FRONT LASER · 30 HZ"
+
+
+def test_before_the_first_sweep_there_is_a_dash(view):
+    assert said(view)[-1] == "–"
+
+
+def test_an_empty_sweep_and_one_of_nan_are_shown_as_nothing(view, stage):
+    for scan in (LaserScan(), sweep(math.nan, math.nan)):
+        view.show(scan)
+        assert len(dots(view, stage)) == 0
+        assert view.nearest == math.inf
+
+
+@pytest.mark.parametrize("name", samples())
+def test_every_sample_can_be_shown(stage, name):
+    assert stage.show(samples()[name]()).height > 0
