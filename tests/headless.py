@@ -113,6 +113,9 @@ class Stage:
 
         self.window, self.clock, self.loop = Window, Clock, EventLoop
         if EventLoop.status != "started":
+            for event in Clock.get_events():
+                if not event.loop:  # left by widgets of tests without a stage; these are not to be kept
+                    Clock.unschedule(event)
             EventLoop.start()
             Stage._permanent = list(Clock.get_events())
         self._real_time = Clock.time

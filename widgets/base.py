@@ -154,6 +154,8 @@ class RobotWidget(Widget):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.fbind("state", self._follow_state)
+        if self.state == "disabled":
+            self.disabled = True
         theme.bind(surface=self._follow_theme)
 
     def _follow_theme(self, *_: object) -> None:
@@ -180,8 +182,8 @@ class Control(RobotWidget):
         super().__init__(**kwargs)
         self.fbind("disabled", self._rest_when_disabled)
 
-    def _rest_when_disabled(self, *_: object) -> None:
-        if self.disabled:
+    def _rest_when_disabled(self, _: object, disabled: bool) -> None:
+        if disabled:
             self.rest()
 
     def on_command(self, *args: Any) -> None:

@@ -23,7 +23,7 @@ Builder.load_string("""
     padding: dp(10), 0
     canvas.before:
         Color:
-            rgba: theme.line if root.disabled else theme.roles[root.border]
+            rgba: theme.faint if root.disabled else theme.roles[root.border]
         SmoothRoundedRectangle:
             pos: self.pos
             size: self.size
@@ -47,7 +47,7 @@ Builder.load_string("""
         spacing: (dp(9) if root.flow == 'horizontal' else dp(2)) if root.icon and root.text else 0
         Icon:
             name: root.icon or 'check'
-            role: 'muted' if root.disabled else root.ink_icon or root.ink
+            role: 'faint' if root.disabled else root.ink_icon or root.ink
             size: (self.font_size, self.font_size) if root.icon else (0, 0)
             opacity: 1 if root.icon else 0
             pos_hint: {'center_x': .5, 'center_y': .5}
@@ -57,7 +57,7 @@ Builder.load_string("""
             font_name: theme.font
             font_size: theme.size_body if root.flow == 'horizontal' else sp(14)
             bold: True
-            color: theme.muted if root.disabled else theme.roles[root.ink]
+            color: theme.faint if root.disabled else theme.roles[root.ink]
             disabled_color: self.color
             halign: 'center'
             size_hint: None, None

@@ -93,19 +93,20 @@ Builder.load_string("""
         step: -1
         name: 'remove'
         size: root.height, root.height
-        opacity: 1 if root.value > root.minimum else .35
+        role: 'text' if root.value > root.minimum and not root.disabled else 'faint'
         on_count: root.count(-1)
     Label:
         id: figures
         text: root.figures
         font_name: theme.font
         font_size: theme.size_body
-        color: theme.text
+        color: theme.faint if root.disabled else theme.text
+        disabled_color: self.color
     StepperEnd:
         step: 1
         name: 'add'
         size: root.height, root.height
-        opacity: 1 if root.value < root.maximum else .35
+        role: 'text' if root.value < root.maximum and not root.disabled else 'faint'
         on_count: root.count(1)
 
 <StepperEnd>:
@@ -150,11 +151,17 @@ Builder.load_string("""
     height: dp(10)
     canvas:
         Color:
-            rgba: theme.muted if theme.name == 'sunlight' else theme.raised
+            rgba: theme.line
         SmoothRoundedRectangle:
             pos: self.pos
             size: self.size
             radius: [self.height / 2]
+        Color:
+            rgba: theme.raised
+        SmoothRoundedRectangle:
+            pos: self.x + theme.outline, self.y + theme.outline
+            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
+            radius: [self.height / 2 - theme.outline]
         Color:
             rgba: theme.roles[root.role] if self.filled else (0, 0, 0, 0)
         SmoothRoundedRectangle:

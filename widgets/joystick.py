@@ -25,6 +25,8 @@ __all__ = ["Joystick"]
 
 DEAD = 0.07
 """Of the way to the rim, round the middle: a resting thumb commands nothing."""
+SLIGHT = 1e-6
+"""A share of the way that is only an error of rounding."""
 
 
 class Joystick(Control, Drawing):
@@ -84,7 +86,7 @@ class Joystick(Control, Drawing):
         if not math.isfinite(length):
             raise ValueError(f"A stick leans from -1 to 1, not to {forward}, {left}.")
         scale = 0.0 if length < DEAD else 1.0 / max(1.0, length)
-        forward, left = forward * scale, left * scale
+        forward, left = (0.0 if abs(share) < SLIGHT else share * scale for share in (forward, left))
         if (forward, left) != (self.forward, self.left):
             self.forward, self.left = forward, left
             self.dispatch("on_command", self.twist)
@@ -129,7 +131,7 @@ class Joystick(Control, Drawing):
         pushed = self.forward or self.left
         shapes.disc(x, y, radius, tint(theme.surface, 0.88))
         shapes.ring(x, y, radius - dp(0.75), dp(1.5), theme.line)
-        shapes.ring(x, y, self.reach * 0.62, dp(1.5), theme.line, dashes=36)
+        shapes.ring(x, y, radius * 0.6, dp(1.5), theme.line, dashes=36)
         for index, share in enumerate((self.forward, self.left, -self.forward, -self.left)):
             shapes.polygon(self._arrow(index, radius), theme.accent if share > DEAD else theme.muted)
         knob = self.knob_pos

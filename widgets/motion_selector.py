@@ -38,7 +38,7 @@ Builder.load_string("""
         on_choose: root.choose('motion', args[1])
     MotionRow:
         title: 'Dwell at each point'
-        opacity: 1 if root.motion_name == 'intermittent' else .45
+        role: 'text' if root.motion_name == 'intermittent' else 'muted'
         Stepper:
             value: root.dwell
             unit: 's'
@@ -64,11 +64,13 @@ Builder.load_string("""
 
 <MotionRow@BoxLayout>:
     title: ''
+    role: 'text'
     size_hint_y: None
     height: max(dp(44), theme.target * .8)
     spacing: dp(8)
     Text:
         text: root.title
+        role: root.role
         pos_hint: {'center_y': .5}
 """)
 

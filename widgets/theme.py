@@ -36,6 +36,7 @@ PALETTES: dict[str, dict[str, str]] = {
         "line": "2C3746",
         "text": "EAF0F7",
         "muted": "8FA0B5",
+        "faint": "5A697C",
         "accent": "4CC2FF",
         "plan": "B79CFF",
         "ok": "41D98D",
@@ -58,6 +59,7 @@ PALETTES: dict[str, dict[str, str]] = {
         "line": "111111",
         "text": "000000",
         "muted": "3A3A3A",
+        "faint": "8A8A8A",
         "accent": "0048A8",
         "plan": "5A1FA8",
         "ok": "005F2C",
@@ -77,22 +79,23 @@ PALETTES: dict[str, dict[str, str]] = {
         "bg": "000000",
         "surface": "0B0101",
         "raised": "170303",
-        "line": "4A1210",
-        "text": "FF7A66",
-        "muted": "F04438",
-        "accent": "FF9076",
-        "plan": "FF7A94",
-        "ok": "F59058",
-        "warn": "FFAA4D",
-        "danger": "FF4444",
+        "line": "52140F",
+        "text": "FF5F4C",
+        "muted": "F23E30",
+        "faint": "8A2A22",
+        "accent": "FF6E4E",
+        "plan": "FF6080",
+        "ok": "F2743E",
+        "warn": "FF8E3E",
+        "danger": "FF3E3E",
         "sky": "4A1410",
         "ground": "200605",
         "ink_accent": "140202",
         "ink_plan": "140202",
         "ink_danger": "140202",
-        "stop": "E23A30",
+        "stop": "E6362C",
         "ink_stop": "0A0000",
-        "knob": "FFC2B4",
+        "knob": "FFA08C",
         "shade": "000000",
     },
 }
@@ -120,6 +123,8 @@ class Theme(EventDispatcher):
     """Values."""
     muted = ColorProperty(PALETTES["dark"]["muted"])
     """Labels, units."""
+    faint = ColorProperty(PALETTES["dark"]["faint"])
+    """What cannot be used now."""
     accent = ColorProperty(PALETTES["dark"]["accent"])
     """The robot, what is live, what can be touched."""
     plan = ColorProperty(PALETTES["dark"]["plan"])

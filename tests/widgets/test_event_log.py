@@ -1,0 +1,101 @@
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from bridge.msgs.pilothouse_msgs import Event
+from bridge.msgs.std_msgs import Time
+from widgets.event_log import KINDS, MOST, EventLog, ago, look
+from widgets.icons import ICONS
+
+
+def event(number, stamp=0.0, **kwargs):
+    return Event(
+        id=number, boot=kwargs.pop("boot", "a"), stamp=Time.at(stamp), text=f"event {number}", **kwargs
+    )
+
+
+@pytest.fixture
+def log(stage):
+    return stage.show(EventLog(state="live"), size=(330, 200))
+
+
+def texts(log):
+    return [row["text"] for row in log.ids.view.data]
+
+
+def test_an_empty_log_says_so(log):
+    assert log.notice == "Nothing has happened yet."
+    log.show(event(1))
+    assert log.notice == ""
+
+
+def test_the_newest_is_on_top(log):
+    for number in (1, 2, 3):
+        log.show(event(number, number))
+    assert texts(log) == ["event 3", "event 2", "event 1"]
+
+
+def test_a_late_one_finds_its_place(log):
+    for number in (1, 3, 2):
+        log.show(event(number, number))
+    assert texts(log) == ["event 3", "event 2", "event 1"]
+
+
+def test_the_same_event_is_shown_once(log):
+    log.show(event(1))
+    log.show(event(1))
+    log.show(event(1, boot="b"))
+    assert log.count == 2
+
+
+def test_it_keeps_the_newest_200(log):
+    for number in range(MOST + 20):
+        log.show(event(number, number))
+    assert log.count == MOST == len(texts(log))
+    assert texts(log)[0] == "event 219"
+    assert log.events[-1].id == 20
+
+
+def test_it_says_how_long_ago(log):
+    log.show(event(1, 100.0))
+    log.now = 162.4
+    assert log.ids.view.data[0]["when"] == "1:02"
+    log.now = 163.4
+    assert log.ids.view.data[0]["when"] == "1:03"
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [(0.3, "now"), (-4.0, "now"), (21, "0:21"), (62, "1:02"), (7300, "2 h"), (math.nan, "")],
+)
+def test_ages_are_short(seconds, text):
+    assert ago(seconds) == text
+
+
+def test_a_grave_level_colours_any_kind():
+    assert look(event(1, kind="waypoint")) == ("flag", "plan")
+    assert look(event(1, kind="waypoint", level="alarm")) == ("flag", "danger")
+    assert look(event(1, kind="command", level="warn")) == ("block", "warn")
+    assert look(event(1, kind="no such kind")) == ("info", "muted")
+
+
+def test_every_kind_has_an_icon_that_the_font_has():
+    assert all(name in ICONS for name, _ in KINDS.values())
+
+
+def test_a_long_sentence_is_given_a_taller_row(stage, log):
+    log.show(event(1))
+    log.show(Event(id=2, text="Refused: " + "the battery is too low for so long a way " * 3))
+    stage.frames(4)
+    rows = {row["text"]: row["row_size"][1] for row in log.ids.view.data}
+    assert rows["event 1"] < max(rows.values())
+
+
+def test_cleared_it_is_empty(log):
+    log.show(event(1))
+    log.clear()
+    assert (texts(log), log.count) == ([], 0)
+    log.show(event(1))
+    assert log.count == 1

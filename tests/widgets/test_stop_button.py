@@ -1,0 +1,103 @@
+from __future__ import annotations
+
+import pytest
+
+from widgets.stop_button import PHASES, StopButton
+
+
+@pytest.fixture
+def stop(stage):
+    button = stage.show(StopButton(), size=(300, 80))
+    button.heard = []
+    button.bind(
+        on_command=lambda _: button.heard.append("stop"),
+        on_release_stop=lambda _: button.heard.append("release"),
+    )
+    return button
+
+
+def test_stop_is_commanded_when_the_finger_comes_down(stage, stop):
+    stage.touch(150, 40).touch_down()
+    assert stop.heard == ["stop"]
+
+
+def test_a_second_finger_commands_again(stage, stop):
+    stage.touch(50, 40).touch_down()
+    stage.touch(250, 40).touch_down()
+    assert stop.heard == ["stop", "stop"]
+
+
+def test_a_finger_beside_it_commands_nothing(stage, stop):
+    stage.tap(400, 40)
+    assert stop.heard == []
+
+
+@pytest.mark.parametrize("phase", ["ready", "sent", "no_answer"])
+def test_it_can_be_pressed_in_every_phase_but_stopped(stage, stop, phase):
+    stop.phase = phase
+    stage.tap(150, 40)
+    assert stop.heard == ["stop"]
+
+
+def test_a_disabled_look_does_not_take_stop_away(stage, stop):
+    stop.state = "stale"
+    stage.tap(150, 40)
+    assert stop.heard == ["stop"]
+
+
+def test_one_second_releases_and_less_does_not(stage, stop):
+    stop.phase = "stopped"
+    finger = stage.touch(150, 40)
+    finger.touch_down()
+    stage.run_for(0.9)
+    finger.touch_up()
+    assert stop.heard == []
+    assert stop.held == 0.0
+    finger = stage.touch(150, 40)
+    finger.touch_down()
+    stage.run_for(0.9)
+    assert 0.8 < stop.held < 1.0
+    stage.run_for(0.2)
+    assert stop.heard == ["release"]
+
+
+def test_a_hold_releases_once(stage, stop):
+    stop.phase = "stopped"
+    stage.touch(150, 40).touch_down()
+    stage.run_for(3.0)
+    assert stop.heard == ["release"]
+
+
+def test_the_finger_that_stopped_does_not_release(stage, stop):
+    stage.touch(150, 40).touch_down()
+    stop.phase = "stopped"
+    stage.run_for(2.0)
+    assert stop.heard == ["stop"]
+
+
+def test_rest_forgets_the_hold(stage, stop):
+    stop.phase = "stopped"
+    stage.touch(150, 40).touch_down()
+    stage.run_for(0.5)
+    stop.rest()
+    stage.run_for(2.0)
+    assert stop.heard == []
+
+
+def test_every_phase_says_something_else(stop):
+    said = set()
+    for phase in PHASES:
+        stop.phase = phase
+        said.add((stop.word, stop.sentence))
+    assert len(said) == len(PHASES)
+
+
+@pytest.mark.parametrize(("size", "upright"), [((329, 76), False), ((210, 180), True), ((160, 64), False)])
+@pytest.mark.parametrize("phase", PHASES)
+def test_its_words_fit_into_it(stage, size, upright, phase):
+    button = stage.show(StopButton(phase=phase), size=size)
+    stage.frames(3)
+    column = button.children[0]
+    assert button.upright is upright
+    assert column.width <= button.width
+    assert column.height <= button.height

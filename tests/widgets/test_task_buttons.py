@@ -1,0 +1,95 @@
+from __future__ import annotations
+
+import pytest
+
+from bridge.msgs.pilothouse_msgs import TaskStatus
+from widgets.buttons import PushButton
+from widgets.task_buttons import COMMANDS, TaskButtons
+
+
+@pytest.fixture
+def panel(stage):
+    panel = TaskButtons(size_hint=(None, None), width=420)
+    stage.show(panel)
+    stage.frames(3)
+    panel.asked = []
+    panel.bind(on_command=lambda _, name: panel.asked.append(name))
+    return panel
+
+
+def buttons(panel):
+    return [widget for widget in panel.walk() if isinstance(widget, PushButton)]
+
+
+@pytest.mark.parametrize(
+    ("state", "commands"),
+    [
+        ("IDLE", ["start", "home"]),
+        ("RUNNING", ["pause", "stop", "home"]),
+        ("PAUSED", ["resume", "stop", "home"]),
+        ("SUCCEEDED", ["start", "home"]),
+        ("CANCELED", ["start", "home"]),
+        ("FAILED", ["start", "home"]),
+    ],
+)
+def test_each_state_offers_what_can_be_done(stage, panel, state, commands):
+    panel.show(TaskStatus(state=state))
+    stage.frames(3)
+    for button in buttons(panel):
+        stage.tap(*button.to_window(*button.center))
+    assert panel.asked == commands
+
+
+def test_the_first_button_says_what_it_does(panel):
+    said = []
+    for state in ("IDLE", "RUNNING", "PAUSED"):
+        panel.show(TaskStatus(state=state))
+        said.append(buttons(panel)[0].text)
+    assert said == ["Start patrol", "Pause", "Resume"]
+
+
+@pytest.mark.parametrize(
+    ("answer", "sentence", "role"),
+    [
+        (("start", "sent"), "Sent: start patrol", "muted"),
+        (("start", "accepted", "", 0.018), "Accepted: start patrol (18 ms)", "ok"),
+        (("pause", "accepted"), "Accepted: pause", "ok"),
+        (("start", "refused", "The mission has no points."), "Refused: The mission has no points.", "danger"),
+        (("home", "no_reply"), "No reply to: go home", "warn"),
+    ],
+)
+def test_it_says_what_became_of_a_command(panel, answer, sentence, role):
+    panel.answer(*answer)
+    assert (panel.sentence, panel.outcome_role) == (sentence, role)
+
+
+def test_a_press_claims_nothing_by_itself(stage, panel):
+    stage.tap(*buttons(panel)[0].center)
+    assert (panel.asked, panel.outcome, panel.task_state) == (["start"], "none", "IDLE")
+
+
+def test_disabled_it_asks_for_nothing(stage, panel):
+    panel.state = "disabled"
+    stage.tap(*buttons(panel)[0].center)
+    assert panel.asked == []
+
+
+def test_a_command_that_there_is_not_is_an_error(panel):
+    with pytest.raises(KeyError):
+        panel.ask("fly")
+    assert panel.asked == []
+
+
+@pytest.mark.parametrize("width", [329, 360, 420])
+@pytest.mark.parametrize("brief", [False, True])
+def test_its_words_fit_into_its_buttons(stage, width, brief):
+    for state in ("IDLE", "RUNNING", "PAUSED"):
+        panel = TaskButtons(size_hint=(None, None), width=width, brief=brief)
+        panel.show(TaskStatus(state=state))
+        stage.show(panel)
+        stage.frames(4)
+        assert all(button.children[0].width <= button.width for button in buttons(panel))
+
+
+def test_every_command_has_words_and_an_icon():
+    assert set(COMMANDS) == {"start", "pause", "resume", "stop", "home"}
