@@ -42,6 +42,8 @@ CONTROLS = {
     "unknown": ("help", "muted", "control unknown"),
 }
 """Who has control to icon, role and words of the chip."""
+BAR = ("back", "name", "mode", "battery", "link", "satellites", "gap", "control")
+"""What the top bar holds, from left to right; a narrow one only the first five."""
 Builder.load_string("""
 <Shell>:
     canvas.before:
@@ -172,6 +174,8 @@ class Shell(FloatLayout):
         self.stop.bind(on_command=self._stop, on_release_stop=self._release_stop)
         self.ids["stop"] = self.stop
         self.add_widget(self.stop, index=1)
+        for name in BAR:  # kv holds ids weakly, and the narrow bar takes some of them out
+            self.ids[name] = self.ids[name].__self__
         self._banner = Banner(level="danger")
         self._banner.bind(height=self._place_notices)
         self._build_rail()
@@ -251,10 +255,10 @@ class Shell(FloatLayout):
     def _arrange_bar(self) -> None:
         """The narrow bar leaves out what is said elsewhere."""
         bar, tall = self.ids.bar, self.form == "tall"
-        wanted = ["back", "name", "mode", "battery", "link"] + ([] if tall else ["satellites", "gap", "control"])
+        wanted = list(BAR[:5] if tall else BAR)
         if self.form == "short" and self.width < 840 * Metrics.density:
             wanted.remove("satellites")
-        widgets = [self.ids[name].__self__ for name in wanted]
+        widgets = [self.ids[name] for name in wanted]
         if list(reversed(bar.children)) != widgets:
             bar.clear_widgets()
             for widget in widgets:
