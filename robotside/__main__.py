@@ -86,7 +86,6 @@ def _serve(options: argparse.Namespace) -> int:
     try:
         return asyncio.run(_run(options, robot, lambda: began + time.monotonic() - steady))
     finally:
-        robot.stop()
         robot.close()
 
 

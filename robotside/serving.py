@@ -33,6 +33,10 @@ TICK = 1 / 60
 """Real time between two ticks [s]."""
 
 
+BRAKING = 2.0
+"""How long the robot may take to come to rest at the end [s]."""
+
+
 class Addresses:
     """Where it listens."""
 
@@ -78,6 +82,7 @@ class Serving:
         self._site = site(station, lambda: addresses.bridge, kinds)
         self._frames = 0
         self._ending = asyncio.Event()
+        self._ended = False
 
     async def run(self, ready: Callable[[Addresses], None]) -> None:
         """Serve until `end`; `ready` is called once everything listens. BridgeError when a port is taken."""
@@ -96,23 +101,30 @@ class Serving:
                 group.create_task(self._tick())
                 ready(where)
                 await self._ending.wait()
+                await self._come_to_rest()
                 leave()
                 web.should_exit = True
                 await beacon.close()
         finally:
-            self._station.robot.stop()
             await self.server.close()
             web_socket.close()
 
     def end(self) -> None:
         """Have `run` come to its end."""
-        self._station.robot.stop()
+        self._station.end()
         self._ending.set()
+
+    async def _come_to_rest(self) -> None:
+        """Go on until the wheels stand still, but not for long."""
+        patience = asyncio.get_running_loop().time() + BRAKING
+        while not self._station.at_rest and asyncio.get_running_loop().time() < patience:
+            await asyncio.sleep(TICK)
+        self._ended = True
 
     async def _tick(self) -> None:
         loop = asyncio.get_running_loop()
         due = loop.time()
-        while not self._ending.is_set():
+        while not self._ended:
             self._station.step(self._clock.tick(self._wall()))
             due = max(due + TICK, loop.time() - TICK)
             await asyncio.sleep(max(0.0, due - loop.time()))

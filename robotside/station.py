@@ -148,6 +148,17 @@ class Station:
         self._control = fresh
         self.bus.publish("/control/status", msgspec.structs.replace(fresh, stamp=Time.at(self.now)))
 
+    @property
+    def at_rest(self) -> bool:
+        """The wheels stand still, as measured."""
+        return self._control.at_rest
+
+    def end(self) -> None:
+        """Brake, end the task and obey nobody any more: the robot side is about to go."""
+        self.autonomy.engine.cancel("The robot's computer was told to end.", self.now)
+        self.press_stop("the robot's computer, which ends")
+        self.show_control()
+
     def close(self) -> None:
         """Bring the robot to rest and let go of it."""
         self.robot.stop()
