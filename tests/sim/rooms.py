@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
+
 from sim.robot import SimRobot
 from sim.simulation import Simulation
 from sim.world import World, parse
@@ -37,3 +40,9 @@ def robot_in(world: World, *, seed: int = 0, noise: bool = False) -> SimRobot:
     robot = SimRobot(Simulation(world, seed=seed, noise=noise), camera=False)
     robot.read(0.0)
     return robot
+
+
+def orange(picture: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """Which pixels are as orange as a traffic cone."""
+    red, green, blue = (picture[:, :, i].astype(int) for i in range(3))
+    return (red > 150) & (red - green > 60) & (green - blue > 25)
