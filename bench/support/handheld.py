@@ -1,0 +1,259 @@
+"""`python -m bench.support.handheld --started T [--bare] [--frame-loop] [--json-camera]`: the real app, told what to do.
+
+It draws off screen, 1280 x 800. `T` is the parent's `time.monotonic()` [s] just before it made this process; the first
+line says how long after that the first frame was drawn. Then each line of JSON on the standard input, as in
+`{"do": "connect", "url": "ws://…"}`, is answered by one. At the end of the input the app stops.
+
+`--bare` is a Kivy app with one button instead. `--frame-loop` has Kivy's default clock and has the frame loop send the stick
+20 times a second, as simple apps do; `--json-camera` takes pictures from the rosbridge topic.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import random
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import psutil
+
+T = TypeVar("T")
+
+PERIOD = 1 / 20
+"""How often the frame loop sends [s]."""
+BETWEEN = (0.06, 0.12)
+"""Between two moves of the finger [s]: not in step with the frames, and slow enough to be told apart."""
+REACH = 0.55
+"""How far the finger moves from the stick's middle, as a share of its radius."""
+
+
+def options() -> argparse.Namespace:
+    """What the command line asks for."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--started", type=float, required=True)
+    for flag in ("--bare", "--frame-loop", "--json-camera"):
+        parser.add_argument(flag, action="store_true")
+    return parser.parse_args()
+
+
+def prepare(asked: argparse.Namespace) -> None:
+    """Everything that must be set before Kivy is imported."""
+    os.environ.pop("DISPLAY", None)
+    os.environ.update(
+        SDL_VIDEODRIVER="offscreen", LP_NUM_THREADS="1", KIVY_NO_CONSOLELOG="1", KIVY_NO_ENV_CONFIG="1"
+    )
+    if asked.frame_loop:
+        os.environ["KIVY_CLOCK"] = "default"
+    from app.__main__ import prepare as prepare_app
+
+    prepare_app("1280x800")
+
+
+def say(value: object) -> None:
+    """Print a line of JSON."""
+    print(json.dumps(value), flush=True)
+
+
+def in_ui(work: Callable[[], T]) -> T:
+    """Call `work` in the UI thread and wait for what it gives."""
+    from kivy.clock import Clock
+
+    done, result = threading.Event(), []
+
+    def call(_: float) -> None:
+        result.append(work())
+        done.set()
+
+    Clock.schedule_once(call, 0)
+    if not done.wait(20):
+        raise TimeoutError("The UI thread does not answer.")
+    return result[0]
+
+
+class Script:
+    """What the app may be told; each method's result is its answer."""
+
+    def __init__(self, app: Any) -> None:
+        self.app = app
+        self.commands: list[tuple[float, float, float]] = []
+        self.pictures: list[tuple[float, float]] = []
+
+    def connect(self, url: str) -> dict[str, Any]:
+        """Connect, and wait until every widget of the drive screen is live and there is a picture."""
+        began = time.monotonic()
+        in_ui(lambda: self.app.open(url))
+        while not in_ui(self._entered):
+            time.sleep(0.01)
+        entered = time.monotonic() - began
+        while (waiting := in_ui(self._waiting)) and time.monotonic() - began < 10:
+            time.sleep(0.01)
+        return {"entered": entered, "live": time.monotonic() - began, "waiting": waiting}
+
+    def _entered(self) -> bool:
+        if self.app.shell is None or not self.app.shell.screen:
+            return False
+        drive = self.app.shell.screens["drive"]
+        if not self.commands and not hasattr(drive, "bench"):
+            drive.bench = True
+            drive.stick.bind(on_command=self._commanded)
+            drive.show_picture = self._watched(drive.show_picture)
+        return True
+
+    def _commanded(self, _: object, twist: Any) -> None:
+        self.commands.append((time.monotonic(), twist.linear.x, twist.angular.z))
+
+    def _watched(self, show: Callable[..., None]) -> Callable[..., None]:
+        def show_picture(picture: Any, *args: Any) -> None:
+            show(picture, *args)
+            self.pictures.append((time.monotonic(), picture.stamp))
+
+        return show_picture
+
+    def _waiting(self) -> list[str]:
+        """Widgets that are not live yet."""
+        from widgets.base import RobotWidget
+
+        seen = [w for w in self.app.shell.walk() if isinstance(w, RobotWidget) and w.accepts]
+        late = [type(w).__name__ for w in seen if w.state not in ("live", "alarm")]
+        return late + ([] if self.pictures else ["picture"])
+
+    def finger(self, count: int, seed: int) -> dict[str, Any]:
+        """Move the stick `count` times; gives when the finger moved and what the stick commanded then."""
+        from bench.support.finger import Finger
+
+        finger, rng = Finger(), random.Random(seed)
+        x, y, radius = in_ui(self._stick)
+        self.commands.clear()
+        finger.down(x, y)
+        time.sleep(0.3)
+        moved = []
+        for _ in range(count):
+            time.sleep(rng.uniform(*BETWEEN))
+            turn, reach = rng.uniform(0, math.tau), rng.uniform(0.3, REACH) * radius
+            at = time.monotonic()
+            finger.move(round(x + reach * math.cos(turn)), round(y + reach * math.sin(turn)))
+            moved.append(at)
+        time.sleep(0.3)
+        commands = list(self.commands)
+        finger.up(x, y)
+        time.sleep(0.5)
+        return {"moved": moved, "commands": commands}
+
+    def _stick(self) -> tuple[int, int, float]:
+        from kivy.core.window import Window
+
+        stick = self.app.shell.screens["drive"].stick
+        x, y = stick.to_window(*stick.center)
+        return round(x), round(Window.height - y), min(stick.size) / 2
+
+    def watch(self, seconds: float) -> dict[str, Any]:
+        """Look on for a while: the main thread's share of a core, memory, frames and pictures."""
+        self.pictures.clear()
+        before, began = in_ui(self._spent), time.monotonic()
+        time.sleep(seconds)
+        after, lasted = in_ui(self._spent), time.monotonic() - began
+        return {
+            "main": (after["main"] - before["main"]) / lasted,
+            "process": (after["process"] - before["process"]) / lasted,
+            "frames": (after["frames"] - before["frames"]) / lasted,
+            "rss": psutil.Process().memory_info().rss,
+            "pictures": list(self.pictures),
+        }
+
+    def _spent(self) -> dict[str, float]:
+        from kivy.clock import Clock
+
+        return {"main": time.thread_time(), "process": time.process_time(), "frames": Clock.frames_displayed}
+
+
+def obey(script: Script, stop: Callable[[], None]) -> None:
+    """Do what the standard input asks for until it ends."""
+    for line in sys.stdin:
+        asked = json.loads(line)
+        try:
+            say(getattr(script, asked.pop("do"))(**asked))
+        except Exception as fault:  # noqa: BLE001 - the parent has to hear of it, whatever it is
+            say({"fault": repr(fault)})
+    stop()
+
+
+def send_by_frame_loop() -> None:
+    """Have the frame loop pass the stick on, 20 times a second."""
+    from kivy.clock import Clock
+
+    from app.link import Link
+
+    drive = Link.drive
+
+    def keep(self: Link, twist: Any) -> None:
+        self.wanted = twist  # type: ignore[attr-defined]
+        if not hasattr(self, "sender"):
+            self.sender = Clock.schedule_interval(lambda _: drive(self, self.wanted), PERIOD)  # type: ignore[attr-defined]
+
+    Link.drive = keep  # type: ignore[method-assign]
+
+
+def watch_by_topic() -> None:
+    """Have pictures come as base64 in JSON."""
+    from app.link import Link
+
+    watch = Link.watch
+    Link.watch = lambda self, camera: watch(self, None if camera is None else "")  # type: ignore[method-assign]
+
+
+def bare() -> Any:
+    """A Kivy app with one button."""
+    from kivy.app import App
+    from kivy.uix.button import Button
+
+    class Bare(App):
+        def build(self) -> Button:
+            return Button(text="Pilothouse")
+
+    return Bare()
+
+
+def real(asked: argparse.Namespace, folder: str) -> Any:
+    """The handheld."""
+    from app.application import PilothouseApp
+
+    if asked.frame_loop:
+        send_by_frame_loop()
+        PilothouseApp.poll_early = False
+    if asked.json_camera:
+        watch_by_topic()
+    return PilothouseApp(screen="drive", settings_dir=folder, discover=False)
+
+
+def main() -> None:
+    """Run the app until the standard input ends."""
+    asked = options()
+    prepare(asked)
+    from kivy.clock import Clock
+    from kivy.core.window import Window
+
+    with tempfile.TemporaryDirectory() as folder:
+        app = bare() if asked.bare else real(asked, folder)
+
+        def drawn(*_: object) -> None:
+            Window.unbind(on_flip=drawn)
+            Clock.schedule_once(begin, 0)
+
+        def begin(_: float) -> None:
+            say({"first_frame": time.monotonic() - asked.started, "rss": psutil.Process().memory_info().rss})
+            stop = lambda: Clock.schedule_once(lambda _: app.stop(), 0)  # noqa: E731
+            threading.Thread(target=obey, args=(Script(app), stop), daemon=True).start()
+
+        Window.bind(on_flip=drawn)
+        app.run()
+
+
+if __name__ == "__main__":
+    main()

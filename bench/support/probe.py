@@ -1,0 +1,66 @@
+"""`python -m bench.support.probe serve …`: the robot side, with a robot whose port tells what passes through it.
+
+Prints a line of JSON for each: `["drive", at, forward, yaw rate]` and `["picture", at, stamp]`. `at` is `time.monotonic()`
+[s], which all processes of a machine share; that of a picture is taken before the simulation begins to draw it.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections.abc import Iterable
+
+import sim.robot
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.sensor_msgs import CompressedImage
+from robotside.__main__ import main
+from robotside.robot import Robot
+
+__all__ = ["Probe"]
+
+
+class Probe:
+    """Fits `robotside.robot.Robot`; passes everything on."""
+
+    def __init__(self, robot: Robot) -> None:
+        self._robot = robot
+        self.info = robot.info
+
+    def drive(self, twist: Twist) -> None:
+        """Tell when the command came to the port."""
+        tell("drive", time.monotonic(), twist.linear.x, twist.angular.z)
+        self._robot.drive(twist)
+
+    def stop(self) -> None:
+        """As the robot does."""
+        self._robot.stop()
+
+    def read(self, now: float) -> Iterable[tuple[str, Msg]]:
+        """Tell when the pictures were begun."""
+        began = time.monotonic()
+        measured = list(self._robot.read(now))
+        for _, msg in measured:
+            if isinstance(msg, CompressedImage):
+                tell("picture", began, msg.header.stamp.seconds)
+        return measured
+
+    def want(self, topic: str, wanted: bool) -> None:
+        """As the robot does."""
+        self._robot.want(topic, wanted)
+
+    def close(self) -> None:
+        """As the robot does."""
+        self._robot.close()
+
+
+def tell(*values: object) -> None:
+    """Print a line of JSON."""
+    print(json.dumps(values), flush=True)
+
+
+if __name__ == "__main__":
+    make = sim.robot.make
+    sim.robot.make = lambda *args, **kwargs: Probe(make(*args, **kwargs))  # type: ignore[assignment,return-value]
+    sys.exit(main())
