@@ -69,9 +69,13 @@ class Glass:
         found = []
         for widget in self.all(kind):
             text = str(getattr(widget, "text", "")).strip().lower()
-            if text.startswith(words.lower()):
+            if text.startswith(words.lower()) and not getattr(widget, "disabled", False):
                 found.append((text != words.lower(), "on_press" not in widget.events(), widget))
         return [widget for *_, widget in sorted(found, key=lambda item: item[:2])]
+
+    def icons(self, icon: str) -> list[Widget]:
+        """Visible buttons that show `icon` and nothing else, and that can be pressed."""
+        return [w for w in self.all("IconButton") if getattr(w, "icon", "") == icon and not w.disabled]
 
     def one(self, kind: str, seconds: float = 5.0) -> Wait:
         """Wait for a visible widget of the class `kind` and return it; Unseen when there is none in time."""
@@ -101,6 +105,11 @@ class Glass:
     def press(self, words: str, seconds: float = 5.0, kind: str = "Widget") -> Wait:
         """Tap what has `words` written on it; Unseen when there is nothing of the kind in time."""
         found = yield from self.until(lambda: self.labelled(words, kind), seconds, f"something that says {words!r}")
+        yield from self.tap(found[0])
+
+    def press_icon(self, icon: str, seconds: float = 5.0) -> Wait:
+        """Tap the button with `icon` on it; Unseen when there is none in time."""
+        found = yield from self.until(lambda: self.icons(icon), seconds, f"a button with the icon {icon}")
         yield from self.tap(found[0])
 
     def tap(self, widget: Widget) -> Wait:

@@ -1,0 +1,130 @@
+"""`python -m examples.demo`: the main job by script, in the real app, against a simulated robot.
+
+Every tap and drag is a touch in Kivy's own input loop; every command goes over a real socket; what the robot did is
+measured by a second client that knows the simulation's truth. Pictures, summary.json and run.mcap go to `--out`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import sys
+import tempfile
+import time
+from collections.abc import Generator
+from pathlib import Path
+from typing import Any
+
+
+def _arguments(argv: list[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m examples.demo", description=__doc__)
+    parser.add_argument("--out", type=Path, default=Path("out/demo"), help="where the pictures go")
+    parser.add_argument("--speed", type=float, default=2.0, help="robot seconds per second")
+    parser.add_argument("--size", default="1280x800", metavar="WxH", help="of the window")
+    parser.add_argument("--theme", default="dark", help="dark, sunlight or night")
+    parser.add_argument("--window", action="store_true", help="in a window, to watch it")
+    return parser.parse_args(argv)
+
+
+def _prepare(size: str, *, window: bool) -> None:
+    """Set Kivy up before anything of it is imported."""
+    os.environ.update(KIVY_NO_ARGS="1", KIVY_NO_CONFIG="1", KIVY_NO_FILELOG="1", KIVY_LOG_MODE="PYTHON")
+    os.environ.update(KIVY_METRICS_DENSITY="1", KIVY_METRICS_FONTSCALE="1", KIVY_DPI="96")
+    if not window:
+        os.environ.pop("DISPLAY", None)
+        os.environ.pop("WAYLAND_DISPLAY", None)
+        os.environ.update(SDL_VIDEODRIVER="offscreen", SDL_AUDIODRIVER="dummy", LIBGL_ALWAYS_SOFTWARE="1")
+        os.environ.setdefault("LP_NUM_THREADS", "1")
+    os.environ["KIVY_CLOCK"] = "free_all"
+    from kivy.config import Config
+
+    width, height = size.split("x")
+    for key, value in {"width": width, "height": height, "multisamples": "0", "maxfps": "60"}.items():
+        Config.set("graphics", key, value)
+    for key, _ in Config.items("input"):
+        Config.remove_option("input", key)
+
+
+def _story(scene: Any, app: Any, record: Path) -> Generator[None, None, None]:
+    """The whole job, step by step."""
+    from examples.demo import patrol, prepare
+
+    yield from prepare.connect(scene)
+    app.start_recording(record)
+    yield from prepare.initialise(scene)
+    yield from prepare.tap_points(scene)
+    yield from prepare.edit_points(scene)
+    yield from prepare.set_home_and_motion(scene)
+    yield from prepare.send(scene)
+    since = scene.witness.now
+    yield from patrol.start(scene)
+    yield from patrol.pause_and_resume(scene)
+    yield from patrol.watch(scene, since)
+    yield from patrol.stop_and_release(scene)
+    yield from patrol.go_home(scene)
+    yield from patrol.drive(scene)
+
+
+def _play(arguments: argparse.Namespace, url: str, settings: Path) -> int:
+    """Run the app with the story in it; returns the exit code."""
+    from kivy.base import EventLoop
+    from kivy.clock import Clock
+
+    from app.application import PilothouseApp
+    from examples.demo.fingers import Hand
+    from examples.demo.glass import Glass, Unseen
+    from examples.demo.report import Report
+    from examples.demo.scene import Scene
+    from examples.demo.witness import Witness
+
+    report, hand = Report(arguments.out), Hand()
+    app = PilothouseApp(settings_dir=settings, theme=arguments.theme)
+    witness = Witness(url)
+    scene = Scene(Glass(hand), witness, report, url, arguments.speed)
+    story = _story(scene, app, arguments.out / "run.mcap")
+
+    def turn(_: float) -> None:
+        try:
+            next(story)
+        except StopIteration:
+            app.stop()
+        except (Unseen, RuntimeError) as problem:
+            report.fault = f"{report.steps[-1].name if report.steps else 'start'}: {problem}"
+            app.stop()
+
+    EventLoop.add_input_provider(hand)
+    Clock.schedule_interval(turn, 0)
+    started = time.monotonic()
+    try:
+        app.run()
+    finally:
+        witness.close()
+    seconds = round(time.monotonic() - started, 1)
+    size = (arguments.out / "run.mcap").stat().st_size if (arguments.out / "run.mcap").exists() else 0
+    return report.write(robot=url, speed=arguments.speed, seconds=seconds, recording={"file": "run.mcap", "bytes": size})
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run the demo; 0 when every expectation held, 1 when one did not."""
+    arguments = _arguments(argv)
+    _prepare(arguments.size, window=arguments.window)
+    from examples.demo.robot import RobotProcess
+
+    folder = Path(tempfile.mkdtemp(prefix="pilothouse-demo-"))
+    options = ["--robot", "sim:patrol", "--world", "parking_lot", "--speed", str(arguments.speed)]
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    try:
+        with RobotProcess(*options, "--state", str(folder / "robot"), log=arguments.out / "robot.log") as robot:
+            code = _play(arguments, robot.url, folder / "handheld")
+            left = robot.close()
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+    if left:
+        print(f"demo: the robot side ended with exit code {left}; its words are in {arguments.out}/robot.log.")
+    print(f"demo: {'all held' if not code else 'NOT all held'}; pictures and summary.json are in {arguments.out}")
+    return code or bool(left)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,182 @@
+"""The second half: patrol, pause, resume, STOP, release, go home, drive by hand."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import Any
+
+from examples.demo.fingers import Finger
+from examples.demo.glass import middle
+from examples.demo.ground import HOME, PATROL, cones
+from examples.demo.scene import Scene, Wait
+from examples.demo.witness import matches
+
+__all__ = ["drive", "go_home", "pause_and_resume", "start", "stop_and_release", "watch"]
+
+REACHED, PLACED, HELD, AT_HOME = 0.3, 1.0, 0.05, 0.3
+"""A point counts as visited, an intruder as placed, a pause as held, home as reached within these [m]."""
+FOUND = 5
+"""So many of the cones are to be found at least."""
+LONGEST = 400.0
+"""What the patrol may take of the robot's time [s]."""
+
+
+def _status(scene: Scene, state: str, task: str = "patrol") -> bool:
+    status = scene.witness["/task/status"]
+    return status is not None and (status.task, status.state) == (task, state)
+
+
+def start(scene: Scene) -> Wait:
+    """Start the patrol."""
+    with scene.step("started") as check:
+        started = time.monotonic()
+        yield from scene.glass.press("Start")
+        runs = yield from scene.glass.soon(lambda: _status(scene, "RUNNING"), 5)
+        check("the robot has started its patrol [s]", time.monotonic() - started, bool(runs))
+        shown = yield from scene.glass.soon(lambda: scene.glass.shows("AUTO"), 2)
+        check("the app says AUTO", bool(shown), bool(shown))
+        yield from scene.robot_time(6)
+
+
+def pause_and_resume(scene: Scene) -> Wait:
+    """Pause on the way, see that it stays, go on."""
+    witness = scene.witness
+    with scene.step("on-the-way") as check:
+        seen = yield from scene.glass.soon(lambda: _found(scene) and _visited(scene) >= 2, LONGEST / scene.speed)
+        check("two points visited and an intruder found on the way", (_visited(scene), len(_found(scene))), bool(seen))
+        yield from scene.robot_time(4)
+    with scene.step("paused") as check:
+        yield from scene.glass.press("Pause")
+        paused = yield from scene.glass.soon(lambda: _status(scene, "PAUSED"), 5)
+        check("the robot says PAUSED", bool(paused), bool(paused))
+        yield from scene.rest(5)
+        since = witness.now
+        yield from scene.robot_time(5)
+        check("it stays where it stands for 5 s [m, at most 0.05]", witness.spread(since), witness.spread(since) <= HELD)
+    with scene.step("resumed") as check:
+        yield from scene.glass.press("Resume")
+        runs = yield from scene.glass.soon(lambda: _status(scene, "RUNNING"), 5)
+        check("the patrol goes on", bool(runs), bool(runs))
+        moves = yield from scene.glass.soon(lambda: scene.witness.speed() > 0.1, 10)
+        check("the robot moves again", bool(moves), bool(moves))
+
+
+def _visited(scene: Scene) -> int:
+    status = scene.witness["/task/status"]
+    return status.visited if status is not None else 0
+
+
+def _found(scene: Scene) -> list[tuple[float, float]]:
+    intruders = scene.witness["/intruders"]
+    return [(one.position.x, one.position.y) for one in intruders.intruders] if intruders is not None else []
+
+
+def watch(scene: Scene, since: float) -> Wait:
+    """Watch until every point was visited; judge what the robot did and reported since `since` [s, robot clock]."""
+    witness = scene.witness
+    with scene.step("patrolled") as check:
+        visited = yield from scene.glass.soon(lambda: _visited(scene) >= len(PATROL), LONGEST / scene.speed)
+        check(f"{len(PATROL)} points visited, as the robot says", _visited(scene), bool(visited))
+        worst = max(witness.nearest(*point, since) for point in PATROL)
+        check("every point was really passed [m off, at most 0.3]", worst, worst <= REACHED)
+        check("no contacts", witness.contacts, witness.contacts == 0)
+        yield from scene.robot_time(2)
+        found = _found(scene)
+        counts = matches(found, cones(), PLACED)
+        check(f"cones found, at least {FOUND} of {len(counts)}", sum(map(bool, counts)), sum(map(bool, counts)) >= FOUND)
+        check("each reported once", counts, max(counts) <= 1)
+        false = [place for place in found if min(math.dist(place, cone) for cone in cones()) > PLACED]
+        check("none that is not there", false, not false)
+
+
+def stop_and_release(scene: Scene) -> Wait:
+    """STOP while it drives, and release by holding."""
+    glass, witness = scene.glass, scene.witness
+    yield from glass.soon(lambda: witness.speed() > 0.1, 15)
+    with scene.step("stop") as check:
+        button: Any = yield from glass.one("StopButton")
+        started = witness.now
+        yield from glass.tap(button)
+        yield from scene.rest(5)
+        check("at rest after STOP [s, robot clock]", witness.now - started, witness.speed() < 0.01)
+        shown = yield from glass.soon(lambda: button.phase == "stopped", 3)
+        check("the button says STOPPED because the robot does", button.phase, bool(shown) and _stopped(scene))
+        yield from glass.pause(0.3)
+    with scene.step("released") as check:
+        finger = scene.hand.down(middle(button))
+        yield from glass.pause(1.3)
+        scene.hand.up(finger)
+        free = yield from glass.soon(lambda: not _stopped(scene), 3)
+        check("a hold of one second releases it", bool(free), bool(free))
+        yield from scene.robot_time(2)
+        check("nothing moves by that alone [m/s]", witness.speed(), witness.speed() < 0.01)
+
+
+def _stopped(scene: Scene) -> bool:
+    status = scene.witness["/control/status"]
+    return bool(status is not None and status.stopped)
+
+
+def go_home(scene: Scene) -> Wait:
+    """Send it home."""
+    with scene.step("going-home") as check:
+        yield from scene.glass.press("Home" if not scene.glass.labelled("Go home") else "Go home", kind="PushButton")
+        runs = yield from scene.glass.soon(lambda: _status(scene, "RUNNING", "go_home"), 5)
+        check("it is on its way home", bool(runs), bool(runs))
+        yield from scene.robot_time(5)
+    with scene.step("at-home") as check:
+        done = yield from scene.glass.soon(lambda: _status(scene, "SUCCEEDED", "go_home"), LONGEST / scene.speed)
+        yield from scene.rest(5)
+        check("it says that it is home", bool(done), bool(done))
+        check("and it is [m off, at most 0.3]", scene.witness.distance(*HOME), scene.witness.distance(*HOME) <= AT_HOME)
+        check("no contacts on the whole way", scene.witness.contacts, scene.witness.contacts == 0)
+
+
+def drive(scene: Scene) -> Wait:
+    """Drive by hand under the video; STOP with the stick pushed."""
+    glass, witness = scene.glass, scene.witness
+    with scene.step("drive-screen") as check:
+        yield from glass.press("Drive", kind="NavButton")
+        stick: Any = yield from glass.one("Joystick")
+        live = yield from glass.soon(lambda: _alive(scene), 5)
+        check("video and instruments are live", _states(scene), bool(live))
+        yield from glass.pause(1.0)
+    with scene.step("driven") as check:
+        before = witness.truth
+        finger = _push(scene, stick, 0.5, 0.85)
+        yield from glass.soon(lambda: math.dist(witness.truth[1:3], before[1:3]) > 0.8, 8)
+        scene.report.snapshot("driving")
+        moved = math.dist(witness.truth[1:3], before[1:3])
+        check("the stick drives the robot [m, at least 0.5]", moved, moved >= 0.5)
+        turned = abs(math.remainder(witness.truth[3] - before[3], math.tau))
+        check("and turns it [rad, at least 0.2]", turned, turned >= 0.2)
+        scene.hand.up(finger)
+        still = yield from scene.rest(1.0 + 1.0 / scene.speed)
+        check("let go, it comes to rest", bool(still), bool(still))
+    with scene.step("stop-while-driving") as check:
+        finger = _push(scene, stick, 0.0, 0.9)
+        yield from glass.soon(lambda: witness.speed() > 0.2, 5)
+        yield from glass.tap((yield from glass.one("StopButton")))
+        still = yield from scene.rest(3)
+        check("STOP by a second finger wins over the stick", bool(still) and _stopped(scene), bool(still))
+        scene.hand.up(finger)
+        yield from glass.soon(lambda: glass.all("StopButton")[0].phase == "stopped", 3)  # type: ignore[attr-defined]
+
+
+def _push(scene: Scene, stick: Any, left: float, forward: float) -> Finger:
+    """A finger on the stick's middle that goes out to `left` and `forward`, each a share of the stick's reach."""
+    x, y = middle(stick)
+    finger = scene.hand.down((x, y))
+    for share in (0.3, 0.6, 1.0):
+        scene.hand.move(finger, (x - left * stick.reach * share, y + forward * stick.reach * share))
+    return finger
+
+
+def _states(scene: Scene) -> dict[str, str]:
+    return {type(w).__name__: str(getattr(w, "state", "")) for w in scene.glass.all("RobotWidget")}
+
+
+def _alive(scene: Scene) -> bool:
+    states = _states(scene)
+    return "Video" in states and not {"never", "stale"} & set(states.values())

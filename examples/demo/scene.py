@@ -1,0 +1,73 @@
+"""What every step of the demo has at hand."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Generator, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+from kivy.uix.widget import Widget
+
+from examples.demo.fingers import Hand, Point
+from examples.demo.glass import Glass
+from examples.demo.report import Report
+from examples.demo.witness import Witness
+
+__all__ = ["Scene", "Wait"]
+
+Wait = Generator[None, None, Any]
+
+
+@dataclass
+class Scene:
+    """The glass, a hand, somebody who knows the truth, and a report."""
+
+    glass: Glass
+    witness: Witness
+    report: Report
+    url: str
+    """Of the robot."""
+    speed: float
+    """Robot seconds per second."""
+
+    @property
+    def hand(self) -> Hand:
+        """The hand that touches the glass."""
+        return self.glass.hand
+
+    @contextmanager
+    def step(self, name: str) -> Iterator[Callable[[str, Any, bool], bool]]:
+        """A step of the report; gives what notes an expectation. The picture is taken when it ends, however it does."""
+        self.report.begin(name)
+        try:
+            yield self.report.check
+        finally:
+            self.report.end()
+
+    def map(self) -> Widget:
+        """The map on the glass."""
+        return self.glass.all("MapOverlay")[0]
+
+    def on_map(self, x: float, y: float) -> Point:
+        """Where (x, y) of `map` [m] is on the glass [px, window]."""
+        chart: Any = self.map()
+        return tuple(chart.to_window(*chart.view.to_screen(x, y)))  # type: ignore[return-value]
+
+    def rest(self, seconds: float) -> Wait:
+        """Wait until the robot stands still, at most `seconds`; returns whether it does."""
+        still = yield from self.glass.soon(lambda: self.witness.speed() < 0.01, seconds)
+        return bool(still)
+
+    def robot_time(self, seconds: float) -> Wait:
+        """Let so much of the robot's time pass."""
+        end = self.witness.now + seconds
+        yield from self.glass.soon(lambda: self.witness.now >= end, 3 * seconds + 5)
+
+    def off(self) -> tuple[float, float]:
+        """How far the robot believes to be from where it is: [m], [rad]."""
+        pose = self.witness["/pose"].pose.pose
+        _, x, y, yaw = self.witness.truth
+        turned = math.remainder(2 * math.atan2(pose.orientation.z, pose.orientation.w) - yaw, math.tau)
+        return math.dist((pose.position.x, pose.position.y), (x, y)), abs(turned)
