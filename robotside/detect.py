@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +21,7 @@ LEAST = 12
 
 MASK = NDArray[np.bool_]
 PIXELS = NDArray[np.int16]
+Box = tuple[slice, slice]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,21 +68,33 @@ def _search(rgb: PIXELS) -> list[Sighting]:
     orange = (red > 90) & (red - green > 45) & (green - blue > 8) & (red - blue > 75) & (green * 20 > red * 5)
     if np.count_nonzero(orange) < LEAST:
         return []
-    low = rgb.min(axis=2)
-    pale = (low > 100) & (rgb.max(axis=2) - low < 45)
-    gap = max(3, rgb.shape[0] // 30)
-    joined = ndimage.binary_closing(orange, np.ones((2 * gap + 1, 1)))
-    labels, _ = ndimage.label(joined | orange)
+    low = np.minimum(np.minimum(red, green), blue)
+    high = np.maximum(np.maximum(red, green), blue)
+    pale = (low > 100) & (high - low < 45)
     found = []
-    for number, box in enumerate(ndimage.find_objects(labels), 1):
-        part = orange[box] & (labels[box] == number)
+    for box, part in _groups(orange, max(3, rgb.shape[0] // 30)):
         sighting = _judge(part, pale[box], box, rgb.shape)
         if sighting is not None:
             found.append(sighting)
     return sorted(found, key=lambda sighting: -sighting.score)
 
 
-def _judge(orange: MASK, pale: MASK, box: tuple[slice, slice], shape: tuple[int, ...]) -> Sighting | None:
+def _groups(orange: MASK, gap: int) -> Iterator[tuple[Box, MASK]]:
+    """The orange things and the boxes round them; what is `gap` rows or less above another is one with it."""
+    rows, columns = (np.flatnonzero(orange.any(axis=axis)) for axis in (1, 0))
+    top, left = max(0, int(rows[0]) - gap), int(columns[0])
+    corner = orange[top : rows[-1] + gap + 1, left : columns[-1] + 1]
+    joined = ndimage.binary_closing(corner, np.ones((2 * gap + 1, 1)))
+    labels, _ = ndimage.label(joined | corner)
+    for number, (down, across) in enumerate(ndimage.find_objects(labels), 1):
+        box = (
+            slice(down.start + top, down.stop + top),
+            slice(across.start + left, across.stop + left),
+        )
+        yield box, orange[box] & (labels[down, across] == number)
+
+
+def _judge(orange: MASK, pale: MASK, box: Box, shape: tuple[int, ...]) -> Sighting | None:
     """The sighting that a group of orange pixels stands for; None when it does not look like a cone."""
     rows, columns = orange.shape
     count = int(np.count_nonzero(orange))

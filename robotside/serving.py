@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import math
 import socket
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -81,8 +82,7 @@ class Serving:
         kinds = {service.name: service.type for service in offered}
         self._site = site(station, lambda: addresses.bridge, kinds)
         self._frames = 0
-        self._ending = asyncio.Event()
-        self._ended = False
+        self._patience = math.inf
 
     async def run(self, ready: Callable[[Addresses], None]) -> None:
         """Serve until `end`; `ready` is called once everything listens. BridgeError when a port is taken."""
@@ -98,33 +98,26 @@ class Serving:
             async with asyncio.TaskGroup() as group:
                 group.create_task(web.serve([web_socket]))
                 group.create_task(beacon.run())
-                group.create_task(self._tick())
                 ready(where)
-                await self._ending.wait()
-                await self._come_to_rest()
+                await self._tick()
                 leave()
                 web.should_exit = True
                 await beacon.close()
         finally:
+            self._station.robot.stop()
             await self.server.close()
             web_socket.close()
 
     def end(self) -> None:
         """Have `run` come to its end."""
         self._station.end()
-        self._ending.set()
-
-    async def _come_to_rest(self) -> None:
-        """Go on until the wheels stand still, but not for long."""
-        patience = asyncio.get_running_loop().time() + BRAKING
-        while not self._station.at_rest and asyncio.get_running_loop().time() < patience:
-            await asyncio.sleep(TICK)
-        self._ended = True
+        self._patience = self._wall() + BRAKING
 
     async def _tick(self) -> None:
+        """Drive the station until it was told to end and stands still."""
         loop = asyncio.get_running_loop()
         due = loop.time()
-        while not self._ended:
+        while self._wall() < self._patience and not (self._patience < math.inf and self._station.at_rest):
             self._station.step(self._clock.tick(self._wall()))
             due = max(due + TICK, loop.time() - TICK)
             await asyncio.sleep(max(0.0, due - loop.time()))
