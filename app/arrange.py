@@ -102,11 +102,11 @@ def _mission_instruments(area: Rect, gap: float, dp: float) -> dict[str, Rect]:
 
 def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
     gap = 12 * dp
-    low = min(346 * dp, body.height * 0.5)
+    low = min(358 * dp, body.height * 0.5)
     height = body.height - 120 * dp if sheet_open else low
     sheet = Rect(body.x, body.y, body.width, height)
     stop_width = min(max(158 * dp, body.width * 0.3), 260 * dp)
-    stop = Rect(body.right - gap - stop_width, body.y + gap, stop_width, 93 * dp)
+    stop = Rect(body.right - gap - stop_width, body.y + gap, stop_width, 106 * dp)
     tasks = Rect(body.x + gap, stop.y, stop.x - body.x - 2 * gap, stop.height)
     handle = 22 * dp
     panel = Rect(sheet.x + gap, stop.top + 8 * dp, sheet.width - 2 * gap, sheet.height - stop.height - gap - 8 * dp - handle)

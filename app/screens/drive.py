@@ -36,7 +36,7 @@ Builder.load_string("""
     padding: dp(6), dp(10)
     spacing: dp(4)
     SectionLabel:
-        title: 'Max speed'
+        title: 'Max speed' if root.width > dp(90) else 'Max'
         halign: 'center'
     Fader:
         id: fader
@@ -72,8 +72,8 @@ class DriveScreen(FloatLayout):
         self.stick = Joystick()
         self.speed = SpeedCard()
         self.actions = GridLayout(cols=1, spacing="10dp")
-        self.places: dict[str, list[Widget]] = {"video": [self.video]}
-        self.add_widget(self.video)
+        self.places: dict[str, list[Widget]] = {}
+        self._place("video", self.video)
         self._build_instruments(layout)
         self._build_controls()
         self.dashboard.bind(self.video, "/detections", fresh=False)
@@ -151,7 +151,7 @@ class DriveScreen(FloatLayout):
         self.readouts.cols = 4 if tall else 2 if form == "wide" else 1
         self._trim(form)
         top, left = places["top"], places["top_left"]
-        self.video.insets = [0, 0, 0, 0] if tall else [left.right - body.x, 0, 0, body.top - top.y]
+        self.video.insets = [0 if tall else left.right - body.x, 0, 0, body.top - top.y]
         return places["stop"]
 
     def _trim(self, form: str) -> None:

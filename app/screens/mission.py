@@ -198,6 +198,7 @@ class MissionScreen(FloatLayout):
             _put(widget, places[name])
         _put(self.map, places["map"])
         self._float(self.video, places.get("video"))
+        self.video.show_chip = form == "wide"
         self._float(self.compass, places.get("compass"))
         self.panel.take_form(form)
         self._float(self.panel.readouts, places.get("readouts")) if form == "wide" else None

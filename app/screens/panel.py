@@ -68,6 +68,8 @@ Builder.load_string("""
             text: root.note
             role: root.role
             font_size: sp(14)
+            max_lines: 2
+            shorten: len(self.text) > 90
 
 <ProgressRow>:
     orientation: 'vertical'
@@ -88,6 +90,8 @@ Builder.load_string("""
             text: root.where
             role: 'muted'
             font_size: sp(14)
+            shorten: True
+            shorten_from: 'right'
         Text:
             text: '' if root.value != root.value else '%.0f %%' % (root.value * 100)
             role: 'muted'
@@ -180,13 +184,23 @@ class MissionPanel(BoxLayout):
             self.readouts.add_widget(self.figures)
             order = [self._send, self.motion, self.tasks, self._progress, self.events]
         elif tall:
-            order = [self.figures, self._progress, self._send, self.motion, self.events]
+            order = [self.figures, self._send, self.motion, self.events]
         else:
             order = [self.tasks, self._send, self._progress, self.figures, self.motion, self.events]
         for widget in order:
             if widget.parent is not None:
                 widget.parent.remove_widget(widget)
             column.add_widget(widget)
+
+    def _show_where(self) -> None:
+        """A phone has room for the progress only while there is some."""
+        if self.form != "tall":
+            return
+        column, shown = self.ids.column, self._progress.parent is not None
+        if self._session.running and not shown:
+            column.add_widget(self._progress, index=len(column.children) - 1)
+        elif shown and not self._session.running:
+            column.remove_widget(self._progress)
 
     def keep_tasks(self, here: bool) -> None:
         """Have the task's buttons in the panel, or free them for another place."""
@@ -233,6 +247,7 @@ class MissionPanel(BoxLayout):
     def tick(self) -> None:
         """Bring up to date what time changes."""
         session = self._session
+        self._show_where()
         mine = session.connected and session.control != "other"
         self.tasks.state = "live" if mine else "disabled"
         self._send.may_send = int(mine and session.mission.state == "draft")

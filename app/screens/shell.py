@@ -59,7 +59,7 @@ Builder.load_string("""
         id: bar
         size_hint: None, None
         padding: (dp(4), 0) if root.form == 'tall' else (dp(6), 0, dp(16), 0)
-        spacing: dp(6) if root.form == 'tall' else dp(12)
+        spacing: dp(5) if root.form == 'tall' else dp(12)
         canvas.before:
             Color:
                 rgba: theme.surface
@@ -76,14 +76,14 @@ Builder.load_string("""
             icon: 'arrow_back'
             role: 'muted'
             bare: True
-            width: dp(46)
+            width: dp(46) if root.form != 'tall' else dp(38)
             pos_hint: {'center_y': .5}
             on_release: root.app.leave()
         Text:
             id: name
             text: root.robot_name
             bold: True
-            font_size: theme.size_title if root.form != 'tall' else sp(18)
+            font_size: theme.size_title if root.form != 'tall' else sp(17)
             shorten: root.form == 'tall'
             shorten_from: 'right'
             pos_hint: {'center_y': .5}
@@ -95,6 +95,8 @@ Builder.load_string("""
             icon: root.mode_icon if root.form != 'tall' else ''
             role: root.mode_role
             text: root.mode_text
+            spacing: dp(8) if self.icon else 0
+            padding: (dp(13) if root.form != 'tall' else dp(10)), 0
             outlined: True
             pos_hint: {'center_y': .5}
         BatteryChip:
