@@ -21,7 +21,9 @@ OFFSCREEN = {
 
 def main(arguments: list[str] | None = None) -> int:
     """Show the gallery or write its pictures; 2 for a widget that there is not."""
-    parser = argparse.ArgumentParser(prog="python -m widgets", description=__doc__)
+    parser = argparse.ArgumentParser(
+        prog="python -m widgets", description="Show every widget in every state."
+    )
     parser.add_argument("name", nargs="?", default="", help="one widget, as in Compass; all without it")
     parser.add_argument("--pictures", type=Path, metavar="DIR", help="write PNG files and index.html there")
     options = parser.parse_args(arguments)

@@ -90,15 +90,15 @@ Builder.load_string("""
         Color:
             rgba: theme.line
         SmoothRoundedRectangle:
-            pos: self.x - theme.outline, self.y - theme.radius * 2
-            size: self.width + 2 * theme.outline, self.height + theme.radius * 2
-            radius: [theme.radius * 1.3]
+            pos: self.pos
+            size: self.size
+            radius: [theme.radius * 1.3, theme.radius * 1.3, 0, 0]
         Color:
             rgba: theme.surface
         SmoothRoundedRectangle:
-            pos: self.x, self.y - theme.radius * 2
-            size: self.width, self.height + theme.radius * 2 - theme.outline
-            radius: [theme.radius * 1.3 - theme.outline]
+            pos: self.pos
+            size: self.width, self.height - theme.outline
+            radius: [theme.radius * 1.3 - theme.outline, theme.radius * 1.3 - theme.outline, 0, 0]
     SheetGrip:
 
 <SheetGrip>:

@@ -1,0 +1,59 @@
+"""Every sample of every widget is drawn, in every theme, by the renderer of the gallery."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from kivy.utils import get_color_from_hex
+
+from widgets.gallery import MARGIN, all_samples, framed, write_pictures
+from widgets.theme import PALETTES, theme
+
+SAMPLES = list(all_samples())
+NAMES = [f"{title}-{state}" for title, state, _ in SAMPLES]
+BLEED = 4
+"""A smooth edge may reach so far beyond its widget [px]."""
+
+
+@pytest.fixture(params=PALETTES)
+def palette(request):
+    theme.name = request.param
+    yield request.param
+    theme.name = "dark"
+
+
+def drawn(stage, build):
+    frame = framed(build())
+    stage.window.add_widget(frame)
+    stage.frames(4)
+    return stage.pixels(frame)[..., :3].astype(np.int16)
+
+
+def off_ground(pixels, palette):
+    ground = np.array(get_color_from_hex(PALETTES[palette]["surface"])[:3]) * 255
+    return (np.abs(pixels - ground) > 8).any(-1)
+
+
+@pytest.mark.parametrize("build", [build for _, _, build in SAMPLES], ids=NAMES)
+def test_every_sample_shows_something_and_stays_in_its_place(stage, palette, build):
+    marks = off_ground(drawn(stage, build), palette)
+    assert marks.mean() > 0.002
+    outer = MARGIN - BLEED
+    marks[outer:-outer, outer:-outer] = False
+    assert marks.mean() == 0.0
+
+
+def test_the_states_of_a_widget_look_different(stage):
+    looks = {}
+    for title, state, build in SAMPLES:
+        looks.setdefault(title, []).append((state, drawn(stage, build).tobytes()))
+        stage.clear()
+    same = {t: len(seen) - len({look for _, look in seen}) for t, seen in looks.items()}
+    assert not {title: count for title, count in same.items() if count}
+
+
+def test_the_gallery_writes_pictures_and_a_page(stage, tmp_path):
+    pictures = write_pictures(tmp_path, "StopButton")
+    assert len(pictures) == len(PALETTES) * len([t for t, _, _ in SAMPLES if t == "StopButton"])
+    assert all(path.read_bytes().startswith(b"\x89PNG") for path in pictures)
+    assert "<img" in (tmp_path / "index.html").read_text(encoding="utf-8")
