@@ -458,7 +458,10 @@ def _acknowledge_at_once(sock: socket.socket) -> None:
 async def _hang_up(ws: ClientConnection) -> None:
     """Close a connection; 0.2 s at most, even when nothing listens at its other end any more."""
     try:
-        await ws.close()
+        async with asyncio.timeout(0.2):
+            await ws.close()
+    except TimeoutError:
+        log.debug("%s did not say goodbye", ws.remote_address)
     finally:
         ws.transport.abort()
 

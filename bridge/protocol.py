@@ -119,7 +119,7 @@ class ServiceResponse(Op, frozen=True, tag="service_response", omit_defaults=Fal
     result: bool = True
 
 
-class Status(Op, frozen=True, tag="status"):
+class Status(Op, frozen=True, tag="status", omit_defaults=False):
     """A remark of the server; sent only to those who asked by `SetLevel`."""
 
     level: str = "error"

@@ -7,6 +7,8 @@ Camera frames travel on WebSockets of their own at `/camera/NAME`.
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
 import errno
 import itertools
 import logging
@@ -35,6 +37,11 @@ log = logging.getLogger(__name__)
 _CAMERA_PATH = re.compile(r"/camera/([\w-]+)/?(?:\?.*)?$")
 _UNSENT = 65536
 """Bytes that may wait for one client in this process and again in the kernel; then newer messages replace older."""
+
+_DEAD = 15_000
+"""How long a client may leave unacknowledged what was sent to it [ms]; then it is disconnected."""
+_FAREWELL = 0.5
+"""How long clients have to say goodbye before they are cut off [s]."""
 
 
 def _ignore(*_: object) -> None:
@@ -74,6 +81,7 @@ class BridgeServer:
         self._on_gone = on_gone
         self._cameras = None if cameras is None else frozenset(cameras)
         self._numbers = itertools.count(1)
+        self._open: set[ServerConnection] = set()
         self._server: Server | None = None
 
     async def start(self, host: str = "127.0.0.1", port: int = 9090) -> None:
@@ -88,7 +96,7 @@ class BridgeServer:
                 open_timeout=5,
                 ping_interval=10,
                 ping_timeout=20,
-                close_timeout=0.5,
+                close_timeout=_FAREWELL,
                 write_limit=_UNSENT,
                 server_header="Pilothouse",
                 logger=_quiet_log(),
@@ -98,11 +106,18 @@ class BridgeServer:
         self.port = next(iter(self._server.sockets)).getsockname()[1]
 
     async def close(self) -> None:
-        """Close all connections and stop listening; nothing is left running."""
-        if self._server is not None:
-            self._server.close()
-            await self._server.wait_closed()
-            self._server = None
+        """Close all connections and stop listening; nothing is left running. Takes a second at most."""
+        server, self._server = self._server, None
+        if server is None:
+            return
+        server.close()
+        try:
+            async with asyncio.timeout(_FAREWELL):
+                await server.wait_closed()
+        except TimeoutError:
+            for ws in list(self._open):
+                ws.transport.abort()
+            await server.wait_closed()
 
     def publish(self, topic: str, msg: Msg) -> None:
         """Send `msg` to everybody who subscribed; BridgeError for a topic that is not in the table.
@@ -124,14 +139,17 @@ class BridgeServer:
         return connection.respond(HTTPStatus.NOT_FOUND, f"No camera {camera[1]} here; there is: {names}.\n")
 
     async def _serve(self, ws: ServerConnection) -> None:
-        _keep_kernel_queue_short(ws)
+        _tune(ws)
         camera = _CAMERA_PATH.match(ws.request.path) if ws.request else None
+        self._open.add(ws)
         try:
             await (self._serve_camera(ws, camera[1]) if camera else self._serve_client(ws))
         except ConnectionClosed:
             log.info("%s was cut off", _address(ws))
         except Exception:
             log.exception("Serving %s failed", _address(ws))
+        finally:
+            self._open.discard(ws)
 
     async def _serve_client(self, ws: ServerConnection) -> None:
         session = Session(str(next(self._numbers)), _address(ws), self._offer.now())
@@ -156,10 +174,13 @@ def _address(ws: ServerConnection) -> str:
     return f"{host}:{port}"
 
 
-def _keep_kernel_queue_short(ws: ServerConnection) -> None:
+def _tune(ws: ServerConnection) -> None:
+    """Keep the kernel from queueing old news for a slow client, and from waiting long for a dead one."""
     sock = ws.transport.get_extra_info("socket")
-    if sock is not None and hasattr(socket, "TCP_NOTSENT_LOWAT"):
-        sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, _UNSENT)
+    for option, value in (("TCP_NOTSENT_LOWAT", _UNSENT), ("TCP_USER_TIMEOUT", _DEAD)):
+        if hasattr(socket, option):
+            with contextlib.suppress(OSError):
+                sock.setsockopt(socket.IPPROTO_TCP, getattr(socket, option), value)
 
 
 def _cannot_listen(host: str, port: int, error: OSError) -> str:

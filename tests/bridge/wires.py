@@ -58,7 +58,7 @@ class Link:
 
     async def sentence(self, phase: Phase) -> str:
         """Of the next state with this phase."""
-        states = await self.states.until(lambda all: any(state.phase is phase for state in all))
+        states = await self.states.until(lambda seen: any(state.phase is phase for state in seen))
         found: LinkState = next(state for state in states if state.phase is phase)
         states.clear()
         return found.sentence
@@ -124,6 +124,10 @@ class Wire:
     def freeze(self) -> None:
         """Nothing passes any more, and nobody is told."""
         self._thawed.clear()
+
+    def thaw(self) -> None:
+        """Everything that waited passes, late."""
+        self._thawed.set()
 
     async def _join(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         far_reader, far_writer = await asyncio.open_connection("127.0.0.1", self._to)
