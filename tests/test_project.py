@@ -13,7 +13,11 @@ import pytest
 from scripts.topic_table import DOCUMENTS, with_table
 
 ROOT = Path(__file__).parents[1]
-SOURCES = [p for d in ("app", "bridge", "widgets", "robotside", "sim", "bench", "examples") for p in (ROOT / d).rglob("*.py")]
+SOURCES = [
+    p
+    for d in ("app", "bridge", "widgets", "robotside", "sim", "bench", "examples")
+    for p in (ROOT / d).rglob("*.py")
+]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 
 
@@ -23,7 +27,11 @@ def canonical(name: str) -> str:
 
 def body_length(node: ast.FunctionDef | ast.AsyncFunctionDef) -> int:
     first = node.body[0]
-    spoken = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str)
+    spoken = (
+        isinstance(first, ast.Expr)
+        and isinstance(first.value, ast.Constant)
+        and isinstance(first.value.value, str)
+    )
     start = first.end_lineno if spoken else node.lineno
     return node.end_lineno - start
 
@@ -41,7 +49,8 @@ def test_every_recipe_fits_fifteen_lines():
 
 
 def test_every_extra_is_pinned():
-    wanted = PROJECT["project"]["dependencies"] + sum(PROJECT["project"]["optional-dependencies"].values(), [])
+    extras = PROJECT["project"]["optional-dependencies"].values()
+    wanted = [name for names in (PROJECT["project"]["dependencies"], *extras) for name in names]
     pinned = {canonical(line.split("==")[0]) for line in (ROOT / "constraints.txt").read_text().splitlines()}
     assert not [name for name in wanted if canonical(re.split(r"[<>=!~]", name)[0]) not in pinned]
 
@@ -52,12 +61,14 @@ def test_the_pins_name_no_registry():
 
 
 def test_no_file_is_over_500_lines_and_no_function_over_40():
-    long = [p.name for p in SOURCES if len(p.read_text().splitlines()) > 500]
-    for path in SOURCES:
-        for node in ast.walk(ast.parse(path.read_text())):
-            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and body_length(node) > 40:
-                long.append(f"{path.name}:{node.lineno} {node.name}")
-    assert not long
+    files = [path.name for path in SOURCES if len(path.read_text().splitlines()) > 500]
+    functions = [
+        f"{path.name}:{node.lineno} {node.name}"
+        for path in SOURCES
+        for node in ast.walk(ast.parse(path.read_text()))
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and body_length(node) > 40
+    ]
+    assert not files + functions
 
 
 def test_the_license_is_apache_2():
@@ -67,7 +78,9 @@ def test_the_license_is_apache_2():
 
 
 def test_each_verb_of_the_makefile_says_what_it_does():
-    listed = subprocess.run(["make", "-s", "help"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    listed = subprocess.run(
+        ["make", "-s", "help"], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout
     verbs = {line.split()[0] for line in listed.splitlines()}
     assert {"run", "demo", "setup", "test", "test-fast", "bench", "android-check", "gallery", "lint"} <= verbs
 
@@ -82,7 +95,9 @@ def test_set_up_is_not_done_twice(tmp_path):
     stamp = subprocess.run(["cksum"], input=content, capture_output=True, check=True).stdout
     (tmp_path / ".venv").mkdir()
     (tmp_path / ".venv" / ".ready").write_bytes(stamp)
-    done = subprocess.run(["bash", "scripts/setup.sh"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        ["bash", "scripts/setup.sh"], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 

@@ -20,7 +20,9 @@ from typing import Any
 def _arguments(argv: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m examples.demo", description=__doc__)
     parser.add_argument("--out", type=Path, default=Path("out/demo"), help="where the pictures go")
-    parser.add_argument("--speed", type=float, default=2.0, help="robot seconds per second")
+    parser.add_argument(
+        "--speed", type=float, default=1.0, help="robot seconds per second; the app shows true ages only at 1"
+    )
     parser.add_argument("--size", default="1280x800", metavar="WxH", help="of the window")
     parser.add_argument("--theme", default="dark", help="dark, sunlight or night")
     parser.add_argument("--window", action="store_true", help="in a window, to watch it")
@@ -102,7 +104,9 @@ def _play(arguments: argparse.Namespace, url: str, settings: Path) -> int:
         witness.close()
     seconds = round(time.monotonic() - started, 1)
     size = (arguments.out / "run.mcap").stat().st_size if (arguments.out / "run.mcap").exists() else 0
-    return report.write(robot=url, speed=arguments.speed, seconds=seconds, recording={"file": "run.mcap", "bytes": size})
+    return report.write(
+        robot=url, speed=arguments.speed, seconds=seconds, recording={"file": "run.mcap", "bytes": size}
+    )
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -115,14 +119,20 @@ def main(argv: list[str] | None = None) -> int:
     options = ["--robot", "sim:patrol", "--world", "parking_lot", "--speed", str(arguments.speed)]
     arguments.out.mkdir(parents=True, exist_ok=True)
     try:
-        with RobotProcess(*options, "--state", str(folder / "robot"), log=arguments.out / "robot.log") as robot:
+        with RobotProcess(
+            *options, "--state", str(folder / "robot"), log=arguments.out / "robot.log"
+        ) as robot:
             code = _play(arguments, robot.url, folder / "handheld")
             left = robot.close()
     finally:
         shutil.rmtree(folder, ignore_errors=True)
     if left:
-        print(f"demo: the robot side ended with exit code {left}; its words are in {arguments.out}/robot.log.")
-    print(f"demo: {'all held' if not code else 'NOT all held'}; pictures and summary.json are in {arguments.out}")
+        print(
+            f"demo: the robot side ended with exit code {left}; its words are in {arguments.out}/robot.log."
+        )
+    print(
+        f"demo: {'all held' if not code else 'NOT all held'}; pictures and summary.json are in {arguments.out}"
+    )
     return code or bool(left)
 
 

@@ -104,7 +104,9 @@ class Glass:
 
     def press(self, words: str, seconds: float = 5.0, kind: str = "Widget") -> Wait:
         """Tap what has `words` written on it; Unseen when there is nothing of the kind in time."""
-        found = yield from self.until(lambda: self.labelled(words, kind), seconds, f"something that says {words!r}")
+        found = yield from self.until(
+            lambda: self.labelled(words, kind), seconds, f"something that says {words!r}"
+        )
         yield from self.tap(found[0])
 
     def press_icon(self, icon: str, seconds: float = 5.0) -> Wait:

@@ -43,8 +43,14 @@ def pause_and_resume(scene: Scene) -> Wait:
     """Pause on the way, see that it stays, go on."""
     witness = scene.witness
     with scene.step("on-the-way") as check:
-        seen = yield from scene.glass.soon(lambda: _found(scene) and _visited(scene) >= 2, LONGEST / scene.speed)
-        check("two points visited and an intruder found on the way", (_visited(scene), len(_found(scene))), bool(seen))
+        seen = yield from scene.glass.soon(
+            lambda: _found(scene) and _visited(scene) >= 2, LONGEST / scene.speed
+        )
+        check(
+            "two points visited and an intruder found on the way",
+            (_visited(scene), len(_found(scene))),
+            bool(seen),
+        )
         yield from scene.robot_time(4)
     with scene.step("paused") as check:
         yield from scene.glass.press("Pause")
@@ -53,7 +59,11 @@ def pause_and_resume(scene: Scene) -> Wait:
         yield from scene.rest(5)
         since = witness.now
         yield from scene.robot_time(5)
-        check("it stays where it stands for 5 s [m, at most 0.05]", witness.spread(since), witness.spread(since) <= HELD)
+        check(
+            "it stays where it stands for 5 s [m, at most 0.05]",
+            witness.spread(since),
+            witness.spread(since) <= HELD,
+        )
     with scene.step("resumed") as check:
         yield from scene.glass.press("Resume")
         runs = yield from scene.glass.soon(lambda: _status(scene, "RUNNING"), 5)
@@ -84,7 +94,11 @@ def watch(scene: Scene, since: float) -> Wait:
         yield from scene.robot_time(2)
         found = _found(scene)
         counts = matches(found, cones(), PLACED)
-        check(f"cones found, at least {FOUND} of {len(counts)}", sum(map(bool, counts)), sum(map(bool, counts)) >= FOUND)
+        check(
+            f"cones found, at least {FOUND} of {len(counts)}",
+            sum(map(bool, counts)),
+            sum(map(bool, counts)) >= FOUND,
+        )
         check("each reported once", counts, max(counts) <= 1)
         false = [place for place in found if min(math.dist(place, cone) for cone in cones()) > PLACED]
         check("none that is not there", false, not false)
@@ -121,15 +135,23 @@ def _stopped(scene: Scene) -> bool:
 def go_home(scene: Scene) -> Wait:
     """Send it home."""
     with scene.step("going-home") as check:
-        yield from scene.glass.press("Home" if not scene.glass.labelled("Go home") else "Go home", kind="PushButton")
+        yield from scene.glass.press(
+            "Home" if not scene.glass.labelled("Go home") else "Go home", kind="PushButton"
+        )
         runs = yield from scene.glass.soon(lambda: _status(scene, "RUNNING", "go_home"), 5)
         check("it is on its way home", bool(runs), bool(runs))
         yield from scene.robot_time(5)
     with scene.step("at-home") as check:
-        done = yield from scene.glass.soon(lambda: _status(scene, "SUCCEEDED", "go_home"), LONGEST / scene.speed)
+        done = yield from scene.glass.soon(
+            lambda: _status(scene, "SUCCEEDED", "go_home"), LONGEST / scene.speed
+        )
         yield from scene.rest(5)
         check("it says that it is home", bool(done), bool(done))
-        check("and it is [m off, at most 0.3]", scene.witness.distance(*HOME), scene.witness.distance(*HOME) <= AT_HOME)
+        check(
+            "and it is [m off, at most 0.3]",
+            scene.witness.distance(*HOME),
+            scene.witness.distance(*HOME) <= AT_HOME,
+        )
         check("no contacts on the whole way", scene.witness.contacts, scene.witness.contacts == 0)
 
 

@@ -88,7 +88,11 @@ def tap_points(scene: Scene) -> Wait:
         for point in wanted:
             yield from scene.hand.tap(scene.on_map(*point))
             yield from scene.glass.pause(0.1)
-        check("each tap is a point where the finger was [m off]", _worst(scene, wanted), _worst(scene, wanted) <= NEAR)
+        check(
+            "each tap is a point where the finger was [m off]",
+            _worst(scene, wanted),
+            _worst(scene, wanted) <= NEAR,
+        )
 
 
 def edit_points(scene: Scene) -> Wait:
@@ -98,13 +102,21 @@ def edit_points(scene: Scene) -> Wait:
     swapped[3], swapped[4] = swapped[4], swapped[3]
     with scene.step("dragged") as check:
         yield from scene.hand.drag([scene.on_map(*wrong), scene.on_map(*PATROL[index])])
-        check("a dragged point is where it was let go [m off]", _worst(scene, swapped), _worst(scene, swapped) <= NEAR)
+        check(
+            "a dragged point is where it was let go [m off]",
+            _worst(scene, swapped),
+            _worst(scene, swapped) <= NEAR,
+        )
     with scene.step("reordered") as check:
         yield from scene.hand.tap(scene.on_map(*PATROL[3]))
         yield from scene.glass.press_icon("arrow_upward")
         yield from scene.glass.pause(0.2)
         ordered = [*PATROL, EXTRA]
-        check("the order is the one of the patrol [m off]", _worst(scene, ordered), _worst(scene, ordered) <= NEAR)
+        check(
+            "the order is the one of the patrol [m off]",
+            _worst(scene, ordered),
+            _worst(scene, ordered) <= NEAR,
+        )
     with scene.step("deleted") as check:
         yield from _delete(scene, EXTRA)
         yield from _delete(scene, PATROL[5])
@@ -138,15 +150,18 @@ def set_home_and_motion(scene: Scene) -> Wait:
         check("the motion chosen", selector.motion_name, selector.motion_name == "intermittent")
         dwell = selector.dwell
         minus = yield from glass.until(lambda: _minus(scene), 2, "the dwell's minus")
-        for _ in range(3):
+        for _ in range(4):
             yield from glass.tap(minus[0])
-        check("the dwell is 3 s shorter [s]", selector.dwell, selector.dwell == dwell - 3)
+        check("the dwell is 4 s shorter [s]", selector.dwell, selector.dwell == dwell - 4)
         yield from glass.press("View", kind="Segment")
 
 
 def _minus(scene: Scene) -> list[Any]:
     ends: list[Any] = scene.glass.all("StepperEnd")
-    return sorted((end for end in ends if end.step < 0 and not end.disabled), key=lambda end: -end.to_window(*end.pos)[1])
+    return sorted(
+        (end for end in ends if end.step < 0 and not end.disabled),
+        key=lambda end: -end.to_window(*end.pos)[1],
+    )
 
 
 def send(scene: Scene) -> Wait:
@@ -155,7 +170,11 @@ def send(scene: Scene) -> Wait:
         yield from scene.glass.press("Send")
         yield from scene.glass.soon(lambda: len(_stored(scene)) == len(PATROL), 5)
         off = max(map(math.dist, _stored(scene), PATROL), default=math.inf)
-        check("the robot has stored these points [m off]", off, len(_stored(scene)) == len(PATROL) and off <= NEAR)
+        check(
+            "the robot has stored these points [m off]",
+            off,
+            len(_stored(scene)) == len(PATROL) and off <= NEAR,
+        )
         told = yield from scene.glass.soon(lambda: scene.glass.shows("Stored on the robot"), 3)
         check("the app says that they are stored", bool(told), bool(told))
         yield from scene.glass.pause(0.3)

@@ -8,6 +8,7 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import Self
 
 __all__ = ["RobotProcess"]
 
@@ -19,7 +20,18 @@ class RobotProcess:
 
     def __init__(self, *options: str, log: Path, patience: float = 60.0) -> None:
         """`options` of `robotside serve`; what it says goes to `log`; it must serve within `patience` [s]."""
-        serve = [sys.executable, "-u", "-m", "robotside", "serve", "--port", "0", "--http-port", "0", *options]
+        serve = [
+            sys.executable,
+            "-u",
+            "-m",
+            "robotside",
+            "serve",
+            "--port",
+            "0",
+            "--http-port",
+            "0",
+            *options,
+        ]
         log.parent.mkdir(parents=True, exist_ok=True)
         self._log = log.open("w")
         self._process = subprocess.Popen(serve, stdout=subprocess.PIPE, stderr=self._log, text=True)
@@ -31,7 +43,9 @@ class RobotProcess:
         self.pid = self._process.pid
         if not self._ready.wait(patience) or not self.url:
             self.close()
-            raise RuntimeError(f"The robot side did not serve within {patience:.0f} s; its words are in {log}.")
+            raise RuntimeError(
+                f"The robot side did not serve within {patience:.0f} s; its words are in {log}."
+            )
 
     def _read(self) -> None:
         for line in self._process.stdout or ():
@@ -57,7 +71,7 @@ class RobotProcess:
         self._log.close()
         return self._process.returncode
 
-    def __enter__(self) -> RobotProcess:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -17,7 +17,15 @@ __all__ = ["Truth", "Witness"]
 Truth = tuple[float, float, float, float]
 """(stamp [s, robot clock], x [m], y [m], yaw [rad]) in `map`."""
 
-LATEST = ("/pose", "/task/status", "/task/progress", "/control/status", "/intruders", "/mission", "/battery_state")
+LATEST = (
+    "/pose",
+    "/task/status",
+    "/task/progress",
+    "/control/status",
+    "/intruders",
+    "/mission",
+    "/battery_state",
+)
 
 
 class Witness:
@@ -98,7 +106,9 @@ class Witness:
         return math.dist(last[-1][1:3], last[0][1:3]) / (last[-1][0] - last[0][0])
 
 
-def matches(found: Iterable[tuple[float, float]], real: Iterable[tuple[float, float]], within: float) -> list[int]:
+def matches(
+    found: Iterable[tuple[float, float]], real: Iterable[tuple[float, float]], within: float
+) -> list[int]:
     """How many of `found` lie `within` [m] of each of `real`."""
     found = list(found)
     return [sum(math.dist(one, place) <= within for one in found) for place in real]
