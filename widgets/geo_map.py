@@ -61,8 +61,8 @@ class GeoMap(MapOverlay):
         super().__init__(**kwargs)
         self.canvas.before.add(self._colour)
         self.canvas.before.add(self._ground)
-        self.canvas.insert(0, self._haze_colour)
-        self.canvas.insert(1, self._haze)
+        self.over_ground.add(self._haze_colour)
+        self.over_ground.add(self._haze)
         self.bind(tiles=self._open, datum=self._open)
         self._open()
 

@@ -41,6 +41,7 @@ __all__ = [
     "shortest_turn",
     "spread",
     "tape_marks",
+    "thinned",
     "tween",
 ]
 
@@ -284,6 +285,17 @@ def scan_reach(farthest: float, before: float = 0.0) -> float:
     """How far the picture of a sweep should go that sees to `farthest` [m]; it grows at once and shrinks late."""
     wanted = next((reach for reach in REACHES if reach >= farthest), REACHES[-1])
     return before if wanted < before < 1.6 * farthest else wanted
+
+
+def thinned(points: Points, apart: float) -> Points:
+    """A line without the points that come before it has gone on by `apart`; its ends stay."""
+    if len(points) < 3:
+        return points
+    steps = np.hypot(*np.diff(points, axis=0).T)
+    reached = np.floor(np.cumsum(steps) / apart)
+    kept = np.concatenate([[True], np.diff(reached, prepend=0.0) > 0])
+    kept[-1] = True
+    return points[kept]
 
 
 def spread(points: Iterable[tuple[float, float]]) -> Points:

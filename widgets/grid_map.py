@@ -151,7 +151,7 @@ def _parking_lot() -> OccupancyGrid:
 def patrol(map_: MapOverlay) -> None:
     """Put a patrol half done onto a map."""
     map_.waypoints = [(-11.0, 3.0), (-2.0, 3.6), (7.5, 2.6), (11.0, -2.6), (0.5, -3.4), (-9.0, -2.8)]
-    map_.home, map_.visited, map_.coming = [-15.5, -4.0], 2, 3
+    map_.home, map_.visited, map_.coming = [-15.5, -4.0], 2, 2
     steps = np.linspace(0.0, 1.0, 240)
     for share in steps:
         bend = math.sin(share * math.pi)

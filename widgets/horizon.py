@@ -52,8 +52,8 @@ uniform float strength;
 uniform vec4 sky;
 uniform vec4 ground;
 uniform vec4 ink;
-float stroke(float distance, float half_width) {
-    return clamp(half_width + 0.5 - abs(distance), 0.0, 1.0);
+float stroke(float away, float half_width) {
+    return clamp(half_width + 0.5 - abs(away), 0.0, 1.0);
 }
 void main() {
     vec2 p = (tex_coord0 * 2.0 - 1.0) * (radius + 2.0);
@@ -125,7 +125,7 @@ class ArtificialHorizon(Drawing):
     """Where the horizon is drawn [px]: at `rise`, but never off the instrument."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self._world = shader("horizon", FRAGMENT, radius=1, roll=0, rise=0, true_rise=0, rung=1, strength=1)
+        self._world = shader(FRAGMENT, radius=1, roll=0, rise=0, true_rise=0, rung=1, strength=1)
         # without a texture Kivy counts v from the top
         self._quad = Rectangle(tex_coords=(0, 0, 1, 0, 1, 1, 0, 1))
         self._world.add(self._quad)

@@ -20,7 +20,7 @@ from widgets.base import RobotWidget, text_texture
 from widgets.shapes import FLOATS, Shapes
 from widgets.theme import theme
 
-__all__ = ["SHADERS", "Drawing", "Ink", "Word", "Words", "shader", "tint"]
+__all__ = ["Drawing", "Ink", "Word", "Words", "shader", "tint"]
 
 VERTEX = """
 #ifdef GL_ES
@@ -78,9 +78,6 @@ void main() {
 }
 """
 
-SHADERS: dict[str, tuple[str, str]] = {"ink": (VERTEX, FRAGMENT)}
-"""Every shader of the widgets by name, vertex and fragment text, for the check against GLES 1.00."""
-
 NO_VERTICES, NO_INDICES = np.zeros(FLOATS, np.float32), np.zeros(3, np.uint16)
 
 FORMAT = [
@@ -96,10 +93,8 @@ def tint(colour: Sequence[float], alpha: float) -> tuple[float, ...]:
     return (*colour[:3], alpha)
 
 
-def shader(name: str, fragment: str, **uniforms: float) -> RenderContext:
-    """A context that draws Kivy's textured rectangles with `fragment`; listed in `SHADERS` as `name`."""
-    vertex = RenderContext().shader.vs or ""
-    SHADERS[name] = (vertex, fragment)
+def shader(fragment: str, **uniforms: float) -> RenderContext:
+    """A context that draws Kivy's textured rectangles with `fragment`, whose uniforms start as given."""
     context = RenderContext(fs=fragment, use_parent_projection=True, use_parent_modelview=True)
     for key, value in uniforms.items():
         context[key] = float(value)

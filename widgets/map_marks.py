@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from kivy.metrics import dp, sp
 
-from widgets.geometry import Points, View, length_text, nice_floor
+from widgets.geometry import Points, View, length_text, nice_floor, thinned
 from widgets.icons import icon
 from widgets.ink import Word, tint
 from widgets.shapes import Shapes
@@ -46,11 +46,9 @@ ARROW = ((0.60, 0.0), (-0.42, 0.44), (-0.22, 0.0), (-0.42, -0.44))
 
 def trail_line(shapes: Shapes, view: View, trail: Points) -> None:
     """Where the robot has been, fainter the longer ago."""
-    if len(trail) < 2:
-        return
-    colours = np.tile(np.asarray(theme.accent, dtype=np.float32), (len(trail), 1))
-    colours[:, 3] = np.linspace(0.35, 0.85, len(trail))
-    seen = view.many_to_screen(trail)
+    seen = thinned(view.many_to_screen(trail), dp(2.5))
+    colours = np.tile(np.asarray(theme.accent, dtype=np.float32), (len(seen), 1))
+    colours[:, 3] = np.linspace(0.35, 0.85, len(seen))
     shapes.line(seen, dp(7), tint(theme.bg, 0.35))
     shapes.line(seen, dp(4), colours)
 
@@ -81,13 +79,13 @@ def waypoint_marks(
     coming: int,
     selected: int,
 ) -> Iterator[Word]:
-    """Numbered discs: the first `visited` filled, the others open; `coming` (from 1) and `selected` (from 0) stand out."""
+    """Numbered discs: the first `visited` filled, the others open; `coming` and `selected` stand out."""
     for index, place in enumerate(waypoints):
         x, y = view.to_screen(*place[:2])
         if index == selected:
             shapes.disc(x, y, radius + dp(11), tint(theme.accent, 0.28))
             shapes.ring(x, y, radius + dp(8), dp(2.5), theme.accent)
-        elif index + 1 == coming:
+        elif index == coming:
             shapes.disc(x, y, radius + dp(10), tint(theme.plan, 0.25))
         filled = index < visited
         shapes.disc(x, y, radius, theme.plan if filled else theme.bg)

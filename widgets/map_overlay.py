@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import Any, ClassVar
 
 import numpy as np
-from kivy.graphics import Rectangle, StencilPop, StencilPush, StencilUnUse, StencilUse
+from kivy.graphics import InstructionGroup, Rectangle, StencilPop, StencilPush, StencilUnUse, StencilUse
 from kivy.metrics import dp, sp
 from kivy.properties import (
     AliasProperty,
@@ -70,10 +70,10 @@ class MapOverlay(MapGestures, Drawing):
     """Draw what the laser hits."""
     visited = NumericProperty(0)
     """How many of the first waypoints are done; they are drawn filled."""
-    coming = NumericProperty(0)
-    """Number, from 1, of the waypoint it is heading for; 0 for none."""
+    coming = NumericProperty(-1)
+    """Index of the waypoint it is heading for; -1 for none."""
     motion_name = OptionProperty("loop", options=("loop", "random", "intermittent"))
-    """How the waypoints follow each other: round and round, in any order, or to the last and done."""
+    """How the waypoints follow each other: round and round, in any order, or round with a stay at each."""
     follow = BooleanProperty(False)
     """Keep the robot in the middle; a finger that moves the map ends that."""
     insets = ListProperty([0, 0, 0, 0])
@@ -93,6 +93,13 @@ class MapOverlay(MapGestures, Drawing):
     free_box = AliasProperty(_free_box, bind=["pos", "size", "insets"], cache=True)
     """The part of the map that nothing covers: x, y, width, height [px]."""
 
+    def _badge_pos(self) -> tuple[float, float]:
+        x, y, wide, high = self.free_box
+        return x + wide / 2 - self.badge_size[0] / 2, y + high - self.badge_size[1] - dp(8)
+
+    badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "free_box"], cache=True)
+    """The age stands at the top of what is free."""
+
     def _mark_radius(self) -> float:
         return dp(21) if min(self.width, self.height) > dp(440) else dp(16)
 
@@ -101,6 +108,8 @@ class MapOverlay(MapGestures, Drawing):
 
     def __init__(self, **kwargs: Any) -> None:
         self._trail = Trail()
+        self.over_ground = InstructionGroup()
+        """Drawn above the ground and below the marks; for a subclass to fill."""
         self._layers = [(Ink(), Words()) for _ in range(2)]
         self._touched = False
         self._middle = (0.0, 0.0)
@@ -108,6 +117,7 @@ class MapOverlay(MapGestures, Drawing):
         self._clip = [Rectangle(), Rectangle()]
         for part in (StencilPush(), self._clip[0], StencilUse()):
             self.canvas.before.add(part)
+        self.canvas.add(self.over_ground)
         for ink, words in self._layers:
             self.canvas.add(ink)
             self.canvas.add(words.canvas)
@@ -257,7 +267,7 @@ class MapOverlay(MapGestures, Drawing):
         marks.trail_line(shapes, view, self._trail.points)
         marks.plan_line(shapes, view, self.plan)
         if self.motion_name != "random":
-            marks.route_line(shapes, view, places, closed=self.motion_name == "loop")
+            marks.route_line(shapes, view, places, closed=True)
         if self.show_laser:
             marks.laser_dots(shapes, view, self.laser)
         if home:

@@ -103,8 +103,8 @@ class Video(Drawing):
         if self._texture is None or self._texture.size != (width, height):
             self._texture = Texture.create(size=(width, height), colorfmt="rgba")
             self._texture.flip_vertical()
-            self._picture.texture = self._texture
             self.frame_size = [width, height]
+            self.redraw()
         self._texture.blit_buffer(rgba, colorfmt="rgba", bufferfmt="ubyte")
         self.canvas.ask_update()
 
@@ -140,8 +140,13 @@ class Video(Drawing):
         whole = seen == (self.width, self.height)
         self._picture.radius = [max(self.corner, 0.01) if whole else 0.01]
         if self._texture is not None:
-            u, v = (1 - seen[0] / wide) / 2, (1 - seen[1] / high) / 2
-            self._picture.tex_coords = u, 1 - v, 1 - u, 1 - v, 1 - u, v, u, v
+            self._picture.texture = self._seen_part(seen[0] / wide, seen[1] / high)
+
+    def _seen_part(self, across: float, down: float) -> Texture:
+        """The middle of the picture, `across` and `down` of its width and height, 0 to 1."""
+        width, height = self._texture.size
+        wide, high = width * across, height * down
+        return self._texture.get_region((width - wide) / 2, (height - high) / 2, wide, high)
 
     def _box_marks(self, shapes: Shapes) -> Iterator[Word]:
         if self._texture is None or self.state == "stale":

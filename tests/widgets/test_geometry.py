@@ -177,3 +177,17 @@ def test_a_grid_is_coloured_from_free_to_occupied_with_unknown_apart():
     pixels = geometry.occupancy_pixels(cells, (0, 0, 0, 1), (1, 0, 0, 1), (0, 0, 1, 0))
     assert pixels[:, 0].tolist() == [0, 128, 255, 0, 255]
     assert pixels[3].tolist() == [0, 0, 255, 0]
+
+
+def test_a_thinned_line_keeps_its_ends_and_loses_no_bend():
+    line = np.array([[x / 10, 0.0] for x in range(101)] + [[10.0, y / 10] for y in range(1, 101)])
+    thin = geometry.thinned(line, 1.0)
+    assert len(thin) in (21, 22)
+    assert thin[0].tolist() == [0, 0]
+    assert thin[-1].tolist() == [10, 10]
+    assert np.abs(thin - [10, 0]).sum(axis=1).min() < 0.2
+
+
+def test_a_line_too_short_to_thin_stays_as_it_is():
+    assert len(geometry.thinned(np.zeros((2, 2)), 1.0)) == 2
+    assert len(geometry.thinned(np.zeros((0, 2)), 1.0)) == 0

@@ -1,0 +1,192 @@
+"""What only the finished picture can tell: which way is up, and what lies over what."""
+
+from __future__ import annotations
+
+import io
+import math
+import sqlite3
+from contextlib import closing
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from bridge.geo import Datum
+from widgets.compass import Compass
+from widgets.geo_map import GeoMap
+from widgets.geometry import View
+from widgets.grid_map import GridMap
+from widgets.horizon import ArtificialHorizon
+from widgets.ink import Ink
+from widgets.shapes import Shapes
+from widgets.theme import theme
+from widgets.video import Video
+
+DATUM = Datum(45.5069, -73.579)
+
+
+@pytest.fixture(autouse=True)
+def dark():
+    theme.name = "dark"
+
+
+def like(pixel: np.ndarray, role: list[float], tolerance: int = 40) -> bool:
+    """Whether a pixel has about the colour of a role."""
+    return bool(np.abs(pixel[:3].astype(int) - np.array(role[:3]) * 255).max() < tolerance)
+
+
+def at(picture: np.ndarray, x: float, y: float) -> np.ndarray:
+    """The pixel at (x, y) counted from the lower left corner."""
+    return picture[picture.shape[0] - 1 - round(y), round(x)]
+
+
+def test_with_the_right_side_down_the_ground_stands_up_on_the_right(stage):
+    picture = stage.pixels(stage.show(ArtificialHorizon(roll=0.5, pitch=0.0, state="live"), size=(200, 200)))
+    assert like(at(picture, 30, 90), theme.sky)
+    assert like(at(picture, 170, 110), theme.ground)
+
+
+def test_with_the_nose_down_the_middle_is_ground(stage):
+    picture = stage.pixels(stage.show(ArtificialHorizon(roll=0.0, pitch=0.3, state="live"), size=(200, 200)))
+    assert like(at(picture, 50, 112), theme.ground)
+    assert like(at(picture, 100, 170), theme.sky, 60)
+
+
+def test_level_is_sky_above_ground_and_nothing_outside_the_disc(stage):
+    picture = stage.pixels(stage.show(ArtificialHorizon(roll=0.0, pitch=0.0, state="live"), size=(200, 200)))
+    assert like(at(picture, 40, 130), theme.sky)
+    assert like(at(picture, 40, 70), theme.ground)
+    assert at(picture, 4, 4)[3] == 0
+
+
+def test_the_red_of_north_is_where_north_is(stage):
+    picture = stage.pixels(stage.show(Compass(heading=90.0, state="live"), size=(220, 220)))
+    rows, columns = np.nonzero(
+        (np.abs(picture[..., :3] - np.array(theme.danger[:3]) * 255) < 30).all(axis=-1)
+    )
+    assert columns.mean() < 60
+    assert rows.mean() == pytest.approx(110, abs=6)
+
+
+def test_the_top_row_of_a_frame_is_on_top_and_its_left_column_on_the_left(stage):
+    frame = np.zeros((40, 40, 4), np.uint8)
+    frame[..., 3] = 255
+    frame[:20, :20] = 255
+    video = stage.show(Video(state="live", corner=0, show_chip=False), size=(80, 80))
+    video.show_frame(40, 40, frame.tobytes())
+    stage.frames()
+    picture = stage.pixels(video)
+    assert at(picture, 10, 70)[0] > 240
+    assert max(at(picture, x, y)[0] for x, y in ((70, 70), (10, 10), (70, 10))) < 10
+
+
+def test_a_covering_frame_loses_its_sides_and_not_its_shape(stage):
+    frame = np.zeros((40, 80, 4), np.uint8)
+    frame[..., 3] = 255
+    frame[:, 30:50] = 255
+    video = stage.show(Video(state="live", corner=0, show_chip=False), size=(80, 80))
+    video.show_frame(80, 40, frame.tobytes())
+    stage.frames()
+    row = stage.pixels(video)[40, :, 0]
+    assert np.flatnonzero(row > 128)[[0, -1]] == pytest.approx([20, 59], abs=1)
+
+
+def test_a_disc_is_round_and_its_edge_is_smooth(stage):
+    class Dot(Video):
+        def draw(self) -> None:
+            shapes, ink = Shapes(), Ink()
+            shapes.disc(30, 30, 20, (1, 1, 1, 1))
+            ink.draw(shapes)
+            self.canvas.add(ink)
+
+    picture = stage.pixels(stage.show(Dot(), size=(60, 60)))[..., 3].astype(float) / 255
+    assert picture.sum() == pytest.approx(math.pi * 20**2, rel=0.01)
+    assert ((picture > 0.05) & (picture < 0.95)).sum() > 60
+
+
+def test_a_grid_has_its_first_cell_in_the_south_west(stage):
+    from bridge.msgs.arrays import Int8Array
+    from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
+
+    made = stage.show(GridMap(state="live"), size=(200, 200))
+    cells = Int8Array([100, 0, 0, 0])
+    made.show(OccupancyGrid(info=MapMetaData(resolution=4.0, width=2, height=2), data=cells))
+    made.look(View.centred(4, 4, at=(100, 100), scale=20))
+    stage.frames()
+    picture = stage.pixels(made)
+    wall = at(picture, 50, 60)[:3].astype(int).sum()
+    assert wall > at(picture, 150, 60)[:3].astype(int).sum() + 60
+    assert wall > at(picture, 50, 150)[:3].astype(int).sum() + 60
+
+
+def colours_file(path, tiles) -> str:
+    """An MBTiles file with tiles of one colour, or of four quarters."""
+    with closing(sqlite3.connect(path)) as file, file:
+        file.execute("CREATE TABLE metadata (name TEXT, value TEXT)")
+        file.execute("CREATE TABLE tiles (zoom_level INT, tile_column INT, tile_row INT, tile_data BLOB)")
+        about = {"format": "png", "minzoom": "19", "maxzoom": "22"}
+        file.executemany("INSERT INTO metadata VALUES (?, ?)", about.items())
+        for key, image in tiles.items():
+            raw = io.BytesIO()
+            image.save(raw, "PNG")
+            file.execute("INSERT INTO tiles VALUES (?, ?, ?, ?)", (*key, raw.getvalue()))
+    return str(path)
+
+
+def quarters() -> Image.Image:
+    """White in the north-west, black elsewhere."""
+    image = Image.new("RGB", (256, 256), "black")
+    image.paste("white", (0, 0, 128, 128))
+    return image
+
+
+@pytest.mark.parametrize("zoom", [19, 20, 21])
+def test_a_coarse_tile_stands_in_for_finer_ones_the_right_way_round(stage, tmp_path, zoom):
+    from scripts.make_mbtiles import Mercator
+
+    grid = Mercator(DATUM, 19)
+    column, row, west, north = next(grid.tiles(0.1))
+    path = colours_file(tmp_path / "q.mbtiles", {(19, column, 2**19 - 1 - row): quarters()})
+    made = stage.show(GeoMap(tiles=path, datum=DATUM, state="live"), size=(400, 400))
+    middle = west + grid.metres / 2, north - grid.metres / 2
+    scale = 256 / grid.metres * 2 ** (zoom - 19)
+    made.look(View.centred(*middle, at=(200, 200), scale=scale * 1.01))
+    stage.frames(6)
+    assert made._pictures.zoom == zoom
+    picture = stage.pixels(made)
+    light = {name: int(at(picture, x, y)[0]) for name, x, y in (
+        ("north-west", 170, 250), ("north-east", 250, 250), ("south-west", 150, 150), ("south-east", 250, 150),
+    )}  # fmt: skip
+    assert light.pop("north-west") > 150
+    assert max(light.values()) < 40
+
+
+def test_two_files_at_once_show_each_their_own_pictures(stage, tmp_path):
+    from scripts.make_mbtiles import Mercator
+
+    seen = []
+    for name in ("red", "blue"):
+        tiles = {
+            (19, column, 2**19 - 1 - row): Image.new("RGB", (256, 256), name)
+            for column, row, _, _ in Mercator(DATUM, 19).tiles(100.0)
+        }
+        path = colours_file(tmp_path / f"{name}.mbtiles", tiles)
+        made = stage.show(GeoMap(tiles=path, datum=DATUM, state="live"), size=(200, 200))
+        stage.frames(6)
+        seen.append(at(stage.pixels(made), 30, 150)[:3].astype(int))
+    red, blue = seen
+    assert red[0] > 150 > 60 > red[2]
+    assert blue[2] > 150 > 60 > blue[0]
+
+
+def test_what_a_map_shows_stays_inside_it(stage):
+    from kivy.uix.floatlayout import FloatLayout
+
+    root = FloatLayout(size_hint=(None, None), size=(300, 200))
+    made = GridMap(size_hint=(None, None), size=(150, 200), state="live")
+    made.waypoints = [(0.0, 0.0), (30.0, 0.0)]
+    root.add_widget(made)
+    stage.show(root)
+    made.look(View.centred(0, 0, at=(75, 100), scale=20))
+    stage.frames(2)
+    assert stage.pixels(root)[:, 152:, 3].max() == 0
