@@ -36,7 +36,7 @@ BRIEF = {"start": "Start", "stop": "End", "home": "Home"}
 """Shorter words where there is no room."""
 
 OUTCOMES = {
-    "none": ("", "check", "muted"),
+    "none": ("", "info", "muted"),
     "sent": ("Sent: {what}", "schedule", "muted"),
     "accepted": ("Accepted: {what}{after}", "check_circle", "ok"),
     "refused": ("Refused: {why}", "block", "danger"),
@@ -80,8 +80,8 @@ Builder.load_string("""
             on_release: root.ask('home')
     BoxLayout:
         size_hint_y: None
-        height: max(outcome.height, dp(22)) if root.outcome != 'none' or not root.brief else 0
-        opacity: 1 if root.outcome != 'none' else 0
+        height: max(outcome.height, dp(22)) if root.sentence else 0
+        opacity: 1 if root.sentence else 0
         spacing: dp(8)
         Icon:
             name: root.outcome_icon
@@ -122,6 +122,9 @@ class TaskButtons(Control, BoxLayout):
     took = NumericProperty(math.nan)
     """From the command to its answer [s]; NaN unknown."""
 
+    reason = StringProperty("")
+    """What the robot says about its task; said here until a command has an outcome to tell."""
+
     def _running(self) -> bool:
         return self.task_state in {"RUNNING", "PAUSED"}
 
@@ -160,13 +163,15 @@ class TaskButtons(Control, BoxLayout):
     flow = AliasProperty(_flow, bind=["brief"], cache=True)
 
     def _sentence(self) -> str:
+        if self.outcome == "none":
+            return self.reason
         words = COMMANDS.get(self.command, (self.command,))[0]
         after = f" ({self.took * 1000:.0f} ms)" if math.isfinite(self.took) else ""
         what = words[:1].lower() + words[1:]
         return OUTCOMES[self.outcome][0].format(what=what, after=after, why=self.why or what)
 
-    sentence = AliasProperty(_sentence, bind=["outcome", "command", "why", "took"], cache=True)
-    """What became of the last command, in words."""
+    sentence = AliasProperty(_sentence, bind=["outcome", "command", "why", "took", "reason"], cache=True)
+    """What became of the last command, or what the task does, in words."""
 
     def _outcome_icon(self) -> str:
         return OUTCOMES[self.outcome][1]
@@ -183,8 +188,8 @@ class TaskButtons(Control, BoxLayout):
         return BRIEF.get(name, COMMANDS[name][0]) if self.narrow else COMMANDS[name][0]
 
     def show(self, msg: TaskStatus) -> None:
-        """Offer what can be done in the task's state."""
-        self.task_state = msg.state
+        """Offer what can be done in the task's state, and say what the robot says about it."""
+        self.task_state, self.reason = msg.state, msg.reason
 
     def ask(self, name: str) -> None:
         """Ask for a command as a finger would; KeyError when there is no such command."""
@@ -196,6 +201,10 @@ class TaskButtons(Control, BoxLayout):
         self.command, self.why, self.took, self.outcome = name, why, took, outcome
 
 
+REASONS = {"RUNNING": "Driving to point 3 of 6.", "PAUSED": "Paused by tablet-B at point 2."}
+"""What a robot says, for the samples."""
+
+
 def samples() -> dict[str, Callable[[], Widget]]:
     """Each state of a task and each outcome of a command."""
 
@@ -204,7 +213,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     ) -> Callable[[], Widget]:
         def build() -> Widget:
             buttons = TaskButtons(size_hint_x=None, width=width, **kwargs)
-            buttons.show(TaskStatus(state=task_state))
+            buttons.show(TaskStatus(state=task_state, reason=REASONS.get(task_state, "")))
             if answer:
                 buttons.answer(*answer)
             return buttons
@@ -214,7 +223,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
     return {
         "idle": make(width="420dp"),
         "sent": make(width="420dp", answer=("start", "sent")),
-        "running": make("RUNNING", ("start", "accepted", "", 0.018)),
+        "running": make("RUNNING"),
+        "accepted": make("RUNNING", ("start", "accepted", "", 0.018)),
         "paused": make("PAUSED", ("pause", "accepted", "", 0.024)),
         "refused": make(
             answer=("start", "refused", "The mission has no points; set at least 1."), width="420dp"

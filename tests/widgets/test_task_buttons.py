@@ -63,6 +63,13 @@ def test_it_says_what_became_of_a_command(panel, answer, sentence, role):
     assert (panel.sentence, panel.outcome_role) == (sentence, role)
 
 
+def test_until_then_it_says_what_the_robot_says(panel):
+    panel.show(TaskStatus(state="RUNNING", reason="Driving to point 3 of 6."))
+    assert panel.sentence == "Driving to point 3 of 6."
+    panel.answer("pause", "sent")
+    assert panel.sentence == "Sent: pause"
+
+
 def test_a_press_claims_nothing_by_itself(stage, panel):
     stage.tap(*buttons(panel)[0].center)
     assert (panel.asked, panel.outcome, panel.task_state) == (["start"], "none", "IDLE")
