@@ -157,7 +157,7 @@ def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     places = {"video": body, "stop": stop, "stick": stick, "slider": slider, "actions": actions, "top_left": left}
     tape_width = min((420 if wide else 260) * dp, 2 * (body.x + body.width / 2 - left.right - gap))
     tape = Rect(body.x + (body.width - tape_width) / 2, body.top - gap - 52 * dp, tape_width, 52 * dp)
-    readouts_size = _pair(wide, (194, 132), (116, 128), dp)
+    readouts_size = _pair(wide, (194, 116), (116, 128), dp)
     readouts = Rect(right.right - readouts_size[0], right.y - 12 * dp - readouts_size[1], *readouts_size)
     if not wide:
         readouts = Rect(right.x - gap - readouts_size[0], right.y, *readouts_size)

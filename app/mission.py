@@ -48,8 +48,8 @@ class Draft:
         return cls(points, home, mission.motion, mission.dwell, mission.laps, mission.stop_on_intruder)
 
     def message(self) -> Mission:
-        """The same for the robot; points are named by their number from 1."""
-        points = [Waypoint(x, y, name=str(number)) for number, (x, y) in enumerate(self.points, 1)]
+        """The same for the robot."""
+        points = [Waypoint(x, y) for x, y in self.points]
         home = [Waypoint(*self.home, name="home")] if self.home else []
         return Mission(
             waypoints=points,

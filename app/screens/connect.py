@@ -14,7 +14,7 @@ from kivy.uix.floatlayout import FloatLayout
 
 from app.arrange import connect_columns
 from app.discovery import Entry
-from widgets.kit import Banner, Card
+from widgets.kit import Banner, Card, Text
 from widgets.theme import theme
 
 __all__ = ["ConnectScreen", "RobotCard"]
@@ -30,13 +30,17 @@ KINDS = {
 THEMES = {"dark": ("light_mode", "Sunlight", "sunlight"), "sunlight": ("bedtime", "Night", "night")}
 THEMES["night"] = ("dark_mode", "Dark", "dark")
 """Theme to icon, words and name of the one that a tap brings."""
-LOW, MIDDLE = 0.15, 0.40
+HINT = (
+    "No robot has said hello on this network yet.\n"
+    "Switch one on, enter its address, or start the built-in simulator."
+)
+LOW, MIDDLE = 0.20, 0.40
 """Below these a battery is empty or getting low, 0 to 1."""
 
 Builder.load_string("""
 <RobotCard>:
-    size_hint_y: None
-    height: dp(84) + dp(34) + self.button_height + dp(18) * 3
+    size_hint: None, None
+    height: self.minimum_height
     padding: dp(18), dp(18)
     spacing: dp(14)
     outline: 'danger' if root.lost else 'line'
@@ -90,6 +94,7 @@ Builder.load_string("""
             text: root.driver_text
             role: root.driver_role
             tinted: True
+            spacing: 0
             opacity: 1 if root.driver_text else 0
         Widget:
     PushButton:
@@ -134,13 +139,14 @@ Builder.load_string("""
             Chip:
                 icon: 'wifi_find'
                 role: 'accent'
-                text: root.nearby
+                text: root.nearby if root.columns > 1 else root.nearby_short
                 pos_hint: {'center_y': .5}
             Chip:
                 id: theme
                 icon: root.theme_icon
                 role: 'text'
-                text: root.theme_text
+                text: root.theme_text if root.columns > 1 else ''
+                spacing: dp(8) if self.text else 0
                 pressable: True
                 pos_hint: {'center_y': .5}
                 on_release: root.app.next_theme()
@@ -158,13 +164,10 @@ Builder.load_string("""
                     size_hint_y: None
                     height: self.minimum_height
                     spacing: dp(10)
-                Text:
-                    text: root.hint
-                    role: 'muted'
-                    halign: 'center'
-                    padding: dp(16), dp(30)
-                    opacity: 1 if root.hint else 0
-                    height: self.texture_size[1] if root.hint else 0
+                BoxLayout:
+                    id: hint
+                    size_hint_y: None
+                    height: self.minimum_height
                 GridLayout:
                     id: cards
                     cols: root.columns
@@ -173,7 +176,7 @@ Builder.load_string("""
                     height: self.minimum_height
                 GridLayout:
                     id: actions
-                    cols: min(root.columns, 2 if root.can_simulate else 1) if root.columns < 3 else 3
+                    cols: root.columns
                     spacing: dp(18)
                     size_hint_y: None
                     height: self.minimum_height
@@ -181,11 +184,15 @@ Builder.load_string("""
                         id: add
                         icon: 'add_link'
                         text: 'Add by address'
+                        size_hint_x: None
+                        width: root.card_width
                         on_release: root.app.ask_address()
                     QuietButton:
                         id: simulate
                         icon: 'play_circle'
                         text: root.simulator_text
+                        size_hint_x: None
+                        width: root.card_width
                         disabled: not root.can_simulate or root.simulating
                         opacity: 1 if root.can_simulate else 0
                         on_release: root.app.start_simulator()
@@ -238,7 +245,8 @@ class RobotCard(Card):
         if entry.state == "lost":
             self.link_text, self.link_role = f"no heartbeat for {entry.silent:.0f} s", "danger"
         elif not math.isnan(entry.latency):
-            self.link_text, self.link_role = f"{entry.latency * 1000:.0f} ms", "ok"
+            ms = entry.latency * 1000
+            self.link_text, self.link_role = (f"{ms:.0f} ms" if ms >= 1 else "< 1 ms"), "ok"
         elif entry.state == "live":
             self.link_text, self.link_role = "in reach", "ok"
         else:
@@ -268,7 +276,9 @@ class ConnectScreen(FloatLayout):
 
     app = ObjectProperty()
     nearby = StringProperty("Looking for robots")
-    hint = StringProperty("")
+    nearby_short = StringProperty("searching")
+    card_width = NumericProperty("300dp")
+    """[px]"""
     columns = NumericProperty(1)
     edge = NumericProperty("26dp")
     theme_icon = StringProperty("light_mode")
@@ -282,6 +292,7 @@ class ConnectScreen(FloatLayout):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._banner: Banner | None = None
+        self._hint = Text(text=HINT, role="muted", halign="center", padding=(16, 24))
         self.bind(size=self._arrange)
         theme.bind(name=self._follow_theme)
         self._follow_theme()
@@ -294,6 +305,9 @@ class ConnectScreen(FloatLayout):
         dp = Metrics.density
         self.columns = connect_columns(self.width, dp)
         self.edge = (26 if self.width > 600 * dp else 14) * dp
+        self.card_width = (self.width - 2 * self.edge - (self.columns - 1) * 18 * dp) / self.columns
+        for card in self.cards:
+            card.width = self.card_width
 
     def show_entries(self, entries: list[Entry], me: str) -> None:
         """Bring the cards up to date; a card stays where it is while its robot is listed."""
@@ -303,10 +317,11 @@ class ConnectScreen(FloatLayout):
             card.show_entry(entry, me)
         live = sum(entry.state == "live" for entry in entries)
         self.nearby = f"{live} robot{'' if live == 1 else 's'} nearby" if live else "Looking for robots"
-        self.hint = "" if entries else (
-            "No robot has said hello on this network yet.\\n"
-            "Switch one on, enter its address, or start the built-in simulator."
-        ).replace("\\n", "\n")
+        self.nearby_short = f"{live} nearby" if live else "searching"
+        if entries and self._hint.parent is not None:
+            self.ids.hint.remove_widget(self._hint)
+        elif not entries and self._hint.parent is None:
+            self.ids.hint.add_widget(self._hint)
 
     def _rebuild(self, entries: list[Entry]) -> None:
         known = {card.entry.url: card for card in self.cards}
@@ -316,7 +331,7 @@ class ConnectScreen(FloatLayout):
             self.ids.cards.add_widget(card)
 
     def _card(self) -> RobotCard:
-        card = RobotCard()
+        card = RobotCard(width=self.card_width)
         card.bind(
             on_connect=lambda one: self.app.open(one.entry.url, watch=one.action == "Watch"),
             on_remove=lambda one: self.app.forget(one.entry.url),

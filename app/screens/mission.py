@@ -130,6 +130,8 @@ class MissionScreen(FloatLayout):
 
     def _build(self) -> None:
         ids = self.ids
+        for name in ("ground", "floats", "side", "handle", "modes"):  # kv holds ids weakly
+            ids[name] = ids[name].__self__
         ids.ground.add_widget(self.map)
         for widget in (self.video, self.compass, self.panel.readouts):
             widget.size_hint = (None, None)

@@ -41,7 +41,7 @@ Builder.load_string("""
             size_hint_y: None
             height: max(self.minimum_height, scroll.height)
             spacing: dp(9) if root.form == 'wide' else dp(10)
-            padding: 0, dp(12), 0, 0
+            padding: 0, dp(12) if root.form == 'tall' else 0, 0, 0
 
 <SendRow>:
     orientation: 'vertical'
@@ -175,7 +175,7 @@ class MissionPanel(BoxLayout):
         self.figures.height = "58dp" if tall else "116dp"
         for figure in (self.speed, self.next, self.lap, self.left):
             figure.font_size = "22sp" if tall else "26sp"
-        self.tasks.brief = tall
+        self.tasks.brief = form != "wide"
         self.next.name = "Next" if tall else "Next point"
         self._progress.titled = not tall
         self.events.size_hint_y = 1 if form == "wide" else None

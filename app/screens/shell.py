@@ -37,11 +37,11 @@ MODES = {
 }
 """Mode of the robot to icon and role."""
 CONTROLS = {
-    "mine": ("person", "accent", "you have control"),
-    "free": ("lock_open", "text", "take control"),
-    "unknown": ("help", "muted", "control unknown"),
+    "mine": ("person", "accent", "you have control", "you"),
+    "free": ("lock_open", "text", "take control", "free"),
+    "unknown": ("help", "muted", "control unknown", "unknown"),
 }
-"""Who has control to icon, role and words of the chip."""
+"""Who has control to icon, role, words of the chip, and its words where there is little room."""
 BAR = ("back", "name", "mode", "battery", "link", "satellites", "gap", "control")
 """What the top bar holds, from left to right; a narrow one only the first five."""
 Builder.load_string("""
@@ -105,7 +105,7 @@ Builder.load_string("""
             pos_hint: {'center_y': .5}
         LinkQuality:
             id: link
-            brief: root.form == 'tall'
+            brief: root.form != 'wide'
             pos_hint: {'center_y': .5}
         Chip:
             id: satellites
@@ -375,9 +375,11 @@ class Shell(FloatLayout):
         control = self.session.control
         if control == "other":
             driver = self.session.feeds.latest("/control/status").driver
-            self.control_icon, self.control_role, self.control_text = "person", "warn", f"driven by {driver}"
+            self.control_icon, self.control_role = "person", "warn"
+            self.control_text = f"driven by {driver}" if self.form == "wide" else driver
         else:
-            self.control_icon, self.control_role, self.control_text = CONTROLS[control]
+            self.control_icon, self.control_role, *words = CONTROLS[control]
+            self.control_text = words[self.form != "wide"]
         asked = self.session.outcomes.get("acquire")
         if control == "free" and asked is not None and asked.phase == "sent":
             self.control_text = "asking …"

@@ -108,7 +108,7 @@ def test_a_draft_is_not_stored_before_the_robot_accepts_it(editor: MissionEditor
     assert editor.dirty
     editor.answered(True, "Stored.")
     assert editor.state == "stored"
-    assert [point.name for point in message.waypoints] == ["1", "2", "3"]
+    assert [point.x for point in message.waypoints] == xs(editor)
 
 
 def test_a_refused_draft_stays_a_draft_and_says_why(editor: MissionEditor) -> None:
