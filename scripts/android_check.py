@@ -20,10 +20,31 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 SHIPPED = {"app", "widgets", "bridge", "main.py"}
-DESKTOP_ONLY = ("robotside", "sim", "tests", "bench", "examples", "pybullet", "scipy", "skimage", "moderngl", "PIL")
+DESKTOP_ONLY = (
+    "robotside",
+    "sim",
+    "tests",
+    "bench",
+    "examples",
+    "pybullet",
+    "scipy",
+    "skimage",
+    "moderngl",
+    "PIL",
+)
 """What the phone does not have."""
 
-NO_RECIPE = {"orjson", "pybullet", "scipy", "scikit_image", "moderngl", "simplejpeg", "pocketsphinx", "lz4", "zstandard"}
+NO_RECIPE = {
+    "orjson",
+    "pybullet",
+    "scipy",
+    "scikit_image",
+    "moderngl",
+    "simplejpeg",
+    "pocketsphinx",
+    "lz4",
+    "zstandard",
+}
 """Compiled packages that python-for-android has no recipe for."""
 
 IMPORT_ALL = """
@@ -105,9 +126,13 @@ def check_requirements(spec: configparser.SectionProxy) -> list[str]:
         if re.search(r"[<>~!;\[ ]", name):
             raise Failed(f"requirement {requirement}: only NAME or NAME==VERSION is understood.")
         if name != name.lower() or "-" in name:
-            raise Failed(f"requirement {requirement}: write it in lower case with underscores, else its pin is lost.")
+            raise Failed(
+                f"requirement {requirement}: write it in lower case with underscores, else its pin is lost."
+            )
         if name in NO_RECIPE:
-            raise Failed(f"requirement {requirement} is compiled and python-for-android has no recipe for it.")
+            raise Failed(
+                f"requirement {requirement} is compiled and python-for-android has no recipe for it."
+            )
     return found
 
 
@@ -116,9 +141,13 @@ def check_manifest(root: Path, spec: configparser.SectionProxy) -> None:
     text = (root / "pyproject.toml").read_text()
     version = re.search(spec["version.regex"], text)
     if not version or not re.fullmatch(r"\d+(\.\d+){1,2}", version.group(1)):
-        raise Failed(f"version {version and version.group(1)}: Android needs two or three integers with dots.")
+        raise Failed(
+            f"version {version and version.group(1)}: Android needs two or three integers with dots."
+        )
     if "android.features" in spec:
-        raise Failed("android.features breaks the build; say <uses-feature> in android_xml/manifest_extra.xml.")
+        raise Failed(
+            "android.features breaks the build; say <uses-feature> in android_xml/manifest_extra.xml."
+        )
     for key in ("android.extra_manifest_xml", "android.extra_manifest_application_arguments"):
         if not (root / spec[key]).is_file():
             raise Failed(f"{key} names {spec[key]}, which is not there.")
@@ -157,7 +186,12 @@ def run(*command: str, where: Path) -> None:
     """Run a command in the staged tree; Failed with its last lines when it fails."""
     # -I keeps this checkout off the path; the staged tree is put on it by hand
     done = subprocess.run(
-        [sys.executable, "-OO", "-I", *command], cwd=where, capture_output=True, text=True, check=False, timeout=180
+        [sys.executable, "-OO", "-I", *command],
+        cwd=where,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=180,
     )
     if done.returncode:
         raise Failed("\n".join((done.stdout + done.stderr).strip().splitlines()[-8:]))
@@ -221,7 +255,9 @@ def main() -> int:
             print("compiled: every file, without asserts and docstrings (-OO)")
             names = modules(files)
             run("-c", IMPORT_ALL, ",".join(DESKTOP_ONLY), *names, where=tree)
-            print(f"imported: {len(names)} modules with neither robot side, simulator nor desktop libraries at hand")
+            print(
+                f"imported: {len(names)} modules with neither robot side, simulator nor desktop libraries at hand"
+            )
             print(check_shaders(files, ROOT))
     except Failed as failure:
         print(f"android-check: {failure}")

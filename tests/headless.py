@@ -53,7 +53,9 @@ def prepare(mode: str, size: tuple[int, int] = SIZE) -> None:
         os.environ.pop("KIVY_WINDOW", None)
         os.environ.pop("DISPLAY", None)
         os.environ.update(_PIXEL)
-    logging.getLogger("kivy").addHandler(logging.NullHandler())  # else Python prints its complaints about the mock GL
+    logging.getLogger("kivy").addHandler(
+        logging.NullHandler()
+    )  # else Python prints its complaints about the mock GL
     from kivy.config import Config
 
     for key, value in dict(_GRAPHICS, width=size[0], height=size[1]).items():
