@@ -13,7 +13,7 @@ from itertools import pairwise
 from typing import Any, ClassVar
 
 import numpy as np
-from kivy.graphics import Color, SmoothRoundedRectangle
+from kivy.graphics import Color, Rectangle, SmoothRoundedRectangle
 from kivy.graphics.texture import Texture
 from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, BooleanProperty, ListProperty, NumericProperty, OptionProperty
@@ -23,7 +23,7 @@ from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
 from widgets.base import text_texture
 from widgets.geometry import contain, cover
 from widgets.icons import icon
-from widgets.ink import Drawing, Ink, Word, Words, tint
+from widgets.ink import Drawing, Ink, Word, Words, shader, tint
 from widgets.shapes import Shapes
 from widgets.theme import theme
 
@@ -31,6 +31,25 @@ __all__ = ["Video", "samples"]
 
 FADED = 0.45
 """Opacity of a picture that is old, 0 to 1."""
+
+
+WHOLE = (0, 0, 1, 0, 1, 1, 0, 1)
+"""Corners of a picture from its lower left, anticlockwise."""
+
+FRAGMENT = """
+$HEADER$
+uniform vec2 half_size;
+uniform vec2 seen;
+uniform float corner;
+uniform float strength;
+void main() {
+    vec2 middle = tex_coord0 - 0.5;
+    vec2 beyond = abs(middle) * 2.0 * half_size - half_size + corner;
+    float outside = min(max(beyond.x, beyond.y), 0.0) + length(max(beyond, 0.0)) - corner;
+    vec4 colour = texture2D(texture0, vec2(0.5 + middle.x * seen.x, 0.5 - middle.y * seen.y));
+    gl_FragColor = vec4(colour.rgb, strength * clamp(0.5 - outside, 0.0, 1.0));
+}
+"""
 
 
 class Video(Drawing):
@@ -77,14 +96,17 @@ class Video(Drawing):
 
     def __init__(self, **kwargs: Any) -> None:
         self._texture: Texture | None = None
-        self._ground, self._light = Color(), Color()
+        self._ground = Color()
         self._frame = SmoothRoundedRectangle(radius=[0], size=(0, 0))
-        self._picture = SmoothRoundedRectangle(radius=[0], size=(0, 0))
+        self._lens = shader(FRAGMENT, corner=0, strength=0)
+        self._lens["half_size"] = self._lens["seen"] = (1.0, 1.0)
+        self._picture = Rectangle(size=(0, 0), tex_coords=WHOLE)
+        self._lens.add(self._picture)
         self._ink, self._words, self._chip_words = Ink(), Words(), Words()
         self._chip_ground, self._chip = Color(), SmoothRoundedRectangle(size=(0, 0))
         super().__init__(**kwargs)
         for part in (
-            self._ground, self._frame, self._light, self._picture, self._ink, self._words.canvas,
+            self._ground, self._frame, self._lens, self._ink, self._words.canvas,
             self._chip_ground, self._chip, self._chip_words.canvas,
         ):  # fmt: skip
             self.canvas.add(part)
@@ -102,9 +124,9 @@ class Video(Drawing):
             )
         if self._texture is None or self._texture.size != (width, height):
             self._texture = Texture.create(size=(width, height), colorfmt="rgba")
-            self._texture.flip_vertical()
+            self._picture.texture = self._texture
+            self._picture.tex_coords = WHOLE
             self.frame_size = [width, height]
-            self.redraw()
         self._texture.blit_buffer(rgba, colorfmt="rgba", bufferfmt="ubyte")
         self.canvas.ask_update()
 
@@ -134,19 +156,14 @@ class Video(Drawing):
         wide, high = self.picture_size
         seen = min(wide, self.width), min(high, self.height)
         light = 0.0 if self._texture is None else FADED if self.state in ("stale", "never") else 1.0
-        self._light.rgba = 1, 1, 1, light
         self._picture.pos = self.center_x - seen[0] / 2, self.center_y - seen[1] / 2
         self._picture.size = seen
         whole = seen == (self.width, self.height)
-        self._picture.radius = [max(self.corner, 0.01) if whole else 0.01]
-        if self._texture is not None:
-            self._picture.texture = self._seen_part(seen[0] / wide, seen[1] / high)
-
-    def _seen_part(self, across: float, down: float) -> Texture:
-        """The middle of the picture, `across` and `down` of its width and height, 0 to 1."""
-        width, height = self._texture.size
-        wide, high = width * across, height * down
-        return self._texture.get_region((width - wide) / 2, (height - high) / 2, wide, high)
+        part = self._lens
+        part["half_size"] = float(seen[0] / 2), float(seen[1] / 2)
+        part["seen"] = float(seen[0] / wide), float(seen[1] / high)
+        part["corner"] = float(min(self.corner, *seen)) if whole else 0.0
+        part["strength"] = float(light)
 
     def _box_marks(self, shapes: Shapes) -> Iterator[Word]:
         if self._texture is None or self.state == "stale":

@@ -49,7 +49,7 @@ def test_with_the_right_side_down_the_ground_stands_up_on_the_right(stage):
 def test_with_the_nose_down_the_middle_is_ground(stage):
     picture = stage.pixels(stage.show(ArtificialHorizon(roll=0.0, pitch=0.3, state="live"), size=(200, 200)))
     assert like(at(picture, 50, 112), theme.ground)
-    assert like(at(picture, 100, 170), theme.sky, 60)
+    assert like(at(picture, 50, 165), theme.sky, 60)
 
 
 def test_level_is_sky_above_ground_and_nothing_outside_the_disc(stage):

@@ -7,12 +7,17 @@ import weakref
 import numpy as np
 import pytest
 
-from widgets import horizon, ink
+from widgets import horizon, ink, video
 from widgets.ink import Drawing, Ink, Word, Words, tint
 from widgets.shapes import FLOATS, Shapes
 from widgets.theme import theme
 
-SHADERS = {"ink vertex": ink.VERTEX, "ink": ink.FRAGMENT, "horizon": horizon.FRAGMENT}
+SHADERS = {
+    "ink vertex": ink.VERTEX,
+    "ink": ink.FRAGMENT,
+    "horizon": horizon.FRAGMENT,
+    "video": video.FRAGMENT,
+}
 
 
 class Counted(Drawing):
@@ -113,7 +118,7 @@ def test_shaders_have_no_whole_numbers_which_gles_would_refuse(name):
     assert re.findall(r"(?<![\w.])\d+(?![\w.])", text) == []
 
 
-@pytest.mark.parametrize("name", ["ink", "horizon"])
+@pytest.mark.parametrize("name", ["ink", "horizon", "video"])
 def test_shaders_say_their_precision_and_write_one_colour(name):
     assert "$HEADER$" in SHADERS[name] or "precision highp float;" in SHADERS[name]
     assert SHADERS[name].count("gl_FragColor =") == 1
