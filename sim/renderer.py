@@ -13,14 +13,13 @@ from numpy.typing import NDArray
 
 from sim.ground import SUN, markings
 from sim.shapes import Colour, Shape
+from sim.sky import HORIZON, SIZE, ZENITH, dome, grain, panorama
 from sim.solids import FLOATS, KINDS, mesh, rows
 from sim.view import View
 from sim.world import World
 
 __all__ = ["NoRendererError", "Renderer"]
 
-ZENITH: Colour = (0.33, 0.58, 0.86)
-HORIZON: Colour = (0.84, 0.91, 0.96)
 HAZE: Colour = (0.72, 0.78, 0.80)
 
 _SHADERS = Path(__file__).parent / "shaders"
@@ -123,11 +122,12 @@ class Renderer:
         rows_, lines = max(len(world.bays), 1), max(len(world.lines), 1)
         self._sky, self._solid = self._program("sky"), self._program("solid")
         self._ground = self._program("ground", ROWS=rows_, LINES=lines)
-        whole = context.buffer(np.array([-1, -1, 3, -1, -1, 3], dtype=np.float32).tobytes())
         square = context.buffer(
             np.array([-1, -1, 1, -1, 1, 1, -1, -1, 1, 1, -1, 1], dtype=np.float32).tobytes()
         )
-        self._sky_array = context.vertex_array(self._sky, [(whole, "2f", "corner")])
+        self._sky_array = context.vertex_array(
+            self._sky, [(context.buffer(dome()), "3f 2f", "direction", "mark")]
+        )
         self._ground_array = context.vertex_array(self._ground, [(square, "2f", "corner")])
         self._kinds = {kind: _Kind(kind, self._solid, world.visuals, context) for kind in KINDS}
         self._load_textures(world)
@@ -145,23 +145,25 @@ class Renderer:
         size, data = markings(world)
         self._markings = self._context.texture(size, 2, data, alignment=1)
         self._markings.repeat_x = self._markings.repeat_y = False
-        self._grain = self._context.texture((256, 256), 1, grain(), alignment=1)
+        pattern = (grain() * 255).astype(np.uint8).tobytes()
+        self._grain = self._context.texture((256, 256), 1, pattern, alignment=1)
         for unit, texture in enumerate((self._markings, self._grain)):
             texture.build_mipmaps()
             texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
             texture.use(unit)
+        self._panorama = self._context.texture(SIZE, 4, panorama())
+        self._panorama.repeat_y = False
+        self._panorama.use(2)
 
     def _set_light(self, world: World) -> None:
         length = float(np.linalg.norm(SUN))
-        self._sky["grain"] = 1
-        self._sky["upward"] = -1.0
+        self._sky["panorama"] = 2
         self._ground["markings"], self._ground["grain"] = 0, 1
         self._ground["extent"] = (world.ground.length, world.ground.width)
         self._paint(world)
         self._ground["haze"] = self._solid["haze"] = HAZE
         self._solid["sun"] = tuple(part / length for part in SUN)
-        for program in (self._sky, self._solid):
-            program["zenith"], program["horizon"] = ZENITH, HORIZON
+        self._solid["zenith"], self._solid["horizon"] = ZENITH, HORIZON
 
     def _paint(self, world: World) -> None:
         """Hand the painted lines over; a world without any gets one far away."""
@@ -184,7 +186,7 @@ class Renderer:
 
     def _draw(self, view: View, moving: Sequence[Shape]) -> None:
         context = self._context
-        for program in (self._ground, self._solid):
+        for program in (self._ground, self._solid, self._sky):
             _fill(program, "view_projection", view.matrix().T)
             program["eye"] = view.eye
         context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
@@ -196,27 +198,13 @@ class Renderer:
         self._ground["centre"], self._ground["reach"] = view.eye[:2], 390.0
         self._ground_array.render()
         if not view.flat:
-            self._draw_sky(view)
-
-    def _draw_sky(self, view: View) -> None:
-        _fill(self._sky, "to_world", view.axes.T)
-        self._sky["half_extent"] = view.half_extent
-        self._context.depth_func = "<="
-        self._sky_array.render()
-        self._context.depth_func = "<"
+            # The dome lies at the very end of the depth range.
+            context.depth_func = "<="
+            self._sky_array.render()
+            context.depth_func = "<"
 
 
 def _fill(program: moderngl.Program, name: str, values: Any) -> None:
     """Set a uniform from numbers; a matrix goes column by column."""
     uniform: Any = program[name]
     uniform.write(np.ascontiguousarray(values, dtype=np.float32).tobytes())
-
-
-def grain() -> bytes:
-    """A grey picture of 256 x 256 that tiles: soft blotches with fine grain, the same every time."""
-    rng = np.random.default_rng(20)
-    white = rng.standard_normal((256, 256))
-    fy, fx = np.meshgrid(np.fft.fftfreq(256) * 256, np.fft.fftfreq(256) * 256, indexing="ij")
-    soft = np.fft.ifft2(np.fft.fft2(white) / np.maximum(np.hypot(fx, fy), 2.0) ** 1.1).real
-    soft = soft / soft.std()
-    return bytes(np.clip(128 + 42 * soft, 0, 255).astype(np.uint8))

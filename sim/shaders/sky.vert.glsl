@@ -1,12 +1,12 @@
 #version 330
-// One triangle over the whole picture; the direction of view at each corner goes on to the fragments.
-uniform mat3 to_world;      // camera (x right, y up, z back) to world
-uniform vec2 half_extent;   // tangent of half the field of view, along x and y
-uniform float upward;       // -1 when the picture is drawn upside down
-in vec2 corner;
-out vec3 direction;
+// The dome of the sky, always round the eye and behind everything.
+uniform mat4 view_projection;
+uniform vec3 eye;
+in vec3 direction;
+in vec2 mark;
+out vec2 place;
 
 void main() {
-    direction = to_world * vec3(corner * half_extent, -1.0);
-    gl_Position = vec4(corner.x, corner.y * upward, 1.0, 1.0);
+    place = mark;
+    gl_Position = (view_projection * vec4(eye + direction * 100.0, 1.0)).xyww;
 }
