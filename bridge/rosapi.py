@@ -11,6 +11,7 @@ from msgspec import Raw
 from bridge.msgs import ros1_name
 from bridge.msgs.std_msgs import Time
 from bridge.topics import Topic
+from bridge.typedefs import typedefs
 
 __all__ = ["RosApi"]
 
@@ -36,6 +37,7 @@ class RosApi:
             "/rosapi/services": self._all_services,
             "/rosapi/service_type": self._service_type,
             "/rosapi/services_for_type": self._services_for_type,
+            "/rosapi/message_details": lambda name: {"typedefs": typedefs(ros1_name(name))},
             "/rosapi/nodes": lambda _: {"nodes": [NODE]},
             "/rosapi/get_param": lambda _: {"value": "null"},
             "/rosapi/get_param_names": lambda _: {"names": []},

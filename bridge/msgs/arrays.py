@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, Self
 
 __all__ = ["ARRAYS", "Float32Array", "Float64Array", "Int8Array"]
 
@@ -22,7 +22,7 @@ class _Typed(array):  # type: ignore[type-arg]
     code: str
     """Type code of `array.array`."""
 
-    def __new__(cls, values: Iterable[Any] | bytes = ()) -> _Typed:
+    def __new__(cls, values: Iterable[Any] | bytes = ()) -> Self:
         """Make one from numbers (None becomes NaN) or from little-endian bytes."""
         if isinstance(values, list) and None in values:
             values = [_NAN if value is None else value for value in values]

@@ -12,8 +12,7 @@ import pytest
 from websockets.asyncio.server import serve
 
 from bridge import client as module
-from bridge import frames
-from bridge.client import BridgeClient, CameraStream, Phase
+from bridge.client import BridgeClient, Phase
 from bridge.errors import NoReply, NotConnected, ProtocolError, Refused
 from bridge.msgs import Msg
 from bridge.msgs.arrays import Float32Array
@@ -483,51 +482,3 @@ async def test_a_fault_in_who_is_told_the_state_does_not_stop_the_link(caplog):
         await client.close()
         await running
     assert "ZeroDivisionError" in caplog.text
-
-
-async def watched(robot, demands, seen, **options):
-    stream = CameraStream(f"{url(robot)}/camera/front", seen, backoff=(0.01, 0.02), **options)
-    running = asyncio.create_task(stream.run())
-    await demands.reach(1)
-    return stream, running
-
-
-async def test_a_camera_shows_every_frame_that_it_keeps_up_with():
-    demands, seen = Record(), Record()
-    async with server(on_demand=demands) as robot:
-        stream, running = await watched(robot, demands, seen, now=Clock(5.0))
-        for seq in range(20):
-            robot.publish_frame("front", frames.pack(seq, 1.5, b"jpeg", 640, 480))
-            await seen.reach(seq + 1)
-        assert seen[-1] == (frames.Frame(19, 1.5, 640, 480, b"jpeg"), 5.0)
-        await stream.close()
-        await running
-
-
-async def test_a_camera_connects_again_and_passes_over_what_is_no_frame(caplog):
-    demands, seen = Record(), Record()
-
-    def broken_once(frame, received):
-        seen(frame)
-        if len(seen) == 1:
-            raise ZeroDivisionError
-
-    async with server(on_demand=demands) as robot:
-        port = robot.port
-        stream, running = await watched(robot, demands, broken_once)
-        robot.publish_frame("front", frames.pack(1, 0.0, b"", 1, 1))
-        await seen.reach(1)
-    demands.clear()
-    async with server(on_demand=demands, port=port) as robot:
-        await demands.reach(1)
-        robot.publish_frame("front", frames.pack(2, 0.0, b"", 1, 1))
-        assert [frame.seq for frame in await seen.reach(2)] == [1, 2]
-        await stream.close()
-        await running
-    assert "ZeroDivisionError" in caplog.text
-
-
-async def test_a_camera_at_an_address_that_can_never_work_says_so():
-    stream = CameraStream("front", print)
-    await stream.run()
-    assert stream.sentence.startswith("The address must be like")

@@ -49,5 +49,14 @@ def test_questions_have_answers(service, args, answer):
     assert ask(f"/rosapi/{service}", args) == answer
 
 
+def test_a_type_can_be_asked_for_in_either_spelling():
+    for name in ("geometry_msgs/Twist", "geometry_msgs/msg/Twist"):
+        found = ask("/rosapi/message_details", json.dumps({"type": name}).encode())
+        assert [each["type"] for each in found["typedefs"]] == [
+            "geometry_msgs/Twist",
+            "geometry_msgs/Vector3",
+        ]
+
+
 def test_what_is_not_rosapi_is_left_to_others():
     assert API.answer("/stop", Raw(b"{}")) is None
