@@ -25,6 +25,9 @@ KIT = {
     "Cards": "widgets.cards",
     "Buttons": "widgets.buttons",
     "Choices": "widgets.choices",
+    "Stepper": "widgets.stepper",
+    "Amounts": "widgets.amounts",
+    "TextField": "widgets.text_field",
 }
 """The kit's modules, shown after the robot widgets."""
 

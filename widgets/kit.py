@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from widgets.amounts import Fader, Progress
 from widgets.buttons import IconButton, NavButton, PrimaryButton, PushButton, QuietButton
 from widgets.cards import Banner, Card, Sheet, Toast
-from widgets.choices import Fader, Progress, Segmented, Stepper, TextField, Toggle
+from widgets.choices import Segmented, Toggle
 from widgets.labels import Chip, Icon, SectionLabel, Text, ValueUnit, spaced
+from widgets.stepper import Stepper
+from widgets.text_field import TextField
 
 __all__ = [
     "Banner",

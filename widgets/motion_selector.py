@@ -15,7 +15,8 @@ from kivy.properties import BooleanProperty, NumericProperty, OptionProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
-import widgets.choices  # noqa: F401 - its rules draw the controls
+import widgets.choices
+import widgets.stepper  # noqa: F401 - same
 from bridge.msgs.pilothouse_msgs import Mission
 from widgets.base import Control
 

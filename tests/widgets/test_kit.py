@@ -9,7 +9,7 @@ from kivy.lang import Builder
 from kivy.uix.boxlayout import BoxLayout
 
 import widgets.kit as kit
-from widgets.choices import Segment, StepperEnd
+from widgets.choices import Segment
 from widgets.kit import (
     Banner,
     Chip,
@@ -30,6 +30,7 @@ from widgets.kit import (
     ValueUnit,
     spaced,
 )
+from widgets.stepper import StepperEnd
 from widgets.theme import theme
 
 MOTIONS = [("loop", "Loop"), ("random", "Random")]
@@ -157,6 +158,15 @@ def test_plus_and_minus_count(stage, stepper):
     stage.tap(*stepper.fewer.center)
     assert stepper.heard == [6, 5]
     assert stepper.figures == "5 s"
+
+
+def test_the_ends_of_a_stepper_are_hit_within_a_whole_target(stage, stepper):
+    stepper.pos = 200, 200
+    stage.frames(2)
+    assert stepper.more.height < theme.target
+    stage.tap(stepper.more.center_x, stepper.more.center_y + theme.target / 2 - 1)
+    stage.tap(stepper.fewer.center_x - theme.target / 2 + 1, stepper.fewer.center_y)
+    assert stepper.heard == [6, 5]
 
 
 def test_a_held_plus_counts_on_to_the_end_and_no_further(stage, stepper):

@@ -3,8 +3,9 @@ from __future__ import annotations
 import pytest
 
 from bridge.msgs.pilothouse_msgs import Mission
-from widgets.choices import Segment, StepperEnd, Toggle
+from widgets.choices import Segment, Toggle
 from widgets.motion_selector import MotionSelector
+from widgets.stepper import StepperEnd
 
 
 @pytest.fixture

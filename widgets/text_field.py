@@ -1,0 +1,65 @@
+"""A line to type into."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from kivy.lang import Builder
+from kivy.properties import (
+    BooleanProperty,
+)
+from kivy.uix.textinput import TextInput
+from kivy.uix.widget import Widget
+
+__all__ = ["TextField"]
+
+Builder.load_string("""
+<-TextField>:
+    multiline: False
+    size_hint_y: None
+    height: theme.target
+    font_name: theme.font
+    font_size: theme.size_body
+    padding: dp(14), (self.height - self.line_height) / 2
+    foreground_color: theme.text
+    hint_text_color: theme.muted
+    cursor_color: theme.accent
+    cursor_width: dp(2)
+    selection_color: theme.accent[:3] + [.35]
+    canvas.before:
+        Color:
+            rgba: theme.danger if root.wrong else theme.accent if root.focus else theme.line
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.corner]
+        Color:
+            rgba: theme.raised
+        SmoothRoundedRectangle:
+            pos: self.x + dp(1.5), self.y + dp(1.5)
+            size: self.width - dp(3), self.height - dp(3)
+            radius: [theme.corner - dp(1.5)]
+        Color:
+            rgba: self.cursor_color if self.focus and not self._cursor_blink else (0, 0, 0, 0)
+        Rectangle:
+            pos: self._cursor_visual_pos
+            size: root.cursor_width, -self._cursor_visual_height
+        Color:
+            rgba: self.foreground_color if self.text else self.hint_text_color
+""")
+
+
+class TextField(TextInput):
+    """A line to type into; `wrong` while what it says cannot be used."""
+
+    wrong = BooleanProperty(False)
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """Empty, filled, wrong."""
+    wide = {"size_hint_x": None, "width": "330dp"}
+    return {
+        "empty": lambda: TextField(hint_text="Address, as in 192.168.1.7", **wide),
+        "filled": lambda: TextField(text="192.168.1.7", **wide),
+        "wrong": lambda: TextField(text="10.0.0.300", wrong=True, **wide),
+    }
