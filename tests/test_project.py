@@ -5,12 +5,14 @@ from __future__ import annotations
 import ast
 import re
 import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
 import pytest
 
 from scripts.topic_table import DOCUMENTS, with_table
+from tests.test_architecture import imports
 
 ROOT = Path(__file__).parents[1]
 SOURCES = [
@@ -104,3 +106,32 @@ def test_set_up_is_not_done_twice(tmp_path):
 def test_the_ten_lines_of_the_readme_are_a_program_of_the_examples():
     shown = re.search(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL).group(1)
     assert (ROOT / "examples" / "circle.py").read_text().endswith(shown)
+
+
+NAMED_OTHERWISE = {
+    "PIL": "pillow",
+    "kivy_garden": "kivy-garden.mapview",
+    "skimage": "scikit-image",
+    "pybullet_data": "pybullet",
+}
+WHO_INSTALLS = {"app": "handheld", "widgets": "handheld", "robotside": "robot", "sim": "sim"}
+
+
+@pytest.mark.parametrize("folder", ["bridge", *WHO_INSTALLS])
+def test_every_import_is_installed_by_the_folders_own_extra(folder):
+    names = PROJECT["project"]["dependencies"] + PROJECT["project"]["optional-dependencies"].get(
+        WHO_INSTALLS.get(folder), []
+    )
+    installed = {canonical(re.split(r"[<>=!~]", name)[0]) for name in names}
+    wanted = {
+        module.split(".")[0]
+        for path in (ROOT / folder).rglob("*.py")
+        for module in imports(path)
+        if path.name != "__main__.py" or folder != "robotside"
+    }
+    foreign = (
+        wanted
+        - sys.stdlib_module_names
+        - {"app", "bridge", "widgets", "robotside", "sim", "jnius", "android"}
+    )
+    assert not [name for name in foreign if canonical(NAMED_OTHERWISE.get(name, name)) not in installed]
