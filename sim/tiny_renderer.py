@@ -26,6 +26,9 @@ SIZE = (320, 240)
 PATIENCE = 5.0
 """How long to wait for one picture before giving up on the process [s]."""
 
+START = 30.0
+"""How long the process may take to start [s]."""
+
 _SMALLEST = 0.11
 """What fits into a ball of this radius is not drawn [m]."""
 
@@ -38,20 +41,21 @@ class TinyRenderer:
     """Draws `world`; a picture is ready a little after it was asked for."""
 
     def __init__(self, world: World) -> None:
-        """Start the process."""
+        """Start the process and wait until it can draw."""
         context = multiprocessing.get_context("spawn")
         self._pipe, theirs = context.Pipe()
         self._process: BaseProcess | None = context.Process(target=_draw, args=(world, theirs), daemon=True)
         self._process.start()
         theirs.close()
         self._stamp: float | None = None
+        self._receive(START)
 
     def show(self, view: View, stamp: float) -> list[tuple[float, Picture]]:
         """Ask for `view` as of `stamp`; gives the picture asked for before, waiting for it if need be."""
         pictures = self._take(PATIENCE)
         if self._process is not None:
             self._stamp = stamp
-            self._pipe.send(view)
+            self._send(view)
         return pictures
 
     def ready(self) -> list[tuple[float, Picture]]:
@@ -72,16 +76,34 @@ class TinyRenderer:
     def _take(self, wait: float) -> list[tuple[float, Picture]]:
         if self._stamp is None or self._process is None:
             return []
+        picture = self._receive(wait)
+        if picture is None:
+            return []
+        stamp, self._stamp = self._stamp, None
+        return [(stamp, picture)]
+
+    def _receive(self, wait: float) -> Picture | None:
+        """What the process sends within `wait` [s]; None when it does not, which is its end unless `wait` is 0."""
         try:
             if self._pipe.poll(wait):
-                stamp, self._stamp = self._stamp, None
-                return [(stamp, self._pipe.recv())]
+                picture: Picture = self._pipe.recv()
+                return picture
         except (EOFError, OSError):
-            wait = PATIENCE
-        if wait:
-            _log.warning("The process that draws the camera's pictures has ended; there are no more.")
-            self.close()
-        return []
+            self._give_up()
+        else:
+            if wait:
+                self._give_up()
+        return None
+
+    def _send(self, view: View) -> None:
+        try:
+            self._pipe.send(view)
+        except OSError:
+            self._give_up()
+
+    def _give_up(self) -> None:
+        _log.warning("The process that draws the camera's pictures has ended; there are no more.")
+        self.close()
 
 
 def _draw(world: World, pipe: Connection) -> None:
@@ -90,6 +112,7 @@ def _draw(world: World, pipe: Connection) -> None:
     for shape in scene(world):
         backend.add_looks(shape)
     try:
+        pipe.send(None)
         while True:
             pipe.send(_picture(backend, pipe.recv()))
     except (EOFError, OSError, KeyboardInterrupt):

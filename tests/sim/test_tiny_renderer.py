@@ -60,6 +60,15 @@ def test_the_end_of_its_process_is_told_and_ends_the_pictures(world, renderer, c
     assert "there are no more" in caplog.text
 
 
+def test_the_end_of_its_process_between_two_pictures_is_told_too(world, renderer, caplog):
+    renderer._process.kill()
+    renderer._process.join()
+    with caplog.at_level(logging.WARNING):
+        assert renderer.show(ahead_of_cone(world), 1.0) == []
+        assert renderer.show(ahead_of_cone(world), 2.0) == []
+    assert "there are no more" in caplog.text
+
+
 def test_closing_twice_does_nothing(renderer):
     renderer.close()
     renderer.close()
