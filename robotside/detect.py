@@ -19,6 +19,12 @@ WIDTH = 320
 LEAST = 12
 """Orange pixels of the searched picture that make a thing."""
 
+SPECK = 3
+"""Orange pixels that hang together and are fewer than this are noise."""
+
+GAP = 0.6
+"""Most between the two orange parts of a cone, as a part of their height together."""
+
 MASK = NDArray[np.bool_]
 PIXELS = NDArray[np.int16]
 Box = tuple[slice, slice]
@@ -72,26 +78,40 @@ def _search(rgb: PIXELS) -> list[Sighting]:
     high = np.maximum(np.maximum(red, green), blue)
     pale = (low > 100) & (high - low < 45)
     found = []
-    for box, part in _groups(orange, max(3, rgb.shape[0] // 30)):
-        sighting = _judge(part, pale[box], box, rgb.shape)
+    for box in _groups(orange):
+        sighting = _judge(orange[box], pale[box], box, rgb.shape)
         if sighting is not None:
             found.append(sighting)
     return sorted(found, key=lambda sighting: -sighting.score)
 
 
-def _groups(orange: MASK, gap: int) -> Iterator[tuple[Box, MASK]]:
-    """The orange things and the boxes round them; what is `gap` rows or less above another is one with it."""
-    rows, columns = (np.flatnonzero(orange.any(axis=axis)) for axis in (1, 0))
-    top, left = max(0, int(rows[0]) - gap), int(columns[0])
-    corner = orange[top : rows[-1] + gap + 1, left : columns[-1] + 1]
-    joined = ndimage.binary_closing(corner, np.ones((2 * gap + 1, 1)))
-    labels, _ = ndimage.label(joined | corner)
-    for number, (down, across) in enumerate(ndimage.find_objects(labels), 1):
-        box = (
-            slice(down.start + top, down.stop + top),
-            slice(across.start + left, across.stop + left),
-        )
-        yield box, orange[box] & (labels[down, across] == number)
+def _groups(orange: MASK) -> Iterator[Box]:
+    """The boxes round orange things; what stands above another across a gap, as above a white band, is one with it."""
+    labels, _ = ndimage.label(orange, np.ones((3, 3)))
+    whole: list[Box] = []
+    for box in ndimage.find_objects(labels):
+        if np.count_nonzero(orange[box]) < SPECK:
+            continue
+        above = next((number for number, other in enumerate(whole) if _stands_on(other, box)), None)
+        if above is None:
+            whole.append(box)
+        else:
+            whole[above] = (_both(whole[above][0], box[0]), _both(whole[above][1], box[1]))
+    yield from whole
+
+
+def _both(a: slice, b: slice) -> slice:
+    return slice(min(a.start, b.start), max(a.stop, b.stop))
+
+
+def _stands_on(upper: Box, lower: Box) -> bool:
+    """The two are parts of one narrow thing: one above the other, not far, and in line."""
+    (up, across), (down, below) = upper, lower
+    gap = down.start - up.stop
+    tall = (up.stop - up.start) + (down.stop - down.start)
+    aside = abs((across.start + across.stop) - (below.start + below.stop)) / 2
+    wide = max(across.stop - across.start, below.stop - below.start)
+    return bool(-2 <= gap <= GAP * tall and aside <= 0.35 * wide)
 
 
 def _judge(orange: MASK, pale: MASK, box: Box, shape: tuple[int, ...]) -> Sighting | None:

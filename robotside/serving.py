@@ -69,7 +69,9 @@ class Serving:
         self, station: Station, clock: RobotClock, wall: Callable[[], float], addresses: Addresses
     ) -> None:
         self.addresses = addresses
-        self._station, self._clock, self._wall = station, clock, wall
+        self.station = station
+        """What is served."""
+        self._clock, self._wall = clock, wall
         offered = list(services(station))
         self.server = BridgeServer(
             services=offered,
@@ -94,7 +96,7 @@ class Serving:
         try:
             await self.server.start(where.host, where.port)
             where.port = self.server.port
-            leave = self._station.bus.subscribe(None, self._publish)
+            leave = self.station.bus.subscribe(None, self._publish)
             async with asyncio.TaskGroup() as group:
                 group.create_task(web.serve([web_socket]))
                 group.create_task(beacon.run())
@@ -104,36 +106,36 @@ class Serving:
                 web.should_exit = True
                 await beacon.close()
         finally:
-            self._station.robot.stop()
+            self.station.robot.stop()
             await self.server.close()
             web_socket.close()
 
     def end(self) -> None:
         """Have `run` come to its end."""
-        self._station.end()
+        self.station.end()
         self._patience = self._wall() + BRAKING
 
     async def _tick(self) -> None:
         """Drive the station until it was told to end and stands still."""
         loop = asyncio.get_running_loop()
         due = loop.time()
-        while self._wall() < self._patience and not (self._patience < math.inf and self._station.at_rest):
-            self._station.step(self._clock.tick(self._wall()))
+        while self._wall() < self._patience and not (self._patience < math.inf and self.station.at_rest):
+            self.station.step(self._clock.tick(self._wall()))
             due = max(due + TICK, loop.time() - TICK)
             await asyncio.sleep(max(0.0, due - loop.time()))
 
     def _publish(self, topic: str, msg: Msg) -> None:
         if topic in _TABLE:
             self.server.publish(topic, msg)
-        if topic == CAMERA and isinstance(msg, CompressedImage) and self._station.info.cameras:
+        if topic == CAMERA and isinstance(msg, CompressedImage) and self.station.info.cameras:
             width, height = jpeg_size(msg.data)
             self._frames += 1
             stamp = msg.header.stamp.seconds
             frame = frames.pack(self._frames, stamp, msg.data, width, height)
-            self.server.publish_frame(self._station.info.cameras[0], frame)
+            self.server.publish_frame(self.station.info.cameras[0], frame)
 
     def _hello(self) -> Hello:
-        info, driver = self._station.info, self._station.controls.driver
+        info, driver = self.station.info, self.station.controls.driver
         return Hello(
             name=info.name,
             kind=info.kind,
@@ -141,9 +143,9 @@ class Serving:
             description=info.description,
             url=self.addresses.bridge,
             http=self.addresses.http,
-            battery=self._station.autonomy.battery,
+            battery=self.station.autonomy.battery,
             driver=driver.name if driver else "",
-            boot=self._station.events.boot,
+            boot=self.station.events.boot,
         )
 
 

@@ -89,6 +89,8 @@ class FakeRobot:
         self._angles = np.linspace(-math.pi, math.pi, beams, endpoint=False)
         self._origin: float | None = None
         self._steps = 0
+        self._seen_from: object = None
+        self._seen: NDArray[np.float64] = np.empty(0)
 
     @property
     def at_rest(self) -> bool:
@@ -161,6 +163,12 @@ class FakeRobot:
         return LaserScan(Header(stamp, "laser"), first, last, step, 0.0, 0.1, 0.05, 12.0, values)
 
     def _ranges(self) -> NDArray[np.float64]:
+        seen_from = (self.pose, len(self.boxes), len(self.pillars))
+        if seen_from != self._seen_from:
+            self._seen_from, self._seen = seen_from, self._cast()
+        return self._seen.copy()
+
+    def _cast(self) -> NDArray[np.float64]:
         x, y, yaw = self.pose
         dx, dy = np.cos(self._angles + yaw), np.sin(self._angles + yaw)
         nearest = np.full(len(dx), np.inf)

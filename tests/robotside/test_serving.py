@@ -1,0 +1,170 @@
+"""The robot side behind real sockets on loopback, and its command line."""
+
+from __future__ import annotations
+
+import asyncio
+import random
+import socket
+import time
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+
+import httpx
+import pytest
+
+from bridge.client import BridgeClient, Phase
+from bridge.errors import BridgeError
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, ControlStatus, RobotInfo
+from robotside.__main__ import main
+from robotside.clock import RobotClock
+from robotside.serving import Addresses, Serving
+from robotside.station import Station
+from robotside.store import Store
+from tests.fakes import FakeRobot
+
+
+@asynccontextmanager
+async def serving(state: Path, robot: FakeRobot) -> AsyncIterator[Serving]:
+    clock = RobotClock(time.time())
+    began = time.time() - time.monotonic()
+
+    def wall() -> float:
+        return began + time.monotonic()
+
+    station = Station(
+        robot, Store(state), now=clock.now, clock=wall, rng=random.Random(1), boot="b1", name="Rex"
+    )
+    serves = Serving(station, clock, wall, Addresses("127.0.0.1", 0, 0))
+    ready = asyncio.Event()
+    running = asyncio.create_task(serves.run(lambda _: ready.set()))
+    async with asyncio.timeout(10):
+        await ready.wait()
+        try:
+            yield serves
+        finally:
+            serves.end()
+            await running
+
+
+async def test_a_client_is_told_who_the_robot_is_and_drives_it(tmp_path: Path) -> None:
+    robot = FakeRobot()
+    async with serving(tmp_path, robot) as serves:
+        client = BridgeClient(serves.addresses.bridge)
+        told, steered = asyncio.get_running_loop().create_future(), asyncio.Event()
+        client.subscribe("/robot/info", RobotInfo, lambda msg, _: told.done() or told.set_result(msg))
+
+        def steer(msg: ControlStatus, _: float) -> None:
+            if msg.driver:
+                steered.set()
+
+        client.subscribe("/control/status", ControlStatus, steer)
+        running = asyncio.create_task(client.run())
+        assert (await told).name == "Rex"
+        client.publish("/cmd_vel", Twist.planar(0.3, 0.1))
+        await steered.wait()
+        assert Twist.planar(0.3, 0.1) in robot.commands
+        await client.close()
+        await running
+    assert robot.at_rest
+
+
+@asynccontextmanager
+async def connected(serves: Serving) -> AsyncIterator[BridgeClient]:
+    there = asyncio.Event()
+    client = BridgeClient(
+        serves.addresses.bridge,
+        on_state=lambda state: there.set() if state.phase is Phase.CONNECTED else None,
+    )
+    running = asyncio.create_task(client.run())
+    await there.wait()
+    yield client
+    await client.close()
+    await running
+
+
+async def test_a_cut_connection_stops_the_robot(tmp_path: Path) -> None:
+    robot = FakeRobot()
+    async with serving(tmp_path, robot) as serves:
+        taken, free = asyncio.Event(), asyncio.Event()
+
+        def watch(_: str, msg: Msg) -> None:
+            assert isinstance(msg, ControlStatus)
+            (taken if msg.driver else free).set()
+
+        async with connected(serves) as client:
+            serves.station.bus.subscribe("/control/status", watch)
+            free.clear()
+            client.publish("/cmd_vel", Twist.planar(0.3, 0.0))
+            await taken.wait()
+            assert not robot.at_rest
+        await free.wait()
+        assert robot.commands[-1] is None
+
+
+async def test_a_refusal_reaches_the_client_as_an_answer(tmp_path: Path) -> None:
+    async with serving(tmp_path, FakeRobot()) as serves, connected(serves) as client:
+        answer = await client.call("/task/pause", CommandRequest(), CommandResponse)
+        assert (answer.success, answer.message) == (False, "No task is running.")
+
+
+async def test_a_browser_gets_a_page_its_health_and_a_sentence_for_a_camera_that_is_not_there(
+    tmp_path: Path,
+) -> None:
+    async with (
+        serving(tmp_path, FakeRobot()) as serves,
+        httpx.AsyncClient(base_url=serves.addresses.http) as web,
+    ):
+        page = await web.get("/")
+        assert "Rex" in page.text
+        assert serves.addresses.bridge in page.text
+        assert "/cmd_vel" in page.text
+        assert (await web.get("/healthz")).json()["ok"] is True
+        missing = await web.get("/snapshot/front.jpg")
+        assert (missing.status_code, missing.text) == (
+            404,
+            "This robot has no such camera; there is: none.\n",
+        )
+
+
+async def test_a_port_that_is_taken_is_said_and_nothing_is_left_open(tmp_path: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = other.getsockname()[1]
+        station = Station(
+            FakeRobot(), Store(tmp_path), now=0.0, clock=lambda: 0.0, rng=random.Random(1), boot="b1"
+        )
+        serves = Serving(station, RobotClock(0.0), lambda: 0.0, Addresses("127.0.0.1", port, 0))
+        with pytest.raises(BridgeError, match=f"Port {port} on 127.0.0.1 is taken"):
+            await serves.run(lambda _: None)
+        web = Serving(station, RobotClock(0.0), lambda: 0.0, Addresses("127.0.0.1", 0, port))
+        with pytest.raises(BridgeError, match=f"Cannot serve HTTP on 127.0.0.1:{port}"):
+            await web.run(lambda _: None)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ("serve --port 99999", "A port is 0 to 65535, not 99999."),
+        ("serve --speed 0", "The speed must be above 0 and at most 100, not 0.0."),
+        ("serve --speed nan", "The speed must be above 0 and at most 100, not nan."),
+        ("serve --payloads arm", "There is no payload 'arm'; this robot has none to choose."),
+        ("serve --protocols mqtt", "There is no protocol mqtt; there are rosbridge and http."),
+        (
+            "serve --config robot.toml",
+            "Settings files are not read yet, so 'robot.toml' would have no effect.",
+        ),
+        ("serve --robot rover", "There is no robot 'rover'; simulated ones are written as sim:patrol."),
+        ("serve --robot sim:rover", "There is no simulated robot 'rover'; there is patrol."),
+        (
+            "serve --port nine",
+            "Argument --port: invalid int value: 'nine'; see python -m robotside serve --help.",
+        ),
+    ],
+)
+def test_a_mistake_on_the_command_line_is_one_sentence(
+    capsys: pytest.CaptureFixture[str], arguments: str, said: str
+) -> None:
+    assert main(arguments.split()) == 2
+    assert capsys.readouterr().err == f"robotside: {said}\n"
