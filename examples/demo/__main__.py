@@ -25,6 +25,7 @@ def _arguments(argv: list[str] | None) -> argparse.Namespace:
     )
     parser.add_argument("--size", default="1280x800", metavar="WxH", help="of the window")
     parser.add_argument("--theme", default="dark", help="dark, sunlight or night")
+    parser.add_argument("--pictures", type=Path, metavar="DIR", help="where the guide's pictures go as well")
     parser.add_argument("--window", action="store_true", help="in a window, to watch it")
     return parser.parse_args(argv)
 
@@ -46,6 +47,18 @@ def _prepare(size: str, *, window: bool) -> None:
         Config.set("graphics", key, value)
     for key, _ in Config.items("input"):
         Config.remove_option("input", key)
+
+
+GUIDE = {"connect-screen": "connect", "watching": "mission", "driving": "drive"}
+"""Pictures of the demo that the guide shows, and their names there."""
+
+
+def _keep_pictures(out: Path, folder: Path) -> None:
+    """Copy what the guide shows."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for step, name in GUIDE.items():
+        for picture in out.glob(f"*-{step}.png"):
+            shutil.copyfile(picture, folder / f"{name}-tablet.png")
 
 
 def _story(scene: Any, app: Any, record: Path) -> Generator[None, None, None]:
@@ -130,6 +143,8 @@ def main(argv: list[str] | None = None) -> int:
         print(
             f"demo: the robot side ended with exit code {left}; its words are in {arguments.out}/robot.log."
         )
+    if arguments.pictures and not code:
+        _keep_pictures(arguments.out, arguments.pictures)
     print(
         f"demo: {'all held' if not code else 'NOT all held'}; pictures and summary.json are in {arguments.out}"
     )

@@ -86,6 +86,9 @@ def watch(scene: Scene, since: float) -> Wait:
     """Watch until every point was visited; judge what the robot did and reported since `since` [s, robot clock]."""
     witness = scene.witness
     with scene.step("patrolled") as check:
+        yield from scene.glass.soon(lambda: _visited(scene) >= len(PATROL) - 2, LONGEST / scene.speed)
+        yield from scene.robot_time(8)
+        scene.report.snapshot("watching")
         visited = yield from scene.glass.soon(lambda: _visited(scene) >= len(PATROL), LONGEST / scene.speed)
         check(f"{len(PATROL)} points visited, as the robot says", _visited(scene), bool(visited))
         worst = max(witness.nearest(*point, since) for point in PATROL)
@@ -166,11 +169,11 @@ def drive(scene: Scene) -> Wait:
         yield from glass.pause(1.0)
     with scene.step("driven") as check:
         before = witness.truth
-        finger = _push(scene, stick, 0.5, 0.85)
-        yield from glass.soon(lambda: math.dist(witness.truth[1:3], before[1:3]) > 0.8, 8)
+        finger = _push(scene, stick, 0.25, 0.85)
+        yield from glass.soon(lambda: witness.driven(before[0]) > 1.0, 8)
         scene.report.snapshot("driving")
-        moved = math.dist(witness.truth[1:3], before[1:3])
-        check("the stick drives the robot [m, at least 0.5]", moved, moved >= 0.5)
+        moved = witness.driven(before[0])
+        check("the stick drives the robot [m, at least 0.8]", moved, moved >= 0.8)
         turned = abs(math.remainder(witness.truth[3] - before[3], math.tau))
         check("and turns it [rad, at least 0.2]", turned, turned >= 0.2)
         scene.hand.up(finger)

@@ -48,13 +48,17 @@ class RobotProcess:
             )
 
     def _read(self) -> None:
-        for line in self._process.stdout or ():
-            self._log.write(line)
-            self._log.flush()
-            match = READY.match(line)
-            if match:
-                self.url = match["bridge"]
-                self._ready.set()
+        words = self._process.stdout
+        if words is None:
+            return
+        with words:
+            for line in words:
+                self._log.write(line)
+                self._log.flush()
+                match = READY.match(line)
+                if match:
+                    self.url = match["bridge"]
+                    self._ready.set()
         self._ready.set()
 
     def close(self) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import threading
 from collections.abc import Iterable
+from itertools import pairwise
 from typing import Any
 
 from bridge.msgs import Msg
@@ -97,6 +98,10 @@ class Witness:
         """Farthest that the robot was from where it stood at `since` [m]."""
         poses = self.since(since)
         return max((math.dist(pose[1:3], poses[0][1:3]) for pose in poses), default=math.nan)
+
+    def driven(self, since: float) -> float:
+        """Length of the way since `since` [s, robot clock], in [m]."""
+        return sum(math.dist(one[1:3], two[1:3]) for one, two in pairwise(self.since(since)))
 
     def speed(self) -> float:
         """Over the last three true poses [m/s]; NaN before."""
