@@ -130,6 +130,7 @@ Builder.load_string("""
         font_name: theme.font
         font_size: sp(12.5)
         color: theme.text if root.active else theme.muted
+        disabled_color: self.color
 """)
 
 

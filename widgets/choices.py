@@ -48,6 +48,7 @@ Builder.load_string("""
     font_size: root.text_size_px
     bold: self.chosen
     color: theme.ink_accent if self.chosen else theme.text
+    disabled_color: self.color
     halign: 'center'
     valign: 'middle'
     text_size: self.width - dp(6), self.height

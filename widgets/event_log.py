@@ -50,6 +50,7 @@ LEVELS = {"warn": "warn", "alarm": "danger"}
 Builder.load_string("""
 <EventRow>:
     size_hint_y: None
+    padding: dp(2), 0, dp(9), 0
     spacing: dp(10)
     Icon:
         name: root.icon
@@ -65,6 +66,7 @@ Builder.load_string("""
         font_name: theme.font
         font_size: sp(13)
         color: theme.muted
+        disabled_color: self.color
         size_hint_x: None
         width: dp(44)
         text_size: self.size
@@ -179,7 +181,7 @@ class EventLog(RobotWidget, FloatLayout):
 
     def _row(self, event: Event) -> dict[str, Any]:
         name, role = look(event)
-        height = row_height(event.text, max(dp(60), self.width - sp(20) - dp(64)), sp(15))
+        height = row_height(event.text, max(dp(60), self.width - sp(20) - dp(75)), sp(15))
         when = ago(self.now - event.stamp.seconds)
         return {"icon": name, "role": role, "text": event.text, "when": when, "row_size": (None, height)}
 

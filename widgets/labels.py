@@ -6,7 +6,6 @@ from collections.abc import Callable
 
 from kivy.lang import Builder
 from kivy.properties import BooleanProperty, NumericProperty, StringProperty
-from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.label import Label
@@ -56,6 +55,7 @@ Builder.load_string("""
         font_size: root.font_size
         bold: True
         color: theme.roles[root.role]
+        disabled_color: self.color
         size_hint: None, None
         size: self.texture_size
     Label:
@@ -63,6 +63,7 @@ Builder.load_string("""
         font_name: theme.font
         font_size: root.unit_size
         color: theme.muted
+        disabled_color: self.color
         size_hint: None, None
         width: self.texture_size[0]
         height: root.font_size * 1.22
@@ -107,6 +108,7 @@ Builder.load_string("""
         font_name: theme.font
         font_size: sp(15)
         color: theme.roles[root.role] if root.outlined or root.tinted else theme.text
+        disabled_color: self.color
         size_hint: None, 1
         width: self.texture_size[0]
 """)
@@ -182,11 +184,11 @@ class Chip(ButtonBehavior, BoxLayout):
 
 
 def _row(*children: Widget, width: str = "360dp") -> Widget:
-    row = BoxLayout(spacing="10dp", size_hint=(None, None), width=width, height="56dp")
+    row = BoxLayout(spacing="14dp", size_hint=(None, None), width=width, height="56dp")
     for child in children:
-        holder = AnchorLayout(anchor_x="left")
-        holder.add_widget(child)
-        row.add_widget(holder)
+        child.pos_hint = {"center_y": 0.5}
+        row.add_widget(child)
+    row.add_widget(Widget())
     return row
 
 
@@ -205,5 +207,5 @@ def samples() -> dict[str, Callable[[], Widget]]:
             ValueUnit(value="—", unit="m"),
             ValueUnit(value="−12", unit="°", role="warn"),
         ),
-        "labels": lambda: _row(SectionLabel(title="Next WP"), Text(text="Dwell at each point", width=200)),
+        "labels": lambda: _row(SectionLabel(title="Next WP"), Text(text="Dwell at each point")),
     }

@@ -81,6 +81,7 @@ Builder.load_string("""
                 font_size: root.word_size
                 bold: True
                 color: theme.roles[root.ink]
+                disabled_color: self.color
                 size_hint: None, None
                 size: self.texture_size
                 pos_hint: {'center_x': .5, 'center_y': .5}
@@ -89,6 +90,7 @@ Builder.load_string("""
             font_name: theme.font
             font_size: root.sentence_size
             color: theme.roles[root.ink]
+            disabled_color: self.color
             size_hint: None, None
             size: self.texture_size if root.sentence else (0, 0)
             pos_hint: {'center_x': .5}

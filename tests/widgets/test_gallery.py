@@ -61,11 +61,14 @@ def test_no_text_is_cut_off(stage, title, state, build):
 
 
 @pytest.mark.parametrize("build", [b for _, _, b in SAMPLES], ids=[f"{t}-{s}" for t, s, _ in SAMPLES])
-def test_every_sample_follows_the_theme(stage, build):
-    stage.show(Exhibit("x", build()))
+def test_every_text_follows_the_theme_and_takes_no_colour_of_kivy(stage, build):
+    labels = of(stage.show(Exhibit("x", build())), Label)
     for name in PALETTES:
         theme.name = name
         stage.frames(2)
+        allowed = [list(colour) for colour in theme.roles.values()]
+        assert not [label.text for label in labels if list(label.color) not in allowed]
+        assert not [label.text for label in labels if list(label.disabled_color) != list(label.color)]
 
 
 def test_the_states_of_the_robot_widgets_are_all_shown():
