@@ -147,7 +147,11 @@ class LaserScanView(Drawing):
         known = ~np.isnan(measured)
         units = np.stack([np.cos(angles + AHEAD), np.sin(angles + AHEAD)], axis=1)
         rim = units * (np.minimum(np.where(known, measured, 0.0), self._reach) * scale)[:, None] + at
-        shapes.fan(*at, rim, known[1:] & known[:-1], tint(theme.accent, 0.17))
+        order = np.arange(len(rim))
+        if _goes_round(angles):
+            order = np.append(order, 0)
+        joined = known[order][1:] & known[order][:-1]
+        shapes.fan(*at, rim[order], joined, tint(theme.accent, 0.17))
         hit = known & (measured <= self._reach)
         shapes.discs(rim[hit], dp(2.3), self._colours(measured[hit]))
 
@@ -170,6 +174,13 @@ class LaserScanView(Drawing):
                 yield Word(
                     icon("warning"), right - sp(52), y, sp(16), colour, font=theme.icons, anchor=(0.5, 0.5)
                 )
+
+
+def _goes_round(angles: NDArray[np.float64]) -> bool:
+    """The last beam has the first for its neighbour."""
+    if len(angles) < 3:
+        return False
+    return math.tau - abs(angles[-1] - angles[0]) < 1.5 * abs(angles[1] - angles[0])
 
 
 def _farthest(measured: NDArray[np.float64], range_max: float) -> float:

@@ -22,7 +22,7 @@ __all__ = ["MBTiles"]
 
 A_FRAME = 6
 """Tiles read in one frame."""
-KEPT = 160
+KEPT = 96
 """Textures kept."""
 
 
@@ -52,6 +52,7 @@ class MBTiles(MapSource):
         if tile.state == "done":
             return
         if key in self._textures:
+            self._textures.move_to_end(key)
             self._hand_over(tile, self._textures[key])
         else:
             self._waiting.append(tile)

@@ -84,6 +84,26 @@ def test_free_space_ends_where_nothing_is_known(view, stage):
     assert see_through[indices].all(axis=1).sum() == 2
 
 
+@pytest.mark.parametrize(("half", "triangles"), [(math.pi, 8), (math.pi / 2, 7)])
+def test_only_a_sweep_all_round_is_closed(view, stage, half, triangles):
+    step = 2 * half / 8
+    scan = sweep(*[2.0] * 8, half=half)
+    view.show(
+        LaserScan(
+            angle_min=-half,
+            angle_max=half - step if half == math.pi else half,
+            angle_increment=step if half == math.pi else 2 * half / 7,
+            range_min=scan.range_min,
+            range_max=scan.range_max,
+            ranges=scan.ranges,
+        )
+    )
+    made = drawn(view, stage)
+    see_through = (made[:, 4] == EDGES) & (made[:, 11] < 0.5)
+    indices = np.asarray(view._ink._mesh.indices).reshape(-1, 3)
+    assert see_through[indices].all(axis=1).sum() == triangles
+
+
 def test_everything_stays_inside_the_card(view, stage):
     for scan in (sweep(2.0, 30.0, 2.0), sweep(*[9.0] * 90, half=math.pi), sweep(*[0.3] * 9, half=0.4)):
         view.show(scan)
