@@ -168,12 +168,12 @@ _BARE = re.compile(r"\b(NaN|Infinity)\b")
 def parse(text: str | bytes) -> Op:
     """The operation in one frame of text; ProtocolError with the first 80 characters when it is none."""
     try:
-        return _decoder().decode(text)
-    except (msgspec.MsgspecError, UnicodeError, RecursionError, OverflowError) as error:
+        return _decode(text)
+    except ProtocolError:
         repaired = _without_nan(text)
         if repaired is None:
-            raise ProtocolError(_explain(error, text)) from error
-    return parse(repaired)
+            raise
+    return _decode(repaired)
 
 
 def parse_binary(raw: bytes) -> BinaryPublish:
@@ -212,8 +212,15 @@ def arguments(raw: Raw, type: type[Msg]) -> Msg:
     return from_builtins(dict(zip(type.__struct_fields__, values, strict=False)), type)
 
 
+def _decode(text: str | bytes) -> Op:
+    try:
+        return _decoder().decode(text)
+    except (msgspec.MsgspecError, UnicodeError, RecursionError, OverflowError) as error:
+        raise ProtocolError(_explain(error, text)) from error
+
+
 def _without_nan(text: str | bytes) -> bytes | None:
-    """The same JSON with `null` where Python's own encoder writes NaN or Infinity; None if that is not its fault."""
+    """The same JSON with `null` where Python's own encoder writes NaN or Infinity; None when neither is there."""
     try:
         decoded = text if isinstance(text, str) else text.decode()
         if not _BARE.search(decoded):
@@ -221,7 +228,7 @@ def _without_nan(text: str | bytes) -> bytes | None:
         repaired = msgspec.json.encode(json.loads(decoded))
     except (ValueError, RecursionError, OverflowError, TypeError):
         return None
-    return None if _BARE.search(repaired.decode()) else repaired
+    return repaired
 
 
 _PLACE = re.compile(r"Expected `(?P<wanted>.+?)`, got `(?P<found>.+?)`(?: - at `\$\.?(?P<path>.*)`)?$")

@@ -91,6 +91,11 @@ def test_a_bare_nan_as_python_writes_it_counts_as_null():
     assert bytes(parse(text).msg) == b'{"linear":{"x":null,"y":null}}'
 
 
+def test_a_text_that_says_nan_stays_a_text_beside_a_bare_one():
+    op = parse('{"op":"publish","topic":"/x","msg":[NaN,"NaN"]}')
+    assert bytes(op.msg) == b'[null,"NaN"]'
+
+
 SENTENCES = {
     "hello": "This is not JSON: 'hello'.",
     "[1]": "An operation must be an object, not '[1]'.",

@@ -363,6 +363,7 @@ async def test_a_camera_sends_two_frames_ahead_and_then_the_newest_when_acknowle
             seen.append(frames.unpack(await viewer.ws.recv()).seq)
         for seq in (3, 4, 5):
             robot.publish_frame("front", picture(seq))
+            await (await viewer.ws.ping())
         for text in ("ack 77", "ack x", "hello", "ack 1"):
             await viewer.ws.send(text)
         seen.append(frames.unpack(await viewer.ws.recv()).seq)
