@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
+import sys
 import time
 import uuid
 from collections.abc import Callable, Sequence
@@ -52,6 +53,8 @@ LIST = 0.5
 """Between two looks at the list of robots [s]."""
 PICTURE_LIVES = 1.0
 """A camera that shows nothing new for longer is stale [s]."""
+SWITCH = 0.001
+"""How long one thread may keep the others waiting for Python [s]: drawing must not delay the network."""
 BACK = 27
 """Key code of Android's Back and of Escape."""
 
@@ -105,6 +108,7 @@ class PilothouseApp(App):
         self._pictures: list[float] = []
         """When the pictures of the last second came [s]."""
         self._picture_at = math.nan
+        self._drained = -math.inf
         self._camera_wanted: str | None = None
 
     # what tests and the demo look at
@@ -161,6 +165,7 @@ class PilothouseApp(App):
 
     def on_start(self) -> None:
         """Open the network and begin to look at the clock."""
+        sys.setswitchinterval(SWITCH)
         make = getattr(Clock, "create_trigger_free", None) if hasattr(Clock, "get_min_free_timeout") else None
         wake = (make or Clock.create_trigger)(lambda _: self._drain(), 0)
         self.mailbox = Mailbox(wake)
@@ -170,7 +175,7 @@ class PilothouseApp(App):
         if self._discover:
             self.nearby.start()
         self._events = [
-            Clock.schedule_interval(lambda _: self._drain(), GLASS),
+            Clock.schedule_interval(lambda _: self._look(), GLASS),
             Clock.schedule_interval(lambda _: self._beat(), BEAT),
             Clock.schedule_interval(lambda _: self._tick(), TICK),
             Clock.schedule_interval(lambda _: self._list(), LIST),
@@ -235,7 +240,13 @@ class PilothouseApp(App):
 
     # what comes in
 
+    def _look(self) -> None:
+        """Take in what is not urgent, unless something urgent has just brought it along: each time is a drawing."""
+        if self._now() - self._drained >= GLASS * 0.6:
+            self._drain()
+
     def _drain(self) -> None:
+        self._drained = self._now()
         for channel, post in self.mailbox.drain():
             self._deliver(channel, post)
 

@@ -32,8 +32,10 @@ EVENT, LINK, OUTCOME = "event", "link", "outcome"
 """Channels of the mailbox beside the topics: `Event`s, `LinkState`s and `Outcome`s, all queued."""
 UNUSED = ("/tf", "/joint_states", "/diagnostics", "/bumper")
 """Topics that no screen shows."""
-FASTEST = 33
-"""No stream is asked for more often than this [ms]: the glass shows no more."""
+FASTEST = 50
+"""No stream is asked for more often than this [ms]: the eye sees no more."""
+SILENT = 0.7
+"""A link on which nothing came for longer carries no drive commands [s]: they would arrive late, if at all."""
 BULKY = ("/scan", "/map")
 """Topics whose numbers travel as CBOR."""
 TICK = 0.05
@@ -76,6 +78,8 @@ class Link:
         self._events = EventStream(lambda event: mailbox.queue(EVENT, event, now()))
         self._on_picture = on_picture
         self._wake = asyncio.Event()
+        self._heard = -math.inf
+        self._answered = math.nan
         self._tasks: set[asyncio.Task[Any]] = set()
         self._running: concurrent.futures.Future[None] | None = None
         self._camera: CameraStream | None = None
@@ -104,6 +108,11 @@ class Link:
     def robot_time(self) -> float:
         """The robot's clock [s]; NaN while it is not known."""
         return self._client.robot_time()
+
+    @property
+    def silent(self) -> bool:
+        """Nothing came for a while, though the connection still stands: whoever drives has to push anew."""
+        return self._now() - self._heard > SILENT
 
     def start(self) -> None:
         """Connect, and go on reconnecting until `close`."""
@@ -182,16 +191,23 @@ class Link:
             except TimeoutError:
                 pass
             self._wake.clear()
-            if self.commands.stopping:
+            self._listen()
+            if self.commands.stopping or self.silent:
                 self._slot.want(Twist())
             twist = self._slot.due()
             if twist is not None:
                 stamp = self._client.robot_time()
                 self._client.publish("/cmd_vel", twist, stamp=None if math.isnan(stamp) else stamp)
 
+    def _listen(self) -> None:
+        """An answered ping is a sign of life as well."""
+        if self._client.rtt != self._answered:
+            self._answered, self._heard = self._client.rtt, self._now()
+
     def _on_state(self, state: LinkState) -> None:
         self._mailbox.queue(LINK, state, self._now())
         if state.phase is Phase.CONNECTED:
+            self._heard = self._now()
             self._keep(asyncio.get_running_loop().create_task(self._fetch_events()))
         else:
             self._slot.drop()
@@ -206,6 +222,7 @@ class Link:
             self._events.missed(answer.events)
 
     def _on_message(self, name: str, message: Msg, received: float) -> None:
+        self._heard = received
         if isinstance(message, ControlStatus) and message.stopped:
             self.commands.confirm_stop()
         self._mailbox.post(name, message, received)

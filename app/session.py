@@ -86,9 +86,9 @@ class Session:
 
     @property
     def may_drive(self) -> bool:
-        """The stick may be pushed: the link stands and nobody else has control."""
+        """The stick may be pushed: the link is alive, STOP is not pressed and nobody else has control."""
         status: ControlStatus | None = self.feeds.latest("/control/status")
-        return self.connected and self.control != "other" and not (status is not None and status.stopped)
+        return self.connected and not self.link.silent and self.control != "other" and not (status is not None and status.stopped)
 
     @property
     def stop_phase(self) -> str:
@@ -169,7 +169,10 @@ class Session:
             self._told_mission = None
 
     def _take_control(self) -> None:
-        if self.wants_control and not self._asked_control and self.control == "free":
+        """Ask once each time that control becomes free."""
+        if self.control != "free":
+            self._asked_control = False
+        elif self.wants_control and not self._asked_control:
             self._asked_control = True
             self.command("acquire")
 

@@ -156,7 +156,7 @@ Builder.load_string("""
                 orientation: 'vertical'
                 size_hint_y: None
                 height: self.minimum_height
-                padding: root.edge, dp(22)
+                padding: root.edge, dp(22) if notices.height else 0, root.edge, dp(22)
                 spacing: dp(22)
                 BoxLayout:
                     id: notices
@@ -164,10 +164,6 @@ Builder.load_string("""
                     size_hint_y: None
                     height: self.minimum_height
                     spacing: dp(10)
-                BoxLayout:
-                    id: hint
-                    size_hint_y: None
-                    height: self.minimum_height
                 GridLayout:
                     id: cards
                     cols: root.columns
@@ -319,9 +315,9 @@ class ConnectScreen(FloatLayout):
         self.nearby = f"{live} robot{'' if live == 1 else 's'} nearby" if live else "Looking for robots"
         self.nearby_short = f"{live} nearby" if live else "searching"
         if entries and self._hint.parent is not None:
-            self.ids.hint.remove_widget(self._hint)
+            self.ids.notices.remove_widget(self._hint)
         elif not entries and self._hint.parent is None:
-            self.ids.hint.add_widget(self._hint)
+            self.ids.notices.add_widget(self._hint)
 
     def _rebuild(self, entries: list[Entry]) -> None:
         known = {card.entry.url: card for card in self.cards}
@@ -340,14 +336,14 @@ class ConnectScreen(FloatLayout):
 
     def say(self, text: str, level: str = "info", on_tap: Callable[[], object] | None = None) -> None:
         """Show one sentence above the cards; empty takes it away. A tap takes it away and calls `on_tap`."""
+        if self._banner is not None and self._banner.parent is not None and not text:
+            self.ids.notices.remove_widget(self._banner)
         if not text:
-            self.ids.notices.clear_widgets()
             self._banner = None
             return
         if self._banner is None or self._banner.parent is None:
             self._banner = Banner(closable=True)
-            self.ids.notices.clear_widgets()
-            self.ids.notices.add_widget(self._banner)
+            self.ids.notices.add_widget(self._banner, index=len(self.ids.notices.children))
         self._banner.text, self._banner.level = text, level
         self._tap = on_tap
         self._banner.unbind(on_close=self._tapped)

@@ -1,0 +1,124 @@
+"""A robot on a real socket that records what it hears and answers as it is told."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from app.network import NetworkThread
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import (
+    CommandRequest,
+    CommandResponse,
+    ControlStatus,
+    Event,
+    GetEventsRequest,
+    GetEventsResponse,
+    Mission,
+    RobotInfo,
+    SetMissionRequest,
+    StartTaskRequest,
+)
+from bridge.server import BridgeServer, Service, Session
+
+__all__ = ["FakeRobot"]
+
+REQUESTS = {
+    "/stop": CommandRequest,
+    "/stop/release": CommandRequest,
+    "/task/pause": CommandRequest,
+    "/task/resume": CommandRequest,
+    "/task/cancel": CommandRequest,
+    "/task/go_home": CommandRequest,
+    "/control/acquire": CommandRequest,
+    "/control/release": CommandRequest,
+    "/task/start": StartTaskRequest,
+    "/mission/set": SetMissionRequest,
+}
+
+
+class FakeRobot:
+    """Serves on a free port of this machine; everything here may be called from the test's thread."""
+
+    def __init__(self) -> None:
+        self.network = NetworkThread("fake robot")
+        self.asked: list[tuple[str, CommandRequest]] = []
+        self.heard: list[tuple[str, Any]] = []
+        self.refusals: dict[str, str] = {}
+        """Service to the sentence that it refuses with."""
+        self.events: list[Event] = []
+        self.changed = threading.Condition()
+        self.port = 0
+        self.control = ControlStatus()
+        self._server: BridgeServer | None = None
+        self.start()
+
+    @property
+    def url(self) -> str:
+        return f"ws://127.0.0.1:{self.port}"
+
+    def start(self) -> None:
+        """Serve, on the port of before where there was one."""
+        services = [Service(name, "x/y", kind, CommandResponse, self._answer(name)) for name, kind in REQUESTS.items()]
+        services.append(Service("/events/get", "x/z", GetEventsRequest, GetEventsResponse, self._tell_events))
+        self._server = BridgeServer(services=services, on_message=self._hear)
+        self.network.start(self._server.start("127.0.0.1", self.port)).result(5)
+        self.port = self._server.port
+        self.publish("/robot/info", RobotInfo(name="Fake-1", kind="wheels", max_speed=0.8, max_yaw_rate=1.5))
+        self.publish("/mission", Mission())
+        self.publish("/control/status", self.control)
+
+    def stop(self) -> None:
+        """Stop serving, as a robot that is switched off."""
+        self.network.start(self._server.close()).result(5)
+
+    def close(self) -> None:
+        """End everything."""
+        self.stop()
+        self.network.close()
+
+    def publish(self, topic: str, message: Msg) -> None:
+        """Send a message to whoever subscribed."""
+        self.network.call(self._server.publish, topic, message)
+
+    def until(self, condition: Callable[[], Any], seconds: float = 10.0) -> bool:
+        """Wait until what was heard fulfils a condition; False when it never does."""
+        with self.changed:
+            return bool(self.changed.wait_for(condition, seconds))
+
+    def services(self) -> list[str]:
+        """Names of the services asked for, in order."""
+        return [name for name, _ in self.asked]
+
+    def twists(self) -> list[Twist]:
+        """Drive commands heard, in order."""
+        return [message for topic, message in self.heard if topic == "/cmd_vel"]
+
+    def _hear(self, session: Session, topic: str, message: Msg, stamp: float | None) -> None:
+        with self.changed:
+            self.heard.append((topic, message))
+            self.changed.notify_all()
+
+    def _answer(self, name: str) -> Callable[[Session, Any], CommandResponse]:
+        def call(session: Session, request: CommandRequest) -> CommandResponse:
+            with self.changed:
+                self.asked.append((name, request))
+                self.changed.notify_all()
+            refusal = self.refusals.get(name)
+            if refusal is None and name.startswith(("/stop", "/control")):
+                self._become(name, request)
+            return CommandResponse(success=refusal is None, message=refusal or "Done.")
+
+        return call
+
+    def _become(self, name: str, request: CommandRequest) -> None:
+        stopped = self.control.stopped if name.startswith("/control") else name == "/stop"
+        driver = {"/control/acquire": request.client_id, "/control/release": ""}.get(name, self.control.driver_id)
+        mode = "STOPPED" if stopped else "MANUAL"
+        self.control = ControlStatus(mode=mode, driver=driver, driver_id=driver, stopped=stopped)
+        self._server.publish("/control/status", self.control)
+
+    def _tell_events(self, session: Session, request: GetEventsRequest) -> GetEventsResponse:
+        return GetEventsResponse(events=[event for event in self.events if event.id > request.since])

@@ -1,0 +1,211 @@
+"""The link: messages come in, commands go out, and a cut cable leaves nothing old behind."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.feeds import Feeds, Mailbox, Post
+from app.link import Link
+from app.network import NetworkThread
+from app.session import Session
+from app.settings import Settings
+from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
+from bridge.msgs.pilothouse_msgs import ControlStatus, Event, Mission, Waypoint
+from tests.app.fakes import FakeRobot
+
+PATIENCE = 10.0
+"""A fault, not a delay, uses this up [s]."""
+AHEAD = Twist.planar(0.3, 0.0)
+
+
+class Operator:
+    """A session without glass: takes out what the mailbox holds until something is the case."""
+
+    def __init__(self, url: str, folder: Path, *, wants_control: bool) -> None:
+        self.network = NetworkThread()
+        self.mailbox = Mailbox(lambda: None)
+        self.settings = Settings(folder)
+        self.link = Link(url, self.mailbox, self.network, client_id="me", client_name="tablet")
+        self.session = Session(
+            self.link, Feeds(time.monotonic), self.settings, now=time.monotonic, client_id="me", wants_control=wants_control
+        )
+        self.said: list[tuple[str, Any]] = []
+        self.session.listeners.append(lambda channel, post: self.said.append((channel, post.value)))
+        self.link.start()
+
+    def until(self, condition: Callable[[], Any], *, beating: bool = True) -> None:
+        end = time.monotonic() + PATIENCE
+        while not condition():
+            assert time.monotonic() < end, f"never came; last was {self.said[-3:]}"
+            self.turn(beating=beating)
+
+    def turn(self, *, beating: bool = True) -> None:
+        if beating:
+            self.link.beat()
+        for channel, post in self.mailbox.drain():
+            self.session.deliver(channel, post)
+
+    def texts(self) -> list[str]:
+        return [value.text for channel, value in self.said if channel == "event"]
+
+    def close(self) -> None:
+        self.link.close()
+        self.network.close()
+        self.settings.close()
+
+
+@pytest.fixture
+def robot() -> Iterator[FakeRobot]:
+    robot = FakeRobot()
+    yield robot
+    robot.close()
+
+
+@pytest.fixture
+def connect(robot: FakeRobot, tmp_path: Path) -> Iterator[Callable[..., Operator]]:
+    made: list[Operator] = []
+
+    def one(*, wants_control: bool = True) -> Operator:
+        made.append(Operator(robot.url, tmp_path, wants_control=wants_control))
+        return made[-1]
+
+    yield one
+    for operator in made:
+        operator.close()
+
+
+def test_who_connects_takes_control_where_it_is_free(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+    operator = connect()
+    operator.until(lambda: operator.session.control == "mine")
+    assert robot.services() == ["/control/acquire"]
+    assert operator.session.name == "Fake-1"
+
+
+def test_who_watches_asks_for_nothing(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+    operator = connect(wants_control=False)
+    operator.until(lambda: operator.session.control == "free")
+    assert robot.services() == []
+
+
+def test_control_of_another_is_not_taken_and_forbids_the_stick(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+    robot.control = ControlStatus(driver="tablet-B", driver_id="b")
+    robot.publish("/control/status", robot.control)
+    operator = connect()
+    operator.until(lambda: operator.session.control == "other")
+    assert not operator.session.may_drive
+    assert robot.services() == []
+    robot.publish("/control/status", ControlStatus())
+    operator.until(lambda: robot.services() == ["/control/acquire"])
+
+
+def test_a_refusal_is_told_with_the_robots_reason(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+    robot.refusals["/task/start"] = "The mission has no points."
+    operator = connect()
+    operator.until(lambda: operator.session.control == "mine")
+    operator.session.command("start")
+    operator.until(lambda: "start" in operator.session.outcomes and operator.session.outcomes["start"].phase == "refused")
+    assert operator.session.outcomes["start"].sentence == "Refused: start patrol. The mission has no points."
+
+
+def test_a_sent_draft_is_stored_only_when_the_robot_accepts_it(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+    operator = connect()
+    operator.until(lambda: operator.session.control == "mine" and operator.session.mission.stored is not None)
+    operator.session.mission.add(1.0, 2.0)
+    robot.refusals["/mission/set"] = "Point 1 is inside a wall."
+    operator.session.send_mission()
+    assert operator.session.mission.state == "sent"
+    operator.until(lambda: operator.session.mission.state == "draft")
+    assert "inside a wall" in operator.session.mission.outcome
+    robot.refusals.clear()
+    operator.session.send_mission()
+    operator.until(lambda: operator.session.mission.state == "stored")
+
+
+def test_a_draft_of_yesterday_is_there_again_and_not_replaced(
+    robot: FakeRobot, connect: Callable[..., Operator], tmp_path: Path
+) -> None:
+    first = connect()
+    first.until(lambda: first.session.mission.stored is not None)
+    first.session.mission.add(3.0, 4.0)
+    first.close()
+    robot.publish("/mission", Mission(waypoints=[Waypoint(9.0, 9.0)]))
+    second = connect()
+    second.until(lambda: second.session.mission.stored is not None)
+    assert second.session.mission.draft.points == ((3.0, 4.0),)
+    assert second.session.mission.state == "draft"
+
+
+def test_stop_is_confirmed_by_the_robot_and_lets_the_stick_go(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+    operator = connect()
+    operator.until(lambda: operator.session.control == "mine")
+    operator.link.drive(AHEAD)
+    operator.until(lambda: AHEAD in robot.twists())
+    operator.link.stop()
+    operator.until(lambda: operator.session.stop_phase == "stopped")
+    operator.until(lambda: robot.twists()[-3:] == [Twist()] * 3)
+    assert robot.services().count("/stop") >= 1
+    assert not operator.session.may_drive
+    operator.session.command("stop_release")
+    operator.until(lambda: operator.session.stop_phase == "ready")
+
+
+def test_a_frozen_glass_stops_the_robot(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+    operator = connect()
+    operator.until(lambda: operator.session.control == "mine")
+    operator.link.drive(AHEAD)
+    operator.until(lambda: AHEAD in robot.twists())
+    operator.until(lambda: robot.twists()[-3:] == [Twist()] * 3, beating=False)
+
+
+def test_after_a_lost_link_everything_comes_back_but_the_old_drive_command(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
+    robot.events = [Event(id=1, boot="a", text="one")]
+    operator = connect()
+    operator.until(lambda: operator.session.control == "mine" and operator.texts() == ["one"])
+    operator.session.mission.add(1.0, 1.0)
+    operator.link.drive(AHEAD)
+    operator.until(lambda: AHEAD in robot.twists())
+    robot.stop()
+    operator.until(lambda: not operator.session.connected)
+    assert operator.session.feeds.state("/control/status") == "stale"
+    assert operator.session.control == "unknown"
+    assert operator.session.link_state.sentence
+    robot.heard.clear()
+    robot.events.append(Event(id=2, boot="a", text="two"))
+    robot.control = ControlStatus()
+    robot.start()
+    operator.until(lambda: operator.session.control == "mine" and operator.texts() == ["one", "two"])
+    assert robot.twists() == []
+    assert operator.session.mission.draft.points == ((1.0, 1.0),)
+
+
+def test_a_stream_is_live_and_goes_stale(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+    operator = connect()
+    operator.until(lambda: operator.session.connected)
+    robot.publish("/pose", PoseWithCovarianceStamped())
+    operator.until(lambda: operator.session.feeds.state("/pose") == "live")
+    operator.until(lambda: operator.session.feeds.state("/pose") == "stale")
+
+
+def test_the_place_told_by_the_operator_reaches_the_robot(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+    operator = connect()
+    operator.until(lambda: operator.session.connected)
+    operator.session.place_robot(1.0, 2.0, 0.5)
+    assert robot.until(lambda: any(topic == "/initialpose" for topic, _ in robot.heard))
+    pose = next(message for topic, message in robot.heard if topic == "/initialpose")
+    assert (pose.pose.pose.position.x, pose.pose.pose.position.y) == (1.0, 2.0)
+    assert pose.pose.pose.orientation.yaw == pytest.approx(0.5)
+    assert pose.header.frame_id == "map"
+
+
+def test_events_heard_by_nobody_are_kept_for_who_comes_later(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+    operator = connect()
+    operator.session.listeners.clear()
+    operator.session.deliver("event", Post(Event(id=1, text="early"), 0.0, 1))
+    assert [post.value.text for post in operator.session.early] == ["early"]
