@@ -69,12 +69,13 @@ def child(module: str, *arguments: str, environment: Mapping[str, str] | None = 
 
 
 def _end(process: subprocess.Popen[str]) -> None:
-    for stream in (process.stdin, process.stdout):
-        if stream:
-            stream.close()
+    if process.stdin:
+        process.stdin.close()
     for patience, harder in ((GRACE, process.terminate), (PATIENCE, process.kill)):
         try:
             process.wait(patience)
         except subprocess.TimeoutExpired:
             harder()
     process.wait()
+    if process.stdout:
+        process.stdout.close()

@@ -21,6 +21,8 @@ def percentile(values: Iterable[float], share: float) -> float:
     place = share * (len(ordered) - 1)
     below = math.floor(place)
     above = min(below + 1, len(ordered) - 1)
+    if ordered[below] == ordered[above] or place == below:  # the second also where what follows is infinite
+        return ordered[below]
     return ordered[below] + (place - below) * (ordered[above] - ordered[below])
 
 

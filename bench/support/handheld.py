@@ -1,6 +1,7 @@
-"""`python -m bench.support.handheld --started T [--bare] [--frame-loop] [--json-camera]`: the real app, told what to do.
+"""`python -m bench.support.handheld --started T [--size WxH] [--bare] [--frame-loop] [--json-camera]`: the real app,
+told what to do.
 
-It draws off screen, 1280 x 800. `T` is the parent's `time.monotonic()` [s] just before it made this process; the first
+It draws off screen. `T` is the parent's `time.monotonic()` [s] just before it made this process; the first
 line says how long after that the first frame was drawn. Then each line of JSON on the standard input, as in
 `{"do": "connect", "url": "ws://…"}`, is answered by one. At the end of the input the app stops.
 
@@ -38,6 +39,7 @@ def options() -> argparse.Namespace:
     """What the command line asks for."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--started", type=float, required=True)
+    parser.add_argument("--size", default="1280x800")
     for flag in ("--bare", "--frame-loop", "--json-camera"):
         parser.add_argument(flag, action="store_true")
     return parser.parse_args()
@@ -53,7 +55,7 @@ def prepare(asked: argparse.Namespace) -> None:
         os.environ["KIVY_CLOCK"] = "default"
     from app.__main__ import prepare as prepare_app
 
-    prepare_app("1280x800")
+    prepare_app(asked.size)
 
 
 def say(value: object) -> None:
@@ -82,7 +84,8 @@ class Script:
 
     def __init__(self, app: Any) -> None:
         self.app = app
-        self.commands: list[tuple[float, float, float]] = []
+        self.commands: list[tuple[float, ...]] = []
+        self.touched = (0.0, 0.0)
         self.pictures: list[tuple[float, float]] = []
 
     def connect(self, url: str) -> dict[str, Any]:
@@ -102,12 +105,18 @@ class Script:
         drive = self.app.shell.screens["drive"]
         if not self.commands and not hasattr(drive, "bench"):
             drive.bench = True
-            drive.stick.bind(on_command=self._commanded)
+            drive.stick.bind(on_command=self._commanded, on_touch_move=self._touched)
             drive.show_picture = self._watched(drive.show_picture)
         return True
 
+    def _touched(self, _: object, touch: Any) -> None:
+        from kivy.core.window import Window
+
+        if touch.grab_current is not None:
+            self.touched = touch.sx * Window.width, (1 - touch.sy) * Window.height
+
     def _commanded(self, _: object, twist: Any) -> None:
-        self.commands.append((time.monotonic(), twist.linear.x, twist.angular.z))
+        self.commands.append((time.monotonic(), *self.touched, twist.linear.x, twist.angular.z))
 
     def _watched(self, show: Callable[..., None]) -> Callable[..., None]:
         def show_picture(picture: Any, *args: Any) -> None:
@@ -125,7 +134,7 @@ class Script:
         return late + ([] if self.pictures else ["picture"])
 
     def finger(self, count: int, seed: int) -> dict[str, Any]:
-        """Move the stick `count` times; gives when the finger moved and what the stick commanded then."""
+        """Move the stick `count` times; gives when and whereto the finger moved, and what the stick commanded when."""
         from bench.support.finger import Finger
 
         finger, rng = Finger(), random.Random(seed)
@@ -137,9 +146,9 @@ class Script:
         for _ in range(count):
             time.sleep(rng.uniform(*BETWEEN))
             turn, reach = rng.uniform(0, math.tau), rng.uniform(0.3, REACH) * radius
-            at = time.monotonic()
-            finger.move(round(x + reach * math.cos(turn)), round(y + reach * math.sin(turn)))
-            moved.append(at)
+            place = round(x + reach * math.cos(turn)), round(y + reach * math.sin(turn))
+            moved.append((time.monotonic(), *place))
+            finger.move(*place)
         time.sleep(0.3)
         commands = list(self.commands)
         finger.up(x, y)

@@ -19,6 +19,8 @@ def test_a_percentile_between_two_values_is_linear():
     assert percentile([0, 10], 0.25) == 2.5
     assert percentile([7], 0.99) == 7
     assert math.isnan(percentile([], 0.5))
+    assert percentile([1, 2, math.inf], 0.5) == 2
+    assert percentile([1, math.inf, math.inf], 0.9) == math.inf
 
 
 @given(st.lists(finite, min_size=1, max_size=40), st.floats(0, 1))

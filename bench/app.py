@@ -1,0 +1,62 @@
+"""The app itself, off screen on 1280 x 800, with a robot side in a process of its own.
+
+The first frame counts from just before the process is made. "Live" counts from Connect until every widget of the drive
+screen shows something fresh and the first picture is there. The main thread's share is its own CPU time
+(`time.thread_time` in the UI thread) over 15 s with all streams of the drive screen; what the software GL's thread
+spends on pixels, which a GPU does on a device, is not in it and is told as the process's share. Memory is the resident
+set after that, software GL included. The other way is a Kivy app with one button.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from bench.support.figures import Figure
+from bench.support.harness import Context, Sides
+from bench.support.pair import SETTLING, app, pair
+
+BARE = "Kivy with one button"
+FIGURES = (
+    Figure("first_frame", "s", "process start to first frame", target=2, against=BARE),
+    Figure("live", "s", "Connect to every widget live", target=2),
+    Figure("main_thread", "% of a core", "main thread, drive screen live", target=20),
+    Figure("process", "% of a core", "the whole process, software GL included"),
+    Figure("frames", "1/s", "frames drawn meanwhile", better="more"),
+    Figure("memory", "MB", "resident, drive screen live", target=200, against=BARE),
+)
+REPEATS = 1
+WATCHED = 15.0
+"""[s]"""
+
+
+@contextmanager
+def prepare(_: Context) -> Iterator[Sides]:
+    """Nothing is kept."""
+    yield Sides(ours, bare)
+
+
+def ours() -> dict[str, float]:
+    """One sample of every figure; RuntimeError when a widget stays dark."""
+    with pair() as both:
+        connected = both.ask("connect", url=both.url)
+        if connected["waiting"]:
+            raise RuntimeError(
+                f"Not live after {connected['live']:.0f} s: {', '.join(connected['waiting'])}."
+            )
+        both.ask("watch", seconds=SETTLING)
+        seen = both.ask("watch", seconds=WATCHED)
+        return {
+            "first_frame": both.started["first_frame"],
+            "live": connected["live"],
+            "main_thread": seen["main"] * 100,
+            "process": seen["process"] * 100,
+            "frames": seen["frames"],
+            "memory": seen["rss"] / 1e6,
+        }
+
+
+def bare() -> dict[str, float]:
+    """What Kivy alone takes."""
+    with app("--bare") as (_, started):
+        return {"first_frame": started["first_frame"], "memory": started["rss"] / 1e6}
