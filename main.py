@@ -7,4 +7,7 @@ import sys
 from app.__main__ import main
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:  # Ctrl-C in the terminal it was started from is a way to close it
+        sys.exit(0)

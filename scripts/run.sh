@@ -9,7 +9,11 @@ if [ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
     exec "$python" -m examples.demo --out out/demo
 fi
 
-"$python" -m robotside serve --robot "sim:${ROBOT:-patrol}" --world "${WORLD:-parking_lot}" &
+# Prints the port if nothing listens there, else 0, which takes any that is free.
+free() { if (exec 3<>"/dev/tcp/127.0.0.1/$1") 2>/dev/null; then echo 0; else echo "$1"; fi; }
+
+"$python" -m robotside serve --robot "sim:${ROBOT:-patrol}" --world "${WORLD:-parking_lot}" \
+    --port "$(free 9090)" --http-port "$(free 8080)" &
 robot=$!
 # SIGTERM lets the robot side bring the robot to rest and end with 0
 trap 'kill -TERM $robot 2>/dev/null; wait $robot || true' EXIT
