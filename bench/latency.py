@@ -83,17 +83,10 @@ def delays(moved: Rows, commands: Rows, port: Rows) -> tuple[list[float], list[f
 
 def followed(causes: Sequence[Sample], effects: Sequence[Sample], slack: float) -> list[float]:
     """When each cause had its effect [s]: the first one after it with the same numbers within `slack`, or a later cause's."""
-    found: list[float] = []
-    first = 0
+    found = []
     for at, numbers in causes:
-        fits = (
-            i
-            for i in range(first, len(effects))
-            if effects[i][0] >= at and _near(effects[i][1], numbers, slack)
-        )
-        index = next(fits, None)
-        first = first if index is None else index
-        found.append(math.inf if index is None else effects[index][0])
+        fits = (when for when, what in effects if when >= at and _near(what, numbers, slack))
+        found.append(next(fits, math.inf))
     for index in reversed(range(len(found) - 1)):
         found[index] = min(found[index], found[index + 1])
     return found

@@ -40,6 +40,12 @@ def test_what_never_came_is_infinitely_late():
     assert whole == [math.inf]
 
 
+def test_an_overtaken_cause_does_not_wait_for_the_same_numbers_much_later():
+    causes = [(1.0, [7.0]), (1.1, [8.0]), (1.2, [9.0]), (5.0, [7.0])]
+    effects = [(1.12, [8.0]), (1.21, [9.0]), (5.01, [7.0])]
+    assert followed(causes, effects, 0.0) == [1.12, 1.12, 1.21, 5.01]
+
+
 def test_an_effect_before_its_cause_is_not_its_own():
     assert followed([(1.0, [7])], [(0.9, [7]), (1.3, [7])], 0.0) == [1.3]
 
