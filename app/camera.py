@@ -66,7 +66,8 @@ def _pillow(module: object) -> Decoder:
 def _kivy(jpeg: bytes) -> tuple[int, int, bytes]:
     from kivy.core.image import ImageLoader
 
-    (data,) = ImageLoader.load(io.BytesIO(jpeg), rawdata=io.BytesIO(jpeg), ext="jpg", inline=True, nocache=True)._data
+    able = next(one for one in ImageLoader.loaders if one.can_load_memory() and "jpg" in one.extensions())
+    (data,) = able("frame.jpg", ext="jpg", rawdata=io.BytesIO(jpeg), inline=True, nocache=True, keep_data=True)._data
     pixels = data.data
     if data.fmt == "rgb":
         import numpy as np

@@ -148,6 +148,7 @@ class Session:
         if self.connected:
             self.ever_connected = True
             self._asked_control = False
+            self._take_control()
 
     def _outcome(self, outcome: Outcome) -> None:
         self.outcomes[outcome.name] = outcome
@@ -170,6 +171,8 @@ class Session:
 
     def _take_control(self) -> None:
         """Ask once each time that control becomes free."""
+        if self.control == "unknown":
+            return
         if self.control != "free":
             self._asked_control = False
         elif self.wants_control and not self._asked_control:

@@ -1,0 +1,42 @@
+"""The command line: a mistake is one sentence and exit code 2, before any window opens."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from app.__main__ import main
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["http://10.0.0.3"], "An address begins with ws:// or wss://, not http://."),
+        (["ws://10.0.0.3:99999"], "ws://10.0.0.3:99999 has no valid port: it is a number from 1 to 65535."),
+        (["--layout", "boat"], "There is no layout 'boat'; there are: patrol."),
+        (["--size", "large"], "A size is written as 412x892, not 'large'."),
+        (["--colour"], "Unrecognized arguments: --colour."),
+    ],
+)
+def test_a_mistake_is_one_sentence(arguments: list[str], sentence: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(arguments) == 2
+    assert capsys.readouterr().err == f"{sentence}\n"
+
+
+@pytest.mark.parametrize("option", ["--screen", "--theme"])
+def test_a_wrong_choice_names_what_is_allowed(option: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([option, "nothing"]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "choose from" in said
+
+
+def test_a_mistake_is_said_without_starting_kivy() -> None:
+    code = "import sys; from app.__main__ import main; main(['--layout', 'x']); sys.exit('kivy' in sys.modules)"
+    done = subprocess.run([sys.executable, "-OO", "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stderr.count("\n")) == (0, 1)
