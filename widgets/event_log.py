@@ -50,8 +50,8 @@ LEVELS = {"warn": "warn", "alarm": "danger"}
 Builder.load_string("""
 <EventRow>:
     size_hint_y: None
-    padding: dp(2), 0, dp(9), 0
-    spacing: dp(10)
+    padding: 0, 0, dp(7), 0
+    spacing: dp(8)
     Icon:
         name: root.icon
         role: root.role
@@ -59,7 +59,7 @@ Builder.load_string("""
         pos_hint: {'center_y': .5}
     Text:
         text: root.text
-        font_size: sp(15)
+        font_size: sp(14.5)
         pos_hint: {'center_y': .5}
     Label:
         text: root.when
@@ -68,7 +68,7 @@ Builder.load_string("""
         color: theme.muted
         disabled_color: self.color
         size_hint_x: None
-        width: dp(44)
+        width: dp(38)
         text_size: self.size
         halign: 'right'
         valign: 'middle'
@@ -181,7 +181,7 @@ class EventLog(RobotWidget, FloatLayout):
 
     def _row(self, event: Event) -> dict[str, Any]:
         name, role = look(event)
-        height = row_height(event.text, max(dp(60), self.width - sp(20) - dp(75)), sp(15))
+        height = row_height(event.text, max(dp(60), self.width - sp(20) - dp(61)), sp(14.5))
         when = ago(self.now - event.stamp.seconds)
         return {"icon": name, "role": role, "text": event.text, "when": when, "row_size": (None, height)}
 

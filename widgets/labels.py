@@ -76,7 +76,7 @@ Builder.load_string("""
     height: dp(34)
     width: self.minimum_width
     padding: dp(13), 0
-    spacing: dp(8)
+    spacing: dp(8) if root.icon else 0
     canvas.before:
         Color:
             rgba: theme.roles[root.role] if root.outlined else theme.line
@@ -207,5 +207,5 @@ def samples() -> dict[str, Callable[[], Widget]]:
             ValueUnit(value="—", unit="m"),
             ValueUnit(value="−12", unit="°", role="warn"),
         ),
-        "labels": lambda: _row(SectionLabel(title="Next WP"), Text(text="Dwell at each point")),
+        "labels": lambda: _row(SectionLabel(title="Next WP"), Text(text="Driving to point 3.", size_hint_x=2)),
     }
