@@ -29,12 +29,15 @@ from robotside.tasks import Engine, Task
 from robotside.watch import Watch
 from robotside.whereabouts import Whereabouts
 
-__all__ = ["CAMERA", "GO_HOME_BELOW", "Autonomy"]
+__all__ = ["CAMERA", "LOW_BELOW", "Autonomy"]
 
 CAMERA = "/camera/image/compressed"
 
 GO_HOME_BELOW = 0.10
 """A patrol ends and the robot goes home when the battery has less than this left, 0 to 1."""
+
+LOW_BELOW = 0.15
+"""A battery with less than this left is low: it is said, and no patrol is started, 0 to 1."""
 
 SILENCE = 0.6
 """Odometry or laser silent for this long means that the robot must not drive by itself [s]."""
@@ -148,6 +151,8 @@ class Autonomy:
             self.watch.take_image(image, placing=self.whereabouts.sure)
 
     def _battery(self, msg: BatteryState) -> None:
+        if msg.percentage < LOW_BELOW <= self.battery:
+            self._events.say("battery", f"Battery low: {msg.percentage:.0%}.", "warn")
         self.battery = msg.percentage
         if not (self.battery < GO_HOME_BELOW and self.engine.running and self.engine.status.task == "patrol"):
             return

@@ -23,14 +23,12 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from bridge.msgs.std_msgs import Time
 from bridge.server import Service, Session
+from robotside.autonomy import LOW_BELOW
 from robotside.commands import Commands, Refusal
 from robotside.controls import STOP_SENTENCE, Client
 from robotside.station import Station
 
 __all__ = ["services"]
-
-START_ABOVE = 0.15
-"""Battery needed to start a patrol, 0 to 1."""
 
 MOTIONS = ("loop", "random", "intermittent")
 MOST_POINTS = 500
@@ -212,8 +210,8 @@ class _Orders:
 
     def _check_battery(self) -> None:
         battery = self._station.autonomy.battery
-        if battery < START_ABOVE:
-            raise Refusal(f"The battery is at {battery:.0%}; a patrol needs at least {START_ABOVE:.0%}.")
+        if battery < LOW_BELOW:
+            raise Refusal(f"The battery is at {battery:.0%}; a patrol needs at least {LOW_BELOW:.0%}.")
 
     def _check_places(self, mission: Mission) -> None:
         for number, point in enumerate(mission.waypoints, 1):

@@ -18,7 +18,7 @@ from bridge.msgs.geometry_msgs import PoseStamped, PoseWithCovarianceStamped, Tw
 from bridge.msgs.nav_msgs import OccupancyGrid
 from bridge.msgs.pilothouse_msgs import ControlStatus, IntruderArray, Mission, Waypoint
 from bridge.msgs.std_msgs import Header, Time
-from robotside.autonomy import Autonomy
+from robotside.autonomy import LOW_BELOW, Autonomy
 from robotside.bus import Bus
 from robotside.controls import STOP_SENTENCE, Client, Controls
 from robotside.demand import Demand
@@ -231,7 +231,7 @@ class Station:
 
     def _diagnostics(self) -> DiagnosticArray:
         where, battery = self.autonomy.whereabouts, self.autonomy.battery
-        low = battery < 0.15
+        low = battery < LOW_BELOW
         status = [
             DiagnosticStatus(0 if where.sure else 1, "position", _fit_sentence(where.fit)),
             DiagnosticStatus(1 if low else 0, "battery", "low" if low else "good"),

@@ -27,6 +27,7 @@ from bridge.msgs.pilothouse_msgs import (
     Event,
     GetEventsRequest,
     GetMissionRequest,
+    IntruderArray,
     Mission,
     SetMissionRequest,
     StartTaskRequest,
@@ -34,11 +35,14 @@ from bridge.msgs.pilothouse_msgs import (
     TaskStatus,
     Waypoint,
 )
+from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.msgs.std_msgs import Header, Time
 from bridge.topics import TOPICS
 from robotside.orders import services
 from robotside.station import Station
 from robotside.store import Store
 from tests.fakes import Box, FakeClient, FakeRobot, Pillar
+from tests.robotside.test_detect import cone, jpeg, picture
 
 TICK = 1 / 60
 SQUARE = [Waypoint(4.0, 0.0), Waypoint(4.0, 3.0), Waypoint(-2.0, 3.0)]
@@ -374,7 +378,7 @@ def test_an_empty_battery_sends_the_robot_home_by_itself(scene: Scene) -> None:
     scene.robot.battery = 0.09
     scene.run(1.1)
     assert scene.task.task == "go_home"
-    assert scene.events("battery") == ["Battery at 9%: going home."]
+    assert scene.events("battery") == ["Battery low: 9%.", "Battery at 9%: going home."]
     assert scene.run_task().reason == "Home."
 
 
@@ -476,6 +480,24 @@ def test_the_camera_is_wanted_only_while_a_task_runs(scene: Scene) -> None:
     assert scene.robot.wanted["/camera/image/compressed"]
     scene.run_task()
     assert not scene.robot.wanted["/camera/image/compressed"]
+
+
+@pytest.mark.parametrize("stop", [True, False])
+def test_an_intruder_is_told_once_and_halts_the_patrol_if_asked(scene: Scene, stop: bool) -> None:
+    image, draw = picture()
+    focal = 320 / math.tan(0.6)
+    cone(draw, 320, 240 + focal * 0.36 / 3.0, 0.6 * focal / 3.0)
+    scene.set(Waypoint(6.0, -4.0), stop_on_intruder=stop)
+    scene.start()
+    scene.run(0.1)
+    for n in range(5):
+        shot = CompressedImage(Header(Time.at(scene.now - 0.5 + 0.21 * n), "camera"), "jpeg", jpeg(image))
+        scene.station.autonomy.take("/camera/image/compressed", shot, scene.now)
+    assert len(scene.events("intruder")) == 1
+    known = scene.station.bus.last("/intruders")
+    assert isinstance(known, IntruderArray)
+    assert [intruder.id for intruder in known.intruders] == [1]
+    assert scene.task.state == ("PAUSED" if stop else "RUNNING")
 
 
 def test_a_map_with_a_damaged_mission_file_starts_empty_and_says_so(tmp_path: Path) -> None:
