@@ -90,10 +90,12 @@ class _Orders:
         return _service(name, kind, request, CommandResponse, call)
 
     def stop(self, client: Client, _: CommandRequest) -> str:
+        """Latch STOP."""
         self._station.press_stop(self._station.controls.name(client))
         return "Stopped."
 
     def release_stop(self, client: Client, _: CommandRequest) -> str:
+        """Unlatch STOP."""
         self._need_control(client)
         if not self._station.controls.stopped:
             return "STOP was not pressed."
@@ -101,16 +103,19 @@ class _Orders:
         return "STOP is released."
 
     def acquire(self, client: Client, _: CommandRequest) -> str:
+        """Take control."""
         self._need_control(client)
         return "You have control."
 
     def release(self, client: Client, _: CommandRequest) -> str:
+        """Give control back."""
         problem = self._station.release_control(client)
         if problem:
             raise Refusal(problem)
         return "Control is free."
 
     def start(self, client: Client, asked: StartTaskRequest) -> str:
+        """Start a task on the stored mission."""
         if asked.task == "go_home":
             return self.go_home(client, asked)
         if asked.task != "patrol":
@@ -131,6 +136,7 @@ class _Orders:
         return f"Patrol started: {count} {'point' if count == 1 else 'points'}, {mission.motion}."
 
     def go_home(self, client: Client, _: CommandRequest) -> str:
+        """Go to the stored home, whatever it is doing."""
         self._may_move(client)
         station = self._station
         if not station.mission.home:
@@ -142,6 +148,7 @@ class _Orders:
         return "Going home."
 
     def pause(self, client: Client, _: CommandRequest) -> str:
+        """Hold the running task."""
         self._need_control(client)
         engine = self._station.autonomy.engine
         if engine.paused:
@@ -152,6 +159,7 @@ class _Orders:
         return "Paused."
 
     def resume(self, client: Client, _: CommandRequest) -> str:
+        """Go on with the paused task."""
         self._may_move(client)
         engine = self._station.autonomy.engine
         if engine.running:
@@ -163,6 +171,7 @@ class _Orders:
         return "Resumed."
 
     def cancel(self, client: Client, _: CommandRequest) -> str:
+        """End the task."""
         self._need_control(client)
         engine = self._station.autonomy.engine
         if not engine.active:
@@ -171,6 +180,7 @@ class _Orders:
         return "Canceled."
 
     def set_mission(self, client: Client, asked: SetMissionRequest) -> str:
+        """Check a mission and store it."""
         problem = self._station.controls.objection(client)
         if problem:
             raise Refusal(problem)
@@ -189,11 +199,13 @@ class _Orders:
         return f"Stored {count} {'point' if count == 1 else 'points'}{later}."
 
     def mission(self, _: Client, __: GetMissionRequest) -> GetMissionResponse:
+        """Give the stored mission."""
         mission = self._station.mission
         stored = mission.stamp.seconds > 0
         return GetMissionResponse(True, "" if stored else "No mission was stored yet.", mission)
 
     def events(self, _: Client, asked: GetEventsRequest) -> GetEventsResponse:
+        """Give the events that a client missed."""
         return GetEventsResponse(self._station.events.since(asked.since, asked.boot))
 
     def _need_control(self, client: Client) -> None:

@@ -1,0 +1,31 @@
+"""The robot's clock beside real time."""
+
+from __future__ import annotations
+
+import pytest
+
+from robotside.clock import MOST, RobotClock
+
+
+def test_the_robots_clock_follows_real_time_at_its_speed() -> None:
+    clock = RobotClock(100.0, speed=4.0)
+    assert clock.tick(100.1) == pytest.approx(100.4)
+    assert clock.tick(100.2) == pytest.approx(100.8)
+
+
+def test_after_a_long_halt_little_is_made_good_at_once_and_the_rest_slowly() -> None:
+    clock = RobotClock(100.0)
+    assert clock.tick(110.0) - 100.0 <= MOST * 1.1 + 1e-9
+    before = clock.now
+    assert clock.tick(110.1) - before == pytest.approx(0.11)
+    for tick in range(2000):
+        clock.tick(110.1 + tick * 0.1)
+    assert clock.now == pytest.approx(110.1 + 199.9)
+
+
+def test_the_robots_clock_never_goes_back() -> None:
+    clock = RobotClock(100.0)
+    clock.tick(101.0)
+    now = clock.now
+    assert clock.tick(90.0) == now
+    assert clock.tick(101.0) == now
