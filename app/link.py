@@ -79,7 +79,11 @@ class Link:
         self._on_picture = on_picture
         self._wake = asyncio.Event()
         self._heard = -math.inf
-        self._answered = math.nan
+        self.rtt = math.nan
+        """Round trip [s]; NaN while it is not known."""
+        self.lost = 0
+        """How many of the last 20 pings had no answer."""
+        self._offset = math.nan
         self._tasks: set[asyncio.Task[Any]] = set()
         self._running: concurrent.futures.Future[None] | None = None
         self._camera: CameraStream | None = None
@@ -95,19 +99,9 @@ class Link:
         """The connection as it stands."""
         return self._client.state
 
-    @property
-    def rtt(self) -> float:
-        """Round trip [s]; NaN while it is not known."""
-        return self._client.rtt
-
-    @property
-    def lost(self) -> int:
-        """How many of the last 20 pings had no answer."""
-        return self._client.lost
-
     def robot_time(self) -> float:
         """The robot's clock [s]; NaN while it is not known."""
-        return self._client.robot_time()
+        return self._now() + self._offset
 
     @property
     def silent(self) -> bool:
@@ -191,7 +185,7 @@ class Link:
             except TimeoutError:
                 pass
             self._wake.clear()
-            self._listen()
+            self._measure()
             if self.commands.stopping or self.silent:
                 self._slot.want(Twist())
             twist = self._slot.due()
@@ -199,10 +193,12 @@ class Link:
                 stamp = self._client.robot_time()
                 self._client.publish("/cmd_vel", twist, stamp=None if math.isnan(stamp) else stamp)
 
-    def _listen(self) -> None:
-        """An answered ping is a sign of life as well."""
-        if self._client.rtt != self._answered:
-            self._answered, self._heard = self._client.rtt, self._now()
+    def _measure(self) -> None:
+        """Copy what the client knows for other threads; an answered ping is a sign of life as well."""
+        rtt = self._client.rtt
+        if rtt != self.rtt:
+            self._heard = self._now() if math.isfinite(rtt) else self._heard
+        self.rtt, self.lost, self._offset = rtt, self._client.lost, self._client.offset
 
     def _on_state(self, state: LinkState) -> None:
         self._mailbox.queue(LINK, state, self._now())

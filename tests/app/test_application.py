@@ -1,0 +1,253 @@
+"""The app with its fingers: what is touched reaches the robot, and what the robot says reaches the glass."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Twist
+from bridge.msgs.pilothouse_msgs import ControlStatus
+from tests.app.fakes import FakeRobot
+from tests.headless import Stage
+from widgets.theme import theme
+
+PATIENCE = 10.0
+"""A fault, not a delay, uses this up [s]."""
+
+
+class Glass:
+    """The app on the stage."""
+
+    def __init__(self, app: Any, stage: Stage) -> None:
+        self.app, self.stage = app, stage
+
+    def until(self, condition: Callable[[], Any], what: str) -> None:
+        end = time.monotonic() + PATIENCE
+        while not condition():
+            assert time.monotonic() < end, what
+            self.stage.frames(1)
+
+    def tap(self, widget: Any) -> None:
+        self.stage.tap(*widget.to_window(*widget.center))
+
+    def hold(self, widget: Any) -> Any:
+        touch = self.stage.touch(*widget.to_window(*widget.center))
+        touch.touch_down()
+        self.stage.frames(2)
+        return touch
+
+    def banners(self) -> list[str]:
+        return [child.text for child in self.app.shell.ids.notices.children]
+
+
+@pytest.fixture
+def robot() -> Iterator[FakeRobot]:
+    robot = FakeRobot()
+    yield robot
+    robot.close()
+
+
+@pytest.fixture
+def glass(stage: Stage, tmp_path: Path) -> Iterator[Glass]:
+    from app.application import PilothouseApp
+
+    app = PilothouseApp(settings_dir=tmp_path, theme="dark", discover=False)
+    app.root = app.build()
+    stage.show(app.root, stage.window.size)
+    app.on_start()
+    yield Glass(app, stage)
+    app.on_stop()
+    theme.name = "dark"
+
+
+@pytest.fixture
+def driving(glass: Glass, robot: FakeRobot) -> Glass:
+    """Connected, in control, on the drive screen."""
+    glass.app.open(robot.url)
+    glass.until(lambda: glass.app.shell is not None, "no screens")
+    glass.until(lambda: glass.app.session.control == "mine", "no control")
+    glass.app.show("drive")
+    glass.until(lambda: glass.app.screens["drive"].stick.state == "live", "no stick")
+    return glass
+
+
+def push(glass: Glass, robot: FakeRobot) -> Any:
+    stick = glass.app.screens["drive"].stick
+    touch = glass.hold(stick)
+    touch.touch_move(stick.center_x, stick.top - 10)
+    glass.until(lambda: any(twist.linear.x > 0.1 for twist in robot.twists()), "the robot heard no push")
+    return touch
+
+
+def rested(glass: Glass, robot: FakeRobot) -> None:
+    glass.until(lambda: robot.twists()[-1] == Twist(), "the robot was not told to rest")
+    assert glass.app.screens["drive"].stick.twist == Twist()
+
+
+def test_nobody_at_an_address_is_said_and_can_be_cancelled(glass: Glass, robot: FakeRobot) -> None:
+    robot.stop()
+    glass.app.open(robot.url)
+    glass.until(lambda: glass.app.connect._banner and "No robot answers" in glass.app.connect._banner.text, "no sentence")
+    assert glass.app.shell is None
+    glass.app.connect._banner.close()
+    assert glass.app.session is None
+    robot.start()
+
+
+def test_a_wrong_address_stays_in_the_field_with_a_sentence(glass: Glass) -> None:
+    from app.screens.dialogs import AddressDialog
+
+    glass.app.ask_address()
+    glass.stage.frames(2)
+    (dialog,) = (child for child in glass.app.root.children if isinstance(child, AddressDialog))
+    dialog.ids.field.text = "http://10.0.0.3"
+    glass.tap(dialog.ids.connect)
+    assert dialog.problem == "An address begins with ws:// or wss://, not http://."
+    assert dialog.ids.field.text == "http://10.0.0.3"
+    assert glass.app.session is None
+
+
+def test_a_push_reaches_the_robot_and_letting_go_stops_it(driving: Glass, robot: FakeRobot) -> None:
+    touch = push(driving, robot)
+    assert max(twist.linear.x for twist in robot.twists()) <= 0.8 + 1e-9
+    touch.touch_up()
+    rested(driving, robot)
+
+
+def test_a_screen_change_under_a_pushed_stick_stops_the_robot(driving: Glass, robot: FakeRobot) -> None:
+    push(driving, robot)
+    driving.app.show("mission")
+    rested(driving, robot)
+
+
+def test_a_turned_device_under_a_pushed_stick_stops_the_robot(driving: Glass, robot: FakeRobot) -> None:
+    push(driving, robot)
+    driving.stage.window.dispatch("on_resize", 800, 1280)
+    driving.app._rest()
+    rested(driving, robot)
+
+
+def test_a_lost_focus_under_a_pushed_stick_stops_the_robot(driving: Glass, robot: FakeRobot) -> None:
+    push(driving, robot)
+    driving.app._focus(None, False)
+    rested(driving, robot)
+
+
+def test_stop_is_sent_when_the_finger_comes_down_and_shown_when_the_robot_confirms(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    stop = driving.app.shell.stop
+    touch = driving.hold(stop)
+    assert robot.until(lambda: "/stop" in robot.services())
+    touch.touch_up()
+    driving.until(lambda: stop.phase == "stopped", "not confirmed")
+    driving.until(lambda: driving.app.screens["drive"].stick.state == "disabled", "the stick still lives")
+    touch = driving.hold(stop)
+    driving.until(lambda: "/stop/release" in robot.services(), "a hold did not release")
+    touch.touch_up()
+    driving.until(lambda: stop.phase == "ready", "not released")
+
+
+def test_a_lost_link_is_said_and_takes_the_stick_away(driving: Glass, robot: FakeRobot) -> None:
+    driving.app.mission.add(1.0, 2.0)
+    push(driving, robot)
+    robot.stop()
+    driving.until(lambda: any("Trying again" in text for text in driving.banners()), "no sentence")
+    stick = driving.app.screens["drive"].stick
+    assert (stick.state, stick.twist) == ("disabled", Twist())
+    assert driving.app.mission.draft.points == ((1.0, 2.0),)
+    robot.heard.clear()
+    robot.start()
+    driving.until(lambda: stick.state == "live" and not driving.banners(), "did not come back")
+    assert robot.twists() == []
+
+
+def test_a_refused_command_is_said_over_the_screen(driving: Glass, robot: FakeRobot) -> None:
+    robot.refusals["/task/go_home"] = "Home is not set."
+    driving.tap(driving.app.screens["drive"].ids["home"])
+    driving.until(lambda: driving.banners() == ["Refused: go home. Home is not set."], "not said")
+
+
+def test_points_are_tapped_sent_and_stored(driving: Glass, robot: FakeRobot) -> None:
+    driving.app.show("mission")
+    robot.publish("/pose", PoseWithCovarianceStamped(pose=PoseWithCovariance(pose=Pose(Point(1.0, 1.0)))))
+    mission = driving.app.screens["mission"]
+    driving.until(lambda: mission.map.located, "no pose")
+    mission.mode = "points"
+    driving.stage.frames(2)
+    area = mission.map
+    for share in (0.3, 0.5):
+        driving.stage.tap(area.x + area.width * share, area.center_y + 60)
+    assert len(driving.app.mission.draft.points) == 2
+    driving.until(lambda: mission.ids["send"].disabled is False, "cannot be sent")
+    driving.tap(mission.ids["send"])
+    driving.until(lambda: driving.app.mission.state == "stored", "not stored")
+    assert len(robot.asked[-1][1].mission.waypoints) == 2
+
+
+def test_the_robot_is_placed_by_hand(driving: Glass, robot: FakeRobot) -> None:
+    driving.app.show("mission")
+    mission = driving.app.screens["mission"]
+    mission.mode = "place_robot"
+    driving.stage.frames(3)
+    driving.until(lambda: not mission.ids["place_here"].disabled, "cannot be placed")
+    driving.tap(mission.ids["place_here"])
+    assert robot.until(lambda: any(topic == "/initialpose" for topic, _ in robot.heard))
+    assert mission.mode == "view"
+
+
+def test_who_is_driven_by_another_is_only_watched(glass: Glass, robot: FakeRobot) -> None:
+    robot.control = ControlStatus(driver="tablet-B", driver_id="b")
+    robot.publish("/control/status", robot.control)
+    glass.app.open(robot.url, watch=True)
+    glass.until(lambda: glass.app.shell is not None and glass.app.shell.control_text == "driven by tablet-B", "not said")
+    glass.app.show("drive")
+    glass.stage.run_for(0.3)
+    assert glass.app.screens["drive"].stick.state == "disabled"
+    assert robot.services() == []
+
+
+def test_taking_the_glass_away_ends_the_link_and_giving_it_back_heals_it(driving: Glass, robot: FakeRobot) -> None:
+    push(driving, robot)
+    assert driving.app.on_pause() is True
+    rested(driving, robot)
+    driving.until(lambda: not driving.app.session.connected, "still connected")
+    driving.app.on_resume()
+    driving.until(lambda: driving.app.session.connected, "did not come back")
+    assert robot.twists()[-1] == Twist()
+
+
+def test_the_theme_is_remembered(glass: Glass, tmp_path: Path) -> None:
+    glass.app.next_theme()
+    glass.app.settings.close()
+    assert theme.name == "sunlight"
+    assert json.loads((tmp_path / "settings.json").read_text())["theme"] == "sunlight"
+
+
+def test_a_recording_holds_what_came(driving: Glass, robot: FakeRobot, tmp_path: Path) -> None:
+    from mcap.reader import make_reader
+
+    path = tmp_path / "run.mcap"
+    assert driving.app.start_recording(path)
+    robot.publish("/pose", PoseWithCovarianceStamped())
+    driving.until(lambda: driving.app.feeds.latest("/pose") is not None, "no pose")
+    driving.app.stop_recording()
+    with path.open("rb") as file:
+        topics = {channel.topic for _, channel, _ in make_reader(file).iter_messages()}
+    assert {"/pose", "/robot/info", "/control/status"} <= topics
+
+
+@pytest.mark.parametrize("size", [(412, 892), (892, 412), (1280, 800), (1920, 1200)])
+def test_turning_the_device_keeps_stop_in_its_corner(driving: Glass, size: tuple[int, int]) -> None:
+    for screen in ("mission", "drive"):
+        driving.app.show(screen)
+        driving.app.shell.size = driving.app.root.size = size
+        driving.stage.frames(2)
+        stop = driving.app.shell.stop
+        assert size[0] - stop.right <= 16
+        assert driving.app.shell.form == ("tall" if size[1] > size[0] else "short" if size[1] < 600 else "wide")
