@@ -29,10 +29,11 @@ class Glass:
     def until(self, condition: Callable[[], Any], what: str) -> None:
         end = time.monotonic() + PATIENCE
         while not condition():
-            assert time.monotonic() < end, what
+            assert time.monotonic() < end, repr(what)
             self.stage.frames(1)
 
     def tap(self, widget: Any) -> None:
+        self.stage.frames(3)
         self.stage.tap(*widget.to_window(*widget.center))
 
     def hold(self, widget: Any) -> Any:
@@ -170,7 +171,7 @@ def test_a_lost_link_is_said_and_takes_the_stick_away(driving: Glass, robot: Fak
 def test_a_refused_command_is_said_over_the_screen(driving: Glass, robot: FakeRobot) -> None:
     robot.refusals["/task/go_home"] = "Home is not set."
     driving.tap(driving.app.screens["drive"].ids["home"])
-    driving.until(lambda: driving.banners() == ["Refused: go home. Home is not set."], "not said")
+    driving.until(lambda: driving.banners() == ["Refused: go home. Home is not set."], driving.banners())
 
 
 def test_points_are_tapped_sent_and_stored(driving: Glass, robot: FakeRobot) -> None:
