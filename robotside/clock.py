@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-__all__ = ["MOST", "RobotClock"]
+import math
+
+__all__ = ["MOST", "STEP", "RobotClock"]
 
 MOST = 0.25
 """The most real time that one tick makes good [s]: after a longer halt the robot's clock falls behind."""
 
 CATCH_UP = 0.1
 """Part by which ticks are longer until a clock that fell behind is right again."""
+
+
+STEP = 1 / 30
+"""Longest step of the robot's clock [s]."""
 
 
 class RobotClock:
@@ -28,3 +34,10 @@ class RobotClock:
         due = self._start + (self._last - self._start) * self._speed
         self.now = min(due, self.now + passed * self._speed * (1.0 + CATCH_UP))
         return self.now
+
+    def steps(self, wall: float) -> list[float]:
+        """Like `tick`, in steps so short that a robot can be steered between them; none when no time passed."""
+        before = self.now
+        passed = self.tick(wall) - before
+        count = math.ceil(passed / STEP - 1e-9)
+        return [before + passed * number / count for number in range(1, count + 1)]

@@ -120,7 +120,9 @@ class Serving:
         loop = asyncio.get_running_loop()
         due = loop.time()
         while self._wall() < self._patience and not (self._patience < math.inf and self.station.at_rest):
-            self.station.step(self._clock.tick(self._wall()))
+            for now in self._clock.steps(self._wall()):
+                self.station.step(now)
+                await asyncio.sleep(0)
             due = max(due + TICK, loop.time() - TICK)
             await asyncio.sleep(max(0.0, due - loop.time()))
 

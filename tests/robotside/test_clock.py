@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from robotside.clock import MOST, RobotClock
+from robotside.clock import MOST, STEP, RobotClock
 
 
 def test_the_robots_clock_follows_real_time_at_its_speed() -> None:
@@ -29,3 +29,17 @@ def test_the_robots_clock_never_goes_back() -> None:
     now = clock.now
     assert clock.tick(90.0) == now
     assert clock.tick(101.0) == now
+
+
+def test_a_fast_clock_goes_in_steps_short_enough_to_steer() -> None:
+    clock = RobotClock(100.0, speed=20.0)
+    steps = clock.steps(100.1)
+    assert steps[-1] == clock.now == pytest.approx(102.0)
+    gaps = [b - a for a, b in zip([100.0, *steps], steps, strict=False)]
+    assert 0.0 < max(gaps) <= STEP + 1e-9
+    assert clock.steps(100.1) == []
+
+
+def test_a_clock_in_real_time_goes_in_one_step_per_tick() -> None:
+    clock = RobotClock(100.0)
+    assert clock.steps(100.0 + 1 / 60) == [pytest.approx(100.0 + 1 / 60)]

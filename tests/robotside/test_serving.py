@@ -11,6 +11,7 @@ from contextlib import asynccontextmanager
 from pathlib import Path
 
 import httpx
+import msgspec
 import pytest
 
 from bridge.client import BridgeClient, Phase
@@ -18,6 +19,7 @@ from bridge.errors import BridgeError
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, ControlStatus, RobotInfo
+from bridge.msgs.sensor_msgs import CompressedImage
 from robotside.__main__ import main
 from robotside.clock import RobotClock
 from robotside.serving import Addresses, Serving
@@ -127,6 +129,20 @@ async def test_a_browser_gets_a_page_its_health_and_a_sentence_for_a_camera_that
             404,
             "This robot has no such camera; there is: none.\n",
         )
+
+
+async def test_a_picture_is_made_for_whoever_asks_and_only_then(tmp_path: Path) -> None:
+    robot = FakeRobot()
+    robot.info = msgspec.structs.replace(robot.info, cameras=["front"])
+    async with serving(tmp_path, robot) as serves, httpx.AsyncClient(base_url=serves.addresses.http) as web:
+        shot = CompressedImage(data=b"a picture")
+        robot.want = lambda topic, wanted: (  # type: ignore[method-assign]
+            robot.wanted.__setitem__(topic, wanted),
+            wanted and serves.station.bus.publish(topic, shot),
+        )
+        answer = await web.get("/snapshot/front.jpg")
+        assert (answer.content, answer.headers["content-type"]) == (b"a picture", "image/jpeg")
+        assert robot.wanted == {"/camera/image/compressed": False}
 
 
 async def test_a_port_that_is_taken_is_said_and_nothing_is_left_open(tmp_path: Path) -> None:

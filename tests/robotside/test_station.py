@@ -506,3 +506,39 @@ def test_a_map_with_a_damaged_mission_file_starts_empty_and_says_so(tmp_path: Pa
     assert scene.station.mission == Mission()
     assert "set aside as mission.damaged.json" in scene.station.events.since(0, "b1")[0].text
     assert (tmp_path / "mission.damaged.json").exists()
+
+
+def test_a_robot_that_was_carried_away_says_that_it_is_unsure_creeps_and_can_be_placed_again(
+    tmp_path: Path,
+) -> None:
+    boxes = [Box(-1.0, 2.0, 1.0, 4.0), Box(3.0, -5.0, 4.0, -2.0), Box(-8.0, -4.0, -6.0, -3.0)]
+    scene = Scene(FakeRobot(boxes=boxes), tmp_path)
+    scene.run(4.0)
+    scene.set(Waypoint(8.0, 0.0))
+    scene.start()
+    scene.run(2.0)
+    scene.robot.pose = (-4.0, 4.0, 2.0)
+    scene.run(3.0)
+    assert any(said.startswith("Position unsure") for said in scene.events("localisation"))
+    assert abs(scene.robot.twist.linear.x) <= 0.15
+    scene.ask("/task/pause")
+    x, y, yaw = scene.robot.pose
+    told = Pose(Point(x + 0.4, y - 0.3), Quaternion.from_yaw(yaw + 0.2))
+    scene.station.hear(
+        scene.anna, "/initialpose", PoseWithCovarianceStamped(pose=PoseWithCovariance(told)), None
+    )
+    scene.run(1.0)
+    assert scene.events("localisation")[-1] == "Position sure again."
+    scene.ask("/task/resume")
+    assert scene.run_task().state == "SUCCEEDED"
+    assert math.hypot(scene.robot.pose[0] - 8.0, scene.robot.pose[1]) < 0.2
+    assert scene.robot.contacts == 0
+
+
+def test_only_who_has_control_may_place_the_robot_while_somebody_has_it(scene: Scene) -> None:
+    scene.ask("/control/acquire", CommandRequest(client_name="Anna"))
+    before = scene.station.autonomy.whereabouts.pose
+    there = PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(3.0, 3.0))))
+    scene.station.hear(scene.client("bert"), "/initialpose", there, None)
+    assert scene.station.autonomy.whereabouts.pose == before
+    assert scene.events("command")[-1].startswith("Anna has control")
