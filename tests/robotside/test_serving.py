@@ -6,7 +6,7 @@ import asyncio
 import random
 import socket
 import time
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from pathlib import Path
 
@@ -131,15 +131,24 @@ async def test_a_browser_gets_a_page_its_health_and_a_sentence_for_a_camera_that
         )
 
 
+class Photographer(FakeRobot):
+    """Makes a picture the moment that it is wanted."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.info = msgspec.structs.replace(self.info, cameras=["front"])
+        self.show: Callable[[str, Msg], None] = lambda topic, msg: None
+
+    def want(self, topic: str, wanted: bool) -> None:
+        super().want(topic, wanted)
+        if wanted:
+            self.show(topic, CompressedImage(data=b"a picture"))
+
+
 async def test_a_picture_is_made_for_whoever_asks_and_only_then(tmp_path: Path) -> None:
-    robot = FakeRobot()
-    robot.info = msgspec.structs.replace(robot.info, cameras=["front"])
+    robot = Photographer()
     async with serving(tmp_path, robot) as serves, httpx.AsyncClient(base_url=serves.addresses.http) as web:
-        shot = CompressedImage(data=b"a picture")
-        robot.want = lambda topic, wanted: (  # type: ignore[method-assign]
-            robot.wanted.__setitem__(topic, wanted),
-            wanted and serves.station.bus.publish(topic, shot),
-        )
+        robot.show = serves.station.bus.publish
         answer = await web.get("/snapshot/front.jpg")
         assert (answer.content, answer.headers["content-type"]) == (b"a picture", "image/jpeg")
         assert robot.wanted == {"/camera/image/compressed": False}
