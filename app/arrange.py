@@ -79,7 +79,7 @@ def mission(body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False
     area = Rect(body.x, body.y, body.width - side, body.height)
     places = {"map": area, "panel": _above(panel, stop, gap), "side": panel, "stop": stop}
     button = (52 if wide else 46) * dp
-    places["tools"] = _column(area, button, 6 if wide else 6, gap, 8 * dp if wide else 6 * dp)
+    places["tools"] = _column(area, button, 7, gap, 8 * dp if wide else 6 * dp)
     places["modes"] = Rect(area.x + gap, area.top - gap - 46 * dp, min(384 * dp, places["tools"].x - area.x - 2 * gap), 46 * dp)
     if wide:
         places |= _mission_instruments(area, gap, dp)

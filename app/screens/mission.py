@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from kivy.lang import Builder
@@ -12,6 +13,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.widget import Widget
 
+import widgets
 from app import arrange
 from app.camera import Picture
 from app.commands import Outcome
@@ -33,6 +35,9 @@ HINTS = {
     "home": "Tap where the robot shall return to.",
     "place_robot": "Drag the robot to where it is, turn it by its handle.",
 }
+
+PICTURES = Path(widgets.__file__).parent / "data"
+"""Aerial pictures, one MBTiles file a world."""
 
 Builder.load_string("""
 <SelectionBar>:
@@ -109,7 +114,9 @@ class MissionScreen(FloatLayout):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.dashboard = Dashboard(self.session.feeds)
-        self.map = GridMap()
+        self.map: Any = GridMap()
+        """The map on the glass: the robot's own, or the one over aerial pictures."""
+        self._other_map: Any = None
         self.video = Video(fit="cover")
         self.compass = Compass(transparent=True)
         self.panel = MissionPanel(self.session, self.dashboard)
@@ -160,10 +167,11 @@ class MissionScreen(FloatLayout):
     def _build_tools(self) -> None:
         self._tools: dict[str, IconButton] = {}
         for name, icon, act in (
-            ("zoom_in", "add", self.map.zoom_in),
-            ("zoom_out", "remove", self.map.zoom_out),
-            ("centre", "my_location", self.map.centre_on_robot),
-            ("fit", "fit_screen", self.map.fit),
+            ("zoom_in", "add", lambda: self.map.zoom_in()),
+            ("zoom_out", "remove", lambda: self.map.zoom_out()),
+            ("centre", "my_location", lambda: self.map.centre_on_robot()),
+            ("fit", "fit_screen", lambda: self.map.fit()),
+            ("layers", "layers", self.change_map),
             ("undo", "undo", self.session.mission.undo),
             ("redo", "redo", self.session.mission.redo),
         ):
@@ -172,22 +180,54 @@ class MissionScreen(FloatLayout):
             self._tools[name] = self.ids[name] = button
 
     def _bind_map(self) -> None:
+        bind = self.dashboard.bind
+        self._bind_one_map(self.map)
+        bind(self.map, "/robot/info", self._show_info, fresh=False)
+        bind(self.map, "/task/status", self._show_task, fresh=False)
+        bind(self.compass, "/pose")
+        bind(self.video, "/detections", fresh=False)
+
+    def _bind_one_map(self, one: Any) -> None:
         mission, bind = self.session.mission, self.dashboard.bind
-        self.map.bind(
+        one.bind(
             on_add=lambda _, x, y: mission.add(x, y),
             on_move=lambda _, index, x, y: mission.move(index, x, y),
             on_select=lambda _, index: self._show_selection(),
             on_set_home=lambda _, x, y: mission.set_home(x, y),
         )
-        bind(self.map, "/pose", always=True)
-        bind(self.map, "/map", fresh=False)
-        bind(self.map, "/plan", fresh=False)
-        bind(self.map, "/intruders", fresh=False)
-        bind(self.map, "/scan", fresh=False)
-        bind(self.map, "/robot/info", self._show_info, fresh=False)
-        bind(self.map, "/task/status", self._show_task, fresh=False)
-        bind(self.compass, "/pose")
-        bind(self.video, "/detections", fresh=False)
+        bind(one, "/pose", always=True)
+        for topic in ("/plan", "/intruders", "/scan", *(["/map"] if isinstance(one, GridMap) else [])):
+            bind(one, topic, fresh=False)
+
+    def pictures(self) -> Path | None:
+        """The file with aerial pictures of this robot's world; None when there is none or its place is unknown."""
+        info = self.session.info
+        path = PICTURES / f"{info.world}.mbtiles"
+        return path if math.isfinite(info.latitude) and info.world and path.is_file() else None
+
+    def change_map(self) -> None:
+        """Change between the robot's own map and the aerial pictures; what is drawn on it stays."""
+        pictures = self.pictures()
+        if self._other_map is None and pictures is not None:
+            from bridge.geo import Datum
+            from widgets import GeoMap
+
+            info = self.session.info
+            self._other_map = GeoMap(tiles=str(pictures), datum=Datum(info.latitude, info.longitude))
+            self._bind_one_map(self._other_map)
+        if self._other_map is None:
+            return
+        self.map.let_go()
+        self.map, self._other_map = self._other_map, self.map
+        self.ids.ground.clear_widgets()
+        self.ids.ground.add_widget(self.map)
+        self.ids["map"] = self.map
+        self.map.mode = self.mode
+        self._rearrange()
+        self.dashboard.enter()
+        self._show_draft()
+        self._show_info(self.session.info)
+        self.map.fit()
 
     # what the shell calls
 
@@ -203,7 +243,7 @@ class MissionScreen(FloatLayout):
         self.video.show_chip = form == "wide"
         self._float(self.compass, places.get("compass"))
         self.panel.take_form(form)
-        self._float(self.panel.readouts, places.get("readouts")) if form == "wide" else None
+        self._float(self.panel.readouts, places.get("readouts"))
         _put(self.panel, places["panel"])
         _put(self.ids.handle, places.get("handle", arrange.Rect(-100, -100, 1, 1)))
         self.ids.handle.opacity = 1 if tall else 0
@@ -234,7 +274,9 @@ class MissionScreen(FloatLayout):
             tasks.width, tasks.pos = rect.width, (rect.x, rect.y)
 
     def _place_tools(self, rect: arrange.Rect, dp: float, tall: bool) -> None:
-        names = ["centre", "fit", "undo", "redo"] if tall else list(self._tools)
+        names = ["centre", "layers", "undo", "redo"] if tall else list(self._tools)
+        if self.pictures() is None:
+            names = ["fit" if name == "layers" else name for name in names if name != "layers" or tall]
         side = rect.width
         fit = max(1, int((rect.height + 8 * dp) // (side + 6 * dp)))
         for name, button in self._tools.items():
@@ -315,6 +357,7 @@ class MissionScreen(FloatLayout):
     def _show_info(self, info: RobotInfo) -> None:
         self.map.robot_radius = info.radius or 0.2
         self.map.camera_fov = info.camera_fov
+        self._rearrange()
 
     def _show_task(self, status: TaskStatus) -> None:
         """Points are marked as visited only while the robot drives the very points that are drawn."""
