@@ -45,7 +45,7 @@ def test_a_wrong_guess_is_corrected_by_one_search_and_a_few_sweeps() -> None:
 @pytest.mark.parametrize("drift", [-0.04, 0.04])
 def test_over_a_hundred_metres_of_drifting_odometry_the_error_stays_below_a_tenth(drift: float) -> None:
     pillars = [Pillar(0.0, 3.0), Pillar(-7.0, -4.0), Pillar(7.0, 0.0)]
-    robot = FakeRobot(start=(0.0, 0.0, 0.0), boxes=BOXES, pillars=pillars, drift=drift)
+    robot = FakeRobot(start=(0.0, 0.0, 0.0), boxes=BOXES, pillars=pillars, drift=drift, beams=120)
     localiser = Localiser(Grid.from_msg(robot.map()))
     localiser.place(Pose2(0.0, 0.0, 0.0), spread=0.1, turn=0.05)
     laser, worst, now = Laser(), 0.0, 0.0
