@@ -25,17 +25,16 @@ from app.feeds import Feeds, Mailbox, Post
 from app.layout import Layout, load
 from app.link import Link
 from app.mission import MissionEditor
-from app.network import NetworkThread
 from app.nearby import HELLO, LATENCY, Nearby
+from app.network import NetworkThread
 from app.recorder import Recorder
+from app.records import Records
 from app.screens.connect import THEMES, ConnectScreen
 from app.screens.dialogs import AddressDialog
 from app.session import Session
 from app.settings import Settings
 from bridge.frames import Frame
-from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import Event
-from bridge.topics import TOPICS
 from widgets import CATALOGUE
 from widgets.theme import theme
 
@@ -55,6 +54,8 @@ PICTURE_LIVES = 1.0
 """A camera that shows nothing new for longer is stale [s]."""
 SWITCH = 0.001
 """How long one thread may keep the others waiting for Python [s]: drawing must not delay the network."""
+RESTING = ("size", "on_hide", "on_minimize")
+"""What happens to the window and brings every control to rest."""
 BACK = 27
 """Key code of Android's Back and of Escape."""
 
@@ -102,9 +103,6 @@ class PilothouseApp(App):
         self.shell: Any = None
         """The frame round the robot's screens; None on the connect screen."""
         self.simulator: simulators.Simulator | None = None
-        self.recorder: Recorder | None = None
-        self.last_frame: Frame | None = None
-        """The newest camera frame as it came; None before the first."""
         self._pictures: list[float] = []
         """When the pictures of the last second came [s]."""
         self._picture_at = math.nan
@@ -144,12 +142,14 @@ class PilothouseApp(App):
         """Make the connect screen; the others are made when there is a robot to show."""
         folder = Path(self._settings_dir or self.user_data_dir)
         self.settings = Settings(folder)
-        self.folder = folder
+        self.records = Records(folder, self._say)
         theme.name = self._theme or self._remembered_theme()
         self.client_id = self._identity()
         self.client_name = str(self.settings.get("client_name") or device_name())
         self.robots = Robots(self._now, self.settings.get("robots") or ())
-        self.connect = ConnectScreen(app=self, can_simulate=bool(self._simulator_command) or simulators.available())
+        self.connect = ConnectScreen(
+            app=self, can_simulate=bool(self._simulator_command) or simulators.available()
+        )
         root = Root()
         root.show_page(self.connect)
         return root
@@ -180,7 +180,7 @@ class PilothouseApp(App):
             Clock.schedule_interval(lambda _: self._tick(), TICK),
             Clock.schedule_interval(lambda _: self._list(), LIST),
         ]
-        Window.bind(on_keyboard=self._key, size=self._rest, focus=self._focus, on_hide=self._rest, on_minimize=self._rest)
+        Window.bind(on_keyboard=self._key, focus=self._focus, **dict.fromkeys(RESTING, self._rest))
         Window.allow_screensaver = False
         self._list()
         if self.settings.problem:
@@ -190,7 +190,7 @@ class PilothouseApp(App):
 
     def on_stop(self) -> None:
         """Leave the robot at rest, end every thread and the simulator."""
-        Window.unbind(on_keyboard=self._key, size=self._rest, focus=self._focus, on_hide=self._rest, on_minimize=self._rest)
+        Window.unbind(on_keyboard=self._key, focus=self._focus, **dict.fromkeys(RESTING, self._rest))
         for event in self._events:
             event.cancel()
         self.leave()
@@ -261,9 +261,11 @@ class PilothouseApp(App):
             self._simulator_said(*post.value)
         elif self.session is not None:
             self.session.deliver(channel, post)
-            self._record(channel, post.value)
+            self.records.put(channel, post.value)
             if channel == "/robot/info":
-                self.robots.name(self.session.link.url, post.value.name, post.value.kind, post.value.description)
+                self.robots.name(
+                    self.session.link.url, post.value.name, post.value.kind, post.value.description
+                )
                 self._save_robots()
 
     def _show_picture(self, picture: Picture, received: float) -> None:
@@ -272,7 +274,9 @@ class PilothouseApp(App):
             return
         self._pictures = [at for at in self._pictures if received - at < 1.0] + [received]
         rate = float(len(self._pictures)) if len(self._pictures) > 1 else math.nan
-        latency = self.session.link.robot_time() - picture.stamp if self.session and picture.stamp else math.nan
+        latency = (
+            self.session.link.robot_time() - picture.stamp if self.session and picture.stamp else math.nan
+        )
         self.shell.screens[self.shell.screen].show_picture(picture, rate, latency)
 
     def _judge_picture(self) -> None:
@@ -285,7 +289,7 @@ class PilothouseApp(App):
 
     def _on_frame(self, frame: Frame, received: float) -> None:
         """In the network thread: keep the frame for a snapshot and have it decoded."""
-        self.last_frame = frame
+        self.records.frame = frame
         self.camera.show(frame, received)
 
     def _beat(self) -> None:
@@ -312,7 +316,9 @@ class PilothouseApp(App):
         waiting = f" Trying again in {math.ceil(session.retry_in)} s." if session.retry_in > 0 else ""
         trouble = state.attempt > 1 or state.retry_in > 0
         sentence = state.sentence + ("" if "Trying again" in state.sentence else waiting)
-        self.connect.say(f"{sentence} Tap to cancel." if trouble else sentence, "warn" if trouble else "info", self.leave)
+        self.connect.say(
+            f"{sentence} Tap to cancel." if trouble else sentence, "warn" if trouble else "info", self.leave
+        )
         if state.phase.name == "CLOSED" and state.attempt:
             self.leave()
             self.connect.say(state.sentence, "danger")
@@ -380,9 +386,11 @@ class PilothouseApp(App):
 
     def _simulator_said(self, what: str, text: str) -> None:
         self.connect.simulating = what == "ready"
-        self.connect.simulator_text = "The simulator runs" if what == "ready" else "Start the built-in simulator"
+        self.connect.simulator_text = (
+            "The simulator runs" if what == "ready" else "Start the built-in simulator"
+        )
         if what == "failed":
-            (self.shell or self.connect).say(text, "danger")
+            self._say(text, "danger")
         elif self.session is None:
             self.open(text)
 
@@ -446,10 +454,13 @@ class PilothouseApp(App):
         self.stop_recording()
         self.session.link.close()
         self.session = None
-        self._camera_wanted, self.last_frame, self._picture_at = None, None, math.nan
+        self._camera_wanted, self.records.frame, self._picture_at = None, None, math.nan
         self.connect.say("")
         self.root.show_page(self.connect)
         self._list()
+
+    def _say(self, text: str, level: str) -> None:
+        (self.shell or self.connect).say(text, level)
 
     def alarm(self, event: Event) -> None:
         """Something happened that the operator must not miss."""
@@ -458,63 +469,25 @@ class PilothouseApp(App):
 
     # pictures and recordings
 
-    def snapshot(self) -> Path | None:
-        """Keep the newest camera frame as a file; None when there is none or it cannot be written."""
-        frame = self.last_frame
-        if frame is None:
-            return None
-        path = self.folder / "pictures" / time.strftime("%Y-%m-%d_%H-%M-%S.jpg")
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(frame.jpeg)
-        except OSError as error:
-            self.shell.say(f"The snapshot could not be saved: {error.strerror or error}.", "warn")
-            return None
-        self.shell.say(f"Snapshot saved as {path.name}.", "ok")
-        return path
+    @property
+    def recorder(self) -> Recorder | None:
+        """The recording that runs; None when none does."""
+        return self.records.recorder
 
     def toggle_recording(self) -> None:
         """Start recording, or finish the one that runs."""
-        if self.recorder is None:
-            self.start_recording(self.folder / "recordings" / time.strftime("%Y-%m-%d_%H-%M-%S.mcap"))
-        else:
-            name = self.recorder.path.name
-            self.stop_recording()
-            self.shell.say(f"Recording saved as {name}.", "ok")
+        self.records.toggle(self.session)
+        self._tick_recording()
 
     def start_recording(self, path: Path) -> bool:
         """Record everything that comes into an MCAP file; False, and said, when it cannot be written."""
-        self.stop_recording()
-        try:
-            self.recorder = Recorder(path)
-        except OSError as error:
-            self.shell.say(f"The recording could not start: {error.strerror or error}.", "warn")
-            return False
-        for entry in TOPICS:
-            message = self.session.feeds.latest(entry.name) if entry.rate == 0 else None
-            self._record(entry.name, message)
-        self.shell.recording = True
-        return True
+        return self.records.start(path, self.session)
 
     def stop_recording(self) -> None:
         """Finish the recording; nothing when none runs."""
-        recorder, self.recorder = self.recorder, None
-        if recorder is not None:
-            recorder.close()
-        if self.shell is not None:
-            self.shell.recording = False
-
-    def _record(self, channel: str, message: object) -> None:
-        if self.recorder is None or not isinstance(message, Msg):
-            return
-        self.recorder.put("/events" if channel == "event" else channel, message)
+        self.records.stop()
 
     def _tick_recording(self) -> None:
-        if self.recorder is None:
-            return
-        seconds = int(time.time() - self.recorder.started)
-        self.shell.ids.record.text = f"{seconds // 60:02d}:{seconds % 60:02d}"
-        if self.recorder.sentence:
-            self.shell.say(self.recorder.sentence, "warn")
-            if self.recorder.problem:
-                self.stop_recording()
+        self.records.check()
+        self.shell.recording = self.recorder is not None
+        self.shell.ids.record.text = self.records.clock

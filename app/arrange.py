@@ -79,14 +79,20 @@ def mission(body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False
     area = Rect(body.x, body.y, body.width - side, body.height)
     places = {"map": area, "panel": _above(panel, stop, gap), "side": panel, "stop": stop}
     button = (52 if wide else 46) * dp
-    places["tools"] = _column(area, button, 7, gap, 8 * dp if wide else 6 * dp)
-    places["modes"] = Rect(area.x + gap, area.top - gap - 46 * dp, min(384 * dp, places["tools"].x - area.x - 2 * gap), 46 * dp)
+    free = Rect(area.x, area.y + 142 * dp, area.width, area.height - 142 * dp) if wide else area
+    places["tools"] = _column(free, button, 7, gap, 8 * dp if wide else 6 * dp)
+    places["modes"] = Rect(
+        area.x + gap, area.top - gap - 46 * dp, min(384 * dp, places["tools"].x - area.x - 2 * gap), 46 * dp
+    )
     if wide:
         places |= _mission_instruments(area, gap, dp)
     else:
         video = Rect(area.x + gap, area.y + gap, 148 * dp, 111 * dp)
         room = places["tools"].x - area.x - 2 * gap
-        places |= {"video": video, "selection": Rect(area.x + gap, video.top + 8 * dp, min(300 * dp, room), 52 * dp)}
+        places |= {
+            "video": video,
+            "selection": Rect(area.x + gap, video.top + 8 * dp, min(300 * dp, room), 52 * dp),
+        }
     return places
 
 
@@ -109,7 +115,12 @@ def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
     stop = Rect(body.right - gap - stop_width, body.y + gap, stop_width, 106 * dp)
     tasks = Rect(body.x + gap, stop.y, stop.x - body.x - 2 * gap, stop.height)
     handle = 22 * dp
-    panel = Rect(sheet.x + gap, stop.top + 8 * dp, sheet.width - 2 * gap, sheet.height - stop.height - gap - 8 * dp - handle)
+    panel = Rect(
+        sheet.x + gap,
+        stop.top + 8 * dp,
+        sheet.width - 2 * gap,
+        sheet.height - stop.height - gap - 8 * dp - handle,
+    )
     area = Rect(body.x, body.y + low, body.width, body.height - low)
     picture = min(148 * dp, body.width * 0.4)
     video = Rect(area.x + gap, area.top - gap - picture * 0.66, picture, picture * 0.66)
@@ -123,7 +134,9 @@ def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
         "tools": _column(area, 50 * dp, 4, gap, 8 * dp),
         "video": video,
         "modes": Rect(area.x + gap, area.y + gap, body.width - 3 * gap - 50 * dp, 46 * dp),
-        "selection": Rect(area.x + gap, area.y + 2 * gap + 46 * dp, min(300 * dp, body.width - 3 * gap - 50 * dp), 52 * dp),
+        "selection": Rect(
+            area.x + gap, area.y + 2 * gap + 46 * dp, min(300 * dp, body.width - 3 * gap - 50 * dp), 52 * dp
+        ),
     }
 
 
@@ -146,15 +159,28 @@ def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     wide = shape == "wide"
     dp = dp * min(1.0, body.height / ((590 if wide else 364) * dp))
     gap = (16 if wide else 10) * dp
-    stop = Rect(body.right - gap - (210 if wide else 150) * dp, body.y + gap, *_pair(wide, (210, 180), (150, 132), dp))
+    stop = Rect(
+        body.right - gap - (210 if wide else 150) * dp, body.y + gap, *_pair(wide, (210, 180), (150, 132), dp)
+    )
     size = (242 if wide else 176) * dp
     stick = Rect(body.x + gap, body.y + gap, size, size)
     slider = Rect(stick.right + (38 if wide else 12) * dp, stick.y, *_pair(wide, (96, 238), (80, 176), dp))
-    actions = Rect(stop.x - gap - (150 if wide else 132) * dp, stop.y, (150 if wide else 132) * dp, stop.height)
-    left = Rect(body.x + gap, body.top - gap - (228 if wide else 148) * dp, *_pair(wide, (326, 228), (212, 148), dp))
+    actions = Rect(
+        stop.x - gap - (150 if wide else 132) * dp, stop.y, (150 if wide else 132) * dp, stop.height
+    )
+    left = Rect(
+        body.x + gap, body.top - gap - (228 if wide else 148) * dp, *_pair(wide, (326, 228), (212, 148), dp)
+    )
     right_size = _pair(wide, (194, 194), (128, 128), dp)
     right = Rect(body.right - gap - right_size[0], body.top - gap - right_size[1], *right_size)
-    places = {"video": body, "stop": stop, "stick": stick, "slider": slider, "actions": actions, "top_left": left}
+    places = {
+        "video": body,
+        "stop": stop,
+        "stick": stick,
+        "slider": slider,
+        "actions": actions,
+        "top_left": left,
+    }
     tape_width = min((420 if wide else 260) * dp, 2 * (body.x + body.width / 2 - left.right - gap))
     tape = Rect(body.x + (body.width - tape_width) / 2, body.top - gap - 52 * dp, tape_width, 52 * dp)
     readouts_size = _pair(wide, (194, 116), (116, 128), dp)
@@ -165,7 +191,9 @@ def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     return places | {"top": tape, "top_right": right, "readouts": readouts}
 
 
-def _pair(wide: bool, large: tuple[float, float], small: tuple[float, float], dp: float) -> tuple[float, float]:
+def _pair(
+    wide: bool, large: tuple[float, float], small: tuple[float, float], dp: float
+) -> tuple[float, float]:
     width, height = large if wide else small
     return width * dp, height * dp
 

@@ -67,7 +67,8 @@ def _kivy(jpeg: bytes) -> tuple[int, int, bytes]:
     from kivy.core.image import ImageLoader
 
     able = next(one for one in ImageLoader.loaders if one.can_load_memory() and "jpg" in one.extensions())
-    (data,) = able("frame.jpg", ext="jpg", rawdata=io.BytesIO(jpeg), inline=True, nocache=True, keep_data=True)._data
+    loaded = able("frame.jpg", ext="jpg", rawdata=io.BytesIO(jpeg), inline=True, nocache=True, keep_data=True)
+    (data,) = loaded._data  # noqa: SLF001 - the public way makes a texture, which only the UI thread may
     pixels = data.data
     if data.fmt == "rgb":
         import numpy as np
@@ -101,8 +102,10 @@ class Camera:
             self._decode = best_decoder()
         try:
             width, height, rgba = self._decode(frame.jpeg)
-        except Exception as error:  # decoders raise what they like at a damaged picture; the next one may be whole
+        except Exception as error:  # noqa: BLE001 - decoders raise what they like at a damaged picture
             self.bad += 1
             log.info("frame %d is no picture: %s", frame.seq, error)
             return
-        self._mailbox.post(PICTURE, Picture(frame.seq, frame.stamp, width, height, rgba), received, urgent=True)
+        self._mailbox.post(
+            PICTURE, Picture(frame.seq, frame.stamp, width, height, rgba), received, urgent=True
+        )

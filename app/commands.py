@@ -224,7 +224,9 @@ class Commands:
         while True:
             timeout = min(TRY, deadline - self._now())
             try:
-                answer = await self._call(COMMANDS[outcome.name].service, request, CommandResponse, timeout=timeout)
+                answer = await self._call(
+                    COMMANDS[outcome.name].service, request, CommandResponse, timeout=timeout
+                )
             except (NoReply, NotConnected) as problem:
                 if self._now() + PAUSE >= deadline:
                     return replace(outcome, phase="no_reply", reason=str(problem))

@@ -121,7 +121,9 @@ class Robots:
         """All robots: by name, those that were heard first."""
         now = self._now()
         self._heard = {
-            url: (hello, at) for url, (hello, at) in self._heard.items() if now - at <= FORGET or url in self._saved
+            url: (hello, at)
+            for url, (hello, at) in self._heard.items()
+            if now - at <= FORGET or url in self._saved
         }
         heard = [self._entry(hello, now - at) for hello, at in self._heard.values()]
         unheard = [

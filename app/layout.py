@@ -83,7 +83,9 @@ def parse(name: str, text: str, widgets: Iterable[str]) -> Layout:
     if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
         raise LayoutError(f"Layout {name} lists its instruments as [[instrument]] tables.")
     known = frozenset(widgets)
-    instruments = tuple(_instrument(f"Layout {name}, instrument {i}", e, known) for i, e in enumerate(entries, 1))
+    instruments = tuple(
+        _instrument(f"Layout {name}, instrument {i}", e, known) for i, e in enumerate(entries, 1)
+    )
     for slot, room in SLOTS.items():
         count = sum(one.slot == slot for one in instruments)
         if count > room:

@@ -54,7 +54,7 @@ class Link:
         *,
         client_id: str,
         client_name: str,
-        on_picture: Callable[[Frame, float], object] = lambda frame, received: None,
+        on_picture: Callable[[Frame, float], object] | None = None,
         now: Callable[[], float] = time.monotonic,
         new_id: Callable[[], str] = lambda: uuid.uuid4().hex,
     ) -> None:
@@ -70,13 +70,13 @@ class Link:
             self._client.call,
             self._tell,
             now=now,
-            robot_time=lambda: self._client.robot_time(),
+            robot_time=self._client.robot_time,
             new_id=new_id,
             client_id=client_id,
             client_name=client_name,
         )
         self._events = EventStream(lambda event: mailbox.queue(EVENT, event, now()))
-        self._on_picture = on_picture
+        self._on_picture = on_picture or (lambda *_: None)
         self._wake = asyncio.Event()
         self._heard = -math.inf
         self.rtt = math.nan
@@ -229,7 +229,9 @@ class Link:
     def _tell(self, outcome: Outcome) -> None:
         self._mailbox.queue(OUTCOME, outcome, self._now())
 
-    def _spawn(self, send: Callable[..., Coroutine[Any, Any, Any]], name: str | None, fields: dict[str, Any]) -> None:
+    def _spawn(
+        self, send: Callable[..., Coroutine[Any, Any, Any]], name: str | None, fields: dict[str, Any]
+    ) -> None:
         self._keep(self._network.loop.create_task(send(name, **fields) if name else send()))
 
     def _keep(self, task: asyncio.Task[Any]) -> None:

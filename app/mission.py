@@ -63,7 +63,11 @@ class Draft:
     def same_as(self, other: Draft) -> bool:
         """Whether both ask the same of the robot."""
         mine, theirs = replace(self, points=(), home=None), replace(other, points=(), home=None)
-        if mine != theirs or len(self.points) != len(other.points) or (self.home is None) != (other.home is None):
+        if (
+            mine != theirs
+            or len(self.points) != len(other.points)
+            or (self.home is None) != (other.home is None)
+        ):
             return False
         places = [*zip(self.points, other.points, strict=True)]
         if self.home is not None and other.home is not None:

@@ -66,7 +66,9 @@ class Nearby:
             with sees_broadcasts():
                 await listener.start()
                 while True:
-                    await asyncio.gather(*(self._measure(url, *place) for url, place in self._targets.items()))
+                    await asyncio.gather(
+                        *(self._measure(url, *place) for url, place in self._targets.items())
+                    )
                     await asyncio.sleep(PERIOD)
         except OSError as error:
             log.warning("cannot listen for robots: %s", error)

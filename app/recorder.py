@@ -35,7 +35,9 @@ def _array_schema(type_: type) -> dict[str, Any]:
 
 def schema(type_: type[Msg]) -> bytes:
     """The JSON schema of a message type, self-contained."""
-    (root,), parts = msgspec.json.schema_components([type_], schema_hook=_array_schema, ref_template="#/$defs/{name}")
+    (root,), parts = msgspec.json.schema_components(
+        [type_], schema_hook=_array_schema, ref_template="#/$defs/{name}"
+    )
     return json.dumps({"type": "object", **parts.get(type_.__name__, root), "$defs": parts}).encode()
 
 

@@ -88,7 +88,12 @@ class Session:
     def may_drive(self) -> bool:
         """The stick may be pushed: the link is alive, STOP is not pressed and nobody else has control."""
         status: ControlStatus | None = self.feeds.latest("/control/status")
-        return self.connected and not self.link.silent and self.control != "other" and not (status is not None and status.stopped)
+        return (
+            self.connected
+            and not self.link.silent
+            and self.control != "other"
+            and not (status is not None and status.stopped)
+        )
 
     @property
     def stop_phase(self) -> str:

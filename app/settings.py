@@ -55,7 +55,7 @@ class Settings:
         self.problem = f"The settings could not be read and were put aside as {aside.name}: {why}."
         log.warning("%s", self.problem)
         try:
-            os.replace(self.path, aside)
+            self.path.replace(aside)
         except OSError as error:
             log.warning("could not put %s aside: %s", self.path, error)
         return {}
@@ -68,7 +68,7 @@ class Settings:
                 file.write(text)
                 file.flush()
                 os.fsync(file.fileno())
-            os.replace(fresh, self.path)
+            fresh.replace(self.path)
         except OSError as error:
             self.problem = f"The settings could not be saved: {error.strerror or error}."
             log.warning("%s", self.problem)

@@ -9,7 +9,6 @@ from typing import Any
 from kivy.lang import Builder
 from kivy.metrics import Metrics
 from kivy.properties import BooleanProperty, ListProperty, NumericProperty, ObjectProperty, StringProperty
-from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
 
 from app.arrange import connect_columns
@@ -355,5 +354,3 @@ class ConnectScreen(FloatLayout):
 
     def rest(self) -> None:
         """Nothing here moves a robot."""
-
-

@@ -9,7 +9,7 @@ from kivy.lang import Builder
 from kivy.properties import StringProperty
 from kivy.uix.floatlayout import FloatLayout
 
-from widgets import kit as kit  # its rules draw what is used here
+import widgets.kit  # noqa: F401 - its rules draw what is used here
 
 __all__ = ["AddressDialog"]
 

@@ -13,6 +13,7 @@ from kivy.uix.widget import Widget
 
 import widgets
 from app import arrange
+from app.arrange import Rect
 from app.camera import Picture
 from app.dashboard import Dashboard
 from app.feeds import Post
@@ -78,7 +79,7 @@ class DriveScreen(FloatLayout):
         self._build_controls()
         self.dashboard.bind(self.video, "/detections", fresh=False)
         self._limited = False
-        self._arranged: dict[str, arrange.Rect] = {}
+        self._arranged: dict[str, Rect] = {}
 
     def _build_instruments(self, layout: Layout) -> None:
         readouts = [one for one in layout.instruments if one.slot == "readouts"]
@@ -109,7 +110,9 @@ class DriveScreen(FloatLayout):
             wanted = topic(one.topic).type
             if wanted not in kind.accepts:
                 allowed = ", ".join(accepted.MSGTYPE for accepted in kind.accepts) or "nothing"
-                raise LayoutError(f"{one.widget} shows {allowed}, not {one.topic}, which is {wanted.MSGTYPE}.")
+                raise LayoutError(
+                    f"{one.widget} shows {allowed}, not {one.topic}, which is {wanted.MSGTYPE}."
+                )
             offered = {"card": True, "title": one.title}
             widget = kind(**{name: value for name, value in offered.items() if hasattr(kind, name) and value})
         self.dashboard.bind(widget, one.topic)
@@ -127,7 +130,7 @@ class DriveScreen(FloatLayout):
         self._place("slider", self.speed)
         self._place("actions", self.actions)
         buttons: tuple[tuple[str, str, str, Callable[..., object]], ...] = (
-            ("snapshot", "photo_camera", "Snapshot", lambda *_: self.app.snapshot()),
+            ("snapshot", "photo_camera", "Snapshot", lambda *_: self.app.records.snapshot()),
             ("pause", "pause", "Pause", lambda *_: self._pause()),
             ("home", "home", "Go home", lambda *_: self.session.command("home")),
         )
@@ -136,16 +139,21 @@ class DriveScreen(FloatLayout):
             button.bind(on_release=act)
             self.ids[name] = button
             self.actions.add_widget(button)
-        self.ids.update({"stick": self.stick, "speed": self.speed, "fader": self.speed.ids.fader, "video": self.video})
+        self.ids.update(
+            {"stick": self.stick, "speed": self.speed, "fader": self.speed.ids.fader, "video": self.video}
+        )
 
     # what the shell calls
 
-    def arrange(self, body: arrange.Rect, form: str, dp: float) -> arrange.Rect:
+    def arrange(self, body: Rect, form: str, dp: float) -> Rect:
         """Put everything into its place; returns where STOP goes."""
         places = self._arranged = arrange.drive(body, form, dp)
         for slot, found in self.places.items():
             for widget in found:
-                widget.pos, widget.size = (places[slot].x, places[slot].y), (places[slot].width, places[slot].height)
+                widget.pos, widget.size = (
+                    (places[slot].x, places[slot].y),
+                    (places[slot].width, places[slot].height),
+                )
         tall = form == "tall"
         self.actions.cols = 3 if tall else 1
         self.readouts.cols = 4 if tall else 2 if form == "wide" else 1
@@ -197,7 +205,7 @@ class DriveScreen(FloatLayout):
         pause = self.ids.pause
         pause.text, pause.icon = ("Resume", "play_arrow") if paused else ("Pause", "pause")
         pause.disabled = not (mine and session.running)
-        self.ids.snapshot.disabled = self.app.last_frame is None
+        self.ids.snapshot.disabled = self.app.records.frame is None
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
         """A decoded camera frame; `rate` [Hz] and `latency` [s] are said on it, NaN for unknown."""

@@ -15,6 +15,7 @@ from kivy.uix.widget import Widget
 
 import widgets
 from app import arrange
+from app.arrange import Rect
 from app.camera import Picture
 from app.commands import Outcome
 from app.dashboard import Dashboard
@@ -121,7 +122,7 @@ class MissionScreen(FloatLayout):
         self.compass = Compass(transparent=True)
         self.panel = MissionPanel(self.session, self.dashboard)
         self.selection = SelectionBar()
-        self._form, self._body, self._dp = "wide", arrange.Rect(0, 0, 1, 1), 1.0
+        self._form, self._body, self._dp = "wide", Rect(0, 0, 1, 1), 1.0
         self._build()
         self._bind_map()
         self.bind(mode=self._mode_changed, sheet=self._rearrange)
@@ -158,7 +159,9 @@ class MissionScreen(FloatLayout):
             ("place_cancel", "Cancel", lambda *_: setattr(self, "mode", "view")),
             ("place_here", "Set here", lambda *_: self._place_robot()),
         ):
-            word = QuietButton(text=text, size_hint_x=None, width="96dp", height="46dp", pos_hint={"center_y": 0.5})
+            word = QuietButton(
+                text=text, size_hint_x=None, width="96dp", height="46dp", pos_hint={"center_y": 0.5}
+            )
             word.bind(on_release=act)
             ids[button] = word
         ids.update({"map": self.map, "video": self.video, "selection": self.selection, "panel": self.panel})
@@ -167,10 +170,10 @@ class MissionScreen(FloatLayout):
     def _build_tools(self) -> None:
         self._tools: dict[str, IconButton] = {}
         for name, icon, act in (
-            ("zoom_in", "add", lambda: self.map.zoom_in()),
-            ("zoom_out", "remove", lambda: self.map.zoom_out()),
-            ("centre", "my_location", lambda: self.map.centre_on_robot()),
-            ("fit", "fit_screen", lambda: self.map.fit()),
+            ("zoom_in", "add", self.map.zoom_in),
+            ("zoom_out", "remove", self.map.zoom_out),
+            ("centre", "my_location", self.map.centre_on_robot),
+            ("fit", "fit_screen", self.map.fit),
             ("layers", "layers", self.change_map),
             ("undo", "undo", self.session.mission.undo),
             ("redo", "redo", self.session.mission.redo),
@@ -192,7 +195,7 @@ class MissionScreen(FloatLayout):
         one.bind(
             on_add=lambda _, x, y: mission.add(x, y),
             on_move=lambda _, index, x, y: mission.move(index, x, y),
-            on_select=lambda _, index: self._show_selection(),
+            on_select=lambda *_: self._show_selection(),
             on_set_home=lambda _, x, y: mission.set_home(x, y),
         )
         bind(one, "/pose", always=True)
@@ -231,12 +234,16 @@ class MissionScreen(FloatLayout):
 
     # what the shell calls
 
-    def arrange(self, body: arrange.Rect, form: str, dp: float) -> arrange.Rect:
+    def arrange(self, body: Rect, form: str, dp: float) -> Rect:
         """Put everything into its place; returns where STOP goes."""
         self._form, self._body, self._dp = form, body, dp
         places = arrange.mission(body, form, dp, sheet_open=bool(self.sheet))
         tall = form == "tall"
-        for name, widget in (("side", self.ids.side), ("modes", self.ids.modes), ("selection", self.selection)):
+        for name, widget in (
+            ("side", self.ids.side),
+            ("modes", self.ids.modes),
+            ("selection", self.selection),
+        ):
             _put(widget, places[name])
         _put(self.map, places["map"])
         self._float(self.video, places.get("video"))
@@ -245,14 +252,14 @@ class MissionScreen(FloatLayout):
         self.panel.take_form(form)
         self._float(self.panel.readouts, places.get("readouts"))
         _put(self.panel, places["panel"])
-        _put(self.ids.handle, places.get("handle", arrange.Rect(-100, -100, 1, 1)))
+        _put(self.ids.handle, places.get("handle", Rect(-100, -100, 1, 1)))
         self.ids.handle.opacity = 1 if tall else 0
         self._place_tasks(places.get("tasks"))
         self._place_tools(places["tools"], dp, tall)
         self._place_floats(places)
         return places["stop"]
 
-    def _place_floats(self, places: dict[str, arrange.Rect]) -> None:
+    def _place_floats(self, places: dict[str, Rect]) -> None:
         """With the sheet up, what would lie on it is away; the map fits into what is left free."""
         area, up = places["map"], bool(self.sheet) and self._form == "tall"
         self.ids.modes.opacity = 0 if up else 1
@@ -263,7 +270,7 @@ class MissionScreen(FloatLayout):
             low = max(places["compass"].top, places["video"].top) - area.y
         self.map.insets = [0, low, area.right - places["tools"].x, top]
 
-    def _place_tasks(self, rect: arrange.Rect | None) -> None:
+    def _place_tasks(self, rect: Rect | None) -> None:
         """On a phone the task's buttons stand beside STOP, elsewhere in the panel."""
         tasks = self.panel.tasks
         self.panel.keep_tasks(rect is None)
@@ -273,20 +280,22 @@ class MissionScreen(FloatLayout):
             tasks.size_hint = (None, None)
             tasks.width, tasks.pos = rect.width, (rect.x, rect.y)
 
-    def _place_tools(self, rect: arrange.Rect, dp: float, tall: bool) -> None:
+    def _place_tools(self, rect: Rect, dp: float, tall: bool) -> None:
         names = ["centre", "layers", "undo", "redo"] if tall else list(self._tools)
         if self.pictures() is None:
             names = ["fit" if name == "layers" else name for name in names if name != "layers" or tall]
         side = rect.width
         fit = max(1, int((rect.height + 8 * dp) // (side + 6 * dp)))
+        if len(names) > fit:  # two fingers do as well
+            names = [name for name in names if name not in ("zoom_in", "zoom_out")][-fit:]
         for name, button in self._tools.items():
             self._float(button, None)
-            if name in names[-fit:]:
-                index = names[-fit:].index(name)
+            if name in names:
+                index = names.index(name)
                 step = (rect.height - side) / max(1, min(fit, len(names)) - 1)
-                self._float(button, arrange.Rect(rect.x, rect.top - side - index * step, side, side))
+                self._float(button, Rect(rect.x, rect.top - side - index * step, side, side))
 
-    def _float(self, widget: Widget, rect: arrange.Rect | None) -> None:
+    def _float(self, widget: Widget, rect: Rect | None) -> None:
         """Put a widget over the map, or away where there is no room for it."""
         floats = self.ids.floats
         if rect is None:
@@ -420,6 +429,6 @@ class MissionScreen(FloatLayout):
             self.mode = "view"
 
 
-def _put(widget: Widget, rect: arrange.Rect) -> None:
+def _put(widget: Widget, rect: Rect) -> None:
     widget.size_hint = (None, None)
     widget.pos, widget.size = (rect.x, rect.y), (rect.width, rect.height)

@@ -166,7 +166,7 @@ class MissionPanel(BoxLayout):
         self.form = form
         column = self.ids.column
         column.clear_widgets()
-        for holder in (self.readouts, self):
+        for _holder in (self.readouts, self):
             if self.figures.parent is not None:
                 self.figures.parent.remove_widget(self.figures)
         tall = form == "tall"
@@ -221,7 +221,9 @@ class MissionPanel(BoxLayout):
         """Take over the draft and how it stands to what the robot has."""
         mission = self._session.mission
         count, state = len(mission.draft.points), mission.state
-        self._send.words = "Send to the robot" if not count else f"Send {count} point{'' if count == 1 else 's'}"
+        self._send.words = (
+            "Send to the robot" if not count else f"Send {count} point{'' if count == 1 else 's'}"
+        )
         note, role = STATES[state]
         if state == "draft" and mission.outcome and not mission.outcome.startswith("Accepted"):
             note, role = mission.outcome, "danger"

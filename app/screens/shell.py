@@ -12,18 +12,18 @@ from kivy.properties import BooleanProperty, ListProperty, ObjectProperty, Optio
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.widget import Widget
 
+import widgets.battery  # noqa: F401 - its rules and the next one's draw the bar
+import widgets.link_quality  # noqa: F401
 from app import arrange
 from app.commands import Outcome
+from app.dashboard import Dashboard
 from app.feeds import Post
 from app.link import EVENT, OUTCOME
-from app.dashboard import Dashboard
 from app.screens.connect import THEMES
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
 from bridge.msgs.sensor_msgs import NavSatFix
 from widgets import StopButton
-from widgets.battery import BatteryChip as BatteryChip  # for the rule above
-from widgets.link_quality import LinkQuality as LinkQuality
 from widgets.kit import Banner, NavButton, Toast
 from widgets.theme import theme
 
@@ -205,8 +205,8 @@ class Shell(FloatLayout):
             ("drive", "sports_esports", "Drive", lambda: self.app.show("drive")),
             ("mission", "map", "Mission", lambda: self.app.show("mission")),
             ("control_nav", "person", "Control", self.toggle_control),
-            ("record", "fiber_manual_record", "Record", lambda: self.app.toggle_recording()),
-            ("theme", "light_mode", "Sunlight", lambda: self.app.next_theme()),
+            ("record", "fiber_manual_record", "Record", self.app.toggle_recording),
+            ("theme", "light_mode", "Sunlight", self.app.next_theme),
         ]
         for name, icon, text, act in entries:
             button = NavButton(icon=icon, text=text)
@@ -282,7 +282,11 @@ class Shell(FloatLayout):
                 button.pos = (rect.x + step * index + (step - button.width) / 2, rect.y)
             else:
                 low = index >= 2
-                y = rect.y + 12 * dp + (len(buttons) - 1 - index) * step if low else rect.top - 12 * dp - 64 * dp - index * step
+                y = (
+                    rect.y + 12 * dp + (len(buttons) - 1 - index) * step
+                    if low
+                    else rect.top - 12 * dp - 64 * dp - index * step
+                )
                 button.pos = (rect.x + 6 * dp, y)
 
     def _place_notices(self, *_: object) -> None:
@@ -369,7 +373,7 @@ class Shell(FloatLayout):
         live = session.feeds.state("/fix") == "live"
         good = fix is not None and fix.status.status >= 0
         self.fix_role = "ok" if good and live else "muted"
-        self.fix_text = _accuracy(fix) if good else "—" if fix is None else "no fix"
+        self.fix_text = "—" if fix is None else _accuracy(fix) if good else "no fix"
 
     def _tick_control(self) -> None:
         control = self.session.control

@@ -61,7 +61,9 @@ class FakeRobot:
 
     def start(self) -> None:
         """Serve, on the port of before where there was one."""
-        services = [Service(name, "x/y", kind, CommandResponse, self._answer(name)) for name, kind in REQUESTS.items()]
+        services = [
+            Service(name, "x/y", kind, CommandResponse, self._answer(name)) for name, kind in REQUESTS.items()
+        ]
         services.append(Service("/events/get", "x/z", GetEventsRequest, GetEventsResponse, self._tell_events))
         self._server = BridgeServer(services=services, on_message=self._hear)
         self.network.start(self._server.start("127.0.0.1", self.port)).result(5)
@@ -115,7 +117,9 @@ class FakeRobot:
 
     def _become(self, name: str, request: CommandRequest) -> None:
         stopped = self.control.stopped if name.startswith("/control") else name == "/stop"
-        driver = {"/control/acquire": request.client_id, "/control/release": ""}.get(name, self.control.driver_id)
+        driver = {"/control/acquire": request.client_id, "/control/release": ""}.get(
+            name, self.control.driver_id
+        )
         mode = "STOPPED" if stopped else "MANUAL"
         self.control = ControlStatus(mode=mode, driver=driver, driver_id=driver, stopped=stopped)
         self._server.publish("/control/status", self.control)

@@ -93,7 +93,10 @@ def rested(glass: Glass, robot: FakeRobot) -> None:
 def test_nobody_at_an_address_is_said_and_can_be_cancelled(glass: Glass, robot: FakeRobot) -> None:
     robot.stop()
     glass.app.open(robot.url)
-    glass.until(lambda: glass.app.connect._banner and "No robot answers" in glass.app.connect._banner.text, "no sentence")
+    glass.until(
+        lambda: glass.app.connect._banner and "No robot answers" in glass.app.connect._banner.text,
+        "no sentence",
+    )
     assert glass.app.shell is None
     glass.app.connect._banner.close()
     assert glass.app.session is None
@@ -206,14 +209,19 @@ def test_who_is_driven_by_another_is_only_watched(glass: Glass, robot: FakeRobot
     robot.control = ControlStatus(driver="tablet-B", driver_id="b")
     robot.publish("/control/status", robot.control)
     glass.app.open(robot.url, watch=True)
-    glass.until(lambda: glass.app.shell is not None and glass.app.shell.control_text == "driven by tablet-B", "not said")
+    glass.until(
+        lambda: glass.app.shell is not None and glass.app.shell.control_text == "driven by tablet-B",
+        "not said",
+    )
     glass.app.show("drive")
     glass.stage.run_for(0.3)
     assert glass.app.screens["drive"].stick.state == "disabled"
     assert robot.services() == []
 
 
-def test_taking_the_glass_away_ends_the_link_and_giving_it_back_heals_it(driving: Glass, robot: FakeRobot) -> None:
+def test_taking_the_glass_away_ends_the_link_and_giving_it_back_heals_it(
+    driving: Glass, robot: FakeRobot
+) -> None:
     push(driving, robot)
     assert driving.app.on_pause() is True
     rested(driving, robot)
@@ -251,4 +259,6 @@ def test_turning_the_device_keeps_stop_in_its_corner(driving: Glass, size: tuple
         driving.stage.frames(2)
         stop = driving.app.shell.stop
         assert size[0] - stop.right <= 16
-        assert driving.app.shell.form == ("tall" if size[1] > size[0] else "short" if size[1] < 600 else "wide")
+        assert driving.app.shell.form == (
+            "tall" if size[1] > size[0] else "short" if size[1] < 600 else "wide"
+        )

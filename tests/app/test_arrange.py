@@ -64,7 +64,8 @@ def test_the_frame_fills_the_window(size: tuple[int, int]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("size", "shape"), [((412, 892), "tall"), ((892, 412), "short"), ((1280, 800), "wide"), ((800, 1280), "tall")]
+    ("size", "shape"),
+    [((412, 892), "tall"), ((892, 412), "short"), ((1280, 800), "wide"), ((800, 1280), "tall")],
 )
 def test_the_form_follows_the_window(size: tuple[int, int], shape: str) -> None:
     assert form(*size) == shape

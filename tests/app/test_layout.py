@@ -16,7 +16,9 @@ WIDGETS = ["Compass", "LaserScanView", "Readout"]
 
 def one(**changes: object) -> str:
     entry: dict[str, object] = {"slot": "top", "widget": "Compass", "topic": "/pose", **changes}
-    return "[[instrument]]\n" + "\n".join(f"{key} = {value!r}" for key, value in entry.items() if value is not None)
+    return "[[instrument]]\n" + "\n".join(
+        f"{key} = {value!r}" for key, value in entry.items() if value is not None
+    )
 
 
 @pytest.mark.parametrize(
@@ -31,7 +33,10 @@ def one(**changes: object) -> str:
         (one(colour="red"), "key is one of .*, not 'colour'"),
         (one(title=3), "title is a text, not 3"),
         (one(widget="Readout", digits="two"), "digits is a number, not 'two'"),
-        (one(widget="Readout", topic="/odom", field="twist.speed"), "nav_msgs/Odometry has no number 'twist.speed'"),
+        (
+            one(widget="Readout", topic="/odom", field="twist.speed"),
+            "nav_msgs/Odometry has no number 'twist.speed'",
+        ),
         (one(widget="Readout", topic="/odom", field="twist.twist"), "has no number 'twist.twist'"),
         (one(widget="Readout", topic="/odom"), "has no number ''"),
         (one() + "\n" + one(), "2 instruments into top, where 1 fit"),
@@ -50,7 +55,14 @@ def test_an_unknown_layout_names_those_there_are(tmp_path: Path) -> None:
 
 
 def test_a_readout_reads_its_number_in_its_unit() -> None:
-    text = one(widget="Readout", slot="readouts", topic="/odom", field="twist.twist.linear.x", factor=3.6, unit="km/h")
+    text = one(
+        widget="Readout",
+        slot="readouts",
+        topic="/odom",
+        field="twist.twist.linear.x",
+        factor=3.6,
+        unit="km/h",
+    )
     (readout,) = parse("x", text, WIDGETS).instruments
     message = Odometry(twist=TwistWithCovariance(twist=Twist.planar(2.0, 0.0)))
     assert readout.read(message) == pytest.approx(7.2)

@@ -32,7 +32,12 @@ class Operator:
         self.settings = Settings(folder)
         self.link = Link(url, self.mailbox, self.network, client_id="me", client_name="tablet")
         self.session = Session(
-            self.link, Feeds(time.monotonic), self.settings, now=time.monotonic, client_id="me", wants_control=wants_control
+            self.link,
+            Feeds(time.monotonic),
+            self.settings,
+            now=time.monotonic,
+            client_id="me",
+            wants_control=wants_control,
         )
         self.said: list[tuple[str, Any]] = []
         self.session.listeners.append(lambda channel, post: self.said.append((channel, post.value)))
@@ -79,7 +84,9 @@ def connect(robot: FakeRobot, tmp_path: Path) -> Iterator[Callable[..., Operator
         operator.close()
 
 
-def test_who_connects_takes_control_where_it_is_free(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+def test_who_connects_takes_control_where_it_is_free(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
     operator = connect()
     operator.until(lambda: operator.session.control == "mine")
     assert robot.services() == ["/control/acquire"]
@@ -92,7 +99,9 @@ def test_who_watches_asks_for_nothing(robot: FakeRobot, connect: Callable[..., O
     assert robot.services() == []
 
 
-def test_control_of_another_is_not_taken_and_forbids_the_stick(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+def test_control_of_another_is_not_taken_and_forbids_the_stick(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
     robot.control = ControlStatus(driver="tablet-B", driver_id="b")
     robot.publish("/control/status", robot.control)
     operator = connect()
@@ -108,11 +117,15 @@ def test_a_refusal_is_told_with_the_robots_reason(robot: FakeRobot, connect: Cal
     operator = connect()
     operator.until(lambda: operator.session.control == "mine")
     operator.session.command("start")
-    operator.until(lambda: "start" in operator.session.outcomes and operator.session.outcomes["start"].phase == "refused")
+    operator.until(
+        lambda: "start" in operator.session.outcomes and operator.session.outcomes["start"].phase == "refused"
+    )
     assert operator.session.outcomes["start"].sentence == "Refused: start patrol. The mission has no points."
 
 
-def test_a_sent_draft_is_stored_only_when_the_robot_accepts_it(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+def test_a_sent_draft_is_stored_only_when_the_robot_accepts_it(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
     operator = connect()
     operator.until(lambda: operator.session.control == "mine" and operator.session.mission.stored is not None)
     operator.session.mission.add(1.0, 2.0)
@@ -140,7 +153,9 @@ def test_a_draft_of_yesterday_is_there_again_and_not_replaced(
     assert second.session.mission.state == "draft"
 
 
-def test_stop_is_confirmed_by_the_robot_and_lets_the_stick_go(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+def test_stop_is_confirmed_by_the_robot_and_lets_the_stick_go(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
     operator = connect()
     operator.until(lambda: operator.session.control == "mine")
     operator.link.drive(AHEAD)
@@ -193,7 +208,9 @@ def test_a_stream_is_live_and_goes_stale(robot: FakeRobot, connect: Callable[...
     operator.until(lambda: operator.session.feeds.state("/pose") == "stale")
 
 
-def test_the_place_told_by_the_operator_reaches_the_robot(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+def test_the_place_told_by_the_operator_reaches_the_robot(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
     operator = connect()
     operator.until(lambda: operator.session.connected)
     operator.session.place_robot(1.0, 2.0, 0.5)
@@ -204,7 +221,9 @@ def test_the_place_told_by_the_operator_reaches_the_robot(robot: FakeRobot, conn
     assert pose.header.frame_id == "map"
 
 
-def test_events_heard_by_nobody_are_kept_for_who_comes_later(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+def test_events_heard_by_nobody_are_kept_for_who_comes_later(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
     operator = connect()
     operator.session.listeners.clear()
     operator.session.deliver("event", Post(Event(id=1, text="early"), 0.0, 1))

@@ -23,7 +23,9 @@ ROOT = Path(__file__).parents[2]
         (["--colour"], "Unrecognized arguments: --colour."),
     ],
 )
-def test_a_mistake_is_one_sentence(arguments: list[str], sentence: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_mistake_is_one_sentence(
+    arguments: list[str], sentence: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(arguments) == 2
     assert capsys.readouterr().err == f"{sentence}\n"
 
@@ -37,6 +39,10 @@ def test_a_wrong_choice_names_what_is_allowed(option: str, capsys: pytest.Captur
 
 
 def test_a_mistake_is_said_without_starting_kivy() -> None:
-    code = "import sys; from app.__main__ import main; main(['--layout', 'x']); sys.exit('kivy' in sys.modules)"
-    done = subprocess.run([sys.executable, "-OO", "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=60)
+    code = (
+        "import sys; from app.__main__ import main; main(['--layout', 'x']); sys.exit('kivy' in sys.modules)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-OO", "-c", code], cwd=ROOT, check=False, capture_output=True, text=True, timeout=60
+    )
     assert (done.returncode, done.stderr.count("\n")) == (0, 1)

@@ -26,7 +26,9 @@ def xs(editor: MissionEditor) -> list[float]:
 
 
 @pytest.mark.parametrize("index", [-1, 3])
-@pytest.mark.parametrize("edit", [lambda e, i: e.move(i, 0, 0), lambda e, i: e.remove(i), lambda e, i: e.reorder(i, 0)])
+@pytest.mark.parametrize(
+    "edit", [lambda e, i: e.move(i, 0, 0), lambda e, i: e.remove(i), lambda e, i: e.reorder(i, 0)]
+)
 def test_a_point_that_is_not_there_cannot_be_edited(
     editor: MissionEditor, index: int, edit: Callable[[MissionEditor, int], None]
 ) -> None:

@@ -10,7 +10,9 @@ import pytest
 
 from app.simulator import Simulator, command
 
-SERVES = "print('robotside: ready bridge=ws://127.0.0.1:4711 http=http://127.0.0.1:1 robot=Patrol-1', flush=True)"
+SERVES = (
+    "print('robotside: ready bridge=ws://127.0.0.1:4711 http=http://127.0.0.1:1 robot=Patrol-1', flush=True)"
+)
 WAITS = "import time; time.sleep(600)"
 PATIENCE = 20.0
 

@@ -1,0 +1,98 @@
+"""What the operator keeps: snapshots of the camera and recordings of everything that came."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from app.link import EVENT
+from app.recorder import Recorder
+from app.session import Session
+from bridge.frames import Frame
+from bridge.msgs import Msg
+from bridge.topics import TOPICS
+
+__all__ = ["Records"]
+
+NAME = "%Y-%m-%d_%H-%M-%S"
+"""Files are called by the time of day."""
+
+
+class Records:
+    """Writes files below one folder and says what became of them."""
+
+    def __init__(
+        self, folder: Path, say: Callable[[str, str], object], wall: Callable[[], float] = time.time
+    ) -> None:
+        """`say` gets one sentence and its level; `wall` is the time of day [s]."""
+        self._folder, self._say, self._wall = folder, say, wall
+        self.recorder: Recorder | None = None
+        """The recording that runs; None when none does."""
+        self.frame: Frame | None = None
+        """The newest camera frame as it came; None before the first."""
+
+    def _path(self, folder: str, ending: str) -> Path:
+        return self._folder / folder / time.strftime(NAME + ending, time.localtime(self._wall()))
+
+    def snapshot(self) -> Path | None:
+        """Keep the newest camera frame as a file; None when there is none or it cannot be written."""
+        if self.frame is None:
+            return None
+        path = self._path("pictures", ".jpg")
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(self.frame.jpeg)
+        except OSError as error:
+            self._say(f"The snapshot could not be saved: {error.strerror or error}.", "warn")
+            return None
+        self._say(f"Snapshot saved as {path.name}.", "ok")
+        return path
+
+    def toggle(self, session: Session | None) -> None:
+        """Start recording, or finish the one that runs and say where it is."""
+        if self.recorder is None:
+            self.start(self._path("recordings", ".mcap"), session)
+            return
+        name = self.recorder.path.name
+        self.stop()
+        self._say(f"Recording saved as {name}.", "ok")
+
+    def start(self, path: Path, session: Session | None) -> bool:
+        """Record into `path`, beginning with what the robot said once; False, and said, when it cannot be written."""
+        self.stop()
+        try:
+            self.recorder = Recorder(path, wall=self._wall)
+        except OSError as error:
+            self._say(f"The recording could not start: {error.strerror or error}.", "warn")
+            return False
+        for entry in TOPICS:
+            if session is not None and entry.latched:
+                self.put(entry.name, session.feeds.latest(entry.name))
+        return True
+
+    def put(self, channel: str, message: object) -> None:
+        """Record what came, where a recording runs."""
+        if self.recorder is not None and isinstance(message, Msg):
+            self.recorder.put("/events" if channel == EVENT else channel, message)
+
+    def check(self) -> None:
+        """Say what was not recorded; a recording that the disk has ended is finished."""
+        if self.recorder is not None and self.recorder.sentence:
+            self._say(self.recorder.sentence, "warn")
+            if self.recorder.problem:
+                self.stop()
+
+    def stop(self) -> None:
+        """Finish the recording; nothing when none runs."""
+        recorder, self.recorder = self.recorder, None
+        if recorder is not None:
+            recorder.close()
+
+    @property
+    def clock(self) -> str:
+        """How long the recording runs, as in `04:31`; `Record` while none does."""
+        if self.recorder is None:
+            return "Record"
+        seconds = int(self._wall() - self.recorder.started)
+        return f"{seconds // 60:02d}:{seconds % 60:02d}"
