@@ -184,9 +184,12 @@ def drive(scene: Scene) -> Wait:
         yield from glass.soon(lambda: witness.speed() > 0.2, 5)
         yield from glass.tap((yield from glass.one("StopButton")))
         still = yield from scene.rest(3)
-        check("STOP by a second finger wins over the stick", bool(still) and _stopped(scene), bool(still))
+        check("at rest, with the stick still pushed", bool(still), bool(still))
+        stopped = yield from glass.soon(
+            lambda: _stopped(scene) and glass.all("StopButton")[0].phase == "stopped", 3
+        )
+        check("STOP by a second finger wins over the stick", bool(stopped), bool(stopped))
         scene.hand.up(finger)
-        yield from glass.soon(lambda: glass.all("StopButton")[0].phase == "stopped", 3)  # type: ignore[attr-defined]
 
 
 def _push(scene: Scene, stick: Any, left: float, forward: float) -> Finger:
