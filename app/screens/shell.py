@@ -12,7 +12,7 @@ from kivy.properties import BooleanProperty, ListProperty, ObjectProperty, Optio
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.widget import Widget
 
-import widgets.battery  # noqa: F401 - its rules and the next one's draw the bar
+import widgets.battery
 import widgets.link_quality  # noqa: F401
 from app import arrange
 from app.commands import Outcome
