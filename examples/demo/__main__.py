@@ -57,7 +57,7 @@ def _keep_pictures(out: Path, folder: Path) -> None:
     """Copy what the guide shows."""
     folder.mkdir(parents=True, exist_ok=True)
     for step, name in GUIDE.items():
-        for picture in out.glob(f"*-{step}.png"):
+        for picture in out.glob(f"[0-9][0-9]-{step}.png"):
             shutil.copyfile(picture, folder / f"{name}-tablet.png")
 
 

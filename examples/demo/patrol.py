@@ -18,6 +18,8 @@ REACHED, PLACED, HELD, AT_HOME = 0.3, 1.0, 0.05, 0.3
 """A point counts as visited, an intruder as placed, a pause as held, home as reached within these [m]."""
 FOUND = 5
 """So many of the cones are to be found at least."""
+INTO_THE_LOT = 0.9
+"""Where the robot looks when it is driven by hand [rad]: over the cars."""
 LONGEST = 400.0
 """What the patrol may take of the robot's time [s]."""
 
@@ -169,13 +171,15 @@ def drive(scene: Scene) -> Wait:
         yield from glass.pause(1.0)
     with scene.step("driven") as check:
         before = witness.truth
-        finger = _push(scene, stick, 0.25, 0.85)
-        yield from glass.soon(lambda: witness.driven(before[0]) > 1.0, 8)
+        yield from _face(scene, stick, INTO_THE_LOT)
+        off = abs(math.remainder(witness.truth[3] - INTO_THE_LOT, math.tau))
+        check("the stick turns the robot to where it should look [rad off, at most 0.5]", off, off <= 0.5)
+        since = witness.now
+        finger = _push(scene, stick, 0.1, 0.85)
+        yield from glass.soon(lambda: witness.driven(since) > 1.0, 8)
         scene.report.snapshot("driving")
-        moved = witness.driven(before[0])
-        check("the stick drives the robot [m, at least 0.8]", moved, moved >= 0.8)
-        turned = abs(math.remainder(witness.truth[3] - before[3], math.tau))
-        check("and turns it [rad, at least 0.2]", turned, turned >= 0.2)
+        moved = math.dist(witness.truth[1:3], before[1:3])
+        check("and drives it [m, at least 0.8]", moved, moved >= 0.8)
         scene.hand.up(finger)
         still = yield from scene.rest(1.0 + 1.0 / scene.speed)
         check("let go, it comes to rest", bool(still), bool(still))
@@ -190,6 +194,19 @@ def drive(scene: Scene) -> Wait:
         )
         check("STOP by a second finger wins over the stick", bool(stopped), bool(stopped))
         scene.hand.up(finger)
+
+
+def _face(scene: Scene, stick: Any, yaw: float) -> Wait:
+    """Turn on the spot by the stick until the robot faces `yaw` [rad]."""
+    side = math.copysign(0.4, math.remainder(yaw - scene.witness.truth[3], math.tau))
+    finger = _push(scene, stick, side, 0.0)
+
+    def facing() -> bool:
+        return math.copysign(1.0, side) * math.remainder(yaw - scene.witness.truth[3], math.tau) < 0.25
+
+    yield from scene.glass.soon(facing, 8)
+    scene.hand.up(finger)
+    yield from scene.rest(3)
 
 
 def _push(scene: Scene, stick: Any, left: float, forward: float) -> Finger:
