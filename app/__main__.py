@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from app import layout as layouts
+from app.device import is_android
 from app.discovery import check_address
 
 __all__ = ["main"]
@@ -72,7 +73,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     from app.application import PilothouseApp
 
     try:
-        app = PilothouseApp(arguments.url, arguments.screen, arguments.theme, arguments.layout)
+        app = PilothouseApp(
+            arguments.url, arguments.screen, arguments.theme, arguments.layout, poll=not is_android()
+        )
     except layouts.LayoutError as mistake:
         print(mistake, file=sys.stderr)
         return 2

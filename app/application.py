@@ -85,20 +85,21 @@ class PilothouseApp(App):
         simulator: Sequence[str] | None = None,
         *,
         discover: bool = True,
+        poll: bool = False,
         now: Callable[[], float] = time.monotonic,
         **kwargs: Any,
     ) -> None:
         """`url` is connected to at once; `screen` is `mission` or `drive`, shown once connected.
 
         `theme` overrides the remembered one; `simulator` is the command that starts the built-in simulator;
-        `discover` listens to robots saying HELLO. Raises LayoutError for a layout that cannot be shown.
+        `discover` listens to robots saying HELLO; `poll` looks for fingers once more a frame. Raises LayoutError for a layout that cannot be shown.
         """
         super().__init__(**kwargs)
         self._url, self._first_screen, self._theme = url, screen or "mission", theme
         self.layout_file: Layout = load(layout, CATALOGUE)
         self._settings_dir = settings_dir
         self._simulator_command = simulator
-        self._discover, self._now = discover, now
+        self._discover, self._poll, self._now = discover, poll, now
         self.session: Session | None = None
         self.shell: Any = None
         """The frame round the robot's screens; None on the connect screen."""
@@ -180,6 +181,8 @@ class PilothouseApp(App):
             Clock.schedule_interval(lambda _: self._tick(), TICK),
             Clock.schedule_interval(lambda _: self._list(), LIST),
         ]
+        if self._poll:  # Kivy hands a touch on two frames after it came; this saves one of them
+            self._events.append(Clock.schedule_interval(lambda _: Window.mainloop(), 0))
         Window.bind(on_keyboard=self._key, focus=self._focus, **dict.fromkeys(RESTING, self._rest))
         Window.allow_screensaver = False
         self._list()
@@ -432,7 +435,7 @@ class PilothouseApp(App):
             "mission": MissionScreen(app=self, session=self.session),
             "drive": DriveScreen(self.layout_file, app=self, session=self.session),
         }
-        self.shell = Shell(screens, app=self, session=self.session)
+        self.shell = Shell(screens, app=self, session=self.session, size=self.root.size, pos=self.root.pos)
         self.root.show_page(self.shell)
         for post in self.session.early:
             self.shell.replay(post)
