@@ -10,6 +10,7 @@ from __future__ import annotations
 import ast
 import configparser
 import fnmatch
+import importlib.util
 import re
 import shutil
 import subprocess
@@ -216,9 +217,10 @@ def shaders(files: list[Path], root: Path) -> Iterator[tuple[str, str, str]]:
 
 def glsl_es(kind: str, text: str) -> str:
     """The text with Kivy's header put in, as the phone's compiler gets it."""
-    import kivy
-
-    header = Path(kivy.__file__).parent / "data" / "glsl" / f"header.{kind[0]}s"
+    found = importlib.util.find_spec("kivy")  # importing it would print and write logs
+    if found is None or found.origin is None:
+        raise Failed("Kivy, whose header the shaders need, is not installed.")
+    header = Path(found.origin).parent / "data" / "glsl" / f"header.{kind[0]}s"
     body = text.replace("$HEADER$", header.read_text())
     return "#version 100\n" + body
 

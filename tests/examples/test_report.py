@@ -23,7 +23,9 @@ def test_a_story_that_held_ends_with_0(report, capsys):
     assert report.write(speed=1.0) == 0
     summary = json.loads((report.folder / "summary.json").read_text())
     assert summary["ok"] is True
-    assert summary["steps"][0]["checks"] == [{"expected": "the robot is listed [s]", "measured": 0.512, "ok": True}]
+    assert summary["steps"][0]["checks"] == [
+        {"expected": "the robot is listed [s]", "measured": 0.512, "ok": True}
+    ]
     assert (report.folder / summary["steps"][0]["picture"]).exists()
     assert "ok    1 connect" in capsys.readouterr().out
 
