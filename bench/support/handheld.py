@@ -1,12 +1,12 @@
-"""`python -m bench.support.handheld --started T [--size WxH] [--bare] [--frame-loop] [--json-camera]`: the real app,
-told what to do.
+"""`python -m bench.support.handheld --started T [--size WxH] [flags]`: the real app, told what to do.
 
 It draws off screen. `T` is the parent's `time.monotonic()` [s] just before it made this process; the first
 line says how long after that the first frame was drawn. Then each line of JSON on the standard input, as in
 `{"do": "connect", "url": "ws://…"}`, is answered by one. At the end of the input the app stops.
 
-`--bare` is a Kivy app with one button instead. `--frame-loop` has Kivy's default clock and has the frame loop send the stick
-20 times a second, as simple apps do; `--json-camera` takes pictures from the rosbridge topic.
+`--bare` is a Kivy app with one button instead. `--no-gl` swallows every call to OpenGL: what is left is what the app
+does where a GPU draws. `--frame-loop` has Kivy's default clock and has the frame loop
+send the stick 20 times a second, as simple apps do; `--json-camera` takes pictures from the rosbridge topic.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def options() -> argparse.Namespace:
     parser = argparse.ArgumentParser()
     parser.add_argument("--started", type=float, required=True)
     parser.add_argument("--size", default="1280x800")
-    for flag in ("--bare", "--frame-loop", "--json-camera"):
+    for flag in ("--bare", "--no-gl", "--frame-loop", "--json-camera"):
         parser.add_argument(flag, action="store_true")
     return parser.parse_args()
 
@@ -48,9 +48,9 @@ def options() -> argparse.Namespace:
 def prepare(asked: argparse.Namespace) -> None:
     """Everything that must be set before Kivy is imported."""
     os.environ.pop("DISPLAY", None)
-    os.environ.update(
-        SDL_VIDEODRIVER="offscreen", LP_NUM_THREADS="1", KIVY_NO_CONSOLELOG="1", KIVY_NO_ENV_CONFIG="1"
-    )
+    os.environ.update(SDL_VIDEODRIVER="offscreen", KIVY_NO_CONSOLELOG="1", KIVY_NO_ENV_CONFIG="1")
+    if asked.no_gl:
+        os.environ["KIVY_GL_BACKEND"] = "mock"
     if asked.frame_loop:
         os.environ["KIVY_CLOCK"] = "default"
     from app.__main__ import prepare as prepare_app
@@ -235,10 +235,9 @@ def real(asked: argparse.Namespace, folder: str) -> Any:
 
     if asked.frame_loop:
         send_by_frame_loop()
-        PilothouseApp.poll_early = False
     if asked.json_camera:
         watch_by_topic()
-    return PilothouseApp(screen="drive", settings_dir=folder, discover=False)
+    return PilothouseApp(screen="drive", settings_dir=folder, discover=False, poll=not asked.frame_loop)
 
 
 def main() -> None:

@@ -12,10 +12,10 @@ from typing import Any
 from bench.support.child import Child, child
 from bench.support.station import serving
 
-__all__ = ["PHONE", "TABLET", "Pair", "app", "pair"]
+__all__ = ["PHONE", "Pair", "app", "pair"]
 
-PHONE, TABLET = "892x412", "1280x800"
-"""Sizes of the glass [px]."""
+PHONE = "892x412"
+"""Size of a phone's glass [px]."""
 SETTLING = 2.0
 """After everything is live [s]: first pictures, fonts and shaders are behind it."""
 
