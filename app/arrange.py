@@ -135,7 +135,7 @@ def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
         "video": video,
         "modes": Rect(area.x + gap, area.y + gap, body.width - 3 * gap - 50 * dp, 46 * dp),
         "selection": Rect(
-            area.x + gap, area.y + 2 * gap + 46 * dp, min(300 * dp, body.width - 3 * gap - 50 * dp), 52 * dp
+            area.x + gap, area.y + 2 * gap + 46 * dp, min(340 * dp, body.width - 3 * gap - 50 * dp), 52 * dp
         ),
     }
 

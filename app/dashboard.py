@@ -77,8 +77,8 @@ class Dashboard:
 
     def _refresh(self, binding: _Binding) -> None:
         widget, state = binding.widget, self._feeds.state(binding.topic)
-        if widget.state != "alarm" or state != "live":
-            widget.state = state
         age = self._feeds.age(binding.topic)
         if state == "stale" and not abs(age - widget.age) < AGE_STEP:
             widget.age = age
+        if widget.state != "alarm" or state != "live":
+            widget.state = state
