@@ -26,6 +26,7 @@ def _arguments(argv: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--size", default="1280x800", metavar="WxH", help="of the window")
     parser.add_argument("--theme", default="dark", help="dark, sunlight or night")
     parser.add_argument("--pictures", type=Path, metavar="DIR", help="where the guide's pictures go as well")
+    parser.add_argument("--until", metavar="STEP", help="end after this step, as in sent")
     parser.add_argument("--window", action="store_true", help="in a window, to watch it")
     return parser.parse_args(argv)
 
@@ -90,19 +91,19 @@ def _play(arguments: argparse.Namespace, url: str, settings: Path) -> int:
     from examples.demo.fingers import Hand
     from examples.demo.glass import Glass, Unseen
     from examples.demo.report import Report
-    from examples.demo.scene import Scene
+    from examples.demo.scene import Enough, Scene
     from examples.demo.witness import Witness
 
     report, hand = Report(arguments.out), Hand()
     app = PilothouseApp(settings_dir=settings, theme=arguments.theme)
     witness = Witness(url)
-    scene = Scene(Glass(hand), witness, report, url, arguments.speed)
+    scene = Scene(Glass(hand), witness, report, url, arguments.speed, arguments.until)
     story = _story(scene, app, arguments.out / "run.mcap")
 
     def turn(_: float) -> None:
         try:
             next(story)
-        except StopIteration:
+        except (StopIteration, Enough):
             app.stop()
         except (Unseen, RuntimeError) as problem:
             report.fault = f"{report.steps[-1].name if report.steps else 'start'}: {problem}"

@@ -59,6 +59,8 @@ class Report:
             old.unlink()
         self.folder = folder
         self.steps: list[Step] = []
+        self.done = ""
+        """Name of the last step that ended."""
         self.fault = ""
         """Why the story ended early; empty when it did not."""
         self._started = time.monotonic()
@@ -78,6 +80,7 @@ class Report:
         """End the step with a picture and a line for the terminal."""
         step = self.steps[-1]
         step.seconds = round(time.monotonic() - self._started, 2)
+        self.done = step.name
         step.picture = f"{len(self.steps):02}-{step.name}.png"
         picture(self.folder / step.picture)
         print(f"{'ok  ' if step.ok else 'FAIL'} {len(self.steps):2} {step.name}", flush=True)

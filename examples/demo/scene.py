@@ -15,9 +15,13 @@ from examples.demo.glass import Glass
 from examples.demo.report import Report
 from examples.demo.witness import Witness
 
-__all__ = ["Scene", "Wait"]
+__all__ = ["Enough", "Scene", "Wait"]
 
 Wait = Generator[None, None, Any]
+
+
+class Enough(Exception):
+    """The step that was to be the last one is over."""
 
 
 @dataclass
@@ -31,6 +35,8 @@ class Scene:
     """Of the robot."""
     speed: float
     """Robot seconds per second."""
+    until: str | None = None
+    """Name of the last step to play; None plays all."""
 
     @property
     def hand(self) -> Hand:
@@ -39,7 +45,12 @@ class Scene:
 
     @contextmanager
     def step(self, name: str) -> Iterator[Callable[[str, Any, bool], bool]]:
-        """A step of the report; gives what notes an expectation. The picture is taken when it ends, however it does."""
+        """A step of the report; gives what notes an expectation. The picture is taken when it ends, however it does.
+
+        Raises Enough after the last step to play.
+        """
+        if self.until and self.report.done == self.until:
+            raise Enough
         self.report.begin(name)
         try:
             yield self.report.check
