@@ -24,7 +24,7 @@ class Frame:
     seq: int
     """Counts up by one a picture, modulo 2**32; a gap means pictures that were left out."""
     stamp: float
-    """When the shutter opened [s], robot clock."""
+    """When the shutter opened [s], on the clock that `/rosapi/get_time` tells."""
     width: int
     """[pixel]"""
     height: int

@@ -41,3 +41,7 @@ class RobotClock:
         passed = self.tick(wall) - before
         count = math.ceil(passed / STEP - 1e-9)
         return [before + passed * number / count for number in range(1, count + 1)]
+
+    def real(self, stamp: float) -> float:
+        """Real time [s] at which the robot's clock said `stamp` [s]; good for moments about the last tick."""
+        return self._last - (self.now - stamp) / self._speed

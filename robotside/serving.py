@@ -132,7 +132,8 @@ class Serving:
         if topic == CAMERA and isinstance(msg, CompressedImage) and self.station.info.cameras:
             width, height = jpeg_size(msg.data)
             self._frames += 1
-            stamp = msg.header.stamp.seconds
+            # real time, so that a handheld can tell the picture's age whatever the robot's clock does
+            stamp = self._clock.real(msg.header.stamp.seconds)
             frame = frames.pack(self._frames, stamp, msg.data, width, height)
             self.server.publish_frame(self.station.info.cameras[0], frame)
 

@@ -43,3 +43,17 @@ def test_a_fast_clock_goes_in_steps_short_enough_to_steer() -> None:
 def test_a_clock_in_real_time_goes_in_one_step_per_tick() -> None:
     clock = RobotClock(100.0)
     assert clock.steps(100.0 + 1 / 60) == [pytest.approx(100.0 + 1 / 60)]
+
+
+def test_the_real_time_of_a_picture_is_known_at_any_speed() -> None:
+    clock = RobotClock(100.0, speed=4.0)
+    clock.tick(100.1)
+    assert clock.real(clock.now) == pytest.approx(100.1)
+    assert clock.real(clock.now - 0.2) == pytest.approx(100.05)
+
+
+def test_the_real_time_of_a_picture_is_right_after_a_halt_that_left_the_robots_clock_behind() -> None:
+    clock = RobotClock(100.0)
+    clock.tick(130.0)
+    assert clock.now < 101.0
+    assert clock.real(clock.now) == pytest.approx(130.0)
