@@ -1,0 +1,139 @@
+"""The real app with real fingers, a real robot side, and a cable between them that a test can freeze or cut."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from kivy.base import EventLoop, runTouchApp
+from kivy.clock import Clock
+from kivy.uix.widget import Widget
+
+from examples.demo.fingers import Finger, Hand
+from examples.demo.glass import Glass, middle
+from tests.bridge.wires import Wire, wire
+
+PATIENCE = 15.0
+"""How long a test waits for what must happen [s]; a fault, not a delay, uses it up."""
+
+
+class Handheld:
+    """The app, moved on frame by frame by the test in real time."""
+
+    def __init__(self, app: Any, hand: Hand) -> None:
+        self.app, self.hand, self.glass = app, hand, Glass(hand)
+
+    def until(self, condition: Callable[[], Any], what: str, seconds: float = PATIENCE) -> Any:
+        """Let the app run until `condition` holds and return what it gave; fails with `what` when it does not."""
+        end = time.monotonic() + seconds
+        while not (found := condition()):
+            assert time.monotonic() < end, f"waited {seconds:g} s for {what}; the glass says: {self.words()}"
+            EventLoop.idle()
+        return found
+
+    def run(self, seconds: float) -> None:
+        """Let the app run for so long."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            EventLoop.idle()
+
+    def tap(self, words: str, kind: str = "Widget") -> None:
+        """Tap what says `words`."""
+        found = self.until(lambda: self.glass.labelled(words, kind), f"something that says {words!r}")
+        self.play(self.hand.tap(middle(found[0])))
+
+    def play(self, steps: Iterator[None]) -> None:
+        """Carry a gesture through."""
+        for _ in steps:
+            EventLoop.idle()
+
+    def one(self, kind: str) -> Any:
+        """The visible widget of class `kind`."""
+        return self.until(lambda: self.glass.all(kind), f"a {kind}")[0]
+
+    def push(self, stick: Widget, left: float, forward: float) -> Finger:
+        """Put a finger on the stick and push it out; it stays there."""
+        x, y = middle(stick)
+        finger = self.hand.down((x, y))
+        reach: float = stick.reach  # type: ignore[attr-defined]
+        for share in (0.3, 0.6, 1.0):
+            self.hand.move(finger, (x - left * reach * share, y + forward * reach * share))
+        return finger
+
+    def words(self) -> list[str]:
+        """Everything that can be read on the glass."""
+        return [str(w.text) for w in self.glass.all("Widget") if getattr(w, "text", "") and w.opacity > 0]
+
+
+@contextmanager
+def handheld(settings: Path, **options: Any) -> Iterator[Handheld]:
+    """The app with its settings in a folder; closed at the end of the block."""
+    from app.application import PilothouseApp
+
+    app, hand = PilothouseApp(settings_dir=settings, **options), Hand()
+    unpaced, Clock._max_fps = (
+        Clock._max_fps,
+        60,
+    )  # as the app itself runs: a loop that never rests starves the network
+    EventLoop.add_input_provider(hand)
+    app._run_prepare()
+    runTouchApp(embedded=True)
+    try:
+        yield Handheld(app, hand)
+    finally:
+        app.stop()
+        EventLoop.remove_input_provider(hand)
+        for child in list(EventLoop.window.children):
+            EventLoop.window.remove_widget(child)
+        Clock._max_fps = unpaced
+
+
+class Cable:
+    """A `Wire` that lives in a thread of its own, for tests that are no coroutines."""
+
+    def __init__(self, to: int) -> None:
+        self._to = to
+        self._loop = asyncio.new_event_loop()
+        self._done = asyncio.Event()
+        self._ready = threading.Event()
+        self._thread = threading.Thread(
+            target=self._loop.run_until_complete, args=(self._serve(),), name="cable"
+        )
+        self._thread.start()
+        self._ready.wait(PATIENCE)
+
+    async def _serve(self) -> None:
+        async with wire(self._to) as self._wire:
+            self._ready.set()
+            await self._done.wait()
+
+    @property
+    def url(self) -> str:
+        """To connect through it."""
+        return f"ws://127.0.0.1:{self._wire.port}"
+
+    def freeze(self) -> None:
+        """Nothing passes any more and nobody is told, as when a phone walks out of range."""
+        self._loop.call_soon_threadsafe(self._wire.freeze)
+
+    def thaw(self) -> None:
+        """Everything that waited in the cable arrives, late."""
+        self._loop.call_soon_threadsafe(self._wire.thaw)
+
+    def cut(self) -> None:
+        """Every connection breaks; new ones may come."""
+        self._loop.call_soon_threadsafe(self._wire.cut)
+
+    def close(self) -> None:
+        """Break everything and end."""
+        self._loop.call_soon_threadsafe(self._done.set)
+        self._thread.join(PATIENCE)
+        self._loop.close()
+
+
+__all__ = ["Cable", "Handheld", "Wire", "handheld"]

@@ -1,0 +1,65 @@
+"""The link dies at the worst moment: the robot stops by itself, nothing old arrives, nothing entered is lost."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import pytest
+
+from bridge.client import Phase
+from examples.demo.witness import Witness
+from tests.e2e.handheld import Cable, Handheld, handheld
+
+AT_REST = 0.02
+"""A robot slower than this stands [m/s]."""
+BRAKING = 0.7
+"""From full speed to rest at the wheels' 1 m/s2 [s]; the watchdog's time comes before it."""
+
+
+def drive_off(glass: Handheld, witness: Witness) -> None:
+    """Push the stick and leave the finger there until the robot is on its way."""
+    stick = glass.one("Joystick")
+    glass.until(
+        lambda: glass.app.session.control == "mine" and stick.state == "live", "control and a live stick"
+    )
+    glass.push(stick, 0.0, 0.9)
+    glass.until(lambda: witness.speed() > 0.2, "the robot to drive off")
+
+
+def seconds_until_rest(glass: Handheld, witness: Witness) -> float:
+    """From now until the robot stands, as the truth says [s]."""
+    started = time.monotonic()
+    glass.until(lambda: witness.speed() < AT_REST, "the robot to stand", 3.0)
+    return time.monotonic() - started
+
+
+@pytest.mark.parametrize("how", ["freeze", "cut"])
+def test_a_pushed_stick_and_a_lost_link_bring_the_robot_to_rest_and_nothing_old_moves_it_later(
+    how: str, cable: Cable, witness: Witness, tmp_path: Path
+) -> None:
+    with handheld(tmp_path, url=cable.url, screen="drive", discover=False) as glass:
+        drive_off(glass, witness)
+        getattr(cable, how)()
+        assert seconds_until_rest(glass, witness) < 0.3 + BRAKING
+        rested_at = witness.truth
+        glass.run(0.5)
+        cable.thaw()
+        glass.until(lambda: glass.app.session.link_state.phase is Phase.CONNECTED, "the link to heal")
+        glass.run(1.5)
+        assert witness.distance(*rested_at[1:3]) < 0.05, "a finger that never left the glass must push anew"
+
+
+def test_a_link_that_dies_in_silence_is_said_on_the_glass_and_heals_by_itself(
+    cable: Cable, witness: Witness, tmp_path: Path
+) -> None:
+    with handheld(tmp_path, url=cable.url, discover=False) as glass:
+        glass.until(lambda: glass.app.shell is not None and glass.app.session.connected, "the robot")
+        cable.freeze()
+        glass.until(lambda: not glass.app.session.connected, "the app to notice", 6.0)
+        glass.until(
+            lambda: any("try" in words.lower() or "lost" in words.lower() for words in glass.words()),
+            "a sentence",
+        )
+        cable.thaw()
+        glass.until(lambda: glass.app.session.connected, "the link to heal", 8.0)

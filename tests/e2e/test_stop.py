@@ -1,0 +1,62 @@
+"""STOP from the glass, whoever drives, and the deliberate way out of it."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from bridge.msgs.geometry_msgs import Twist
+from bridge.remote import RemoteRobot
+from examples.demo.robot import RobotProcess
+from examples.demo.witness import Witness
+from tests.e2e.handheld import handheld
+
+PERIOD = 0.05
+"""Between two drive commands of the other client [s]."""
+
+
+@contextmanager
+def somebody_drives(url: str) -> Iterator[None]:
+    """Another client that goes on pushing its stick forward until the end of the block."""
+    enough = threading.Event()
+
+    def push(robot: RemoteRobot) -> None:
+        while not enough.wait(PERIOD):
+            robot.publish("/cmd_vel", Twist.planar(0.4, 0.0))
+
+    with RemoteRobot(url) as robot:
+        robot.wait()
+        hand = threading.Thread(target=push, args=(robot,))
+        hand.start()
+        try:
+            yield
+        finally:
+            enough.set()
+            hand.join()
+
+
+def test_a_watcher_stops_a_robot_that_somebody_else_drives(
+    robot: RobotProcess, witness: Witness, tmp_path: Path
+) -> None:
+    with handheld(tmp_path, url=robot.url, discover=False) as glass:
+        glass.until(lambda: glass.app.session.control == "mine", "control")
+        glass.app.session.release_control()
+        glass.until(lambda: glass.app.session.control == "free", "free control")
+        with somebody_drives(robot.url):
+            glass.until(lambda: witness.speed() > 0.2, "the other client to drive")
+            stop = glass.one("StopButton")
+            glass.play(glass.hand.tap(stop.to_window(*stop.center)))
+            glass.until(lambda: stop.phase == "stopped", "STOPPED on the button", 2.0)
+            glass.run(1.0)
+            assert witness.speed() < 0.01, "a latched STOP holds against the stick of anybody"
+        glass.until(
+            lambda: glass.app.session.control == "free", "the driver's control to end with its socket"
+        )
+        glass.app.session.take_control()
+        glass.until(lambda: glass.app.session.control == "mine", "control")
+        finger = glass.hand.down(stop.to_window(*stop.center))
+        glass.until(lambda: stop.phase == "ready", "the release after a hold", 4.0)
+        glass.hand.up(finger)
+        glass.run(0.1)
