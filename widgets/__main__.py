@@ -25,7 +25,9 @@ def main(arguments: list[str] | None = None) -> int:
         prog="python -m widgets", description="Show every widget in every state."
     )
     parser.add_argument("name", nargs="?", default="", help="one widget, as in Compass; all without it")
-    parser.add_argument("--pictures", "--out", type=Path, metavar="DIR", help="write PNG files and index.html there")
+    parser.add_argument(
+        "--pictures", "--out", type=Path, metavar="DIR", help="write PNG files and index.html there"
+    )
     options = parser.parse_args(arguments)
     prepare(offscreen=options.pictures is not None)
     from widgets import gallery

@@ -207,5 +207,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
             ValueUnit(value="—", unit="m"),
             ValueUnit(value="−12", unit="°", role="warn"),
         ),
-        "labels": lambda: _row(SectionLabel(title="Next WP"), Text(text="Driving to point 3.", size_hint_x=2)),
+        "labels": lambda: _row(
+            SectionLabel(title="Next WP"), Text(text="Driving to point 3.", size_hint_x=2)
+        ),
     }
