@@ -48,6 +48,14 @@ NO_RECIPE = {
 }
 """Compiled packages that python-for-android has no recipe for."""
 
+FILES = (
+    "icon.filename",
+    "presplash.filename",
+    "android.extra_manifest_xml",
+    "android.extra_manifest_application_arguments",
+)
+"""Options that name a file."""
+
 IMPORT_ALL = """
 import importlib, os, sys
 os.environ.update(KIVY_NO_ARGS="1", KIVY_NO_CONFIG="1", KIVY_NO_FILELOG="1", KIVY_NO_CONSOLELOG="1",
@@ -149,9 +157,10 @@ def check_manifest(root: Path, spec: configparser.SectionProxy) -> None:
         raise Failed(
             "android.features breaks the build; say <uses-feature> in android_xml/manifest_extra.xml."
         )
-    for key in ("android.extra_manifest_xml", "android.extra_manifest_application_arguments"):
-        if not (root / spec[key]).is_file():
-            raise Failed(f"{key} names {spec[key]}, which is not there.")
+    for key in FILES:
+        named = spec[key].replace("%(source.dir)s", ".")
+        if not (root / named).is_file():
+            raise Failed(f"{key} names {named}, which is not there.")
 
 
 def third_party(files: list[Path], root: Path) -> set[str]:
