@@ -89,7 +89,7 @@ def watch(scene: Scene, since: float) -> Wait:
     witness = scene.witness
     with scene.step("patrolled") as check:
         yield from scene.glass.soon(lambda: _visited(scene) >= len(PATROL) - 2, LONGEST / scene.speed)
-        yield from scene.robot_time(8)
+        yield from scene.robot_time(15)
         scene.report.snapshot("watching")
         visited = yield from scene.glass.soon(lambda: _visited(scene) >= len(PATROL), LONGEST / scene.speed)
         check(f"{len(PATROL)} points visited, as the robot says", _visited(scene), bool(visited))
