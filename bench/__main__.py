@@ -1,4 +1,4 @@
-"""`python -m bench [NAME…] [--data DIR] [--json FILE] [--doc]`: measures, prints a table, writes out/bench/."""
+"""`python -m bench [NAME…] [--data DIR] [--json FILE] [--doc [CONDITIONS]]`: measures, prints a table, writes out/bench/."""
 
 from __future__ import annotations
 
@@ -29,7 +29,11 @@ def options(arguments: Sequence[str], known: Sequence[str]) -> argparse.Namespac
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write every result into this file, too")
     parser.add_argument(
-        "--doc", action="store_true", help="write docs/performance.md from out/bench; measures what is named"
+        "--doc",
+        nargs="?",
+        const="",
+        metavar="CONDITIONS",
+        help="write docs/performance.md from out/bench, with what is to be said of the machine; measures what is named",
     )
     asked = parser.parse_args(arguments)
     unknown = [name for name in asked.name if name not in known]
@@ -69,7 +73,7 @@ def main(arguments: Sequence[str]) -> int:
     """0 whatever the figures are; 1 when a bench crashed."""
     known = names()
     asked = options(arguments, known)
-    chosen = asked.name or ([] if asked.doc else known)
+    chosen = asked.name or (known if asked.doc is None else [])
     results = [run(name, Context(asked.data)) for name in chosen]
     found = [result for result in results if result]
     missed = [f"{r.name}.{o.figure.name}" for r in found for o in r.outcomes if o.verdict == "MISSED"]
@@ -77,9 +81,9 @@ def main(arguments: Sequence[str]) -> int:
         print(f"missed: {', '.join(missed)}")
     if asked.json:
         write(asked.json, [as_json(result) for result in found])
-    if asked.doc:
+    if asked.doc is not None:
         pages = [json.loads(path.read_text()) for name in known if (path := OUT / f"{name}.json").exists()]
-        PAGE.write_text(document(pages, conditions()))
+        PAGE.write_text(document(pages, f"{conditions()}{asked.doc}"))
     return 0 if len(found) == len(results) else 1
 
 

@@ -24,8 +24,8 @@ NAIVE = "sent by the frame loop"
 FIGURES = (
     Figure("p50", "ms", "finger to robot, median, 892 x 412", target=12, against=NAIVE),
     Figure("p99", "ms", "finger to robot, 99 of 100, 892 x 412", target=40, against=NAIVE),
-    Figure("gpu_p50", "ms", "the same with the drawing left out", target=12, against=NAIVE),
-    Figure("gpu_p99", "ms", "the same with the drawing left out", target=40, against=NAIVE),
+    Figure("gpu_p50", "ms", "finger to robot, median, drawing left out", target=12, against=NAIVE),
+    Figure("gpu_p99", "ms", "finger to robot, 99 of 100, drawing left out", target=40, against=NAIVE),
     Figure("touch_p50", "ms", "of it: finger to the stick's command, 892 x 412", against=NAIVE),
 )
 REPEATS = 2

@@ -1,7 +1,8 @@
 """The patrol robot driving a circle in the parking lot: physics with every sensor, one laser sweep, one picture.
 
-CPU time of the whole process, the threads of the drawing included, without sockets. The camera rows draw the same 24 views round the robot,
-640 x 480, without JPEG; the other way is pybullet's own software renderer without shadows, with the same solids to see.
+CPU time of the whole process, the threads of the drawing included, without sockets. The camera rows draw the same 24
+views round the robot, 640 x 480, without JPEG; the other way is pybullet's own software renderer without shadows, with
+the same solids to see.
 The laser's other way asks the physics for one beam at a time.
 """
 

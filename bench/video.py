@@ -22,7 +22,7 @@ FIGURES = (
     Figure("rate", "1/s", "pictures shown", better="more", against=JSON),
     Figure("lost", "%", "pictures drawn and never shown", against=JSON),
 )
-REPEATS = 3
+REPEATS = 2
 WATCHED = 15.0
 """[s]"""
 

@@ -100,13 +100,26 @@ def only(monkeypatch, tmp_path):
 
 def test_a_missed_figure_is_marked_and_is_no_failure(only, capsys):
     folder = only(bench_of([]))
-    assert command.main(["x", "--json", str(folder / "all.json"), "--doc"]) == 0
+    assert command.main(["x", "--json", str(folder / "all.json"), "--doc", ", in a storm"]) == 0
     told = capsys.readouterr().out
     assert "MISSED" in told
     assert "missed: x.cost" in told
     assert (folder / "bench" / "x.json").exists()
     assert (folder / "all.json").read_text().count('"bench": "x"') == 1
-    assert "**missed**" in (folder / "performance.md").read_text()
+    page = (folder / "performance.md").read_text()
+    assert "**missed**" in page
+    assert ", in a storm." in page
+
+
+def test_the_page_alone_is_written_from_what_was_measured_before(only):
+    folder = only(bench_of([]))
+    assert command.main(["x"]) == 0
+    assert not (folder / "performance.md").exists()
+    log = []
+    only(bench_of(log))
+    assert command.main(["--doc"]) == 0
+    assert log == []
+    assert "## x" in (folder / "performance.md").read_text()
 
 
 def test_a_crash_is_told_and_is_a_failure(only, capsys):
