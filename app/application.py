@@ -342,7 +342,7 @@ class PilothouseApp(App):
     def _list(self) -> None:
         if self.session is None:
             entries = self.robots.entries()
-            self.connect.show_entries(entries, self.client_name)
+            self.connect.show_entries(entries, self.client_id)
             self.nearby.measure(entries)
 
     def _save_robots(self) -> None:

@@ -53,6 +53,8 @@ class Entry:
     """0 to 1; NaN unknown."""
     driver: str = ""
     """Who has control; empty when it is free or unknown."""
+    driver_id: str = ""
+    """The client id that has control."""
     silent: float = math.nan
     """Since its last HELLO [s]; NaN when it never said one."""
     latency: float = math.nan
@@ -141,6 +143,7 @@ class Robots:
             hello.description,
             hello.battery,
             hello.driver,
+            hello.driver_id,
             silent,
             self._latency.get(hello.url, math.nan),
             hello.url in self._saved,

@@ -47,6 +47,8 @@ class Hello(Msg, frozen=True, gc=False):
     """0 empty to 1 full; NaN when it does not know."""
     driver: str = ""
     """Who has control; empty when it is free."""
+    driver_id: str = ""
+    """The `client_id` that has control; two handhelds may bear one name, but not one id."""
     boot: str = ""
     """Identity of this run of the robot side."""
 

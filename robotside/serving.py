@@ -148,6 +148,7 @@ class Serving:
             http=self.addresses.http,
             battery=self.station.autonomy.battery,
             driver=driver.name if driver else "",
+            driver_id=driver.client_id if driver else "",
             boot=self.station.events.boot,
         )
 

@@ -218,7 +218,7 @@ class RobotCard(Card):
     """The robot, as of the list."""
 
     def show_entry(self, entry: Entry, me: str) -> None:
-        """Take over what is known of the robot; `me` is this handheld's name."""
+        """Take over what is known of the robot; `me` is this handheld's client id."""
         self.entry = entry
         icon, words = KINDS.get(entry.kind, ("smart_toy_fill", ""))
         self.icon, self.lost = icon, entry.state == "lost"
@@ -248,7 +248,7 @@ class RobotCard(Card):
             self.link_text, self.link_role = "not heard yet", "muted"
 
     def _show_driver(self, entry: Entry, me: str) -> None:
-        mine, other = entry.driver == me and bool(me), bool(entry.driver)
+        mine, other = entry.driver_id == me and bool(me), bool(entry.driver)
         if entry.state != "live":
             self.driver_text, self.driver_role = ("lost" if self.lost else ""), "danger"
         elif mine:
