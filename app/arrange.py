@@ -93,7 +93,16 @@ def mission(body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False
             "video": video,
             "selection": Rect(area.x + gap, video.top + 8 * dp, min(300 * dp, room), 52 * dp),
         }
-    return places
+    return places | {"notice": _mission_notice(places, gap, dp)}
+
+
+def _mission_notice(places: dict[str, Rect], gap: float, dp: float) -> Rect:
+    """A line over the map for what happened: beside the modes, or below them where that is too narrow."""
+    modes, right, high = places["modes"], places["tools"].x - gap, 46 * dp
+    beside = right - modes.right - gap
+    if beside >= 320 * dp:
+        return Rect(modes.right + gap, modes.y, beside, high)
+    return Rect(modes.x, modes.y - 8 * dp - high, right - modes.x, high)
 
 
 def _mission_instruments(area: Rect, gap: float, dp: float) -> dict[str, Rect]:
@@ -124,14 +133,16 @@ def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
     area = Rect(body.x, body.y + low, body.width, body.height - low)
     picture = min(148 * dp, body.width * 0.4)
     video = Rect(area.x + gap, area.top - gap - picture * 0.66, picture, picture * 0.66)
+    tools = _column(area, 50 * dp, 4, gap, 8 * dp)
     return {
         "map": area,
         "side": sheet,
+        "notice": Rect(video.x, video.y - 54 * dp, tools.x - gap - video.x, 46 * dp),
         "handle": Rect(sheet.x, sheet.top - handle, sheet.width, handle),
         "panel": panel,
         "stop": stop,
         "tasks": tasks,
-        "tools": _column(area, 50 * dp, 4, gap, 8 * dp),
+        "tools": tools,
         "video": video,
         "modes": Rect(area.x + gap, area.y + gap, body.width - 3 * gap - 50 * dp, 46 * dp),
         "selection": Rect(
@@ -188,7 +199,8 @@ def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     if not wide:
         readouts = Rect(right.x - gap - readouts_size[0], right.y, *readouts_size)
         tape = Rect(left.right + gap, tape.y, readouts.x - gap - left.right - gap, 52 * dp)
-    return places | {"top": tape, "top_right": right, "readouts": readouts}
+    notice = Rect(tape.x, tape.y - 78 * dp, tape.width, 46 * dp)
+    return places | {"top": tape, "top_right": right, "readouts": readouts, "notice": notice}
 
 
 def _pair(
@@ -214,6 +226,7 @@ def _drive_tall(body: Rect, dp: float) -> dict[str, Rect]:
     upper = cards.height - readouts_height - gap
     horizon = min(upper, cards.width * 0.4)
     left = Rect(cards.x, cards.y + readouts_height + gap, cards.width - horizon - gap, upper)
+    tape = Rect(body.x + body.width * 0.1, body.top - gap - 52 * dp, body.width * 0.8, 52 * dp)
     return {
         "video": video,
         "stop": stop,
@@ -223,5 +236,6 @@ def _drive_tall(body: Rect, dp: float) -> dict[str, Rect]:
         "top_left": left,
         "top_right": Rect(left.right + gap, left.y, horizon, upper),
         "readouts": Rect(cards.x, cards.y, cards.width, readouts_height),
-        "top": Rect(body.x + body.width * 0.1, body.top - gap - 52 * dp, body.width * 0.8, 52 * dp),
+        "top": tape,
+        "notice": Rect(body.x + gap, tape.y - 82 * dp, body.width - 2 * gap, 46 * dp),
     }

@@ -47,6 +47,8 @@ Builder.load_string("""
 AHEAD = math.pi / 2
 """Where straight ahead is on the screen [rad]."""
 RINGS = 3
+LOW = 2.0
+"""A card this many times broader than high keeps its name beside the rings."""
 
 
 class LaserScanView(Drawing):
@@ -119,7 +121,8 @@ class LaserScanView(Drawing):
         """Where the robot stands [px], and the scale [px/m], so that all rings are inside the card."""
         behind = max(0.12, -math.cos(half))
         beside = 1.0 if half >= AHEAD else math.sin(half)
-        edge, head = dp(14), dp(34)
+        # in a low card the name stands beside the rings, not above them
+        edge, head = dp(14), dp(14) if self.width > LOW * self.height else dp(34)
         wide, high = self.width - 2 * edge, self.height - edge - head
         radius = max(min(wide / (2 * beside), high / (1 + behind)), 1.0)
         slack = (high - radius * (1 + behind)) / 2
@@ -133,8 +136,10 @@ class LaserScanView(Drawing):
             angles = np.linspace(AHEAD - half, AHEAD + half, 97)
             rim = np.stack([np.cos(angles), np.sin(angles)], axis=1) * distance * scale + at
             shapes.line(rim, dp(1.2), theme.line)
-            text, y = length_text(round(distance, 2)), at[1] + distance * scale
-            yield Word(text, at[0] + dp(5), y + dp(1), sp(11.5), theme.muted, anchor=(0, 0))
+            # words of rings that lie closer than a line of text would cover each other: the outer one is enough
+            if ring == RINGS or self._reach * scale / RINGS > sp(14):
+                y = at[1] + distance * scale + dp(1)
+                yield Word(length_text(round(distance, 2)), at[0] + dp(5), y, sp(11.5), theme.muted, anchor=(0, 0))
 
     def _sweep(
         self,

@@ -160,6 +160,7 @@ class DriveScreen(FloatLayout):
         self._trim(form)
         top, left = places["top"], places["top_left"]
         self.video.insets = [0 if tall else left.right - body.x, 0, 0, body.top - top.y]
+        self.notice = places["notice"]
         return places["stop"]
 
     def _trim(self, form: str) -> None:

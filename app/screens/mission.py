@@ -257,6 +257,7 @@ class MissionScreen(FloatLayout):
         self._place_tasks(places.get("tasks"))
         self._place_tools(places["tools"], dp, tall)
         self._place_floats(places)
+        self.notice = places["notice"]
         return places["stop"]
 
     def _place_floats(self, places: dict[str, Rect]) -> None:

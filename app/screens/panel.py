@@ -237,9 +237,9 @@ class MissionPanel(BoxLayout):
             self.next.value = self.left.value = math.nan
         self.lap.words = f"{status.lap}" if status.lap else ""
         self.lap.unit = f"of {status.laps}" if status.laps and status.lap else ""
-        self._progress.where = status.reason or (
-            f"point {status.waypoint} of {status.waypoints}" if status.waypoint else "No task runs."
-        )
+        # the robot's own sentence stands under the buttons
+        going = f"Point {status.waypoint} of {status.waypoints}" if status.waypoint else ""
+        self._progress.where = going or status.reason or "No task runs."
 
     def _show_progress(self, progress: TaskProgress) -> None:
         if self._session.running:

@@ -290,9 +290,11 @@ class Shell(FloatLayout):
                 button.pos = (rect.x + 6 * dp, y)
 
     def _place_notices(self, *_: object) -> None:
-        notices, body, dp = self.ids.notices, self.ids.body, Metrics.density
-        notices.width = min(560 * dp, body.width - 24 * dp)
-        notices.pos = (body.center_x - notices.width / 2, body.top - notices.height - 10 * dp)
+        notices = self.ids.notices
+        if self.screen:
+            room = self.screens[self.screen].notice
+            notices.width = min(560 * Metrics.density, room.width)
+            notices.pos = (room.x + (room.width - notices.width) / 2, room.top - notices.height)
 
     # what is heard
 

@@ -29,9 +29,17 @@ CASES = [(size, name) for size in SIZES for name in ("mission", "drive")]
 def test_nothing_overlaps(size: tuple[int, int], name: str) -> None:
     places = screens(*size)[name]
     ground = MAY_LIE_ON if name == "drive" else MAY_LIE_ON - {"video"}
-    things = {key: rect for key, rect in places.items() if key not in ground}
+    # a notice comes and goes; a bar for the selected point may lie under it on the smallest phone
+    things = {key: rect for key, rect in places.items() if key not in {*ground, "notice"}}
     for (one, first), (two, second) in itertools.combinations(things.items(), 2):
         assert not first.overlaps(second), f"{one} {first} overlaps {two} {second}"
+
+
+@pytest.mark.parametrize(("size", "name"), CASES)
+def test_a_notice_covers_nothing_that_can_be_touched(size: tuple[int, int], name: str) -> None:
+    places = screens(*size)[name]
+    for key in {"stop", "stick", "slider", "actions", "modes", "tools", "panel", "tasks"} & places.keys():
+        assert not places["notice"].overlaps(places[key]), key
 
 
 @pytest.mark.parametrize(("size", "name"), CASES)
