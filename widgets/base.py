@@ -34,7 +34,8 @@ Builder.load_string("""
             rgba: root.veil
         RoundedRectangle:
             pos: root.pos
-            size: root.size
+            # what is clear need not be drawn: over a whole screen it costs as much as a picture
+            size: root.size if root.veil[3] else (0, 0)
             radius: [root.veil_radius]
         Color:
             rgba: theme.raised if root.badge else (0, 0, 0, 0)

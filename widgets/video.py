@@ -102,12 +102,13 @@ class Video(Drawing):
         self._lens["half_size"] = self._lens["seen"] = (1.0, 1.0)
         self._picture = Rectangle(size=(0, 0), tex_coords=WHOLE)
         self._lens.add(self._picture)
+        self._plain_colour, self._plain = Color(1, 1, 1, 1), Rectangle(size=(0, 0))
         self._ink, self._words, self._chip_words = Ink(), Words(), Words()
         self._chip_ground, self._chip = Color(), SmoothRoundedRectangle(size=(0, 0))
         super().__init__(**kwargs)
         for part in (
-            self._ground, self._frame, self._lens, self._ink, self._words.canvas,
-            self._chip_ground, self._chip, self._chip_words.canvas,
+            self._ground, self._frame, self._lens, self._plain_colour, self._plain,
+            self._ink, self._words.canvas, self._chip_ground, self._chip, self._chip_words.canvas,
         ):  # fmt: skip
             self.canvas.add(part)
         self.bind(corner=self.setter("veil_radius"))
@@ -124,7 +125,7 @@ class Video(Drawing):
             )
         if self._texture is None or self._texture.size != (width, height):
             self._texture = Texture.create(size=(width, height), colorfmt="rgba")
-            self._picture.texture = self._texture
+            self._picture.texture = self._plain.texture = self._texture
             self._picture.tex_coords = WHOLE
             self.frame_size = [width, height]
         self._texture.blit_buffer(rgba, colorfmt="rgba", bufferfmt="ubyte")
@@ -144,20 +145,29 @@ class Video(Drawing):
     def draw(self) -> None:
         """Bring the frame, the boxes and the words up to date; the picture itself comes by `show_frame`."""
         self._ground.rgba = theme.raised if self._texture is None else theme.bg
-        self._frame.pos, self._frame.size = self.pos, self.size
-        self._frame.radius = [max(self.corner, 0.01)]
         self._place_picture()
+        self._frame.pos, self._frame.size = self.pos, (0, 0) if self._fills() else self.size
+        self._frame.radius = [max(self.corner, 0.01)]
         shapes = Shapes()
         self._words.write([*self._box_marks(shapes), *self._sentence()])
         self._ink.draw(shapes)
         self._draw_chip()
 
+    def _fills(self) -> bool:
+        """The picture covers all of a square-cornered frame and is fresh: no lens and no ground are needed, which
+        on a screen full of video is two thirds of the pixels."""
+        fresh = self._texture is not None and self.state not in ("stale", "never")
+        return fresh and self.corner == 0 and self.fit == "cover"
+
     def _place_picture(self) -> None:
         wide, high = self.picture_size
         seen = min(wide, self.width), min(high, self.height)
         light = 0.0 if self._texture is None else FADED if self.state in ("stale", "never") else 1.0
-        self._picture.pos = self.center_x - seen[0] / 2, self.center_y - seen[1] / 2
-        self._picture.size = seen
+        place = self.center_x - seen[0] / 2, self.center_y - seen[1] / 2
+        self._picture.pos = self._plain.pos = place
+        self._picture.size, self._plain.size = ((0, 0), seen) if self._fills() else (seen, (0, 0))
+        x, y = seen[0] / wide / 2, seen[1] / high / 2
+        self._plain.tex_coords = (0.5 - x, 0.5 + y, 0.5 + x, 0.5 + y, 0.5 + x, 0.5 - y, 0.5 - x, 0.5 - y)
         whole = seen == (self.width, self.height)
         part = self._lens
         part["half_size"] = float(seen[0] / 2), float(seen[1] / 2)
