@@ -7,12 +7,15 @@ from collections.abc import Callable, Generator, Iterator
 from typing import Any
 
 from kivy.core.window import Window
+from kivy.uix.scrollview import ScrollView
 from kivy.uix.widget import Widget
 
 from examples.demo.fingers import Hand, Point
 
 __all__ = ["Glass", "Unseen"]
 
+EDGE = 12
+"""How far a widget may be off where it should be scrolled to [px]."""
 Wait = Generator[None, None, Any]
 
 
@@ -113,6 +116,40 @@ class Glass:
         """Tap the button with `icon` on it; Unseen when there is none in time."""
         found = yield from self.until(lambda: self.icons(icon), seconds, f"a button with the icon {icon}")
         yield from self.tap(found[0])
+
+    def reach(self, kind: str) -> Wait:
+        """Bring the widget of class `kind` into sight where a phone has no room for it, and return it.
+
+        Scrolls, but does not draw a sheet up; Unseen when there is no such widget.
+        """
+        found = [w for root in Window.children for w in _tree(root) if type(w).__name__ == kind]
+        if not found:
+            raise Unseen(f"there is no {kind} on the glass.")
+        yield from self._scroll_to(found[0])
+        return found[0]
+
+    def sheet(self, up: int) -> Wait:
+        """Draw a phone's sheet up (1) or down (0); nothing where there is none or it is so."""
+        screens: list[Any] = self.all("MissionScreen")
+        grips = self.all("SheetGrip")
+        if grips and screens and screens[0].sheet != up:
+            yield from self.tap(grips[0])
+            yield from self.pause(0.3)
+
+    def _scroll_to(self, widget: Widget) -> Wait:
+        above: Any = widget
+        while above is not None and above is not Window and not isinstance(above, ScrollView):
+            above = above.parent
+        for _ in range(8):
+            if not isinstance(above, ScrollView):
+                return
+            x, y = above.to_window(*above.center)
+            off = y - middle(widget)[1]
+            if abs(off) + widget.height / 2 <= above.height / 2 + EDGE or abs(off) < EDGE:
+                return
+            step = max(-above.height / 2.5, min(above.height / 2.5, off))
+            yield from self.hand.drag([(x, y - step / 2), (x, y + step / 2)], hold=20)
+            yield from self.pause(0.6)
 
     def tap(self, widget: Widget) -> Wait:
         """Tap a widget in its middle."""

@@ -32,6 +32,7 @@ def _status(scene: Scene, state: str, task: str = "patrol") -> bool:
 def start(scene: Scene) -> Wait:
     """Start the patrol."""
     with scene.step("started") as check:
+        yield from scene.glass.reach("TaskButtons")
         started = time.monotonic()
         yield from scene.glass.press("Start")
         runs = yield from scene.glass.soon(lambda: _status(scene, "RUNNING"), 5)

@@ -143,16 +143,18 @@ def set_home_and_motion(scene: Scene) -> Wait:
         off = math.dist(list(_chart(scene).home) or (math.inf, math.inf), HOME)
         check("home is where the finger was [m off]", off, off <= NEAR)
     with scene.step("motion") as check:
+        yield from glass.sheet(1)
+        selector: Any = yield from glass.reach("MotionSelector")
         for words in ("Random", "Intermittent"):
             yield from glass.press(words, kind="Segment")
             yield from glass.pause(0.15)
-        selector: Any = glass.all("MotionSelector")[0]
         check("the motion chosen", selector.motion_name, selector.motion_name == "intermittent")
         dwell = selector.dwell
         minus = yield from glass.until(lambda: _minus(scene), 2, "the dwell's minus")
         for _ in range(4):
             yield from glass.tap(minus[0])
         check("the dwell is 4 s shorter [s]", selector.dwell, selector.dwell == dwell - 4)
+        yield from glass.sheet(0)
         yield from glass.press("View", kind="Segment")
 
 
@@ -167,6 +169,8 @@ def _minus(scene: Scene) -> list[Any]:
 def send(scene: Scene) -> Wait:
     """Send the mission; the robot stores it."""
     with scene.step("sent") as check:
+        yield from scene.glass.sheet(1)
+        yield from scene.glass.reach("SendRow")
         yield from scene.glass.press("Send")
         yield from scene.glass.soon(lambda: len(_stored(scene)) == len(PATROL), 5)
         off = max(map(math.dist, _stored(scene), PATROL), default=math.inf)
@@ -177,7 +181,7 @@ def send(scene: Scene) -> Wait:
         )
         told = yield from scene.glass.soon(lambda: scene.glass.shows("Stored on the robot"), 3)
         check("the app says that they are stored", bool(told), bool(told))
-        yield from scene.glass.pause(0.3)
+        yield from scene.glass.sheet(0)
 
 
 def _stored(scene: Scene) -> list[tuple[float, float]]:
