@@ -73,6 +73,7 @@ class PilothouseApp(App):
     """The handheld. Everything here happens in the UI thread."""
 
     title = "Pilothouse"
+    icon = str(Path(__file__).with_name("icon.png"))
     use_kivy_settings = False
 
     def __init__(
