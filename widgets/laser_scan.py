@@ -139,7 +139,9 @@ class LaserScanView(Drawing):
             # words of rings that lie closer than a line of text would cover each other: the outer one is enough
             if ring == RINGS or self._reach * scale / RINGS > sp(14):
                 y = at[1] + distance * scale + dp(1)
-                yield Word(length_text(round(distance, 2)), at[0] + dp(5), y, sp(11.5), theme.muted, anchor=(0, 0))
+                yield Word(
+                    length_text(round(distance, 2)), at[0] + dp(5), y, sp(11.5), theme.muted, anchor=(0, 0)
+                )
 
     def _sweep(
         self,

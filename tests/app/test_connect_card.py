@@ -14,12 +14,18 @@ ME = "id-of-this-handheld"
 
 @pytest.mark.parametrize(
     ("driver_id", "words", "action"),
-    [("", "free", "Connect"), (ME, "driven by you", "Connect"), ("id-of-another", "driven by tablet", "Watch")],
+    [
+        ("", "free", "Connect"),
+        (ME, "driven by you", "Connect"),
+        ("id-of-another", "driven by tablet", "Watch"),
+    ],
 )
 def test_who_drives_is_told_by_identity_because_two_handhelds_may_bear_one_name(
     stage: Any, driver_id: str, words: str, action: str
 ) -> None:
     card = stage.show(RobotCard(), size=(400, 200))
     driver = "tablet" if driver_id else ""
-    card.show_entry(Entry("ws://10.0.0.3:9090", "Patrol-1", driver=driver, driver_id=driver_id, silent=0.1), ME)
+    card.show_entry(
+        Entry("ws://10.0.0.3:9090", "Patrol-1", driver=driver, driver_id=driver_id, silent=0.1), ME
+    )
     assert (card.driver_text, card.action) == (words, action)
