@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
+import os
 import sys
 import time
 import uuid
@@ -142,7 +143,7 @@ class PilothouseApp(App):
 
     def build(self) -> Root:
         """Make the connect screen; the others are made when there is a robot to show."""
-        folder = Path(self._settings_dir or self.user_data_dir)
+        folder = Path(self._settings_dir or self._own_folder())
         self.settings = Settings(folder)
         self.records = Records(folder, self._say)
         theme.name = self._theme or self._remembered_theme()
@@ -155,6 +156,13 @@ class PilothouseApp(App):
         root = Root()
         root.show_page(self.connect)
         return root
+
+    def _own_folder(self) -> str:
+        """Where the system wants an app's files; Kivy makes only the last folder of the way there."""
+        if not is_android():
+            config = os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config"
+            Path(config).mkdir(parents=True, exist_ok=True)
+        return str(self.user_data_dir)
 
     def _remembered_theme(self) -> str:
         name = self.settings.get("theme")

@@ -262,3 +262,16 @@ def test_turning_the_device_keeps_stop_in_its_corner(driving: Glass, size: tuple
         assert driving.app.shell.form == (
             "tall" if size[1] > size[0] else "short" if size[1] < 600 else "wide"
         )
+
+
+def test_the_first_start_in_an_empty_home_makes_its_own_folder(
+    stage: Stage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from app.application import PilothouseApp
+
+    monkeypatch.delenv("XDG_CONFIG_HOME", raising=False)
+    monkeypatch.setenv("HOME", str(tmp_path))
+    app = PilothouseApp(theme="dark", discover=False)
+    app.build()
+    app.settings.close()
+    assert (tmp_path / ".config" / "pilothouse").is_dir()
