@@ -24,6 +24,7 @@ from robotside.controls import STOP_SENTENCE, Client, Controls
 from robotside.demand import Demand
 from robotside.events import Events
 from robotside.grid import Grid
+from robotside.guarded import Guarded
 from robotside.pose2 import Pose2
 from robotside.robot import Robot
 from robotside.store import Store
@@ -52,11 +53,13 @@ class Station:
         name: str = "",
     ) -> None:
         """`now` is the robot's clock at the start [s]; ValueError when the robot gives no map with its first messages."""
-        self.robot, self.clock, self.now = robot, clock, now
+        self.clock, self.now = clock, now
         self.info = msgspec.structs.replace(robot.info, name=name or robot.info.name)
         self.bus = Bus()
         self.demand = Demand(robot.want)
         self.controls = Controls(max_speed=self.info.max_speed, max_yaw_rate=self.info.max_yaw_rate)
+        self.robot = Guarded(robot, lambda: self.controls.stopped)
+        """The only way to the robot's wheels."""
         self.events = Events(boot, lambda: self.now, lambda event: self.bus.publish("/events", event))
         self._store = store
         self._control = ControlStatus()
@@ -68,7 +71,7 @@ class Station:
             raise ValueError(f"Robot {self.info.name} gave no map with its first messages.")
         self.bus.publish("/robot/info", self.info)
         self.autonomy = Autonomy(
-            robot, Grid.from_msg(grid), bus=self.bus, events=self.events, demand=self.demand, rng=rng
+            self.robot, Grid.from_msg(grid), bus=self.bus, events=self.events, demand=self.demand, rng=rng
         )
         self.bus.publish("/intruders", IntruderArray(Header(Time.at(now), "map")))
         self.bus.publish("/control/status", self._control)

@@ -38,6 +38,7 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.std_msgs import Header, Time
 from bridge.topics import TOPICS
+from robotside.controls import STOP_SENTENCE
 from robotside.orders import services
 from robotside.station import Station
 from robotside.store import Store
@@ -216,6 +217,45 @@ def test_with_stop_pressed_tasks_are_refused(scene: Scene) -> None:
         ("/task/resume", None),
     ):
         assert "STOP is pressed" in scene.refused(name, request)
+
+
+def test_with_stop_pressed_a_paused_task_stays_where_it_is_whatever_is_asked(scene: Scene) -> None:
+    scene.set(*SQUARE)
+    scene.start()
+    scene.run(2.0)
+    scene.ask("/stop", CommandRequest(client_name="Anna"))
+    before = len(scene.robot.commands)
+    for name, request in (
+        ("/task/start", StartTaskRequest()),
+        ("/task/start", StartTaskRequest(task="go_home")),
+        ("/task/go_home", None),
+        ("/task/resume", None),
+    ):
+        assert scene.refused(name, request) == STOP_SENTENCE
+        scene.run(0.5)
+    assert (scene.task.task, scene.task.state, scene.task.reason) == ("patrol", "PAUSED", "Stopped by Anna.")
+    assert not any(scene.robot.commands[before:])
+
+
+def test_with_stop_pressed_a_goal_is_refused_and_said(scene: Scene) -> None:
+    scene.ask("/stop")
+    goal = PoseStamped(pose=Pose(Point(3.0, -2.0), Quaternion.from_yaw(0.5)))
+    scene.station.hear(scene.anna, "/goal_pose", goal, None)
+    assert scene.events("command") == [STOP_SENTENCE]
+    assert (scene.task.state, scene.control.mode) == ("IDLE", "STOPPED")
+
+
+def test_with_stop_pressed_the_robot_brakes_even_if_a_task_runs(scene: Scene) -> None:
+    scene.ask("/stop")
+    before = len(scene.robot.commands)
+    scene.station.autonomy.start_goal(Waypoint(3.0, -2.0), scene.now)
+    scene.run(1.0)
+    assert scene.task.state == "RUNNING"
+    assert scene.robot.commands[before:]
+    assert not any(scene.robot.commands[before:])
+    scene.ask("/stop/release")
+    scene.run(1.0)
+    assert not scene.robot.at_rest
 
 
 def test_a_patrol_visits_every_point_and_ends(scene: Scene) -> None:
