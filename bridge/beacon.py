@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import logging
 import math
 import socket
 import struct
@@ -19,6 +20,8 @@ from bridge.msgs import Msg
 from bridge.reconnecting import cancelled_from_outside
 
 __all__ = ["PORT", "Beacon", "Hello", "Listener", "broadcast_addresses"]
+
+log = logging.getLogger(__name__)
 
 PORT = 48900
 """Where hellos are sent."""
@@ -87,17 +90,25 @@ class Beacon:
             await asyncio.wait({self._work})
 
     async def _repeat(self) -> None:
+        hushed = False
+        while True:
+            try:
+                self._say(to_json(self._hello()))
+                hushed = False
+            except OSError as fault:
+                # being found is a convenience: what hinders it must never end the robot side
+                if not hushed:
+                    log.warning("cannot say hello on the network: %s", fault.strerror or fault)
+                hushed = True
+            await asyncio.sleep(self._period)
+
+    def _say(self, datagram: bytes) -> None:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
             sock.setblocking(False)
             sock.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, 1)
-            while True:
-                self._say(sock, to_json(self._hello()))
-                await asyncio.sleep(self._period)
-
-    def _say(self, sock: socket.socket, datagram: bytes) -> None:
-        for address in self._addresses():
-            with contextlib.suppress(OSError):
-                sock.sendto(datagram, (address, self._port))
+            for address in self._addresses():
+                with contextlib.suppress(OSError):
+                    sock.sendto(datagram, (address, self._port))
 
 
 class Listener:

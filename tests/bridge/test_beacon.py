@@ -100,3 +100,25 @@ def test_loopback_is_always_among_the_addresses_and_none_is_empty():
     found = broadcast_addresses()
     assert "127.255.255.255" in found
     assert "0.0.0.0" not in found
+
+
+async def test_a_network_that_fails_silences_the_beacon_for_a_while_and_ends_nothing(caplog):
+    heard, answers = Record(), iter([OSError(24, "Too many open files"), OSError(24, "again"), LOOPBACK])
+
+    def addresses():
+        answer = next(answers, LOOPBACK)
+        if isinstance(answer, OSError):
+            raise answer
+        return answer
+
+    listener = Listener(heard, port=0)
+    await listener.start()
+    beacon = Beacon(lambda: PATROL, port=listener.port, addresses=addresses, period=0.001)
+    running = asyncio.create_task(beacon.run())
+    await heard.reach(1)
+    assert [record.message for record in caplog.records if record.name == "bridge.beacon"] == [
+        "cannot say hello on the network: Too many open files"
+    ]
+    await beacon.close()
+    await running
+    await listener.close()
