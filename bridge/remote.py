@@ -10,6 +10,7 @@ from __future__ import annotations
 import asyncio
 import concurrent.futures
 import contextlib
+import math
 import threading
 from collections.abc import Callable, Coroutine
 from typing import Any, Self, TypeVar
@@ -120,8 +121,14 @@ class RemoteRobot:
         return off
 
     def publish(self, topic: str, msg: Msg) -> None:
-        """Send a message at once; without a connection it is dropped, never sent later."""
-        self._network.post(self._client.publish, topic, msg)
+        """Send a message at once; without a connection it is dropped, never sent later.
+
+        It carries the moment of this call, so that a robot can tell a drive command that was held up on its way.
+        """
+        self._network.post(self._publish, topic, msg, self._client.robot_time())
+
+    def _publish(self, topic: str, msg: Msg, stamp: float) -> None:
+        self._client.publish(topic, msg, stamp=stamp if math.isfinite(stamp) else None)
 
     def call(
         self,

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import textwrap
 import threading
+import time
 
 import pytest
 
@@ -59,6 +60,15 @@ def test_ten_lines_are_enough_to_see_and_to_drive(robot):
         _, topic, msg, _ = robot.heard.get(timeout=PATIENCE)
         assert (topic, msg) == ("/cmd_vel", Twist.planar(0.5, 0.0))
     assert remote.state.phase is Phase.CLOSED
+
+
+def test_a_drive_command_says_when_it_was_meant(robot):
+    with RemoteRobot(robot.url) as remote:
+        remote.wait()
+        before = time.time()
+        remote.publish("/cmd_vel", Twist.planar(0.5, 0.0))
+        *_, stamp = robot.heard.get(timeout=PATIENCE)
+        assert before - 0.05 <= stamp <= time.time() + 0.05
 
 
 def test_a_call_waits_for_its_answer(robot):
