@@ -150,6 +150,26 @@ def test_a_socket_that_closes_while_driving_stops_the_robot_at_once(scene: Scene
     assert scene.control.driver == ""
 
 
+def test_control_given_back_while_driving_stops_the_robot_at_once(scene: Scene) -> None:
+    scene.drive(Twist.planar(0.3, 0.2))
+    assert scene.ask("/control/release").success
+    assert scene.robot.at_rest
+    assert scene.control.driver == ""
+    braked = len(scene.robot.commands)
+    scene.run(1.0)
+    assert len(scene.robot.commands) == braked
+
+
+def test_control_is_free_again_when_its_driver_falls_silent(scene: Scene) -> None:
+    scene.ask("/control/acquire", CommandRequest(client_name="Anna"))
+    scene.clients.remove(scene.anna)
+    scene.run(1.9)
+    assert scene.control.driver == "Anna"
+    scene.run(0.2)
+    assert scene.control.driver == ""
+    assert scene.events("control") == ["Anna has control.", "Control is free."]
+
+
 def test_a_drive_command_that_is_no_number_is_said_once_and_moves_nothing(scene: Scene) -> None:
     before = len(scene.robot.commands)
     for _ in range(5):
