@@ -20,7 +20,7 @@ from widgets.base import RobotWidget, text_texture
 from widgets.shapes import FLOATS, Shapes
 from widgets.theme import theme
 
-__all__ = ["Drawing", "Ink", "Word", "Words", "shader", "tint"]
+__all__ = ["Drawing", "Ink", "Word", "Words", "ground", "shader", "tint"]
 
 VERTEX = """
 #ifdef GL_ES
@@ -138,6 +138,13 @@ class Word:
     """Registered name; `Icons` shows a symbol."""
     anchor: tuple[float, float] = (0.5, 0.5)
     """Which point of the text (x, y) is: 0 left or bottom, 1 right or top."""
+
+
+def ground(shapes: Shapes, word: Word, colour: Sequence[float]) -> None:
+    """Put a small round-ended ground of `colour` behind a word, so that it can be read over lines and dots."""
+    width, height = text_texture(word.text, round(word.size, 1), word.font, bold=word.bold).size
+    left, y = word.x - width * word.anchor[0], word.y + height * (0.5 - word.anchor[1])
+    shapes.dashes(np.array([[left, y], [left + width, y]]), height, colour, period=2 * width, dash=width)
 
 
 class Words:

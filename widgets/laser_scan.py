@@ -21,7 +21,7 @@ from bridge.msgs.arrays import Float32Array
 from bridge.msgs.sensor_msgs import LaserScan
 from widgets.geometry import DASH, Points, length_text, scan_points, scan_reach
 from widgets.icons import icon
-from widgets.ink import Drawing, Ink, Word, Words, tint
+from widgets.ink import Drawing, Ink, Word, Words, ground, tint
 from widgets.map_marks import arrow
 from widgets.shapes import Shapes
 from widgets.theme import theme
@@ -102,9 +102,12 @@ class LaserScanView(Drawing):
         half = AHEAD if self.scan is None else half
         x, y, scale = self._place(half)
         shapes = Shapes()
-        words = [*self._ring_marks(shapes, (x, y), scale, half), *self._header()]
+        self._rings(shapes, (x, y), scale, half)
         if len(measured):
             self._sweep(shapes, (x, y), scale, measured, angles)
+        words = [*self._ring_words((x, y), scale, half), *self._header()]
+        for word in words:
+            ground(shapes, word, tint(theme.surface, 0.85))
         shapes.polygon(arrow(x, y, AHEAD, dp(15)), theme.text)
         self._ink.draw(shapes)
         self._words.write(words)
@@ -117,31 +120,38 @@ class LaserScanView(Drawing):
             measured[measured < scan.range_min] = math.nan
         return measured, angles, points
 
+    def _low(self) -> bool:
+        return bool(self.width > LOW * self.height)
+
     def _place(self, half: float) -> tuple[float, float, float]:
         """Where the robot stands [px], and the scale [px/m], so that all rings are inside the card."""
         behind = max(0.12, -math.cos(half))
         beside = 1.0 if half >= AHEAD else math.sin(half)
         # in a low card the name stands beside the rings, not above them
-        edge, head = dp(14), dp(14) if self.width > LOW * self.height else dp(34)
+        edge, head = dp(14), dp(14) if self._low() else dp(34)
         wide, high = self.width - 2 * edge, self.height - edge - head
         radius = max(min(wide / (2 * beside), high / (1 + behind)), 1.0)
         slack = (high - radius * (1 + behind)) / 2
         return self.center_x, self.y + edge + slack + radius * behind, radius / self._reach
 
-    def _ring_marks(
-        self, shapes: Shapes, at: tuple[float, float], scale: float, half: float
-    ) -> Iterator[Word]:
+    def _rings(self, shapes: Shapes, at: tuple[float, float], scale: float, half: float) -> None:
+        angles = np.linspace(AHEAD - half, AHEAD + half, 97)
+        rim = np.stack([np.cos(angles), np.sin(angles)], axis=1) * self._reach * scale
         for ring in range(1, RINGS + 1):
-            distance = self._reach * ring / RINGS
-            angles = np.linspace(AHEAD - half, AHEAD + half, 97)
-            rim = np.stack([np.cos(angles), np.sin(angles)], axis=1) * distance * scale + at
-            shapes.line(rim, dp(1.2), theme.line)
-            # words of rings that lie closer than a line of text would cover each other: the outer one is enough
-            if ring == RINGS or self._reach * scale / RINGS > sp(14):
-                y = at[1] + distance * scale + dp(1)
-                yield Word(
-                    length_text(round(distance, 2)), at[0] + dp(5), y, sp(11.5), theme.muted, anchor=(0, 0)
-                )
+            shapes.line(rim * ring / RINGS + at, dp(1.2), theme.line)
+
+    def _ring_words(self, at: tuple[float, float], scale: float, half: float) -> Iterator[Word]:
+        """Distances ahead, on their rings; only the outer one where they would cover each other."""
+        radius, size = self._reach * scale, sp(11.5)
+        if self._low():  # beside the ring, where there is room, since above it stands the name
+            x = at[0] + radius * math.sin(min(half, AHEAD)) + dp(6)
+            y = at[1] + radius * math.cos(min(half, AHEAD)) + dp(4)
+            yield Word(length_text(round(self._reach, 2)), x, y, size, theme.muted, anchor=(0, 0))
+            return
+        for ring in range(1, RINGS + 1):
+            if ring == RINGS or radius / RINGS > sp(26):
+                text = length_text(round(self._reach * ring / RINGS, 2))
+                yield Word(text, at[0], at[1] + radius * ring / RINGS, size, theme.muted)
 
     def _sweep(
         self,
@@ -167,20 +177,31 @@ class LaserScanView(Drawing):
         return roles[(measured >= self.close).astype(int) + (measured >= self.near)]
 
     def _header(self) -> Iterator[Word]:
-        rate = "" if math.isnan(self.rate) else f" · {self.rate:.0f} HZ"
-        left, y = self.x + dp(13), self.top - dp(19)
-        yield Word(self.title.upper() + rate, left, y, sp(12), theme.muted, anchor=(0, 0.5))
+        yield from self._name()
         # an alarm has its sign in the corner
-        right = self.right - (dp(34) if self.state == "alarm" else dp(13))
+        alarm = self.state == "alarm"
+        right, y = self.right - (dp(34) if alarm else dp(13)), self.top - dp(19)
         if math.isnan(self.nearest):
             yield Word(DASH, right, y, sp(14), theme.muted, anchor=(1, 0.5))
         elif self.nearest < self.near:
             colour = theme.danger if self.nearest < self.close else theme.warn
             yield Word(f"{self.nearest:.1f} m", right, y, sp(14), colour, bold=True, anchor=(1, 0.5))
-            if self.nearest < self.close:
+            if self.nearest < self.close and not alarm:
                 yield Word(
                     icon("warning"), right - sp(52), y, sp(16), colour, font=theme.icons, anchor=(0.5, 0.5)
                 )
+
+    def _name(self) -> Iterator[Word]:
+        """The title and the rate behind it, or below it in a low card, where the rings begin."""
+        rate = "" if math.isnan(self.rate) else f"{self.rate:.0f} HZ"
+        lines = (
+            [self.title.upper(), rate]
+            if self._low()
+            else [" · ".join(filter(None, (self.title.upper(), rate)))]
+        )
+        for number, line in enumerate(filter(None, lines)):
+            y = self.top - dp(19) - sp(16) * number
+            yield Word(line, self.x + dp(13), y, sp(12), theme.muted, anchor=(0, 0.5))
 
 
 def _goes_round(angles: NDArray[np.float64]) -> bool:
@@ -222,7 +243,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         def build() -> LaserScanView:
             size = more.pop("size", (326, 228))
             view = LaserScanView(
-                size_hint=(None, None), size=(dp(size[0]), dp(size[1])), title="Front laser", **more
+                size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **{"title": "Front laser", **more}
             )
             if scan:
                 view.show(scan)
@@ -234,7 +255,10 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "never": made(),
         "live": made(_scan(), state="live", rate=30.0),
         "clear": made(_scan(step_back=3.0), state="live", rate=30.0),
-        "around": made(_scan(around=True), state="live", rate=10.0, size=(300, 320)),
+        "around": made(_scan(around=True), state="live", rate=10.0, size=(300, 320), title="Laser"),
+        "low": made(_scan(around=True), state="live", rate=10.0, size=(258, 118), title="Laser"),
+        "small": made(_scan(around=True), state="live", rate=10.0, size=(212, 148), title="Laser"),
+        "half low": made(_scan(step_back=5.0), state="live", rate=10.0, size=(258, 118)),
         "stale": made(_scan(), state="stale", age=2.0),
         "alarm": made(_scan(), state="alarm", rate=30.0),
         "disabled": made(_scan(), state="disabled"),

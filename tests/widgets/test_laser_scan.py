@@ -1,15 +1,17 @@
 from __future__ import annotations
 
 import math
+from itertools import combinations
 
 import numpy as np
 import pytest
 
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.sensor_msgs import LaserScan
+from widgets.base import text_texture
 from widgets.geometry import scan_reach
 from widgets.laser_scan import LaserScanView, samples
-from widgets.shapes import EDGES, FLOATS
+from widgets.shapes import EDGES, FLOATS, LINE
 from widgets.theme import theme
 
 
@@ -151,3 +153,38 @@ def test_an_empty_sweep_and_one_of_nan_are_shown_as_nothing(view, stage):
 @pytest.mark.parametrize("name", samples())
 def test_every_sample_can_be_shown(stage, name):
     assert stage.show(samples()[name]()).height > 0
+
+
+def box(word) -> tuple[float, float, float, float]:
+    wide, high = text_texture(word.text, round(word.size, 1), word.font, bold=word.bold).size
+    left, bottom = word.x - wide * word.anchor[0], word.y - high * word.anchor[1]
+    return left, bottom, left + wide, bottom + high
+
+
+@pytest.mark.parametrize("size", [(326, 228), (258, 118), (212, 148)])
+@pytest.mark.parametrize("half", [math.pi / 2, math.pi])
+def test_its_words_lie_neither_on_each_other_nor_on_the_robot(stage, size, half):
+    view = stage.show(LaserScanView(title="Front laser", rate=30.0, state="live"), size=size)
+    view.show(sweep(0.4, *[11.5] * 20, half=half))
+    stage.frames(2)
+    x, y, scale = view._place(half)
+    words = [*view._ring_words((x, y), scale, half), *view._header()]
+    boxes = [box(word) for word in words] + [(x - 9, y - 7, x + 9, y + 9)]
+    for one, other in combinations(boxes, 2):
+        beside = one[2] <= other[0] or other[2] <= one[0]
+        assert beside or one[3] <= other[1] or other[3] <= one[1], (words, one, other)
+    assert all(left >= 0 and right <= view.width for left, _, right, _ in boxes)
+
+
+def test_words_stand_on_a_ground_above_the_dots(view, stage):
+    view.show(sweep(*[2.0] * 50))
+    made = drawn(view, stage)
+    grounds = np.flatnonzero((made[:, 4] == LINE) & (made[:, 11] == np.float32(0.85)))
+    assert len(grounds) == 4 * len(view._words.texts)
+    assert grounds.min() > np.flatnonzero(made[:, 4] == 0).max()
+
+
+def test_an_alarm_shows_one_sign(view):
+    view.show(sweep(2.0, 0.4, 3.0))
+    view.state = "alarm"
+    assert said(view) == ["FRONT LASER", "0.4 m"]
