@@ -12,10 +12,9 @@ from pathlib import Path
 from PIL import Image
 
 from sim.renderer import NoRendererError, Renderer
-from sim.robot import ROBOTS, WORLDS, make
+from sim.robot import ROBOTS, WORLDS, make, model_of
 from sim.shapes import from_yaw
-from sim.vehicles.patrol import PARAMETERS
-from sim.vehicles.patrol.looks import looks
+from sim.vehicles.model import Model
 from sim.view import View
 from sim.world import World, load
 
@@ -31,9 +30,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Do what the arguments ask; 0 done, 2 the user's mistake, 1 a fault."""
     arguments = _parser().parse_args(argv)
     try:
-        world = load(arguments.world)
+        world, model = load(arguments.world), model_of(arguments.robot)
         if arguments.picture:
-            print(picture(world, Path(arguments.picture)))
+            print(picture(world, model, Path(arguments.picture)))
         elif arguments.gui:
             show(arguments.world, arguments.robot, clock=time.monotonic, wait=time.sleep)
         else:
@@ -64,14 +63,14 @@ def summary(world: World) -> str:
     return f"{world.name}: {ground.length:g} x {ground.width:g} m; {things or 'empty'}."
 
 
-def picture(world: World, path: Path) -> str:
-    """Draw `world` from above, north up, with the robot at its start, into `path`; a sentence about it."""
+def picture(world: World, model: Model, path: Path) -> str:
+    """Draw `world` from above, north up, with a robot of `model` at its start, into `path`; a sentence about it."""
     if path.suffix.lower() not in Image.registered_extensions():
         raise ValueError(f"{path.name} has no ending of a picture; use .png or .jpg.")
     length, width = world.ground.length + 2 * MARGIN, world.ground.width + 2 * MARGIN
     view = View.from_above(length, width, PIXELS)
     start = world.start
-    robot = looks(PARAMETERS, (start.x, start.y, 0.0), from_yaw(start.angle))
+    robot = model.looks(model.parameters, (start.x, start.y, 0.0), from_yaw(start.angle))
     renderer = Renderer(world, samples=4)
     try:
         Image.fromarray(renderer.render(view, robot)).save(path)

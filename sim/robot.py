@@ -15,12 +15,14 @@ from sim.backend_bullet import STEPS_PER_SECOND
 from sim.camera import Camera
 from sim.occupancy import occupancy
 from sim.simulation import Simulation
+from sim.vehicles.model import Model
+from sim.vehicles.patrol import PATROL
 from sim.world import WORLDS, load
 
-__all__ = ["ROBOTS", "WORLDS", "SimRobot", "make"]
+__all__ = ["ROBOTS", "WORLDS", "SimRobot", "make", "model_of"]
 
-ROBOTS: tuple[str, ...] = ("patrol",)
-"""The names of the robots that can be simulated."""
+ROBOTS: dict[str, Model] = {"patrol": PATROL}
+"""The robots that can be simulated, by name."""
 
 CAMERA_TOPIC = "/camera/image/compressed"
 TRUTH_TOPIC = "/sim/ground_truth"
@@ -115,6 +117,13 @@ def info_of(simulation: Simulation, *, camera: bool) -> RobotInfo:
     )
 
 
+def model_of(robot: str) -> Model:
+    """What makes the `robot` of this name; ValueError with one sentence when there is none."""
+    if robot not in ROBOTS:
+        raise ValueError(f"There is no simulated robot {robot!r}; there is {', '.join(ROBOTS)}.")
+    return ROBOTS[robot]
+
+
 def make(
     robot: str, world: str, *, seed: int = 0, gui: bool = False, camera: bool = True, noise: bool = True
 ) -> SimRobot:
@@ -123,6 +132,5 @@ def make(
     `seed` decides every random error; `noise` False turns them off. `gui` opens the engine's window.
     Raises ValueError with one sentence for an unknown name or a faulty file.
     """
-    if robot not in ROBOTS:
-        raise ValueError(f"There is no simulated robot {robot!r}; there is {', '.join(ROBOTS)}.")
-    return SimRobot(Simulation(load(world), seed=seed, noise=noise, gui=gui), camera=camera)
+    model = model_of(robot)
+    return SimRobot(Simulation(load(world), model, seed=seed, noise=noise, gui=gui), camera=camera)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sim.backend_bullet import STEPS_PER_SECOND, Bullet
 from sim.shapes import yaw_of
-from sim.vehicles.patrol import Patrol
+from sim.vehicles.model import Model, Vehicle
 from sim.world import World
 
 __all__ = ["Simulation"]
@@ -13,14 +13,18 @@ __all__ = ["Simulation"]
 class Simulation:
     """The truth: what really is where. Sensors tell robots about it, tests look at it directly."""
 
-    def __init__(self, world: World, *, seed: int = 0, noise: bool = True, gui: bool = False) -> None:
-        """The robot at the start of `world`; the same `seed` gives the same run, bit for bit."""
+    def __init__(
+        self, world: World, model: Model, *, seed: int = 0, noise: bool = True, gui: bool = False
+    ) -> None:
+        """A robot of `model` at the start of `world`; the same `seed` gives the same run, bit for bit."""
         self.world = world
         self.backend = Bullet(gui=gui)
         self.backend.add_ground()
         for prop in world.props:
             self.backend.add_static(prop.solids)
-        self.vehicle = Patrol(self.backend, world, seed=seed, noise=noise)
+        self.vehicle: Vehicle = model.build(
+            self.backend, world, seed=seed, noise=noise, parameters=model.parameters
+        )
         self.steps = 0
         """Physics steps done."""
 

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from sim.robot import SimRobot
 from sim.simulation import Simulation
+from sim.vehicles.patrol import PATROL
 from sim.world import World, parse
 
 ROOM = """
@@ -37,7 +38,7 @@ def room(
 
 def robot_in(world: World, *, seed: int = 0, noise: bool = False) -> SimRobot:
     """The patrol robot without camera, exact unless `noise`; its clock has been started at 0."""
-    robot = SimRobot(Simulation(world, seed=seed, noise=noise), camera=False)
+    robot = SimRobot(Simulation(world, PATROL, seed=seed, noise=noise), camera=False)
     robot.read(0.0)
     return robot
 

@@ -1,9 +1,14 @@
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from PIL import Image
 
 from sim.__main__ import main
+from sim.robot import ROBOTS
+from sim.shapes import Shape
+from sim.vehicles.model import Model
+from sim.vehicles.patrol import PARAMETERS, Patrol
 
 
 def test_without_arguments_it_says_what_stands_in_the_world(capsys):
@@ -20,10 +25,29 @@ def test_a_picture_of_the_world_is_written_where_it_is_asked_for(tmp_path, capsy
     assert "north up" in capsys.readouterr().out
 
 
+def test_the_picture_shows_the_robot_that_is_asked_for(tmp_path, monkeypatch):
+    def tower(parameters, position, rotation):
+        return (
+            Shape("cylinder", (2.0, 2.0, 3.0), (0.0, 0.0, 1.5), colour=(1.0, 0.0, 0.0), glow=1.0).at(
+                position, rotation
+            ),
+        )
+
+    monkeypatch.setitem(ROBOTS, "tower", Model(Patrol, PARAMETERS, tower))
+    red = []
+    for name in ("patrol", "tower"):
+        assert main(["--robot", name, "--picture", str(tmp_path / f"{name}.png")]) == 0
+        with Image.open(tmp_path / f"{name}.png") as picture:
+            parts = np.asarray(picture.convert("RGB")).astype(int)
+        red.append(((parts[..., 0] > 200) & (parts[..., 1] < 60)).sum())
+    assert red[1] > red[0] + 1000
+
+
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
         (["--world", "moon"], "sim: There is no world 'moon'; there is parking_lot"),
+        (["--robot", "foo"], "sim: There is no simulated robot 'foo'; there is patrol."),
         (["--picture", "lot.xyz"], "sim: lot.xyz has no ending of a picture; use .png or .jpg."),
         (["--gui"], "sim: --gui needs a display, and DISPLAY is not set."),
     ],

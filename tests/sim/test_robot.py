@@ -3,11 +3,15 @@ from __future__ import annotations
 import collections
 import math
 
+import msgspec
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist
 from bridge.topics import topic
 from sim.robot import ROBOTS, WORLDS, make
+from sim.vehicles.model import Model
+from sim.vehicles.patrol import PARAMETERS, Patrol
+from sim.vehicles.patrol.looks import looks
 from tests.sim.rooms import robot_in, room
 
 STREAMS = ("/odom", "/imu/data", "/fix", "/scan", "/bumper", "/battery_state", "/joint_states")
@@ -30,6 +34,20 @@ def test_every_robot_can_be_made_in_every_world():
             robot = make(name, world, camera=False)
             assert (robot.info.model, robot.info.world) == (name, world)
             robot.close()
+
+
+def test_a_second_robot_is_made_of_its_own_class_and_figures(monkeypatch):
+    class Carrier(Patrol):
+        pass
+
+    info = msgspec.structs.replace(PARAMETERS.info, name="Carrier-1", model="carrier")
+    limits = msgspec.structs.replace(PARAMETERS.limits, speed=0.3)
+    figures = msgspec.structs.replace(PARAMETERS, info=info, limits=limits)
+    monkeypatch.setitem(ROBOTS, "carrier", Model(Carrier, figures, looks))
+    robot = make("carrier", "parking_lot", camera=False)
+    assert type(robot.simulation.vehicle) is Carrier
+    assert (robot.info.name, robot.info.model, robot.info.max_speed) == ("Carrier-1", "carrier", 0.3)
+    robot.close()
 
 
 def test_an_unknown_robot_is_refused_with_the_names_there_are():

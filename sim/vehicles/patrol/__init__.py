@@ -28,10 +28,12 @@ from sim.sensors.noise import Noise
 from sim.sensors.odometry import WheelOdometry
 from sim.shapes import Shape, from_yaw, rotate_back
 from sim.vehicles.drive import DifferentialDrive
+from sim.vehicles.model import Model
 from sim.vehicles.parameters import Parameters, load
+from sim.vehicles.patrol.looks import looks
 from sim.world import World
 
-__all__ = ["PARAMETERS", "Patrol"]
+__all__ = ["PARAMETERS", "PATROL", "Patrol"]
 
 PARAMETERS: Parameters = load(Path(__file__).parent / "patrol.toml")
 """The robot's numbers."""
@@ -68,7 +70,7 @@ class Patrol:
     """The robot in a world that already has its ground and its things."""
 
     def __init__(
-        self, backend: Bullet, world: World, *, seed: int, noise: bool, parameters: Parameters = PARAMETERS
+        self, backend: Bullet, world: World, *, seed: int, noise: bool, parameters: Parameters
     ) -> None:
         """Stand still at the world's start; with `noise` False every sensor is exact."""
         self._backend, self._world, self.parameters = backend, world, parameters
@@ -158,6 +160,10 @@ class Patrol:
         self.battery.work(speed, 1 / self.parameters.odometry.rate)
         yield "/odom", self._odometry.odometry(stamp)
         yield "/joint_states", self._odometry.joint_state(stamp)
+
+
+PATROL = Model(Patrol, PARAMETERS, looks)
+"""All that is needed to make one."""
 
 
 def ground_truth(state: State, stamp: float) -> Odometry:
