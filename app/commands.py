@@ -9,7 +9,7 @@ import asyncio
 import math
 import threading
 from collections.abc import Awaitable, Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from bridge.errors import BridgeError, NoReply, NotConnected, Refused
@@ -141,6 +141,8 @@ class Outcome:
     """The robot's own sentence, or what went wrong; empty while it is under way."""
     latency: float = math.nan
     """From the touch to the answer [s]; NaN without one."""
+    fields: dict[str, Any] = field(default_factory=dict)
+    """What was asked for, beyond the name."""
 
     @property
     def label(self) -> str:
@@ -182,6 +184,8 @@ class Commands:
         self._now, self._robot_time, self._new_id = now, robot_time, new_id
         self._who = {"client_id": client_id, "client_name": client_name}
         self._under_way: dict[str, Outcome] = {}
+        self._next: dict[str, dict[str, Any]] = {}
+        """What to ask for, by command, once the one that is under way is answered."""
         self._stopping = False
         self._stop_confirmed = False
 
@@ -193,12 +197,26 @@ class Commands:
     async def send(self, name: str, **fields: Any) -> Outcome:
         """Send a command and wait for what becomes of it; KeyError for a name not in `COMMANDS`.
 
-        While one of the same name is under way, nothing is sent: that one's state is the answer.
+        While one of the same name is under way, its state is the answer. One that asks for something else is sent
+        after it, the newest only; one that asks for the same is not sent again.
         """
-        if name in self._under_way:
-            return self._under_way[name]
+        under_way = self._under_way.get(name)
+        if under_way is not None:
+            self._next.pop(name, None)
+            if fields != under_way.fields:
+                self._next[name] = fields
+            return under_way
+        try:
+            outcome = await self._send_one(name, fields)
+            while name in self._next:
+                outcome = await self._send_one(name, self._next.pop(name))
+        finally:
+            self._next.pop(name, None)
+        return outcome
+
+    async def _send_one(self, name: str, fields: dict[str, Any]) -> Outcome:
         started = self._now()
-        outcome = Outcome(name, self._new_id(), "sent")
+        outcome = Outcome(name, self._new_id(), "sent", fields=fields)
         request = self._request(outcome, VALID_FOR, fields)
         self._under_way[name] = outcome
         self._report(outcome)

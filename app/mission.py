@@ -92,6 +92,8 @@ class MissionEditor:
     """Under way to the robot; None when nothing is."""
     outcome: str = ""
     """What became of the last sending, in one sentence."""
+    _told: bool = False
+    """The robot told its mission since the last answer."""
     _undo: list[Draft] = field(default_factory=list)
     _redo: list[Draft] = field(default_factory=list)
     _merge: str = ""
@@ -203,16 +205,23 @@ class MissionEditor:
             self.on_change()
 
     def sending(self) -> Mission:
-        """The message to send now; the draft counts as sent until `answered` or `robot_has`."""
+        """The message to send now; the draft counts as sent until it is `answered` or the robot tells that it has it."""
+        if self.sent is None:
+            self._told = False
         self.sent, self.outcome = self.draft, ""
         self.on_change()
         return self.draft.message()
 
-    def answered(self, accepted: bool, sentence: str) -> None:
-        """Tell what became of the sending; an acceptance makes what was sent the stored mission."""
-        if accepted and self.sent is not None:
-            self.stored = self.sent
-        self.sent, self.outcome = None, sentence
+    def answered(self, draft: Draft, accepted: bool, sentence: str) -> None:
+        """Tell what became of sending `draft`, which need not be the newest that was sent.
+
+        An acceptance makes it the stored mission, unless the robot itself told meanwhile what it has.
+        """
+        if accepted and not self._told:
+            self.stored = draft
+        self._told = False
+        if self.sent is not None and self.sent.same_as(draft):
+            self.sent, self.outcome = None, sentence
         self.on_change()
 
     def robot_has(self, mission: Mission) -> None:
@@ -220,7 +229,9 @@ class MissionEditor:
         told = Draft.of(mission)
         untouched = self.stored is None and not self._undo and self.draft == Draft()
         unchanged = self.stored is not None and self.stored.same_as(self.draft)
-        self.stored = told
+        self.stored, self._told = told, True
+        if self.sent is not None and told.same_as(self.sent):
+            self.sent = None
         if (untouched or unchanged) and not told.same_as(self.draft):
             if unchanged:
                 self._undo.append(self.draft)

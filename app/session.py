@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 from app.commands import Outcome
 from app.feeds import Feeds, Post
 from app.link import EVENT, LINK, OUTCOME, Link
-from app.mission import MissionEditor
+from app.mission import Draft, MissionEditor
 from app.settings import Settings
 from bridge.client import LinkState, Phase
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
@@ -145,6 +145,8 @@ class Session:
     def resume(self, link: Link) -> None:
         """Go on over a new link to the same robot; what was entered and heard stays."""
         self.link = link
+        if self.mission.sent is not None:
+            self.mission.answered(self.mission.sent, False, "No reply: the link was closed.")
         self._link_changed(link.state)
 
     def _link_changed(self, state: LinkState) -> None:
@@ -160,7 +162,8 @@ class Session:
         if outcome.name == "stop":
             self._stop_at = self._now()
         if outcome.name == "mission" and outcome.phase != "sent":
-            self.mission.answered(outcome.phase == "accepted", outcome.sentence)
+            sent = Draft.of(outcome.fields["mission"])
+            self.mission.answered(sent, outcome.phase == "accepted", outcome.sentence)
 
     def _introduced(self) -> None:
         if not self._known:

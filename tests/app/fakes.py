@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import threading
 from collections.abc import Callable
 from typing import Any
@@ -48,8 +49,12 @@ class FakeRobot:
         self.heard: list[tuple[str, Any]] = []
         self.refusals: dict[str, str] = {}
         """Service to the sentence that it refuses with."""
+        self.objection: Callable[[str, Any], str | None] = lambda name, _: self.refusals.get(name)
+        """What it has against a service and its request; None for nothing."""
         self.events: list[Event] = []
         self.changed = threading.Condition()
+        self._answering = asyncio.Event()
+        self._answering.set()
         self.port = 0
         self.control = ControlStatus()
         self._server: BridgeServer | None = None
@@ -85,6 +90,14 @@ class FakeRobot:
         """Send a message to whoever subscribed."""
         self.network.call(self._server.publish, topic, message)
 
+    def hold_answers(self) -> None:
+        """Hear commands and leave them without an answer for now."""
+        self.network.call(self._answering.clear)
+
+    def give_answers(self) -> None:
+        """Answer what was held, and what comes."""
+        self.network.call(self._answering.set)
+
     def until(self, condition: Callable[[], Any], seconds: float = 10.0) -> bool:
         """Wait until what was heard fulfils a condition; False when it never does."""
         with self.changed:
@@ -103,12 +116,13 @@ class FakeRobot:
             self.heard.append((topic, message))
             self.changed.notify_all()
 
-    def _answer(self, name: str) -> Callable[[Session, Any], CommandResponse]:
-        def call(session: Session, request: CommandRequest) -> CommandResponse:
+    def _answer(self, name: str) -> Callable[[Session, Any], Any]:
+        async def call(session: Session, request: CommandRequest) -> CommandResponse:
             with self.changed:
                 self.asked.append((name, request))
                 self.changed.notify_all()
-            refusal = self.refusals.get(name)
+            await self._answering.wait()
+            refusal = self.objection(name, request)
             if refusal is None and name.startswith(("/stop", "/control")):
                 self._become(name, request)
             return CommandResponse(success=refusal is None, message=refusal or "Done.")

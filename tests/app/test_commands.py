@@ -223,6 +223,30 @@ def test_two_taps_send_one_command() -> None:
     assert len(robot.calls) == 1
 
 
+def test_another_mission_is_sent_after_the_answer_to_the_first_and_only_the_newest() -> None:
+    robot = Robot(0.2, YES)
+    first, second, third = (Mission(laps=laps) for laps in (1, 2, 3))
+
+    async def what(commands: Commands) -> None:
+        await asyncio.gather(*(commands.send("mission", mission=one) for one in (first, second, third)))
+
+    run(robot, what)
+    assert [request.mission for _, request, _ in robot.calls] == [first, third]
+    answered = [outcome.fields["mission"] for outcome in robot.reports if outcome.phase == "accepted"]
+    assert answered == [first, third]
+    assert len(robot.ids) == 2
+
+
+def test_a_return_to_the_mission_that_is_under_way_sends_nothing_else() -> None:
+    robot = Robot(0.2, YES)
+
+    async def what(commands: Commands) -> None:
+        await asyncio.gather(*(commands.send("mission", mission=Mission(laps=laps)) for laps in (1, 2, 1)))
+
+    run(robot, what)
+    assert [request.mission.laps for _, request, _ in robot.calls] == [1]
+
+
 def test_a_command_tells_who_when_and_how_long_it_is_valid() -> None:
     robot = Robot(YES)
     run(robot, lambda commands: commands.send("mission", mission=Mission(motion="random")))

@@ -139,6 +139,41 @@ def test_a_sent_draft_is_stored_only_when_the_robot_accepts_it(
     operator.until(lambda: operator.session.mission.state == "stored")
 
 
+@pytest.mark.parametrize("told_first", [True, False])
+def test_a_draft_sent_before_the_earlier_one_is_answered_is_sent_after_it(
+    robot: FakeRobot, connect: Callable[..., Operator], told_first: bool
+) -> None:
+    operator = connect()
+    operator.until(lambda: operator.session.control == "mine" and operator.session.mission.stored is not None)
+    mission = operator.session.mission
+    robot.hold_answers()
+    mission.add(1.0, 2.0)
+    first = mission.draft
+    operator.session.send_mission()
+    operator.until(lambda: "/mission/set" in robot.services())
+    mission.add(3.0, 4.0)
+    operator.session.send_mission()
+    robot.objection = lambda _, request: "At most 1 point." if len(request.mission.waypoints) > 1 else None
+    if told_first:
+        robot.publish("/mission", first.message())
+        operator.until(lambda: mission.stored == first)
+    assert mission.state == "sent"
+    robot.give_answers()
+    operator.until(lambda: mission.state == "draft")
+    assert mission.stored == first
+    assert "At most 1 point." in mission.outcome
+    if not told_first:
+        robot.publish("/mission", first.message())
+        operator.until(lambda: operator.session.feeds.latest("/mission") == first.message())
+    assert (mission.state, mission.stored) == ("draft", first)
+    asked = [len(request.mission.waypoints) for name, request in robot.asked if name == "/mission/set"]
+    assert asked[-1] == 2
+    robot.objection = lambda *_: None
+    operator.session.send_mission()
+    operator.until(lambda: mission.state == "stored")
+    assert len(robot.asked[-1][1].mission.waypoints) == 2
+
+
 def test_a_draft_of_yesterday_is_there_again_and_not_replaced(
     robot: FakeRobot, connect: Callable[..., Operator], tmp_path: Path
 ) -> None:
@@ -228,3 +263,15 @@ def test_events_heard_by_nobody_are_kept_for_who_comes_later(
     operator.session.listeners.clear()
     operator.session.deliver("event", Post(Event(id=1, text="early"), 0.0, 1))
     assert [post.value.text for post in operator.session.early] == ["early"]
+
+
+def test_a_draft_that_was_under_way_over_a_closed_link_can_be_sent_again(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
+    operator = connect()
+    operator.until(lambda: operator.session.mission.stored is not None)
+    operator.session.mission.add(1.0, 2.0)
+    operator.session.mission.sending()
+    operator.session.resume(operator.link)
+    assert operator.session.mission.state == "draft"
+    assert operator.session.mission.outcome == "No reply: the link was closed."

@@ -108,25 +108,54 @@ def test_a_draft_is_not_stored_before_the_robot_accepts_it(editor: MissionEditor
     message = editor.sending()
     assert editor.state == "sent"
     assert editor.dirty
-    editor.answered(True, "Stored.")
+    editor.answered(editor.draft, True, "Stored.")
     assert editor.state == "stored"
     assert [point.x for point in message.waypoints] == xs(editor)
 
 
 def test_a_refused_draft_stays_a_draft_and_says_why(editor: MissionEditor) -> None:
     editor.sending()
-    editor.answered(False, "Point 2 is inside a wall.")
+    editor.answered(editor.draft, False, "Point 2 is inside a wall.")
     assert editor.state == "draft"
     assert editor.outcome == "Point 2 is inside a wall."
 
 
 def test_an_edit_while_it_is_sent_is_not_stored_by_the_answer(editor: MissionEditor) -> None:
     editor.sending()
+    sent = editor.draft
     editor.add(4.0, 0.0)
-    editor.answered(True, "Stored.")
+    editor.answered(sent, True, "Stored.")
     assert editor.state == "draft"
     editor.undo()
     assert editor.state == "stored"
+
+
+def test_the_answer_to_an_earlier_sending_does_not_store_a_later_one(editor: MissionEditor) -> None:
+    editor.sending()
+    first = editor.draft
+    editor.add(4.0, 0.0)
+    editor.sending()
+    editor.answered(first, True, "Stored.")
+    assert editor.stored == first
+    assert editor.state == "sent"
+    editor.answered(editor.draft, False, "Point 4 is inside a wall.")
+    assert (editor.state, editor.stored) == ("draft", first)
+
+
+def test_what_the_robot_tells_counts_more_than_an_answer_that_comes_after_it(editor: MissionEditor) -> None:
+    editor.sending()
+    editor.robot_has(STORED)
+    editor.answered(editor.draft, True, "Stored.")
+    assert editor.state == "draft"
+    assert editor.stored == Draft.of(STORED)
+
+
+def test_a_draft_that_the_robot_tells_before_it_answers_is_stored(editor: MissionEditor) -> None:
+    message = editor.sending()
+    editor.robot_has(message)
+    assert editor.state == "stored"
+    editor.answered(editor.draft, False, "No reply.")
+    assert (editor.state, editor.outcome) == ("stored", "")
 
 
 def test_the_robots_mission_fills_an_untouched_editor() -> None:
@@ -187,5 +216,5 @@ def test_every_change_is_told() -> None:
     editor.add(1.0, 1.0)
     editor.undo()
     editor.sending()
-    editor.answered(True, "")
+    editor.answered(editor.draft, True, "")
     assert len(told) == 4
