@@ -11,6 +11,7 @@ from typing import Any
 
 from kivy.clock import Clock
 from kivy.lang import Builder
+from kivy.metrics import sp
 from kivy.properties import AliasProperty, NumericProperty, OptionProperty
 from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.widget import Widget
@@ -23,9 +24,12 @@ __all__ = ["PHASES", "StopButton"]
 HOLD = 1.0
 """How long the finger must stay to release a latched STOP [s]."""
 
+LEAST = 12.5
+"""Smallest type that a sentence is written in [sp]."""
+
 PHASES = {
     "ready": ("STOP", "", "pan_tool_fill"),
-    "sent": ("STOP", "sent, waiting for the robot", "pan_tool_fill"),
+    "sent": ("STOP", "sent, not confirmed", "pan_tool_fill"),
     "stopped": ("STOPPED", "hold to release", "lock"),
     "no_answer": ("STOP", "no answer, sending again", "signal_disconnected"),
 }
@@ -86,11 +90,14 @@ Builder.load_string("""
                 size: self.texture_size
                 pos_hint: {'center_x': .5, 'center_y': .5}
         Label:
+            id: sentence
             text: root.sentence
             font_name: theme.font
             font_size: root.sentence_size
             color: theme.roles[root.ink]
             disabled_color: self.color
+            text_size: root.width - dp(16), None
+            halign: 'center'
             size_hint: None, None
             size: self.texture_size if root.sentence else (0, 0)
             pos_hint: {'center_x': .5}
@@ -141,9 +148,10 @@ class StopButton(Control, AnchorLayout):
     """Height of the type [px]."""
 
     def _sentence_size(self) -> float:
-        return min(self.word_size * 0.55, self.width / 16)
+        return max(min(self.word_size * 0.55, self.width / 16), sp(LEAST + 1.5 * self.upright))
 
     sentence_size = AliasProperty(_sentence_size, bind=["word_size", "size"], cache=True)
+    """Height of the sentence's type [px]; it goes on two lines where it is too long."""
 
     def __init__(self, **kwargs: Any) -> None:
         self._holding = Clock.create_trigger(self._hold, 0, interval=True)
@@ -201,6 +209,9 @@ def samples() -> dict[str, Callable[[], Widget]]:
     return {
         **wide,
         **square,
+        "phone stopped": make("112dp", "172dp", phase="stopped"),
+        "phone no answer": make("112dp", "172dp", phase="no_answer"),
+        "small sent": make("160dp", "64dp", phase="sent"),
         "small": make("160dp", "64dp"),
         "small stopped": make("160dp", "64dp", phase="stopped"),
         "being released": _being_released,

@@ -92,7 +92,9 @@ def test_every_phase_says_something_else(stop):
     assert len(said) == len(PHASES)
 
 
-@pytest.mark.parametrize(("size", "upright"), [((329, 76), False), ((210, 180), True), ((160, 64), False)])
+@pytest.mark.parametrize(
+    ("size", "upright"), [((329, 76), False), ((210, 180), True), ((112, 172), True), ((160, 64), False)]
+)
 @pytest.mark.parametrize("phase", PHASES)
 def test_its_words_fit_into_it(stage, size, upright, phase):
     button = stage.show(StopButton(phase=phase), size=size)
@@ -101,3 +103,4 @@ def test_its_words_fit_into_it(stage, size, upright, phase):
     assert button.upright is upright
     assert column.width <= button.width
     assert column.height <= button.height
+    assert button.ids.sentence.font_size >= 12
