@@ -463,11 +463,11 @@ class PilothouseApp(App):
         if self.shell is not None:
             self.shell.close()
             self.shell = None
-        self.stop_recording()
         self.session.link.close()
         self.session = None
         self._camera_wanted, self.records.frame, self._picture_at = None, None, math.nan
         self.connect.say("")
+        self.stop_recording()
         self.root.show_page(self.connect)
         self._list()
 

@@ -41,11 +41,15 @@ def schema(type_: type[Msg]) -> bytes:
     return json.dumps({"type": "object", **parts.get(type_.__name__, root), "$defs": parts}).encode()
 
 
+def _size(path: Path) -> int:
+    return path.stat().st_size if path.exists() else 0
+
+
 class Recorder:
     """Writes in a thread of its own; `put` never waits."""
 
     def __init__(self, path: Path, *, wall: Callable[[], float] = time.time, waiting: int = WAITING) -> None:
-        """Start a file at `path`; OSError when it cannot be written. `wall` is the time of day [s].
+        """Start a file at `path`; OSError when it cannot be written or is there. `wall` is the time of day [s].
 
         At most `waiting` messages wait for the disk.
         """
@@ -57,10 +61,8 @@ class Recorder:
         """Messages that did not get into the file."""
         self.problem = ""
         """One sentence when the disk failed; empty when all is well."""
-        self.started = wall()
-        """When the recording began [s], time of day."""
         self._wall = wall
-        self._file = path.open("wb")
+        self._file = path.open("xb")
         self._writer = Writer(self._file)
         self._writer.start(library="pilothouse")
         self._channels: dict[str, int] = {}
@@ -83,9 +85,12 @@ class Recorder:
         return f"Not recorded because the disk is too slow: {self.dropped}." if self.dropped else ""
 
     def close(self) -> None:
-        """Write what waits, finish the file and end the thread."""
+        """Write what waits, finish the file and end the thread; a file that the disk left empty is removed."""
         self._queue.put(None)
         self._thread.join()
+        if self.problem and not _size(self.path):
+            self.path.unlink(missing_ok=True)
+            self.problem = self.problem.replace("The recording has ended", "Nothing was recorded")
 
     def _run(self) -> None:
         while (item := self._queue.get()) is not None:
@@ -97,8 +102,8 @@ class Recorder:
             except OSError as error:
                 self._fail(error)
         try:
-            self._writer.finish()
-            self._file.close()
+            with self._file:
+                self._writer.finish()
         except OSError as error:
             self._fail(error)
 

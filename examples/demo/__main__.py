@@ -67,6 +67,7 @@ def _story(scene: Any, app: Any, record: Path) -> Generator[None, None, None]:
     from examples.demo import patrol, prepare
 
     yield from prepare.connect(scene)
+    record.unlink(missing_ok=True)
     app.start_recording(record)
     yield from prepare.initialise(scene)
     yield from prepare.tap_points(scene)

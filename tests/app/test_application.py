@@ -251,6 +251,12 @@ def test_a_recording_holds_what_came(driving: Glass, robot: FakeRobot, tmp_path:
     assert {"/pose", "/robot/info", "/control/status"} <= topics
 
 
+def test_a_recording_that_leaving_the_robot_ends_is_said(driving: Glass, tmp_path: Path) -> None:
+    assert driving.app.start_recording(tmp_path / "run.mcap")
+    driving.app.leave()
+    assert driving.app.connect._banner.text == "Recording saved as run.mcap."
+
+
 @pytest.mark.parametrize("size", [(412, 892), (892, 412), (1280, 800), (1920, 1200)])
 def test_turning_the_device_keeps_stop_in_its_corner(driving: Glass, size: tuple[int, int]) -> None:
     for screen in ("mission", "drive"):

@@ -19,7 +19,7 @@ from bridge.msgs.sensor_msgs import LaserScan
 
 
 def test_messages_come_back_with_topic_time_and_type(tmp_path: Path) -> None:
-    times = iter([0.0, 10.25, 11.5, 12.0])
+    times = iter([10.25, 11.5, 12.0])
     recorder = Recorder(tmp_path / "out" / "run.mcap", wall=lambda: next(times))
     recorder.put("/events", Event(id=1, text="First"))
     recorder.put("/scan", LaserScan(ranges=Float32Array([1.0, math.inf])))
