@@ -120,7 +120,10 @@ class Robots:
         return [{"url": url, **kept} for url, kept in self._saved.items()]
 
     def entries(self) -> list[Entry]:
-        """All robots: by name, those that were heard first."""
+        """All robots: those within reach first, then those that fell silent, then addresses never heard.
+
+        Within each they keep the order in which they were met, so that no card moves under a finger without need.
+        """
         now = self._now()
         self._heard = {
             url: (hello, at)
@@ -133,7 +136,7 @@ class Robots:
             for url, kept in self._saved.items()
             if url not in self._heard
         ]
-        return [*sorted(heard, key=lambda entry: (entry.name.casefold(), entry.url)), *unheard]
+        return [*sorted(heard, key=lambda entry: entry.state == "lost"), *unheard]
 
     def _entry(self, hello: Hello, silent: float) -> Entry:
         return Entry(

@@ -33,6 +33,9 @@ HINT = (
     "No robot has said hello on this network yet.\n"
     "Switch one on, enter its address, or start the built-in simulator."
 )
+NARROW = 420.0
+"""A card narrower than this has no room for the words `driven by` [dp]."""
+
 LOW, MIDDLE = 0.20, 0.40
 """Below these a battery is empty or getting low, 0 to 1."""
 
@@ -90,10 +93,11 @@ Builder.load_string("""
             role: root.link_role
             text: root.link_text
         Chip:
+            icon: root.driver_icon
             text: root.driver_text
             role: root.driver_role
             tinted: True
-            spacing: 0
+            spacing: dp(6) if root.driver_icon else 0
             opacity: 1 if root.driver_text else 0
         Widget:
     PushButton:
@@ -149,49 +153,56 @@ Builder.load_string("""
                 pressable: True
                 pos_hint: {'center_y': .5}
                 on_release: root.app.next_theme()
-        ScrollView:
-            do_scroll_x: False
+        BoxLayout:
+            id: page
+            orientation: 'vertical'
+            padding: root.edge, dp(22), root.edge, dp(22)
+            spacing: dp(22)
             BoxLayout:
+                id: notices
                 orientation: 'vertical'
                 size_hint_y: None
                 height: self.minimum_height
-                padding: root.edge, dp(22) if notices.height else 0, root.edge, dp(22)
-                spacing: dp(22)
-                BoxLayout:
-                    id: notices
-                    orientation: 'vertical'
-                    size_hint_y: None
-                    height: self.minimum_height
-                    spacing: dp(10)
+                spacing: dp(10)
+            ScrollView:
+                do_scroll_x: False
+                size_hint_y: None
+                height: min(cards.height, page.height - notices.height - actions.height - dp(110))
                 GridLayout:
                     id: cards
                     cols: root.columns
                     spacing: dp(18)
                     size_hint_y: None
                     height: self.minimum_height
-                GridLayout:
-                    id: actions
-                    cols: root.columns
-                    spacing: dp(18)
-                    size_hint_y: None
-                    height: self.minimum_height
-                    QuietButton:
-                        id: add
-                        icon: 'add_link'
-                        text: 'Add by address'
-                        size_hint_x: None
-                        width: root.card_width
-                        on_release: root.app.ask_address()
-                    QuietButton:
-                        id: simulate
-                        icon: 'play_circle'
-                        text: root.simulator_text
-                        size_hint_x: None
-                        width: root.card_width
-                        disabled: not root.can_simulate or root.simulating
-                        opacity: 1 if root.can_simulate else 0
-                        on_release: root.app.start_simulator()
+            GridLayout:
+                id: actions
+                cols: root.columns
+                spacing: dp(18)
+                size_hint_y: None
+                height: self.minimum_height
+                QuietButton:
+                    id: add
+                    icon: 'add_link'
+                    text: 'Add by address'
+                    size_hint_x: None
+                    width: root.card_width
+                    on_release: root.app.ask_address()
+                QuietButton:
+                    id: simulate
+                    icon: 'play_circle'
+                    text: root.simulator_text
+                    size_hint_x: None
+                    width: root.card_width
+                    disabled: not root.can_simulate or root.simulating
+                    opacity: 1 if root.can_simulate else 0
+                    on_release: root.app.start_simulator()
+            Widget:
 """)
+
+
+def _shortened(name: str, most: int) -> str:
+    """`name`, cut to `most` characters with a sign that it was cut."""
+    return name if len(name) <= most else f"{name[: most - 1].rstrip()}…"
 
 
 class RobotCard(Card):
@@ -211,6 +222,8 @@ class RobotCard(Card):
     link_text = StringProperty("")
     link_role = StringProperty("ok")
     driver_text = StringProperty("")
+    driver_icon = StringProperty("")
+    """Stands for `driven by` where a card has no room for the words."""
     driver_role = StringProperty("ok")
     action = StringProperty("Connect")
     button_height = NumericProperty("52dp")
@@ -253,9 +266,13 @@ class RobotCard(Card):
             self.driver_text, self.driver_role = ("lost" if self.lost else ""), "danger"
         elif mine:
             self.driver_text, self.driver_role = "driven by you", "accent"
+        elif other:
+            narrow = self.width < NARROW * Metrics.density
+            name = _shortened(entry.driver, 10 if narrow else 18)
+            self.driver_text, self.driver_role = name if narrow else f"driven by {name}", "warn"
         else:
-            self.driver_text = f"driven by {entry.driver}" if other else "free"
-            self.driver_role = "warn" if other else "ok"
+            self.driver_text, self.driver_role = "free", "ok"
+        self.driver_icon = "person" if other and self.driver_text == _shortened(entry.driver, 10) else ""
         self.quiet = self.lost
         self.action = "Retry" if self.lost else "Watch" if other and not mine else "Connect"
 

@@ -23,9 +23,18 @@ ME = "id-of-this-handheld"
 def test_who_drives_is_told_by_identity_because_two_handhelds_may_bear_one_name(
     stage: Any, driver_id: str, words: str, action: str
 ) -> None:
-    card = stage.show(RobotCard(), size=(400, 200))
+    card = stage.show(RobotCard(), size=(440, 200))
     driver = "tablet" if driver_id else ""
     card.show_entry(
         Entry("ws://10.0.0.3:9090", "Patrol-1", driver=driver, driver_id=driver_id, silent=0.1), ME
     )
     assert (card.driver_text, card.action) == (words, action)
+
+
+def test_a_long_name_of_who_drives_is_cut_and_stays_on_its_card(stage: Any) -> None:
+    card = stage.show(RobotCard(), size=(384, 200))
+    entry = Entry("ws://10.0.0.3:9090", "Patrol-1", driver="a client at 10.0.0.4", driver_id="x", silent=0.1)
+    card.show_entry(entry, ME)
+    stage.frames(2)
+    assert card.driver_text == "a client…"
+    assert card.driver_icon == "person"

@@ -90,10 +90,19 @@ def test_a_saved_robot_that_says_hello_is_listed_once(robots: Robots) -> None:
     assert (entry.driver, entry.saved, entry.address) == ("tablet-B", True, "10.0.0.4:9091")
 
 
-def test_robots_are_listed_by_name(robots: Robots) -> None:
+def test_robots_keep_the_order_in_which_they_were_met_so_that_no_card_moves_under_a_finger(
+    robots: Robots,
+) -> None:
     robots.heard(Hello(name="patrol", url=A), 100.0)
     robots.heard(Hello(name="Aqua", url=B), 100.0)
-    assert [entry.name for entry in robots.entries()] == ["Aqua", "patrol"]
+    robots.heard(Hello(name="patrol", url=A), 100.1)
+    assert [entry.name for entry in robots.entries()] == ["patrol", "Aqua"]
+
+
+def test_robots_that_fell_silent_come_after_those_within_reach(robots: Robots) -> None:
+    robots.heard(Hello(name="patrol", url=A), 90.0)
+    robots.heard(Hello(name="Aqua", url=B), 100.0)
+    assert [(entry.name, entry.state) for entry in robots.entries()] == [("Aqua", "live"), ("patrol", "lost")]
 
 
 def test_a_measured_round_trip_is_shown(robots: Robots) -> None:
