@@ -8,6 +8,7 @@ class Altimeter(RobotWidget):
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Any, ClassVar
 
 from kivy.core.text import Label as CoreLabel
@@ -21,11 +22,14 @@ from bridge.msgs import Msg
 from widgets.icons import icon
 from widgets.theme import theme
 
-__all__ = ["STATES", "Control", "RobotWidget", "age_text", "text_texture"]
+__all__ = ["STATES", "Control", "RobotWidget", "age_text", "fitting_size", "text_texture"]
 
 STATES = ("never", "live", "stale", "alarm", "disabled")
 VEIL = {"never": 0.0, "live": 0.0, "stale": 0.55, "alarm": 0.0, "disabled": 0.62}
 """How much of a widget is hidden in each state, 0 to 1."""
+
+SMALLEST = 10.0
+"""No type is made smaller than this to fit [sp]."""
 
 Builder.load_string("""
 <RobotWidget>:
@@ -88,6 +92,12 @@ def text_texture(text: str, size: float, font: str = "B612", *, bold: bool = Fal
         label.refresh()
         _textures[key] = label.texture
     return _textures[key]
+
+
+def fitting_size(texts: Iterable[str], size: float, room: float, *, bold: bool = False) -> float:
+    """Size of type [px] at which the widest of `texts` fits into `room` [px]: `size`, or as much less as it takes."""
+    widest = max((text_texture(text, size, theme.font, bold=bold).width for text in texts), default=0)
+    return size if widest <= room else max(math.floor(size * room / widest * 2) / 2, sp(SMALLEST))
 
 
 class RobotWidget(Widget):

@@ -6,13 +6,16 @@ from collections.abc import Callable
 from typing import Any
 
 from kivy.lang import Builder
-from kivy.properties import BooleanProperty, OptionProperty, StringProperty
+from kivy.metrics import dp, sp
+from kivy.properties import AliasProperty, BooleanProperty, OptionProperty, StringProperty
 from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.labels  # noqa: F401 - its rules draw the icons
+from widgets.base import fitting_size
+from widgets.theme import theme
 
 __all__ = ["IconButton", "NavButton", "PrimaryButton", "PushButton", "QuietButton"]
 
@@ -44,8 +47,9 @@ Builder.load_string("""
         orientation: root.flow
         size_hint: None, None
         size: self.minimum_size
-        spacing: (dp(9) if root.flow == 'horizontal' else dp(2)) if root.icon and root.text else 0
+        spacing: (dp(8) if root.flow == 'horizontal' else dp(2)) if root.icon and root.text else 0
         Icon:
+            id: sign
             name: root.icon or 'check'
             role: 'faint' if root.disabled else root.ink_icon or root.ink
             size: (self.font_size, self.font_size) if root.icon else (0, 0)
@@ -55,7 +59,7 @@ Builder.load_string("""
             id: words
             text: root.text
             font_name: theme.font
-            font_size: theme.size_body if root.flow == 'horizontal' else sp(14)
+            font_size: root.words_size
             bold: True
             color: theme.faint if root.disabled else theme.roles[root.ink]
             disabled_color: self.color
@@ -151,6 +155,14 @@ class PushButton(ButtonBehavior, AnchorLayout):
     flow = OptionProperty("horizontal", options=["horizontal", "vertical"])
     """Icon before the words, or above them."""
 
+    def _words_size(self) -> float:
+        beside = self.flow == "horizontal"
+        taken = self.padding[0] + self.padding[2] + (theme.size_icon + dp(8) if self.icon and beside else 0)
+        return fitting_size([self.text], theme.size_body if beside else sp(14), self.width - taken, bold=True)
+
+    words_size = AliasProperty(_words_size, bind=["text", "icon", "flow", "width", "padding"], cache=True)
+    """Height of the words' type [px]: as always, or less where they would touch the border."""
+
 
 class PrimaryButton(PushButton):
     """What the card is there for: one on each."""
@@ -200,6 +212,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "icon above": _button(
             QuietButton, text="Home", icon="home", flow="vertical", width="104dp", height="64dp"
         ),
+        "narrow": _button(PrimaryButton, text="Resume", icon="play_arrow_fill", width="112dp"),
         "icon": lambda: IconButton(icon="my_location"),
         "icon bare": lambda: IconButton(icon="arrow_back", bare=True, role="muted"),
         "nav": lambda: NavButton(icon="sports_esports", text="Drive"),

@@ -20,6 +20,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
+from widgets.base import fitting_size
 from widgets.theme import theme
 
 __all__ = ["Segmented", "Toggle"]
@@ -51,7 +52,7 @@ Builder.load_string("""
     disabled_color: self.color
     halign: 'center'
     valign: 'middle'
-    text_size: self.width - dp(6), self.height
+    text_size: self.width - dp(16), self.height
     canvas.before:
         Color:
             rgba: theme.accent if self.chosen else (theme.text[:3] + [.12 if self.state == 'down' else 0])
@@ -119,7 +120,7 @@ class Segmented(BoxLayout):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.bind(options=self._rebuild, value=self._mark, font_size=self._rebuild)
+        self.bind(options=self._rebuild, value=self._mark, font_size=self._fit, width=self._fit)
         theme.bind(corner=self._rebuild)
         self._rebuild()
 
@@ -128,11 +129,19 @@ class Segmented(BoxLayout):
         pairs = [option if isinstance(option, list | tuple) else (option, option) for option in self.options]
         self._values = [value for value, _ in pairs]
         for index, (value, words) in enumerate(pairs):
-            segment = Segment(text=words, first=index == 0, text_size_px=self.font_size)
+            segment = Segment(text=words, first=index == 0)
             segment.radii = self._corners(index, len(pairs))
             segment.bind(on_release=lambda _, value=value: self.choose(value))
             self.add_widget(segment)
+        self._fit()
         self._mark()
+
+    def _fit(self, *_: object) -> None:
+        """One size of type for all, at which the longest words keep clear of the lines even when they are bold."""
+        room = self.width / max(len(self.children), 1) - dp(18)
+        size = fitting_size([segment.text for segment in self.children], self.font_size, room, bold=True)
+        for segment in self.children:
+            segment.text_size_px = size
 
     def _corners(self, index: int, count: int) -> list[float]:
         left = theme.corner - 1 if index == 0 else 0

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from kivy.lang import Builder
-from kivy.properties import BooleanProperty, NumericProperty, StringProperty
+from kivy.metrics import dp
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
 from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
+from widgets.base import text_texture
 from widgets.theme import theme
 
 __all__ = ["Chip", "Icon", "SectionLabel", "Text", "ValueUnit", "spaced"]
@@ -52,7 +54,7 @@ Builder.load_string("""
     Label:
         text: root.value
         font_name: theme.font
-        font_size: root.font_size
+        font_size: root.font_size * root.share
         bold: True
         color: theme.roles[root.role]
         disabled_color: self.color
@@ -61,15 +63,15 @@ Builder.load_string("""
     Label:
         text: root.unit
         font_name: theme.font
-        font_size: root.unit_size
+        font_size: root.unit_size * root.share
         color: theme.muted
         disabled_color: self.color
         size_hint: None, None
         width: self.texture_size[0]
-        height: root.font_size * 1.22
+        height: root.font_size * root.share * 1.22
         text_size: None, self.height
         valign: 'bottom'
-        padding: 0, 0, 0, (root.font_size - root.unit_size) * .2
+        padding: 0, 0, 0, (root.font_size - root.unit_size) * root.share * .2
 
 <Chip>:
     size_hint: None, None
@@ -157,6 +159,18 @@ class ValueUnit(BoxLayout):
     """Of the value [px]."""
     unit_size = NumericProperty("15sp")
     """Of the unit [px]."""
+    room = NumericProperty(0.0)
+    """How wide it may be [px]: both are written smaller where they would be wider; 0 for any width."""
+
+    def _share(self) -> float:
+        value = text_texture(self.value, self.font_size, theme.font, bold=True).width
+        wide = value + text_texture(self.unit, self.unit_size, theme.font).width + self.spacing
+        return min(1.0, self.room / wide) if self.room else 1.0
+
+    share = AliasProperty(
+        _share, bind=["value", "unit", "font_size", "unit_size", "spacing", "room"], cache=True
+    )
+    """Part of their sizes that value and unit are written in, 0 to 1."""
 
 
 class Chip(ButtonBehavior, BoxLayout):
@@ -206,6 +220,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
             ValueUnit(value="0.62", unit="m/s"),
             ValueUnit(value="—", unit="m"),
             ValueUnit(value="−12", unit="°", role="warn"),
+            ValueUnit(value="0.42", unit="m/s", room=dp(66)),
         ),
         "labels": lambda: _row(
             SectionLabel(title="Next WP"), Text(text="Driving to point 3.", size_hint_x=2)

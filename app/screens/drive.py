@@ -20,6 +20,7 @@ from app.feeds import Post
 from app.layout import Instrument, Layout, LayoutError
 from app.session import Session
 from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.vision_msgs import Detection2DArray
 from bridge.topics import topic
 from widgets import Joystick, Readout, Video
 from widgets.kit import Card, QuietButton
@@ -48,6 +49,7 @@ Builder.load_string("""
         unit: 'm/s'
         font_size: sp(18)
         unit_size: sp(14)
+        room: root.width - dp(18)
         pos_hint: {'center_x': .5}
 """)
 
@@ -77,7 +79,7 @@ class DriveScreen(FloatLayout):
         self._place("video", self.video)
         self._build_instruments(layout)
         self._build_controls()
-        self.dashboard.bind(self.video, "/detections", fresh=False)
+        self.dashboard.bind(self.video, "/detections", fresh=False, empty=Detection2DArray())
         self._limited = False
         self._arranged: dict[str, Rect] = {}
 

@@ -9,6 +9,7 @@ from kivy.lang import Builder
 from kivy.uix.boxlayout import BoxLayout
 
 import widgets.kit as kit
+from widgets.base import text_texture
 from widgets.choices import Segment
 from widgets.kit import (
     Banner,
@@ -295,3 +296,38 @@ def test_nothing_under_a_sheet_is_touched(stage, sheet):
     assert stage.touch(200, 20).touch_down() is None
     stage.touch(200, 20)
     assert sheet.on_touch_down(stage.touch(200, 20))
+
+
+def row_of(button):
+    return button.children[0]
+
+
+@pytest.mark.parametrize(("flow", "width"), [("horizontal", 112), ("horizontal", 200), ("vertical", 84)])
+@pytest.mark.parametrize("words", ["Resume", "Snapshot", "Go home"])
+def test_words_keep_8_dp_clear_of_the_borders_of_their_button(stage, flow, words, width):
+    button = stage.show(QuietButton(text=words, icon="home", flow=flow), size=(width, 64))
+    stage.frames(3)
+    row = row_of(button)
+    assert row.x - button.x >= 8
+    assert button.right - row.right >= 8
+    assert row.center_x == pytest.approx(button.center_x, abs=1)
+
+
+def test_words_that_have_room_are_as_large_as_all_others(stage):
+    button = stage.show(QuietButton(text="Resume", icon="home"), size=(200, 64))
+    assert button.words_size == theme.size_body
+
+
+@pytest.mark.parametrize("width", [240, 280, 330, 420])
+def test_words_keep_8_dp_clear_of_the_lines_of_their_segment(stage, width):
+    row = stage.show(Segmented(options=["Loop", "Random", "Intermittent"], value="Intermittent"), (width, 46))
+    stage.frames(3)
+    widest = text_texture("Intermittent", row.children[0].font_size, "B612", bold=True).width
+    assert row.children[0].width - widest >= 16
+    assert len({segment.font_size for segment in row.children}) == 1
+
+
+def test_a_value_with_its_unit_stays_within_its_room(stage):
+    value = stage.show(ValueUnit(value="0.42", unit="m/s", room=54.0))
+    stage.frames(3)
+    assert 40 < value.width <= 56
