@@ -28,7 +28,7 @@ def available() -> bool:
 def command(robot: str = "sim:patrol", world: str = "parking_lot") -> list[str]:
     """What starts the robot side on free ports; it works from any folder."""
     serve = [sys.executable, "-m", "robotside", "serve", "--robot", robot, "--world", world]
-    return [*serve, "--port", "0", "--http-port", "0"]
+    return [*serve, "--port", "0", "--http-port", "0", "--with-parent"]
 
 
 class Simulator:

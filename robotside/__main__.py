@@ -35,9 +35,10 @@ class _Parser(argparse.ArgumentParser):
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line; returns 0 when done, 2 for the user's mistake, 1 for a fault."""
+    parent = os.getppid()
     try:
         options = _options(argv)
-        return _serve(options)
+        return _serve(options, lambda: not options.with_parent or os.getppid() == parent)
     except (UserMistake, BridgeError) as problem:
         print(f"robotside: {problem}", file=sys.stderr)
         return 2
@@ -59,6 +60,7 @@ def _options(argv: Sequence[str] | None) -> argparse.Namespace:
     add("--config", default="", help="a settings file; not read yet, so it is refused")
     add("--state", type=Path, default=None, help="directory where the mission is kept")
     add("--name", default="", help="what people call the robot")
+    add("--with-parent", action="store_true", help="end when the program that started it is gone")
     options = parser.parse_args(argv)
     _check(options)
     return options
@@ -80,16 +82,18 @@ def _check(options: argparse.Namespace) -> None:
         raise UserMistake(f"Settings files are not read yet, so {options.config!r} would have no effect.")
 
 
-def _serve(options: argparse.Namespace) -> int:
+def _serve(options: argparse.Namespace, wanted: Callable[[], bool]) -> int:
     robot = _robot(options)
     began, steady = time.time(), time.monotonic()
     try:
-        return asyncio.run(_run(options, robot, lambda: began + time.monotonic() - steady))
+        return asyncio.run(_run(options, robot, lambda: began + time.monotonic() - steady, wanted))
     finally:
         robot.close()
 
 
-async def _run(options: argparse.Namespace, robot: Robot, wall: Callable[[], float]) -> int:
+async def _run(
+    options: argparse.Namespace, robot: Robot, wall: Callable[[], float], wanted: Callable[[], bool]
+) -> int:
     clock = RobotClock(wall(), options.speed)
     station = Station(
         robot,
@@ -101,7 +105,7 @@ async def _run(options: argparse.Namespace, robot: Robot, wall: Callable[[], flo
         name=options.name,
     )
     addresses = Addresses(options.host, options.port, options.http_port)
-    serving = Serving(station, clock, wall, addresses)
+    serving = Serving(station, clock, wall, addresses, wanted=wanted)
     loop = asyncio.get_running_loop()
     for number in (signal.SIGTERM, signal.SIGINT):
         loop.add_signal_handler(number, serving.end)

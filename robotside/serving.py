@@ -32,6 +32,8 @@ _TABLE = frozenset(entry.name for entry in TOPICS)
 
 TICK = 1 / 60
 """Real time between two ticks [s]."""
+LOOK = 1.0
+"""Real time between two questions whether it is still wanted [s]."""
 
 
 BRAKING = 2.0
@@ -66,12 +68,19 @@ class Serving:
     """Serves one station until told to end."""
 
     def __init__(
-        self, station: Station, clock: RobotClock, wall: Callable[[], float], addresses: Addresses
+        self,
+        station: Station,
+        clock: RobotClock,
+        wall: Callable[[], float],
+        addresses: Addresses,
+        *,
+        wanted: Callable[[], bool] = lambda: True,
     ) -> None:
+        """`wanted` is asked once a second and ends the serving when it says no."""
         self.addresses = addresses
         self.station = station
         """What is served."""
-        self._clock, self._wall = clock, wall
+        self._clock, self._wall, self._wanted = clock, wall, wanted
         offered = list(services(station))
         self.server = BridgeServer(
             services=offered,
@@ -118,11 +127,15 @@ class Serving:
     async def _tick(self) -> None:
         """Drive the station until it was told to end and stands still."""
         loop = asyncio.get_running_loop()
-        due = loop.time()
+        due = look = loop.time()
         while self._wall() < self._patience and not (self._patience < math.inf and self.station.at_rest):
             for now in self._clock.steps(self._wall()):
                 self.station.step(now)
                 await asyncio.sleep(0)
+            if self._patience == math.inf and loop.time() >= look:
+                look = loop.time() + LOOK
+                if not self._wanted():
+                    self.end()
             due = max(due + TICK, loop.time() - TICK)
             await asyncio.sleep(max(0.0, due - loop.time()))
 

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import queue
+import subprocess
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 
+import psutil
 import pytest
 
 from app.simulator import Simulator, command
@@ -91,6 +96,28 @@ def test_closing_ends_the_process_and_is_no_failure(run: Run) -> None:
     assert simulator._process is not None
     assert simulator._process.returncode is not None
     assert run.told.empty()
+
+
+def test_a_killed_app_leaves_no_simulator_behind(tmp_path: Path) -> None:
+    starts = (
+        "import subprocess, sys; from app.simulator import command; "
+        "child = subprocess.Popen(command(), stdout=subprocess.PIPE, text=True); "
+        "print(child.pid, child.stdout.readline().strip(), flush=True); child.wait()"
+    )
+    env = {**os.environ, "XDG_STATE_HOME": str(tmp_path)}
+    parent = subprocess.Popen([sys.executable, "-c", starts], stdout=subprocess.PIPE, text=True, env=env)
+    assert parent.stdout is not None
+    with parent:
+        pid, ready = parent.stdout.readline().split(" ", 1)
+        child = psutil.Process(int(pid))
+        try:
+            assert ready.startswith("robotside: ready")
+            parent.kill()
+            child.wait(PATIENCE)
+        finally:
+            with contextlib.suppress(psutil.NoSuchProcess):
+                child.kill()
+    assert not child.is_running()
 
 
 def test_the_command_takes_free_ports() -> None:

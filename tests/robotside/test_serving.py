@@ -73,6 +73,21 @@ async def test_a_client_is_told_who_the_robot_is_and_drives_it(tmp_path: Path) -
     assert robot.at_rest
 
 
+async def test_one_that_is_no_longer_wanted_ends_by_itself(tmp_path: Path) -> None:
+    clock, robot = RobotClock(time.time()), FakeRobot()
+    station = Station(
+        robot, Store(tmp_path), now=clock.now, clock=time.time, rng=random.Random(1), boot="b1", name="Rex"
+    )
+    answers = iter([True, False])
+    serves = Serving(
+        station, clock, time.time, Addresses("127.0.0.1", 0, 0), wanted=lambda: next(answers, False)
+    )
+    async with asyncio.timeout(10):
+        await serves.run(lambda _: None)
+    assert next(answers, None) is None
+    assert robot.at_rest
+
+
 @asynccontextmanager
 async def connected(serves: Serving) -> AsyncIterator[BridgeClient]:
     there = asyncio.Event()
