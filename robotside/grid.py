@@ -74,10 +74,10 @@ class Grid:
         return self.x + (column + 0.5) * self.resolution, self.y + (row + 0.5) * self.resolution
 
     def holds(self, x: float, y: float) -> bool:
-        """The place is on the map."""
-        row, column = self.cell(x, y)
+        """The place is on the map; NaN and infinity are not."""
         rows, columns = self.occupied.shape
-        return bool(0 <= row < rows and 0 <= column < columns)
+        up, along = (y - self.y) / self.resolution, (x - self.x) / self.resolution
+        return bool(0 <= up < rows and 0 <= along < columns)
 
     def clearance(self, points: Points) -> NDArray[np.float64]:
         """How far each of `points` is from the nearest obstacle [m]; negative inside one and off the map."""

@@ -36,7 +36,11 @@ class Unreachable(Exception):
 
 def place_sentence(name: str, x: float, y: float) -> str:
     """A place as people read it: its name and coordinates."""
-    return f"{name} at ({x:.1f}, {y:.1f})"
+    return f"{name} at ({_metres(x)}, {_metres(y)})"
+
+
+def _metres(value: float) -> str:
+    return f"{value:.1f}" if abs(value) < 1e6 else f"{value:.4g}"
 
 
 class Planner:
@@ -51,7 +55,7 @@ class Planner:
     def fault(self, name: str, x: float, y: float) -> str:
         """Why the robot cannot stand at this place, as one sentence; empty when it can."""
         where = place_sentence(name, x, y)
-        if not (math.isfinite(x) and math.isfinite(y)) or not self.grid.holds(x, y):
+        if not self.grid.holds(x, y):
             return f"{where} is off the map."
         room = self.grid.clearance(np.array([[x, y]]))[0]
         if room <= 0:
@@ -59,6 +63,15 @@ class Planner:
         if room < self._need:
             return f"{where} is {room:.2f} m from an obstacle; the robot needs {self._need:.2f} m."
         return ""
+
+    def off_map(self, name: str, x: float, y: float) -> str:
+        """Why this place is none on the map and how far the map reaches, as one sentence; empty when it is one."""
+        if self.grid.holds(x, y):
+            return ""
+        grid, (rows, columns) = self.grid, self.grid.occupied.shape
+        right, top = grid.x + columns * grid.resolution, grid.y + rows * grid.resolution
+        reach = f"x {grid.x:.1f} to {right:.1f} m, y {grid.y:.1f} to {top:.1f} m"
+        return f"{place_sentence(name, x, y)} is off the map, which is {reach}."
 
     def plan(
         self,
@@ -71,6 +84,7 @@ class Planner:
 
         Raises Unreachable with a sentence that calls the goal `name`.
         """
+        self._check_on_map(start, goal, name)
         grid = self.grid if obstacles is None or not len(obstacles) else self.grid.marked(obstacles)
         straight = np.array([start, goal])
         if _room_along(grid, straight) >= self._want:
@@ -78,11 +92,13 @@ class Planner:
         route = self._route(grid, start, goal, name)
         return resampled(_rounded(resampled(self._pulled(grid, route))))
 
-    def _route(self, grid: Grid, start: tuple[float, float], goal: tuple[float, float], name: str) -> Points:
-        if not grid.holds(*start):
-            raise Unreachable(f"The robot is off the map, at ({start[0]:.1f}, {start[1]:.1f}).")
-        if not grid.holds(*goal):
+    def _check_on_map(self, start: tuple[float, float], goal: tuple[float, float], name: str) -> None:
+        if not self.grid.holds(*start):
+            raise Unreachable(f"{place_sentence('The robot', *start)} is off the map.")
+        if not self.grid.holds(*goal):
             raise Unreachable(f"{place_sentence(name, *goal)} is off the map.")
+
+    def _route(self, grid: Grid, start: tuple[float, float], goal: tuple[float, float], name: str) -> Points:
         cost = self._costs(grid, start)
         from_cell, to_cell = grid.cell(*start), grid.cell(*goal)
         cost[from_cell] = 1.0

@@ -185,6 +185,7 @@ class Station:
         problem = self.controls.objection(client)
         if not all(map(math.isfinite, pose)):
             problem = "The pose to place the robot at is not all numbers."
+        problem = problem or self.autonomy.guide.planner.off_map("The place", pose.x, pose.y)
         if problem:
             self.events.say("command", problem, "warn")
             return

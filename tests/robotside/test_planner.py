@@ -58,11 +58,20 @@ def test_obstacles_that_are_not_on_the_map_are_avoided() -> None:
         (0.0, 1.15, "Point 3 at (0.0, 1.1) is 0.15 m from an obstacle; the robot needs 0.26 m."),
         (50.0, 0.0, "Point 3 at (50.0, 0.0) is off the map."),
         (math.inf, 0.0, "Point 3 at (inf, 0.0) is off the map."),
+        (1e308, -1e6, "Point 3 at (1e+308, -1e+06) is off the map."),
         (0.0, 3.0, ""),
     ],
 )
 def test_where_it_cannot_stand_is_said_with_name_and_place(x: float, y: float, said: str) -> None:
     assert planner(Box(-1.0, -1.0, 1.0, 1.0)).fault("Point 3", x, y) == said
+
+
+@pytest.mark.parametrize("far", [12.0, 1e6, 1e308, math.inf, math.nan])
+def test_a_start_or_goal_off_the_map_is_unreachable_however_far_it_is(far: float) -> None:
+    with pytest.raises(Unreachable, match=r"The robot at \(.*, 0\.0\) is off the map\."):
+        planner().plan((far, 0.0), (5.0, 0.0), "Point 1")
+    with pytest.raises(Unreachable, match=r"Point 1 at \(5\.0, .*\) is off the map\."):
+        planner().plan((5.0, 0.0), (5.0, far), "Point 1")
 
 
 def test_a_closed_room_is_unreachable() -> None:

@@ -515,6 +515,17 @@ def test_a_pose_that_is_no_number_is_said_and_ignored(scene: Scene) -> None:
     assert scene.events("command")
 
 
+@pytest.mark.parametrize(("x", "shown"), [(12.0, "12.0"), (1e6, "1e+06"), (-1e308, "-1e+308")])
+def test_a_place_off_the_map_is_refused_with_what_the_map_holds(scene: Scene, x: float, shown: str) -> None:
+    before = scene.station.autonomy.whereabouts.pose
+    far = PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(x, 0.0))))
+    scene.station.hear(scene.anna, "/initialpose", far, None)
+    assert scene.station.autonomy.whereabouts.pose == before
+    assert scene.events("command") == [
+        f"The place at ({shown}, 0.0) is off the map, which is x -11.0 to 11.0 m, y -7.0 to 7.0 m."
+    ]
+
+
 def test_what_was_missed_can_be_asked_for(scene: Scene) -> None:
     scene.set(*SQUARE)
     scene.start()
