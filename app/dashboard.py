@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -13,6 +14,8 @@ __all__ = ["Dashboard"]
 
 AGE_STEP = 0.5
 """Ages closer than this look the same [s]: nothing is drawn anew for less."""
+LIVES = 1.0
+"""What has an `empty` message is taken off the glass when it is older than this [s]."""
 
 
 @dataclass(frozen=True)
@@ -22,6 +25,7 @@ class _Binding:
     show: Callable[[Any], None]
     fresh: bool
     always: bool
+    empty: Msg | None
 
 
 class Dashboard:
@@ -41,12 +45,14 @@ class Dashboard:
         *,
         fresh: bool = True,
         always: bool = False,
+        empty: Msg | None = None,
     ) -> None:
         """Show `topic` on `widget`, by its own `show` unless another is given.
 
         With `fresh` the widget's age and state follow this topic; `always` delivers while the screen is away.
+        `empty` takes the place of a message over a second old or of a lost link, where the old one would deceive.
         """
-        self._bindings.append(_Binding(widget, topic, show or widget.show, fresh, always))
+        self._bindings.append(_Binding(widget, topic, show or widget.show, fresh, always, empty))
 
     def deliver(self, topic: str, message: Msg) -> None:
         """A message came."""
@@ -74,6 +80,11 @@ class Dashboard:
         for binding in self._bindings:
             if binding.fresh:
                 self._refresh(binding)
+            if binding.empty is not None and not self._believed(binding.topic):
+                binding.show(binding.empty)
+
+    def _believed(self, topic: str) -> bool:
+        return math.isnan(self._feeds.lost_at) and self._feeds.age(topic) <= LIVES
 
     def _refresh(self, binding: _Binding) -> None:
         widget, state = binding.widget, self._feeds.state(binding.topic)

@@ -12,6 +12,7 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Twist
 from bridge.msgs.pilothouse_msgs import ControlStatus
+from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
 from tests.app.fakes import FakeRobot
 from tests.headless import Stage
 from widgets.theme import theme
@@ -169,6 +170,19 @@ def test_a_lost_link_is_said_and_takes_the_stick_away(driving: Glass, robot: Fak
     robot.start()
     driving.until(lambda: stick.state == "live" and not driving.banners(), "did not come back")
     assert robot.twists() == []
+
+
+@pytest.mark.parametrize("screen", ["drive", "mission"])
+def test_boxes_leave_the_video_when_no_more_come(driving: Glass, robot: FakeRobot, screen: str) -> None:
+    driving.app.show(screen)
+    video = driving.app.screens[screen].video
+    seen = Detection2DArray(detections=[Detection2D()])
+    for ended in (lambda: None, robot.stop):
+        robot.publish("/detections", seen)
+        driving.until(lambda: video.boxes, "no boxes")
+        ended()
+        driving.until(lambda: not video.boxes, "the boxes stayed")
+    robot.start()
 
 
 def test_a_refused_command_is_said_over_the_screen(driving: Glass, robot: FakeRobot) -> None:

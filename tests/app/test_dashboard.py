@@ -10,6 +10,7 @@ from app.dashboard import Dashboard
 from app.feeds import Feeds, Post
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.sensor_msgs import BatteryState
+from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
 
 
 class Clock:
@@ -87,6 +88,34 @@ def test_an_alarm_is_not_ended_by_a_fresh_message_but_by_silence(feeds: Feeds, c
     clock.now = 104.0
     dashboard.tick()
     assert widget.state == "stale"
+
+
+def test_what_would_deceive_is_gone_after_a_second_and_with_the_link(feeds: Feeds, clock: Clock) -> None:
+    dashboard, widget = Dashboard(feeds), Shown()
+    dashboard.bind(widget, "/detections", fresh=False, empty=Detection2DArray())
+    dashboard.enter()
+    seen = Detection2DArray(detections=[Detection2D()])
+    tell(feeds, dashboard, "/detections", seen)
+    clock.now = 101.0
+    dashboard.tick()
+    assert widget.messages[-1] is seen
+    clock.now = 101.1
+    dashboard.tick()
+    assert widget.messages[-1] == Detection2DArray()
+    feeds.put("/detections", Post(seen, 101.1, 1))
+    dashboard.deliver("/detections", seen)
+    feeds.link(False)
+    dashboard.tick()
+    assert widget.messages[-1] == Detection2DArray()
+
+
+def test_what_would_deceive_does_not_come_back_with_the_screen(feeds: Feeds, clock: Clock) -> None:
+    dashboard, widget = Dashboard(feeds), Shown()
+    dashboard.bind(widget, "/detections", fresh=False, empty=Detection2DArray())
+    tell(feeds, dashboard, "/detections", Detection2DArray(detections=[Detection2D()]))
+    clock.now = 102.0
+    dashboard.enter()
+    assert widget.messages[-1] == Detection2DArray()
 
 
 def test_what_only_adds_to_a_widget_leaves_its_age_alone(feeds: Feeds) -> None:
