@@ -7,6 +7,7 @@ from collections import OrderedDict
 from collections.abc import Callable
 
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
+from robotside.controls import AHEAD
 
 __all__ = ["KEPT", "Commands", "Refusal"]
 
@@ -43,17 +44,20 @@ class Commands:
         key = (service, request.command_id)
         if request.command_id and key in self._answers:
             return self._answers[key]
-        answer = self._too_old(request) or _answer(action)
+        answer = self._untimely(request) or _answer(action)
         if request.command_id:
             self._answers[key] = answer
             while len(self._answers) > KEPT:
                 self._answers.popitem(last=False)
         return answer
 
-    def _too_old(self, request: CommandRequest) -> CommandResponse | None:
+    def _untimely(self, request: CommandRequest) -> CommandResponse | None:
         if math.isnan(request.stamp):
             return None
         age = self._now() - request.stamp
+        if age < -AHEAD:
+            ahead, allowed = f"{-age:.4g} s ahead of the robot's", f"at most {AHEAD:.0f} s is allowed"
+            return CommandResponse(False, f"The command is not done: its clock is {ahead}; {allowed}.")
         if age <= request.valid_for:
             return None
         allowed = f"{request.valid_for:.1f} s"

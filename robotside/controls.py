@@ -20,7 +20,7 @@ LAPSE = 2.0
 """Control is free again when its driver was not heard for this long [s]."""
 
 AHEAD = 1.0
-"""A drive command from further in the future than this comes from a wrong clock [s]."""
+"""A command from further in the future than this comes from a wrong clock [s]."""
 
 STOP_SENTENCE = "STOP is pressed; hold Release to drive again."
 

@@ -84,6 +84,20 @@ def test_a_command_older_than_its_validity_is_refused_with_both_numbers(
     assert counter.done == 0
 
 
+@pytest.mark.parametrize(
+    ("stamp", "shown"), [(102.0, "2"), (3700.0, "3600"), (1e300, "1e+300"), (math.inf, "inf")]
+)
+def test_a_command_from_the_future_is_refused(
+    commands: Commands, counter: Counter, stamp: float, shown: str
+) -> None:
+    answer = commands.run("/x", CommandRequest(stamp=stamp), counter.act)
+    assert not answer.success
+    assert answer.message == (
+        f"The command is not done: its clock is {shown} s ahead of the robot's; at most 1 s is allowed."
+    )
+    assert counter.done == 0
+
+
 @pytest.mark.parametrize(("stamp", "valid_for"), [(95.0, 5.0), (101.0, 5.0), (math.nan, 0.0)])
 def test_a_command_that_is_young_enough_or_tells_no_time_is_done(
     commands: Commands, counter: Counter, stamp: float, valid_for: float
