@@ -24,6 +24,7 @@ from app.link import EVENT, OUTCOME
 from app.screens.panel import MissionPanel
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import RobotInfo, TaskStatus
+from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import Compass, GridMap, Video
 from widgets.kit import IconButton, QuietButton
 
@@ -188,7 +189,7 @@ class MissionScreen(FloatLayout):
         bind(self.map, "/robot/info", self._show_info, fresh=False)
         bind(self.map, "/task/status", self._show_task, fresh=False)
         bind(self.compass, "/pose")
-        bind(self.video, "/detections", fresh=False)
+        bind(self.video, "/detections", fresh=False, empty=Detection2DArray())
 
     def _bind_one_map(self, one: Any) -> None:
         mission, bind = self.session.mission, self.dashboard.bind
