@@ -6,9 +6,11 @@ which drive commands and control expire. They are one unless a simulation runs f
 
 from __future__ import annotations
 
+import logging
 import math
 import random
 from collections.abc import Callable, Iterable
+from functools import partial
 
 import msgspec
 
@@ -31,8 +33,10 @@ from robotside.store import Store
 
 __all__ = ["Station"]
 
+log = logging.getLogger(__name__)
+
 REMARK_PERIOD = 3.0
-"""A client that sends bad drive commands is told so at most this often [s]."""
+"""Bad drive commands of a client, and faults of the program, are told at most this often [s]."""
 
 AT_REST = (0.01, 0.03)
 """Measured speeds below which the wheels stand still [m/s, rad/s]; three times as much means that they do not."""
@@ -65,6 +69,7 @@ class Station:
         self._control = ControlStatus()
         self._next_remark: dict[str, float] = {}
         self._next_diagnostics = now
+        self._next_fault = -math.inf
         first = list(robot.read(now))
         grid = next((msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None)
         if grid is None:
@@ -88,7 +93,7 @@ class Station:
             self.robot.stop()
         self.controls.lapse(self.clock())
         self._pass_on(self.robot.read(now))
-        self.autonomy.check(now)
+        self._mind(lambda: self.autonomy.check(now))
         self.show_control()
         if now >= self._next_diagnostics:
             self._next_diagnostics = now + 1.0
@@ -170,7 +175,21 @@ class Station:
     def _pass_on(self, messages: Iterable[tuple[str, Msg]]) -> None:
         for topic, msg in messages:
             self.bus.publish(topic, msg)
-            self.autonomy.take(topic, msg, self.now)
+            self._mind(partial(self.autonomy.take, topic, msg, self.now))
+
+    def _mind(self, think: Callable[[], None]) -> None:
+        """Let the robot's mind do something; a fault in it ends the task at rest, and driving by hand goes on."""
+        try:
+            think()
+        except Exception as fault:
+            if self.autonomy.engine.active:
+                self.robot.stop()
+            if self.now >= self._next_fault:
+                self._next_fault = self.now + REMARK_PERIOD
+                log.exception("The robot's own mind failed")
+                self.events.say("task", f"The robot's program has a fault: {fault!r}.", "alarm")
+            said = f"The task ended: the robot's program has a fault ({type(fault).__name__})."
+            self.autonomy.engine.fail(said, self.now)
 
     def _drive(self, client: Client, twist: Twist, stamp: float | None) -> None:
         engine = self.autonomy.engine

@@ -115,6 +115,11 @@ class Engine:
         if self._task:
             self._end("CANCELED", reason, now, "warn")
 
+    def fail(self, reason: str, now: float) -> None:
+        """End the task, which cannot go on; `reason` is one sentence."""
+        if self._task:
+            self._end("FAILED", reason, now, "alarm")
+
     def tick(self, pose: Pose2, points: Points, odometer: float, now: float) -> None:
         """Do the next bit of the running task; `odometer` is all that was ever driven [m]."""
         self._odometer = odometer

@@ -545,6 +545,33 @@ def test_a_mission_survives_a_restart(tmp_path: Path) -> None:
     assert mission.waypoints == SQUARE
 
 
+@pytest.mark.parametrize("part", ["check", "take"])
+def test_a_fault_in_the_robots_mind_ends_the_task_at_rest_and_the_robot_lives_on(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture, part: str
+) -> None:
+    def fail(*_: object) -> None:
+        raise OverflowError("too far")
+
+    scene.set(*SQUARE)
+    scene.start()
+    scene.run(1.0)
+    assert not scene.robot.at_rest
+    with monkeypatch.context() as broken:
+        broken.setattr(scene.station.autonomy, part, fail)
+        scene.run(1.0)
+    assert (scene.task.state, scene.robot.at_rest) == ("FAILED", True)
+    assert scene.task.reason == "The task ended: the robot's program has a fault (OverflowError)."
+    assert scene.events("task").count("The robot's program has a fault: OverflowError('too far').") == 1
+    assert [record.exc_info[0] for record in caplog.records if record.exc_info] == [OverflowError]
+    scene.drive(Twist.planar(0.3, 0.0))
+    scene.run(0.1)
+    assert not scene.robot.at_rest
+    scene.run(1.0)
+    scene.start()
+    scene.run(1.0)
+    assert scene.task.state == "RUNNING"
+
+
 def test_the_camera_is_wanted_only_while_a_task_runs(scene: Scene) -> None:
     scene.set(*SQUARE, laps=1)
     scene.start()
