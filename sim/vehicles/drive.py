@@ -22,29 +22,32 @@ class DifferentialDrive:
         self._wheels, self._limits, self._backend, self._body = wheels, limits, backend, body
         self._goal = (0.0, 0.0)
         self._now = (0.0, 0.0)
+        self._rates = (limits.acceleration, limits.yaw_acceleration)
         self._apply()
 
     def want(self, twist: Twist) -> None:
         """Go for `twist`, cut to the limits; only its forward and yaw parts matter."""
         limits = self._limits
+        self._rates = (limits.acceleration, limits.yaw_acceleration)
         self._goal = (
             _towards(0.0, twist.linear.x, limits.speed),
             _towards(0.0, twist.angular.z, limits.yaw_rate),
         )
 
     def brake(self) -> None:
-        """Go for rest."""
+        """Go for rest as hard as the brakes allow."""
         self._goal = (0.0, 0.0)
+        self._rates = (self._limits.braking, self._limits.yaw_braking)
 
     def step(self) -> None:
         """Come one physics step nearer to what is wanted."""
         if self._now == self._goal:
             return
-        limits = self._limits
-        self._now = (
-            _towards(self._now[0], self._goal[0], limits.acceleration / STEPS_PER_SECOND),
-            _towards(self._now[1], self._goal[1], limits.yaw_acceleration / STEPS_PER_SECOND),
+        speed, turn = (
+            _towards(now, goal, rate / STEPS_PER_SECOND)
+            for now, goal, rate in zip(self._now, self._goal, self._rates, strict=True)
         )
+        self._now = speed, turn
         self._apply()
 
     def _apply(self) -> None:

@@ -88,6 +88,10 @@ class Limits(_Table, frozen=True):
     """[m/s2]"""
     yaw_acceleration: Positive
     """[rad/s2]"""
+    braking: Positive
+    """How fast it loses speed when it is told to stop [m/s2]."""
+    yaw_braking: Positive
+    """The same for turning [rad/s2]."""
 
 
 class Rate(_Table, frozen=True):

@@ -56,7 +56,29 @@ def test_it_stops_within_the_distance_that_its_brakes_allow(robot):
     before = robot.simulation.pose()[0]
     robot.stop()
     robot.read(5.0)
+    assert robot.simulation.pose()[0] - before == pytest.approx(
+        0.7**2 / (2 * PARAMETERS.limits.braking), abs=0.01
+    )
+
+
+def test_told_to_drive_at_zero_it_slows_down_gently(robot):
+    robot.drive(Twist.planar(0.7, 0.0))
+    robot.read(3.0)
+    before = robot.simulation.pose()[0]
+    robot.drive(Twist())
+    robot.read(5.0)
     assert robot.simulation.pose()[0] - before == pytest.approx(0.7**2 / 2, abs=0.01)
+
+
+@pytest.mark.parametrize("twist", [Twist.planar(0.7, 0.0), Twist.planar(0.0, 1.9), Twist.planar(0.7, 1.9)])
+def test_told_to_stop_it_rests_within_a_fifth_of_a_second(robot, twist):
+    robot.drive(twist)
+    robot.read(3.0)
+    robot.stop()
+    robot.read(3.2)
+    speed = last(robot.read(3.3), "/odom").twist.twist
+    assert abs(speed.linear.x) < 0.01
+    assert abs(speed.angular.z) < 0.02
 
 
 def test_it_is_at_rest_after_stopping(robot):
