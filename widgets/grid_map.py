@@ -160,7 +160,7 @@ def patrol(map_: MapOverlay) -> None:
         map_.show(PoseWithCovarianceStamped(pose=PoseWithCovariance(pose)))
     map_.camera_fov = 1.2
     map_.plan = np.stack([3.5 + 4 * steps, 3.0 - 0.4 * np.sin(steps * math.pi / 2)], axis=1)
-    map_.intruders = [(5.8, -0.4, "cone")]
+    map_.intruders = [(5.8, -0.4, "Intruder 1")]
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

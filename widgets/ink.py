@@ -15,6 +15,7 @@ from typing import Any, ClassVar
 import numpy as np
 from kivy.clock import Clock
 from kivy.graphics import Color, InstructionGroup, Mesh, Rectangle, RenderContext
+from kivy.metrics import dp
 
 from widgets.base import RobotWidget, text_texture
 from widgets.shapes import FLOATS, Shapes
@@ -141,10 +142,10 @@ class Word:
 
 
 def ground(shapes: Shapes, word: Word, colour: Sequence[float]) -> None:
-    """Put a small round-ended ground of `colour` behind a word, so that it can be read over lines and dots."""
+    """Put a small ground of `colour` behind a word, so that it can be read over lines and dots."""
     width, height = text_texture(word.text, round(word.size, 1), word.font, bold=word.bold).size
     left, y = word.x - width * word.anchor[0], word.y + height * (0.5 - word.anchor[1])
-    shapes.dashes(np.array([[left, y], [left + width, y]]), height, colour, period=2 * width, dash=width)
+    shapes.line(np.array([[left - dp(3), y], [left + width + dp(3), y]]), height, colour)
 
 
 class Words:

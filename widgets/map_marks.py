@@ -12,9 +12,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from kivy.metrics import dp, sp
 
+from widgets.base import text_texture
 from widgets.geometry import Points, View, length_text, nice_floor, thinned
 from widgets.icons import icon
-from widgets.ink import Word, tint
+from widgets.ink import Word, ground, tint
 from widgets.shapes import Shapes
 from widgets.theme import theme
 
@@ -104,18 +105,55 @@ def home_mark(shapes: Shapes, view: View, home: Place, radius: float) -> Word:
 
 
 def intruder_marks(
-    shapes: Shapes, view: View, intruders: Sequence[tuple[float, float, str]], size: float
+    shapes: Shapes,
+    view: View,
+    intruders: Sequence[tuple[float, float, str]],
+    size: float,
+    *,
+    box: tuple[float, float, float, float],
+    taken: Sequence[tuple[float, float]] = (),
 ) -> Iterator[Word]:
-    """A red triangle in a dashed circle, with a word beside it."""
-    for x, y, label in intruders:
-        px, py = view.to_screen(x, y)
+    """A red triangle in a dashed circle, with a word on a ground of its own beside it.
+
+    The word stands on a side where it is inside `box` (x, y, width, height) [px] and off the marks at `taken` [px].
+    """
+    places = [view.to_screen(x, y) for x, y, _ in intruders]
+    for (px, py), (_, _, label) in zip(places, intruders, strict=True):
+        shapes.disc(px, py, size * 1.3, tint(theme.bg, 0.6))
         shapes.disc(px, py, size * 1.3, tint(theme.danger, 0.14))
         shapes.ring(px, py, size * 1.3, dp(2.6), theme.danger, dashes=16)
         half, low, high = size * 0.62, size * 0.6, size * 0.75
         shapes.polygon([(px, py + high), (px - half, py - low), (px + half, py - low)], theme.danger)
-        yield from outlined(
-            Word(label, px + size * 1.3 + dp(8), py, size * 0.76, theme.danger, True, anchor=(0, 0.5))
+        others = [*taken, *(place for place in places if place != (px, py))]
+        word = _beside((px, py), label, size, box, others)
+        ground(shapes, word, tint(theme.bg, 0.85))
+        yield word
+
+
+def _beside(
+    at: tuple[float, float],
+    text: str,
+    size: float,
+    box: tuple[float, float, float, float],
+    taken: Sequence[tuple[float, float]],
+) -> Word:
+    """The word right of a mark, left of it, above or below: on the first side that is free, else the freest."""
+    type_size, edge, away = sp(13), dp(8), size * 1.3 + dp(8)
+    wide, high = text_texture(text, round(type_size, 1), bold=True).size
+    left, low = box[0] + edge + wide / 2, box[1] + edge + high / 2
+    right, top = max(left, box[0] + box[2] - edge - wide / 2), max(low, box[1] + box[3] - edge - high / 2)
+    inside = min(max(at[0], left), right)
+    across, up = away + wide / 2, away + high / 2
+    sides = [(at[0] + across, at[1]), (at[0] - across, at[1]), (inside, at[1] + up), (inside, at[1] - up)]
+
+    def cost(x: float, y: float) -> float:
+        out = abs(x - min(max(x, left), right)) + abs(y - min(max(y, low), top))
+        gaps = (
+            math.hypot(max(abs(tx - x) - wide / 2, 0.0), max(abs(ty - y) - high / 2, 0.0)) for tx, ty in taken
         )
+        return 1e3 * out + sum(max(0.0, size * 1.8 - gap) for gap in gaps)
+
+    return Word(text, *min(sides, key=lambda side: cost(*side)), type_size, theme.danger, True)
 
 
 def outlined(word: Word) -> Iterator[Word]:

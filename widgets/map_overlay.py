@@ -29,7 +29,7 @@ from bridge.msgs.pilothouse_msgs import IntruderArray
 from bridge.msgs.sensor_msgs import LaserScan
 from widgets import map_marks as marks
 from widgets.geometry import Points, Trail, View, scan_points, spread
-from widgets.ink import Drawing, Ink, Word, Words
+from widgets.ink import Drawing, Ink, Word, Words, ground, tint
 from widgets.map_gestures import MapGestures
 from widgets.shapes import Shapes
 from widgets.theme import theme
@@ -135,7 +135,7 @@ class MapOverlay(MapGestures, Drawing):
         elif isinstance(msg, Path):
             self.plan = spread((p.pose.position.x, p.pose.position.y) for p in msg.poses)
         elif isinstance(msg, IntruderArray):
-            self.intruders = [(i.position.x, i.position.y, i.class_id or "intruder") for i in msg.intruders]
+            self.intruders = [(i.position.x, i.position.y, f"Intruder {i.id}") for i in msg.intruders]
         elif isinstance(msg, LaserScan):
             self._show_scan(msg)
         else:
@@ -272,18 +272,20 @@ class MapOverlay(MapGestures, Drawing):
             marks.laser_dots(shapes, view, self.laser)
         if home:
             yield marks.home_mark(shapes, view, home, self.mark_radius * 0.9)
-        yield from marks.intruder_marks(shapes, view, self.intruders, self.mark_radius)
         yield from marks.waypoint_marks(
             shapes, view, places, self.mark_radius,
             visited=self.visited, coming=self.coming, selected=self.selected,
         )  # fmt: skip
 
     def _fill_robot(self, shapes: Shapes) -> Iterator[Word]:
+        yield from self._alarms(shapes)
         if self.located:
             self._robot_shapes(shapes, tuple(self.robot), faded=self.state == "stale" or bool(self.placed))
         else:
             x, y = self._free_middle()
-            yield from marks.outlined(Word("Waiting for the robot's position", x, y, sp(16), theme.muted))
+            word = Word("Waiting for the robot's position", x, y, sp(16), theme.text)
+            ground(shapes, word, tint(theme.bg, 0.85))
+            yield word
         if self.placed:
             pose = tuple(self.placed)
             word, _ = marks.place_handle(shapes, self.view, pose, self.mark_radius)
@@ -291,6 +293,15 @@ class MapOverlay(MapGestures, Drawing):
             yield word
         x, y, wide, _ = self.free_box
         yield from marks.scale_bar(shapes, self.view, x + dp(16), y + dp(14), min(dp(140), wide / 3))
+
+    def _alarms(self, shapes: Shapes) -> Iterator[Word]:
+        """The intruders, above the waypoints and below the robot."""
+        marked = [*self._places(), *([self._home_place()] if self._home_place() else [])]
+        marked += [self.robot[:2]] if self.located else []
+        taken = [self.view.to_screen(*place[:2]) for place in marked]
+        yield from marks.intruder_marks(
+            shapes, self.view, self.intruders, self.mark_radius, box=self.free_box, taken=taken
+        )
 
     def _robot_shapes(self, shapes: Shapes, pose: tuple[float, ...], *, faded: bool) -> None:
         radius = max(self.mark_radius * 1.1, self.robot_radius * self.view.scale)

@@ -18,8 +18,10 @@ from bridge.msgs.geometry_msgs import (
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
 from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray
 from bridge.msgs.sensor_msgs import Imu, LaserScan
+from widgets.base import text_texture
 from widgets.geometry import View
 from widgets.grid_map import GridMap, samples
+from widgets.shapes import Shapes
 from widgets.theme import theme
 
 EVENTS = ("on_add", "on_move", "on_select", "on_set_home", "on_place_robot")
@@ -283,9 +285,37 @@ def test_a_plan_is_taken_over_and_an_empty_one_takes_it_away(map_):
     assert len(map_.plan) == 0
 
 
-def test_intruders_have_their_class_as_label(map_):
-    map_.show(IntruderArray(intruders=[Intruder(position=Point(3, 4)), Intruder(class_id="")]))
-    assert list(map_.intruders) == [(3, 4, "cone"), (0, 0, "intruder")]
+def test_intruders_are_called_as_in_the_log(map_):
+    map_.show(IntruderArray(intruders=[Intruder(id=1, position=Point(3, 4)), Intruder(id=2)]))
+    assert list(map_.intruders) == [(3, 4, "Intruder 1"), (0, 0, "Intruder 2")]
+
+
+def word_box(word):
+    wide, high = text_texture(word.text, round(word.size, 1), word.font, bold=word.bold).size
+    left, bottom = word.x - wide * word.anchor[0], word.y - high * word.anchor[1]
+    return left, bottom, left + wide, bottom + high
+
+
+@pytest.mark.parametrize("x", [-18.0, 0.0, 18.0])
+@pytest.mark.parametrize("beside", [(3.0, 0.0), (-3.0, 0.0), (0.0, 3.0)])
+def test_the_name_of_an_intruder_stands_on_a_free_side_inside_the_glass(map_, x, beside):
+    map_.intruders = [(x, 0.0, "Intruder 1")]
+    map_.waypoints = [(x + beside[0], beside[1])]
+    (word,) = map_._alarms(Shapes())
+    left, bottom, right, top = word_box(word)
+    assert 0 <= left < right <= 400
+    px, py = map_.view.to_screen(*map_.waypoints[0])
+    gap = math.hypot(px - min(max(px, left), right), py - min(max(py, bottom), top))
+    assert gap >= map_.mark_radius
+
+
+def test_an_intruder_lies_above_a_waypoint_at_its_place(map_, stage):
+    map_.waypoints = [(0.0, 0.0)]
+    map_.intruders = [(0.0, 0.0, "Intruder 1")]
+    stage.frames(2)
+    (_, below), (_, above) = map_._layers
+    assert "1" in below.texts
+    assert "Intruder 1" in above.texts
 
 
 def test_laser_points_are_placed_by_the_pose(map_):
