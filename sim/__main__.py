@@ -8,6 +8,7 @@ import sys
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import NoReturn
 
 from PIL import Image
 
@@ -28,8 +29,8 @@ FRAME = 1 / 60
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Do what the arguments ask; 0 done, 2 the user's mistake, 1 a fault."""
-    arguments = _parser().parse_args(argv)
     try:
+        arguments = _parser().parse_args(argv)
         world, model = load(arguments.world), model_of(arguments.robot)
         if arguments.picture:
             print(picture(world, model, Path(arguments.picture)))
@@ -46,8 +47,15 @@ def main(argv: Sequence[str] | None = None) -> int:
     return 0
 
 
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one sentence."""
+
+    def error(self, message: str) -> NoReturn:
+        raise ValueError(f"{message[:1].upper()}{message[1:]}.")
+
+
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser("python -m sim", description="Look at a simulated world.")
+    parser = _Parser("python -m sim", description="Look at a simulated world.")
     parser.add_argument("--world", default="parking_lot", help=f"{', '.join(WORLDS)} or a TOML file")
     parser.add_argument("--robot", default="patrol", help=", ".join(ROBOTS))
     parser.add_argument("--picture", metavar="FILE", help="draw the world from above into a PNG or JPEG file")

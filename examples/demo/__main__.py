@@ -16,19 +16,7 @@ from collections.abc import Generator
 from pathlib import Path
 from typing import Any
 
-
-def _arguments(argv: list[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="python -m examples.demo", description=__doc__)
-    parser.add_argument("--out", type=Path, default=Path("out/demo"), help="where the pictures go")
-    parser.add_argument(
-        "--speed", type=float, default=1.0, help="robot seconds per second; the app shows true ages only at 1"
-    )
-    parser.add_argument("--size", default="1280x800", metavar="WxH", help="of the window")
-    parser.add_argument("--theme", default="dark", help="dark, sunlight or night")
-    parser.add_argument("--pictures", type=Path, metavar="DIR", help="where the guide's pictures go as well")
-    parser.add_argument("--until", metavar="STEP", help="end after this step, as in sent")
-    parser.add_argument("--window", action="store_true", help="in a window, to watch it")
-    return parser.parse_args(argv)
+from examples.demo.options import options
 
 
 def _prepare(size: str, *, window: bool) -> None:
@@ -125,17 +113,21 @@ def _play(arguments: argparse.Namespace, url: str, settings: Path) -> int:
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Run the demo; 0 when every expectation held, 1 when one did not."""
-    arguments = _arguments(argv)
+    """Run the demo; 0 when every expectation held, 1 when one did not, 2 for the user's mistake."""
+    try:
+        arguments = options(argv, __doc__)
+    except ValueError as mistake:
+        print(f"demo: {mistake}", file=sys.stderr)
+        return 2
     _prepare(arguments.size, window=arguments.window)
     from examples.demo.robot import RobotProcess
 
     folder = Path(tempfile.mkdtemp(prefix="pilothouse-demo-"))
-    options = ["--robot", "sim:patrol", "--world", "parking_lot", "--speed", str(arguments.speed)]
+    command = ["--robot", "sim:patrol", "--world", "parking_lot", "--speed", str(arguments.speed)]
     arguments.out.mkdir(parents=True, exist_ok=True)
     try:
         with RobotProcess(
-            *options, "--state", str(folder / "robot"), log=arguments.out / "robot.log"
+            *command, "--state", str(folder / "robot"), log=arguments.out / "robot.log"
         ) as robot:
             code = _play(arguments, robot.url, folder / "handheld")
             left = robot.close()

@@ -47,6 +47,7 @@ def test_the_picture_shows_the_robot_that_is_asked_for(tmp_path, monkeypatch):
     ("arguments", "sentence"),
     [
         (["--world", "moon"], "sim: There is no world 'moon'; there is parking_lot"),
+        (["--wrold", "moon"], "sim: Unrecognized arguments: --wrold moon.\n"),
         (["--robot", "foo"], "sim: There is no simulated robot 'foo'; there is patrol."),
         (["--picture", "lot.xyz"], "sim: lot.xyz has no ending of a picture; use .png or .jpg."),
         (["--gui"], "sim: --gui needs a display, and DISPLAY is not set."),

@@ -1,0 +1,57 @@
+"""What the demo can be told."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NoReturn
+
+from app.__main__ import SIZE, THEMES
+
+__all__ = ["STEPS", "options"]
+
+STEPS = (
+    *("connect-screen", "connected", "misplaced", "initialised", "points", "dragged", "reordered", "deleted"),
+    *("undone", "home", "motion", "sent", "started", "on-the-way", "paused", "resumed", "patrolled", "stop"),
+    *("released", "going-home", "at-home", "drive-screen", "driven", "stop-while-driving"),
+)
+"""Of the story, in its order."""
+FASTEST = 100.0
+"""The robot's own limit of `--speed`."""
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one sentence."""
+
+    def error(self, message: str) -> NoReturn:
+        raise ValueError(f"{message[:1].upper()}{message[1:]}.")
+
+
+def options(argv: Sequence[str] | None, description: str | None) -> argparse.Namespace:
+    """Read the command line; ValueError with one sentence for a mistake."""
+    parser = _Parser(prog="python -m examples.demo", description=description)
+    parser.add_argument("--out", type=Path, default=Path("out/demo"), help="where the pictures go")
+    parser.add_argument(
+        "--speed", type=float, default=1.0, help="robot seconds per second; the app shows true ages only at 1"
+    )
+    parser.add_argument("--size", default="1280x800", metavar="WxH", help="of the window")
+    parser.add_argument("--theme", default="dark", help="dark, sunlight or night")
+    parser.add_argument("--pictures", type=Path, metavar="DIR", help="where the guide's pictures go as well")
+    parser.add_argument("--until", metavar="STEP", help="end after this step, as in sent")
+    parser.add_argument("--window", action="store_true", help="in a window, to watch it")
+    chosen = parser.parse_args(argv)
+    _check(chosen)
+    return chosen
+
+
+def _check(chosen: argparse.Namespace) -> None:
+    if not (math.isfinite(chosen.speed) and 0 < chosen.speed <= FASTEST):
+        raise ValueError(f"The speed must be above 0 and at most {FASTEST:g}, not {chosen.speed}.")
+    if not SIZE.fullmatch(chosen.size):
+        raise ValueError(f"A size is written as 412x892, not {chosen.size!r}.")
+    if chosen.theme not in THEMES:
+        raise ValueError(f"There is no theme {chosen.theme!r}; there are {', '.join(THEMES)}.")
+    if chosen.until is not None and chosen.until not in STEPS:
+        raise ValueError(f"There is no step {chosen.until!r}; there are {', '.join(STEPS)}.")
