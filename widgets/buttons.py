@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from kivy.clock import Clock
 from kivy.lang import Builder
 from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, BooleanProperty, OptionProperty, StringProperty
@@ -18,6 +19,9 @@ from widgets.base import fitting_size
 from widgets.theme import theme
 
 __all__ = ["IconButton", "NavButton", "PrimaryButton", "PushButton", "QuietButton"]
+
+SETTLES = 0.5
+"""A button whose meaning has changed takes no finger for so long [s]: that finger meant what it did before."""
 
 Builder.load_string("""
 <PushButton>:
@@ -154,6 +158,29 @@ class PushButton(ButtonBehavior, AnchorLayout):
     """Role of the icon; that of the words when empty."""
     flow = OptionProperty("horizontal", options=["horizontal", "vertical"])
     """Icon before the words, or above them."""
+    meaning = StringProperty("")
+    """What a press does, where that changes; half a second after a change no finger is taken."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        self._meant = ""
+        self._settling = Clock.create_trigger(lambda _: None, SETTLES)
+        super().__init__(**kwargs)
+
+    def on_meaning(self, *_: object) -> None:
+        """Let go of a finger that is down, and take none for a while."""
+        if self._meant:
+            if self.state == "down":
+                self.last_touch.ungrab(self)
+                self.state = "normal"
+            self._settling.cancel()
+            self._settling()
+        self._meant = self.meaning
+
+    def on_touch_down(self, touch: Any) -> bool:
+        """Take the finger, if only to keep it from what lies below."""
+        return bool(
+            (self._settling.is_triggered and self.collide_point(*touch.pos)) or super().on_touch_down(touch)
+        )
 
     def _words_size(self) -> float:
         beside = self.flow == "horizontal"

@@ -57,6 +57,7 @@ Builder.load_string("""
         spacing: theme.gap * .8
         PushButton:
             text: root.main_words
+            meaning: root.main
             icon: root.main_icon
             fill: 'accent' if root.main != 'pause' else 'raised'
             border: 'accent' if root.main != 'pause' else 'line'

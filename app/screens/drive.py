@@ -207,6 +207,7 @@ class DriveScreen(FloatLayout):
         paused = status is not None and status.state == "PAUSED"
         pause = self.ids.pause
         pause.text, pause.icon = ("Resume", "play_arrow") if paused else ("Pause", "pause")
+        pause.meaning = pause.text
         pause.disabled = not (mine and session.running)
         self.ids.snapshot.disabled = self.app.records.frame is None
 

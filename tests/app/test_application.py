@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Twist
-from bridge.msgs.pilothouse_msgs import ControlStatus
+from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
 from tests.app.fakes import FakeRobot
 from tests.headless import Stage
@@ -170,6 +170,23 @@ def test_a_lost_link_is_said_and_takes_the_stick_away(driving: Glass, robot: Fak
     robot.start()
     driving.until(lambda: stick.state == "live" and not driving.banners(), "did not come back")
     assert robot.twists() == []
+
+
+def test_a_second_tap_on_pause_does_not_resume(
+    driving: Glass, robot: FakeRobot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pause, asked = driving.app.screens["drive"].ids["pause"], []
+    monkeypatch.setattr(driving.app.session, "command", asked.append)
+    robot.publish("/task/status", TaskStatus(task="patrol", state="RUNNING"))
+    driving.until(lambda: not pause.disabled, "cannot be paused")
+    driving.tap(pause)
+    robot.publish("/task/status", TaskStatus(task="patrol", state="PAUSED"))
+    driving.until(lambda: pause.text == "Resume", "not paused")
+    driving.tap(pause)
+    driving.stage.run_for(0.6)
+    assert asked == ["pause"]
+    driving.tap(pause)
+    assert asked == ["pause", "resume"]
 
 
 @pytest.mark.parametrize("screen", ["drive", "mission"])

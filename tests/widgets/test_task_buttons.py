@@ -34,7 +34,7 @@ def buttons(panel):
 )
 def test_each_state_offers_what_can_be_done(stage, panel, state, commands):
     panel.show(TaskStatus(state=state))
-    stage.frames(3)
+    stage.run_for(0.6)
     for button in buttons(panel):
         stage.tap(*button.to_window(*button.center))
     assert panel.asked == commands
@@ -73,6 +73,32 @@ def test_until_then_it_says_what_the_robot_says(panel):
 def test_a_press_claims_nothing_by_itself(stage, panel):
     stage.tap(*buttons(panel)[0].center)
     assert (panel.asked, panel.outcome, panel.task_state) == (["start"], "none", "IDLE")
+
+
+def test_the_second_tap_on_pause_does_not_resume(stage, panel):
+    panel.show(TaskStatus(state="RUNNING"))
+    stage.run_for(0.6)
+    first = buttons(panel)[0]
+    stage.tap(*first.center)
+    panel.show(TaskStatus(state="PAUSED"))
+    stage.run_for(0.4)
+    stage.tap(*first.center)
+    assert panel.asked == ["pause"]
+    stage.run_for(0.2)
+    stage.tap(*first.center)
+    assert panel.asked == ["pause", "resume"]
+
+
+def test_a_finger_that_came_down_on_pause_does_not_resume(stage, panel):
+    panel.show(TaskStatus(state="RUNNING"))
+    stage.run_for(0.6)
+    first = buttons(panel)[0]
+    touch = stage.touch(*first.center)
+    touch.touch_down()
+    panel.show(TaskStatus(state="PAUSED"))
+    stage.run_for(0.6)
+    touch.touch_up()
+    assert (panel.asked, first.state) == ([], "normal")
 
 
 def test_disabled_it_asks_for_nothing(stage, panel):
