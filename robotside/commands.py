@@ -8,11 +8,19 @@ from collections.abc import Callable
 
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from robotside.controls import AHEAD
+from robotside.words import plain
 
 __all__ = ["KEPT", "Commands", "Refusal"]
 
 KEPT = 256
 """Answers kept for commands that are sent again."""
+
+
+LONGEST_ID = 64
+"""Characters of a `command_id`; a longer one is refused, since two that are cut could look the same."""
+
+LONGEST = 300
+"""Characters kept of a refusal's sentence."""
 
 
 class Refusal(Exception):
@@ -41,6 +49,9 @@ class Commands:
         """
         if ageless:
             return _answer(action)
+        if len(request.command_id) > LONGEST_ID:
+            said = f"A command_id has at most {LONGEST_ID} characters, not {len(request.command_id)}."
+            return CommandResponse(False, said)
         key = (service, request.command_id)
         if request.command_id and key in self._answers:
             return self._answers[key]
@@ -68,4 +79,4 @@ def _answer(action: Callable[[], str]) -> CommandResponse:
     try:
         return CommandResponse(True, action())
     except Refusal as refusal:
-        return CommandResponse(False, str(refusal))
+        return CommandResponse(False, plain(str(refusal), LONGEST))

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
+from robotside.words import plain
 
 __all__ = ["AHEAD", "LAPSE", "STOP_SENTENCE", "VALID", "Client", "Controls", "Driver", "Ruling"]
 
@@ -21,6 +22,12 @@ LAPSE = 2.0
 
 AHEAD = 1.0
 """A command from further in the future than this comes from a wrong clock [s]."""
+
+LONGEST_NAME = 40
+"""Characters kept of what a client calls itself."""
+
+LONGEST_ID = 64
+"""Characters kept of a client's id."""
 
 STOP_SENTENCE = "STOP is pressed; hold Release to drive again."
 
@@ -83,7 +90,8 @@ class Controls:
         return self._driving_until is not None
 
     def introduce(self, client: Client, client_id: str, name: str) -> None:
-        """Remember what `client` calls itself; empty words change nothing."""
+        """Remember what `client` calls itself, cut to a readable line; empty words change nothing."""
+        client_id, name = plain(client_id, LONGEST_ID), plain(name, LONGEST_NAME)
         known_id, known_name = self._identity(client)
         self._names[client.id] = (client_id or known_id, name or known_name)
 

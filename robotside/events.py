@@ -10,11 +10,15 @@ from typing import Protocol
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
+from robotside.words import plain
 
 __all__ = ["KEPT", "Events", "Say"]
 
 KEPT = 500
 """Events that can still be asked for."""
+
+LONGEST = 300
+"""Characters kept of an event's sentence."""
 
 
 class Say(Protocol):
@@ -48,7 +52,8 @@ class Events:
         """Record one sentence; `at` is where in `map` [m], None when it has no place."""
         self._count += 1
         position = Point(at[0], at[1], 0.0) if at else Point(math.nan, math.nan, math.nan)
-        event = Event(self._count, self.boot, Time.at(self._now()), level, kind, text, position)
+        said = plain(text, LONGEST)
+        event = Event(self._count, self.boot, Time.at(self._now()), level, kind, said, position)
         self._kept.append(event)
         self._publish(event)
         return event

@@ -27,6 +27,7 @@ from robotside.autonomy import LOW_BELOW
 from robotside.commands import Commands, Refusal
 from robotside.controls import STOP_SENTENCE, Client
 from robotside.station import Station
+from robotside.words import plain
 
 __all__ = ["services"]
 
@@ -34,6 +35,9 @@ MOTIONS = ("loop", "random", "intermittent")
 MOST_POINTS = 500
 LONGEST_DWELL = 3600.0
 MOST_LAPS = 10_000
+
+LONGEST_NAME = 60
+"""Characters kept of a waypoint's name."""
 
 
 def services(station: Station) -> Iterable[Service]:
@@ -186,6 +190,7 @@ class _Orders:
             raise Refusal(problem)
         mission = asked.mission
         _check_words(mission)
+        mission = _named(mission)
         self._check_places(mission)
         if mission.home:
             self._check_place("Home", mission.home[0])
@@ -233,6 +238,16 @@ class _Orders:
         problem = self._station.autonomy.guide.planner.fault(name, place.x, place.y)
         if problem:
             raise Refusal(problem)
+
+
+def _named(mission: Mission) -> Mission:
+    """The same mission with each point's name cut to a readable line."""
+    replace = msgspec.structs.replace
+    points, home = (
+        [replace(point, name=plain(point.name, LONGEST_NAME)) for point in places]
+        for places in (mission.waypoints, mission.home[:1])
+    )
+    return replace(mission, waypoints=points, home=home)
 
 
 def _check_words(mission: Mission) -> None:

@@ -22,6 +22,12 @@ def test_events_are_numbered_from_one_and_carry_the_boot_and_the_place() -> None
     assert (heard[1].position.x, heard[1].position.y) == (1.0, 2.0)
 
 
+def test_an_event_is_one_line_of_at_most_three_hundred_characters() -> None:
+    events = Events("b1", lambda: 0.0, lambda _: None)
+    assert events.say("task", "two\nlines").text == "two lines"
+    assert events.say("task", "a" * 900_000).text == "a" * 300
+
+
 def test_the_newest_five_hundred_events_are_kept() -> None:
     events = Events("b1", lambda: 0.0, lambda _: None)
     for number in range(KEPT + 20):

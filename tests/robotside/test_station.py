@@ -572,6 +572,21 @@ def test_a_fault_in_the_robots_mind_ends_the_task_at_rest_and_the_robot_lives_on
     assert scene.task.state == "RUNNING"
 
 
+def test_what_others_call_things_is_cut_wherever_it_is_kept(scene: Scene) -> None:
+    long = "A\n\u202e" + "b" * 900_000
+    shown = "A " + "b" * 38
+    scene.ask("/control/acquire", CommandRequest(client_id="c" * 900_000, client_name=long))
+    assert (scene.control.driver, len(scene.control.driver_id)) == (shown, 64)
+    scene.set(Waypoint(4.0, 0.0, name=long), home=[Waypoint(0.0, 0.0, name=long)])
+    assert {place.name for place in (*scene.station.mission.waypoints, *scene.station.mission.home)} == {
+        "A " + "b" * 58
+    }
+    assert len(scene.refused("/task/start", StartTaskRequest(task=long))) <= 300
+    assert "at most 64 characters, not 65" in scene.refused("/task/pause", CommandRequest("c" * 65))
+    assert scene.ask("/stop", CommandRequest("c" * 65)).success
+    assert scene.events("stop") == [f"STOP pressed by {shown}."]
+
+
 def test_the_camera_is_wanted_only_while_a_task_runs(scene: Scene) -> None:
     scene.set(*SQUARE, laps=1)
     scene.start()
