@@ -81,9 +81,14 @@ class DriveSlot:
         """The robot was last told to move."""
         return self._last_sent != _ZERO
 
-    def due(self) -> Twist | None:
-        """What has to be sent now, at once on a change and each `PERIOD` while held; None when nothing."""
+    def due(self, *, allowed: bool = True) -> Twist | None:
+        """What has to be sent now, at once on a change and each `PERIOD` while held; None when nothing.
+
+        Not `allowed` means rest, and that the stick must be pushed anew.
+        """
         with self._lock:
+            if not allowed:
+                self._wanted = _ZERO
             now = self._now()
             twist = self._effective(now)
             changed = twist != self._last_sent

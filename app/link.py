@@ -86,7 +86,6 @@ class Link:
         self._offset = math.nan
         self._tasks: set[asyncio.Task[Any]] = set()
         self._running: concurrent.futures.Future[None] | None = None
-        self._camera: CameraStream | None = None
         self._camera_task: asyncio.Task[None] | None = None
         self._camera_topic: Callable[[], None] | None = None
         for entry in TOPICS:
@@ -104,9 +103,14 @@ class Link:
         return self._now() + self._offset
 
     @property
+    def silence(self) -> float:
+        """How long nothing came [s]; infinite before the first."""
+        return self._now() - self._heard
+
+    @property
     def silent(self) -> bool:
         """Nothing came for a while, though the connection still stands: whoever drives has to push anew."""
-        return self._now() - self._heard > SILENT
+        return self.silence > SILENT
 
     def start(self) -> None:
         """Connect, and go on reconnecting until `close`."""
@@ -186,11 +190,10 @@ class Link:
                 pass
             self._wake.clear()
             self._measure()
-            if self.commands.stopping or self.silent:
-                self._slot.want(Twist())
-            twist = self._slot.due()
+            stamp = self._client.robot_time()
+            forbidden = self.commands.stopping or self.silent or math.isnan(stamp)
+            twist = self._slot.due(allowed=not forbidden)
             if twist is not None:
-                stamp = self._client.robot_time()
                 self._client.publish("/cmd_vel", twist, stamp=None if math.isnan(stamp) else stamp)
 
     def _measure(self) -> None:
@@ -266,7 +269,9 @@ class Link:
         self._on_frame(Frame(0, image.header.stamp.seconds, 0, 0, image.data), received)
 
     async def _close(self) -> None:
-        if self._slot.driving:
+        driving = self._slot.driving
+        self._slot.drop()
+        if driving:
             self._client.publish("/cmd_vel", Twist())
         self._watch(None)
         await self._client.close()

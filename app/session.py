@@ -86,11 +86,12 @@ class Session:
 
     @property
     def may_drive(self) -> bool:
-        """The stick may be pushed: the link is alive, STOP is not pressed and nobody else has control."""
+        """The stick may be pushed: the link is alive, its clock known, STOP not pressed and control not another's."""
         status: ControlStatus | None = self.feeds.latest("/control/status")
         return (
             self.connected
             and not self.link.silent
+            and math.isfinite(self.link.robot_time())
             and self.control != "other"
             and not (status is not None and status.stopped)
         )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import threading
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -47,6 +48,10 @@ class FakeRobot:
         self.network = NetworkThread("fake robot")
         self.asked: list[tuple[str, CommandRequest]] = []
         self.heard: list[tuple[str, Any]] = []
+        self.stamps: list[tuple[Twist, float | None, float]] = []
+        """Drive commands with their stamp and when they came [s], robot clock."""
+        self.clock: Callable[[], float] = time.time
+        """The robot's clock [s]; one that says NaN is none."""
         self.refusals: dict[str, str] = {}
         """Service to the sentence that it refuses with."""
         self.objection: Callable[[str, Any], str | None] = lambda name, _: self.refusals.get(name)
@@ -55,6 +60,7 @@ class FakeRobot:
         self.changed = threading.Condition()
         self._answering = asyncio.Event()
         self._answering.set()
+        self._awake = threading.Event()
         self.port = 0
         self.control = ControlStatus()
         self._server: BridgeServer | None = None
@@ -70,7 +76,7 @@ class FakeRobot:
             Service(name, "x/y", kind, CommandResponse, self._answer(name)) for name, kind in REQUESTS.items()
         ]
         services.append(Service("/events/get", "x/z", GetEventsRequest, GetEventsResponse, self._tell_events))
-        self._server = BridgeServer(services=services, on_message=self._hear)
+        self._server = BridgeServer(services=services, on_message=self._hear, now=self._now)
         self.network.start(self._server.start("127.0.0.1", self.port)).result(5)
         self.port = self._server.port
         self.publish("/robot/info", RobotInfo(name="Fake-1", kind="wheels", max_speed=0.8, max_yaw_rate=1.5))
@@ -83,12 +89,31 @@ class FakeRobot:
 
     def close(self) -> None:
         """End everything."""
+        self.wake()
         self.stop()
         self.network.close()
 
     def publish(self, topic: str, message: Msg) -> None:
         """Send a message to whoever subscribed."""
         self.network.call(self._server.publish, topic, message)
+
+    def faint(self) -> None:
+        """Neither read nor say anything until `wake`, with the connection open."""
+        self._awake.clear()
+        self.network.call(self._awake.wait)
+
+    def wake(self) -> None:
+        """Go on, beginning with what waits in the socket."""
+        self._awake.set()
+
+    def cut(self) -> None:
+        """Break every connection; whoever connects again is served."""
+
+        def abort() -> None:
+            for socket in list(self._server._open):
+                socket.transport.abort()
+
+        self.network.call(abort)
 
     def hold_answers(self) -> None:
         """Hear commands and leave them without an answer for now."""
@@ -111,9 +136,14 @@ class FakeRobot:
         """Drive commands heard, in order."""
         return [message for topic, message in self.heard if topic == "/cmd_vel"]
 
+    def _now(self) -> float:
+        return self.clock()
+
     def _hear(self, session: Session, topic: str, message: Msg, stamp: float | None) -> None:
         with self.changed:
             self.heard.append((topic, message))
+            if isinstance(message, Twist):
+                self.stamps.append((message, stamp, self.clock()))
             self.changed.notify_all()
 
     def _answer(self, name: str) -> Callable[[Session, Any], Any]:

@@ -91,6 +91,12 @@ def test_a_twist_that_waited_for_a_lost_link_is_never_sent(hand: Hand) -> None:
     assert hand.pass_time(1.0) == []
 
 
+def test_a_twist_that_is_not_allowed_is_forgotten(hand: Hand) -> None:
+    hand.slot.want(AHEAD)
+    assert hand.slot.due(allowed=False) is None
+    assert hand.pass_time(0.3) == []
+
+
 def test_nothing_is_sent_before_the_stick_was_touched(hand: Hand) -> None:
     assert hand.pass_time(1.0) == []
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -202,6 +203,108 @@ def test_stop_is_confirmed_by_the_robot_and_lets_the_stick_go(
     assert not operator.session.may_drive
     operator.session.command("stop_release")
     operator.until(lambda: operator.session.stop_phase == "ready")
+
+
+def drives(operator: Operator, robot: FakeRobot) -> None:
+    """The stick is pushed and held, and the robot moves."""
+    operator.until(lambda: operator.session.control == "mine" and operator.session.may_drive)
+    operator.link.drive(AHEAD)
+    operator.until(lambda: robot.twists().count(AHEAD) > 2)
+
+
+def holds(operator: Operator, seconds: float) -> None:
+    """The stick stays where it is and the glass is alive."""
+    end = time.monotonic() + seconds
+    operator.until(lambda: time.monotonic() > end)
+
+
+def test_every_drive_command_says_when_it_was_meant_by_the_robots_clock(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
+    robot.clock = lambda: time.time() - 5000.0
+    operator = connect()
+    drives(operator, robot)
+    holds(operator, 0.5)
+    moving = [(stamp, came) for twist, stamp, came in robot.stamps if twist != Twist()]
+    assert len(moving) > 5
+    stamps = [stamp for stamp, _ in moving]
+    assert all(stamp is not None and math.isfinite(stamp) for stamp in stamps)
+    assert max(abs(came - stamp) for stamp, came in moving) < 1.0
+    assert stamps == sorted(set(stamps))
+
+
+def test_without_the_robots_clock_nothing_moves(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
+    robot.clock = lambda: math.nan
+    operator = connect()
+    operator.until(lambda: operator.session.control == "mine" and not operator.link.silent)
+    assert not operator.session.may_drive
+    end = time.monotonic() + 0.4
+    while time.monotonic() < end:
+        operator.link.drive(AHEAD)
+        operator.turn()
+    assert operator.session.connected
+    assert AHEAD not in robot.twists()
+
+
+def test_a_stick_held_over_a_silent_link_must_be_pushed_anew(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
+    operator = connect()
+    drives(operator, robot)
+    robot.faint()
+    operator.until(lambda: operator.link.silent)
+    holds(operator, 0.2)
+    robot.wake()
+    operator.until(lambda: not operator.link.silent and robot.twists()[-3:] == [Twist()] * 3)
+    robot.heard.clear()
+    holds(operator, 0.3)
+    assert robot.twists() == []
+    operator.link.drive(AHEAD)
+    operator.until(lambda: AHEAD in robot.twists())
+
+
+def test_a_stick_pushed_while_stop_is_unanswered_moves_nothing(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
+    robot.refusals["/stop"] = "The brake does not answer."
+    operator = connect()
+    drives(operator, robot)
+    operator.link.stop()
+    operator.until(lambda: "/stop" in robot.services() and robot.twists()[-3:] == [Twist()] * 3)
+    robot.heard.clear()
+    end = time.monotonic() + 0.4
+    while time.monotonic() < end:
+        operator.link.drive(AHEAD)
+        operator.turn()
+    assert operator.link.commands.stopping
+    assert robot.twists() == []
+
+
+def test_a_stick_held_over_a_short_cut_must_be_pushed_anew(
+    robot: FakeRobot, connect: Callable[..., Operator], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    operator = connect()
+    drives(operator, robot)
+    # a clock that is never unknown: the cut alone has to do it
+    monkeypatch.setattr(operator.link._client, "robot_time", time.time)
+    heard = operator.link._heard
+    robot.publish("/pose", PoseWithCovarianceStamped())
+    operator.until(lambda: operator.link._heard > heard)
+    robot.cut()
+    operator.until(lambda: not operator.session.connected)
+    robot.heard.clear()
+    operator.until(lambda: operator.session.connected)
+    holds(operator, 0.3)
+    assert AHEAD not in robot.twists()
+
+
+def test_a_link_closed_under_a_pushed_stick_says_rest_at_last(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
+    operator = connect()
+    drives(operator, robot)
+    operator.link.close()
+    assert robot.until(lambda: robot.twists()[-1] == Twist())
 
 
 def test_a_frozen_glass_stops_the_robot(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
