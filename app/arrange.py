@@ -10,6 +10,9 @@ from dataclasses import dataclass
 
 __all__ = ["Rect", "connect_columns", "drive", "form", "mission", "shell"]
 
+SELECTION = 300
+"""Width of the bar for what is selected on a phone's map [dp]."""
+
 
 @dataclass(frozen=True, slots=True)
 class Rect:
@@ -87,13 +90,19 @@ def mission(body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False
     if wide:
         places |= _mission_instruments(area, gap, dp)
     else:
-        video = Rect(area.x + gap, area.y + gap, 148 * dp, 111 * dp)
-        room = places["tools"].x - area.x - 2 * gap
-        places |= {
-            "video": video,
-            "selection": Rect(area.x + gap, video.top + 8 * dp, min(300 * dp, room), 52 * dp),
-        }
+        places |= _mission_short(area, places["tools"].x - gap, gap, dp)
     return places | {"notice": _mission_notice(places, gap, dp)}
+
+
+def _mission_short(area: Rect, right: float, gap: float, dp: float) -> dict[str, Rect]:
+    """The video in the corner of a phone's map, and beside it, or above it where that is too narrow, the selection."""
+    picture = min(120 * dp, 0.4 * (right - area.x))
+    video = Rect(area.x + gap, area.y + gap, picture, picture * 0.75)
+    beside = right - video.right - 8 * dp
+    if beside >= SELECTION * dp:
+        return {"video": video, "selection": Rect(video.right + 8 * dp, video.y, SELECTION * dp, 52 * dp)}
+    width = min(SELECTION * dp, right - video.x)
+    return {"video": video, "selection": Rect(video.x, video.top + 8 * dp, width, 52 * dp)}
 
 
 def _mission_notice(places: dict[str, Rect], gap: float, dp: float) -> Rect:
@@ -117,7 +126,7 @@ def _mission_instruments(area: Rect, gap: float, dp: float) -> dict[str, Rect]:
 
 def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
     gap = 12 * dp
-    low = min(358 * dp, body.height * 0.5)
+    low = min(306 * dp, body.height * 0.5)
     height = body.height - 120 * dp if sheet_open else low
     sheet = Rect(body.x, body.y, body.width, height)
     stop_width = min(max(158 * dp, body.width * 0.3), 260 * dp)

@@ -33,7 +33,10 @@ Builder.load_string("""
     spacing: theme.gap * .6
     SectionLabel:
         title: 'Motion'
+        height: 0 if root.brief else self.texture_size[1]
+        opacity: 0 if root.brief else 1
     Segmented:
+        id: choice
         options: root.motions
         value: root.motion_name
         on_choose: root.choose('motion', args[1])
@@ -90,6 +93,14 @@ class MotionSelector(Control, BoxLayout):
     laps = NumericProperty(0)
     """0 goes on until stopped."""
     stop_on_intruder = BooleanProperty(False)
+    brief = BooleanProperty(False)
+    """Leaves its name away, for a phone."""
+
+    @property
+    def choice_height(self) -> float:
+        """From its upper edge to below the choice of the motion [px]; what follows may be scrolled to."""
+        title = self.children[-1].height + self.spacing
+        return float(title + self.ids.choice.height)
 
     def show(self, msg: Mission) -> None:
         """Take over how a mission moves; nothing is dispatched."""

@@ -59,12 +59,13 @@ Builder.load_string("""
             text: root.main_words
             meaning: root.main
             icon: root.main_icon
-            fill: 'accent' if root.main != 'pause' else 'raised'
-            border: 'accent' if root.main != 'pause' else 'line'
-            ink: 'ink_accent' if root.main != 'pause' else 'text'
+            fill: 'accent' if root.inviting else 'raised'
+            border: 'accent' if root.inviting else 'line'
+            ink: 'ink_accent' if root.inviting else 'text'
             flow: root.flow
             height: row.height
-            size_hint_x: 1 if root.narrow else 1.25
+            disabled: root.disabled or (root.held and root.main != 'pause')
+            size_hint_x: 1 if root.brief else 1.12 if root.narrow else 1.25
             on_release: root.ask(root.main)
         QuietButton:
             text: root.stop_words
@@ -78,10 +79,11 @@ Builder.load_string("""
             icon: 'home'
             flow: root.flow
             height: row.height
+            disabled: root.disabled or root.held
             on_release: root.ask('home')
     BoxLayout:
         size_hint_y: None
-        height: max(outcome.height, dp(22)) if root.sentence else 0
+        height: dp(22)
         opacity: 1 if root.sentence else 0
         spacing: dp(8)
         Icon:
@@ -90,9 +92,10 @@ Builder.load_string("""
             font_size: sp(19)
             pos_hint: {'center_y': .5}
         Text:
-            id: outcome
             text: root.sentence
             font_size: sp(14)
+            shorten: True
+            shorten_from: 'right'
             role: 'text' if root.outcome in ('refused', 'no_reply') else 'muted'
             pos_hint: {'center_y': .5}
 """)
@@ -107,6 +110,11 @@ class TaskButtons(Control, BoxLayout):
     """State of the robot's task, as in TaskStatus."""
     brief = BooleanProperty(False)
     """Icons above the words, for a phone."""
+
+    ready = BooleanProperty(True)
+    """There is a patrol to start; without one Start is as quiet as the rest."""
+    held = BooleanProperty(False)
+    """STOP is pressed: nothing that moves the robot can be asked for."""
 
     def _narrow(self) -> bool:
         return self.brief or self.width < dp(400)
@@ -137,6 +145,12 @@ class TaskButtons(Control, BoxLayout):
 
     main = AliasProperty(_main, bind=["task_state"], cache=True)
     """The command that the first button gives."""
+
+    def _inviting(self) -> bool:
+        return self.main == "resume" or (self.main == "start" and self.ready)
+
+    inviting = AliasProperty(_inviting, bind=["main", "ready"], cache=True)
+    """The first button stands out."""
 
     def _main_words(self) -> str:
         return self.words(self.main)
@@ -232,6 +246,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         ),
         "no reply": make("RUNNING", ("home", "no_reply")),
         "disabled": make("RUNNING", state="disabled"),
+        "nothing to start": make(ready=False),
+        "held": make("PAUSED", held=True),
         "phone": make("RUNNING", brief=True, width="300dp"),
         "phone paused": make("PAUSED", brief=True, width="300dp"),
     }

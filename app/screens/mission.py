@@ -26,7 +26,7 @@ from app.session import Session
 from bridge.msgs.pilothouse_msgs import RobotInfo, TaskStatus
 from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import Compass, GridMap, Video
-from widgets.kit import IconButton, QuietButton
+from widgets.kit import IconButton, PrimaryButton, QuietButton
 
 __all__ = ["MissionScreen"]
 
@@ -35,7 +35,7 @@ MODES = [("view", "View"), ("points", "Points"), ("home", "Home"), ("place_robot
 HINTS = {
     "points": "Tap to add a point, drag to move one.",
     "home": "Tap where the robot shall return to.",
-    "place_robot": "Drag the robot to where it is, turn it by its handle.",
+    "place_robot": "Drag it, turn it.",
 }
 
 PICTURES = Path(widgets.__file__).parent / "data"
@@ -44,8 +44,8 @@ PICTURES = Path(widgets.__file__).parent / "data"
 Builder.load_string("""
 <SelectionBar>:
     size_hint: None, None
-    padding: dp(14), 0, 0, 0
-    spacing: dp(2)
+    padding: dp(12), 0, dp(6), 0
+    spacing: dp(6)
     canvas.before:
         Color:
             rgba: theme.line
@@ -62,6 +62,9 @@ Builder.load_string("""
     Text:
         text: root.text
         font_size: sp(15)
+        shorten: True
+        shorten_from: 'right'
+        max_lines: 1
         pos_hint: {'center_y': .5}
 
 <MissionScreen>:
@@ -160,9 +163,8 @@ class MissionScreen(FloatLayout):
             ("place_cancel", "Cancel", lambda *_: setattr(self, "mode", "view")),
             ("place_here", "Set here", lambda *_: self._place_robot()),
         ):
-            word = QuietButton(
-                text=text, size_hint_x=None, width="96dp", height="46dp", pos_hint={"center_y": 0.5}
-            )
+            kind = PrimaryButton if button == "place_here" else QuietButton
+            word = kind(text=text, size_hint_x=None, width="78dp", height="40dp", pos_hint={"center_y": 0.5})
             word.bind(on_release=act)
             ids[button] = word
         ids.update({"map": self.map, "video": self.video, "selection": self.selection, "panel": self.panel})
@@ -251,6 +253,7 @@ class MissionScreen(FloatLayout):
         self.video.show_chip = form == "wide"
         self._float(self.compass, places.get("compass"))
         self.panel.take_form(form)
+        self.panel.sheet_open = bool(self.sheet) and tall
         self._float(self.panel.readouts, places.get("readouts"))
         _put(self.panel, places["panel"])
         _put(self.ids.handle, places.get("handle", Rect(-100, -100, 1, 1)))
@@ -268,9 +271,14 @@ class MissionScreen(FloatLayout):
         self.ids.modes.disabled = up
         top = area.top - places["modes"].y if self._form != "tall" else 0
         low = places["modes"].top - area.y if self._form == "tall" else 0
+        left, video, bar = 0.0, places["video"], places["selection"]
         if "compass" in places:
-            low = max(places["compass"].top, places["video"].top) - area.y
-        self.map.insets = [0, low, area.right - places["tools"].x, top]
+            low = max(places["compass"].top, video.top) - area.y
+        elif self._form == "short":
+            beside = bar.x > video.right
+            left = bar.x - area.x if beside else 0.0
+            low = (bar if beside else video).top - area.y
+        self.map.insets = [left, low, area.right - places["tools"].x, top]
 
     def _place_tasks(self, rect: Rect | None) -> None:
         """On a phone the task's buttons stand beside STOP, elsewhere in the panel."""
@@ -392,7 +400,7 @@ class MissionScreen(FloatLayout):
         bar, index = self.selection, int(self.map.selected)
         wanted: list[Widget] = []
         if self.mode == "place_robot":
-            bar.text = "Drag it, turn it."
+            bar.text = HINTS["place_robot"]
             wanted = [self.ids.place_cancel, self.ids.place_here]
         elif self.mode == "points" and 0 <= index < len(self.map.waypoints):
             bar.text = f"Point {index + 1} of {len(self.map.waypoints)}"

@@ -5,15 +5,18 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from kivy.clock import Clock
 from kivy.lang import Builder
 from kivy.properties import BooleanProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.gridlayout import GridLayout
+from kivy.uix.widget import Widget
 
 from app.dashboard import Dashboard
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import TaskProgress, TaskStatus
 from widgets import EventLog, MotionSelector, Readout, TaskButtons
+from widgets.event_log import ago, look
 from widgets.kit import Card
 
 __all__ = ["MissionPanel"]
@@ -21,8 +24,8 @@ __all__ = ["MissionPanel"]
 TASKS = {"stop": "cancel"}
 """Where a button of TaskButtons is another command of the app."""
 STATES = {
-    "empty": ("No points yet: choose Points and tap the map.", "muted"),
-    "draft": ("Draft: the robot does not have it yet.", "warn"),
+    "empty": ("Choose Points, then tap the map.", "muted"),
+    "draft": ("Draft: not on the robot yet.", "warn"),
     "sent": ("Sent, waiting for the robot …", "muted"),
     "stored": ("Stored on the robot.", "ok"),
 }
@@ -68,8 +71,8 @@ Builder.load_string("""
             text: root.note
             role: root.role
             font_size: sp(14)
-            max_lines: 2
-            shorten: len(self.text) > 90
+            shorten: True
+            shorten_from: 'right'
 
 <ProgressRow>:
     orientation: 'vertical'
@@ -103,6 +106,26 @@ Builder.load_string("""
 <LatestEvent>:
     size_hint_y: None
     height: dp(26)
+    spacing: dp(8)
+    Icon:
+        name: root.icon
+        role: root.role
+        font_size: sp(20)
+        pos_hint: {'center_y': .5}
+    Text:
+        text: root.text
+        font_size: sp(14.5)
+        shorten: True
+        shorten_from: 'right'
+        pos_hint: {'center_y': .5}
+    Text:
+        text: root.when
+        role: 'muted'
+        font_size: sp(13)
+        halign: 'right'
+        size_hint_x: None
+        width: dp(38)
+        pos_hint: {'center_y': .5}
 """)
 
 
@@ -126,20 +149,42 @@ class ProgressRow(BoxLayout):
     """Has its name over it."""
 
 
+class LatestEvent(BoxLayout):
+    """What happened last, in one line."""
+
+    icon = StringProperty("info")
+    role = StringProperty("muted")
+    text = StringProperty("")
+    when = StringProperty("")
+
+    def show(self, log: EventLog) -> None:
+        """Take it from the log; empty while nothing happened."""
+        event = log.events[0] if log.events else None
+        self.opacity = 1 if event else 0
+        if event:
+            self.icon, self.role = look(event)
+            self.text, self.when = event.text, ago(log.now - event.stamp.seconds)
+
+
 class MissionPanel(BoxLayout):
     """Everything to do with the mission that is not on the map."""
 
+    sheet_open = BooleanProperty(False)
+    """The sheet of a phone is drawn up, so that there is room for more."""
     form = OptionProperty("", options=["", "wide", "short", "tall"])
 
     def __init__(self, session: Session, dashboard: Dashboard, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._session = session
-        self._send, self._progress = SendRow(), ProgressRow()
+        self._send, self._progress, self._latest = SendRow(), ProgressRow(), LatestEvent()
         self.motion, self.tasks, self.events = MotionSelector(), TaskButtons(), EventLog(size_hint_y=1)
         self.speed = Readout(name="Speed", unit="m/s", decimals=2, path="twist.twist.linear.x")
         self.next = Readout(name="Next point", unit="m", decimals=1)
         self.lap = Readout(name="Lap")
         self.left = Readout(name="Time left", kind="clock", unit="min")
+        self._fill = Widget(size_hint_y=None, height=0)
+        self._above: list[Widget] = []
+        self._shown: tuple[object, ...] = ()
         self.readouts = Card(floating=True, padding=("14dp", "10dp"))
         self.figures = GridLayout(cols=2, spacing=("12dp", "6dp"))
         for figure in (self.speed, self.next, self.lap, self.left):
@@ -150,6 +195,11 @@ class MissionPanel(BoxLayout):
         self.tasks.bind(on_command=lambda _, name: session.command(TASKS.get(name, name)))
         self.ids["send"] = self._send.ids.send
         self._bind(dashboard)
+        self._fold_soon = Clock.create_trigger(self._fold, -1)
+        self.ids.scroll.bind(height=self._fold_soon)
+        self.bind(sheet_open=self._fold_soon)
+        for widget in (self._send, self._progress, self.tasks, self.figures, self.motion):
+            widget.bind(height=self._fold_soon)
 
     def _bind(self, dashboard: Dashboard) -> None:
         dashboard.bind(self.speed, "/odom")
@@ -164,54 +214,61 @@ class MissionPanel(BoxLayout):
         if form == self.form:
             return
         self.form = form
+        tall, wide = form == "tall", form == "wide"
+        self.figures.cols = 4 if tall else 2
+        self.figures.size_hint_y = 1 if wide else None
+        self.figures.height = "58dp" if tall else "96dp"
+        for figure in (self.speed, self.next, self.lap, self.left):
+            figure.font_size = "26sp" if wide else "22sp"
+        self.tasks.brief = self.motion.brief = not wide
+        self.next.name = "Next" if tall else "Next point"
+        self._progress.titled = wide
+        self.events.size_hint_y = 1
+        self.events.size_hint_min_y = None if wide else "190dp"
+        self._shown = ()
+        self._reorder()
+
+    def _order(self) -> tuple[list[Widget], list[Widget]]:
+        """What is in sight at rest, and what a phone has to be scrolled or its sheet drawn up for."""
+        if self.form == "wide":
+            return [self._send, self.motion, self.tasks, self._progress, self.events], []
+        first = [] if self.form == "tall" else [self.tasks]
+        if not self._session.running:
+            return [*first, self._send], [self.motion, self.events]
+        if self._session.mission.state in ("draft", "sent"):
+            return [*first, self._send, self.figures], [self._progress, self.motion, self.events]
+        latest = [self._latest] if self.form == "tall" else []
+        return [*first, self._progress, self.figures, *latest], [self._send, self.motion, self.events]
+
+    def _reorder(self) -> None:
+        above, below = self._order()
+        if self._shown == (self.form, *above, *below):
+            return
+        self._shown, self._above = (self.form, *above, *below), above
         column = self.ids.column
         column.clear_widgets()
-        for _holder in (self.readouts, self):
-            if self.figures.parent is not None:
-                self.figures.parent.remove_widget(self.figures)
-        tall = form == "tall"
-        self.figures.cols = 2 if form == "wide" else 4 if tall else 2
-        self.figures.size_hint_y = 1 if form == "wide" else None
-        self.figures.height = "58dp" if tall else "116dp"
-        for figure in (self.speed, self.next, self.lap, self.left):
-            figure.font_size = "22sp" if tall else "26sp"
-        self.tasks.brief = form != "wide"
-        self.next.name = "Next" if tall else "Next point"
-        self._progress.titled = not tall
-        self.events.size_hint_y = 1 if form == "wide" else None
-        self.events.height = "190dp"
-        if form == "wide":
+        if self.form == "wide" and self.figures.parent is not self.readouts:
             self.readouts.add_widget(self.figures)
-            order = [self._send, self.motion, self.tasks, self._progress, self.events]
-        elif tall:
-            order = [self.figures, self._send, self.motion, self.events]
-        else:
-            order = [self.tasks, self._send, self._progress, self.figures, self.motion, self.events]
-        for widget in order:
+        elif self.form != "wide" and self.figures.parent is self.readouts:
+            self.readouts.remove_widget(self.figures)
+        for widget in [*above, *([self._fill] if below else []), *below]:
             if widget.parent is not None:
                 widget.parent.remove_widget(widget)
             column.add_widget(widget)
+        self.ids.scroll.scroll_y = 1
+        self._fold_soon()
 
-    def _show_where(self) -> None:
-        """A phone has room for the progress only while there is some."""
-        if self.form != "tall":
-            return
-        column, shown = self.ids.column, self._progress.parent is not None
-        if self._session.running and not shown:
-            column.add_widget(self._progress, index=len(column.children) - 1)
-        elif shown and not self._session.running:
-            column.remove_widget(self._progress)
+    def _fold(self, *_: object) -> None:
+        """No row is cut through at rest: what does not fit begins below the lower edge."""
+        column = self.ids.column
+        spare = self.ids.scroll.height - column.padding[1] - sum(widget.height for widget in self._above)
+        spare -= len(self._above) * column.spacing
+        if not self._session.running:
+            spare -= column.spacing + self.motion.choice_height
+        self._fill.height = 0 if self.sheet_open else max(0, spare)
 
     def keep_tasks(self, here: bool) -> None:
-        """Have the task's buttons in the panel, or free them for another place."""
-        column = self.ids.column
-        if here and self.tasks.parent is not column:
-            if self.tasks.parent is not None:
-                self.tasks.parent.remove_widget(self.tasks)
-            self.tasks.size_hint_x = 1
-            column.add_widget(self.tasks, index=len(column.children) - (2 if self.form == "wide" else 0))
-        elif not here and self.tasks.parent is column:
-            column.remove_widget(self.tasks)
+        """Have the task's buttons as wide as the panel, where they are in it."""
         if here:
             self.tasks.size_hint = (1, None)
 
@@ -249,9 +306,11 @@ class MissionPanel(BoxLayout):
     def tick(self) -> None:
         """Bring up to date what time changes."""
         session = self._session
-        self._show_where()
+        self._reorder()
         mine = session.connected and session.control != "other"
         self.tasks.state = "live" if mine else "disabled"
+        self.tasks.ready = bool(session.mission.draft.points)
+        self.tasks.held = session.stop_phase == "stopped"
         self._send.may_send = int(mine and session.mission.state == "draft")
         state = session.feeds.state("/task/status")
         for figure in (self.next, self.lap, self.left):
@@ -261,3 +320,4 @@ class MissionPanel(BoxLayout):
         if math.isfinite(now) and not abs(now - self.events.now) < 1.0:
             self.events.now = now
         self.events.state = "live" if session.connected else "stale"
+        self._latest.show(self.events)

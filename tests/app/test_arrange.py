@@ -65,6 +65,15 @@ def test_stop_does_not_move_when_the_sheet_opens(size: tuple[int, int]) -> None:
     assert screens(*size)["mission"]["stop"] == screens(*size)["sheet"]["stop"]
 
 
+def test_a_phone_on_its_side_leaves_the_middle_of_the_map_free() -> None:
+    places = mission(shell(892, 412)["body"], "short")
+    area, video, bar = places["map"], places["video"], places["selection"]
+    free = Rect(bar.x, bar.top, places["tools"].x - bar.x, places["modes"].y - bar.top)
+    assert not free.overlaps(video)
+    assert free.width * free.height > 0.35 * area.width * area.height
+    assert bar.x > video.right
+
+
 @pytest.mark.parametrize("size", SIZES)
 def test_the_frame_fills_the_window(size: tuple[int, int]) -> None:
     places = shell(*size)

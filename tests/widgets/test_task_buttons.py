@@ -107,6 +107,29 @@ def test_disabled_it_asks_for_nothing(stage, panel):
     assert panel.asked == []
 
 
+def test_with_stop_pressed_only_what_ends_or_pauses_can_be_asked(stage, panel):
+    panel.held = True
+    for state in ("PAUSED", "RUNNING"):
+        panel.show(TaskStatus(state=state))
+        stage.run_for(0.6)
+        for button in buttons(panel):
+            stage.tap(*button.to_window(*button.center))
+    assert panel.asked == ["stop", "pause", "stop"]
+
+
+def test_the_buttons_stay_where_they_are_whatever_it_says(stage, panel):
+    heights = set()
+    for reason in (
+        "",
+        "Paused.",
+        "The robot is not where the map says it is, so put it right before it drives on.",
+    ):
+        panel.answer("start", "refused" if reason else "none", reason)
+        stage.frames(3)
+        heights.add(panel.height)
+    assert len(heights) == 1
+
+
 def test_a_command_that_there_is_not_is_an_error(panel):
     with pytest.raises(KeyError):
         panel.ask("fly")

@@ -1,0 +1,133 @@
+"""The panel beside the map: on a phone the first rows fit, and none is cut through."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from app.dashboard import Dashboard
+from app.feeds import Feeds, Post
+from app.session import Session
+from app.settings import Settings
+from bridge.client import LinkState, Phase
+from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskStatus
+from tests.headless import Stage
+
+SIZES = {"tall": (388, 158), "short": (276, 254)}
+"""Form to the room that `app.arrange` gives the panel on a phone of 412 by 892."""
+
+
+@pytest.fixture
+def session(tmp_path: Path) -> Session:
+    link = SimpleNamespace(
+        state=LinkState(Phase.CONNECTED, "", 0, 0.0),
+        silent=False,
+        robot_time=lambda: 100.0,
+        command=lambda *_, **__: None,
+    )
+    settings = Settings(tmp_path / "settings.json")
+    return Session(
+        link,  # type: ignore[arg-type]
+        Feeds(lambda: 100.0),
+        settings,
+        now=lambda: 100.0,
+        client_id="me",
+        wants_control=False,
+    )
+
+
+@pytest.fixture
+def panel(stage: Stage, session: Session, request: pytest.FixtureRequest) -> Any:
+    from app.screens.panel import MissionPanel
+
+    panel = MissionPanel(session, Dashboard(session.feeds))
+    panel.take_form(request.param)
+    stage.show(panel, SIZES[request.param])
+    settle(stage, panel)
+    return panel
+
+
+def settle(stage: Stage, panel: Any) -> None:
+    panel.tick()
+    stage.frames(4)
+
+
+def tell(session: Session, topic: str, message: Any) -> None:
+    session.deliver(topic, Post(message, 100.0, 1))
+
+
+def run_a_task(stage: Stage, session: Session, panel: Any) -> None:
+    tell(session, "/task/status", TaskStatus(task="patrol", state="RUNNING", waypoint=1, waypoints=3))
+    panel.events.show(Event(id=1, text="Patrol started.", kind="task"))
+    session.mission.robot_has(session.mission.sending())
+    settle(stage, panel)
+
+
+def seen(panel: Any, widget: Any) -> bool:
+    """Wholly in sight."""
+    low, top = (widget.to_window(widget.x, y)[1] for y in (widget.y, widget.top))
+    return widget.parent is not None and low >= panel.y - 1 and top <= panel.top + 1
+
+
+def cut(panel: Any) -> list[str]:
+    rows = [row for row in panel.ids.column.children if row is not panel.motion] + panel.motion.children
+    edges = [(type(row).__name__, row.to_window(0, row.y)[1], row.to_window(0, row.top)[1]) for row in rows]
+    return [name for name, low, top in edges if top - low > 1 and low < panel.y - 1 < panel.y + 1 < top]
+
+
+both = pytest.mark.parametrize("panel", ["tall", "short"], indirect=True)
+
+
+@both
+def test_at_rest_sending_and_the_motion_are_in_sight_and_nothing_is_cut(panel: Any) -> None:
+    assert seen(panel, panel.ids["send"])
+    assert seen(panel, panel.motion.ids.choice)
+    assert cut(panel) == []
+    assert panel.figures.parent is None
+
+
+@both
+def test_while_a_task_runs_the_figures_stand_where_sending_was(
+    stage: Stage, session: Session, panel: Any
+) -> None:
+    run_a_task(stage, session, panel)
+    assert seen(panel, panel.figures)
+    assert not seen(panel, panel.ids["send"])
+    assert cut(panel) == []
+
+
+@pytest.mark.parametrize("panel", ["tall"], indirect=True)
+def test_a_running_task_shows_the_latest_event(stage: Stage, session: Session, panel: Any) -> None:
+    run_a_task(stage, session, panel)
+    settle(stage, panel)
+    assert seen(panel, panel._latest)
+    assert panel._latest.text == "Patrol started."
+
+
+@both
+def test_what_is_changed_while_a_task_runs_can_be_sent(stage: Stage, session: Session, panel: Any) -> None:
+    run_a_task(stage, session, panel)
+    session.mission.add(1.0, 2.0)
+    settle(stage, panel)
+    assert seen(panel, panel.ids["send"])
+
+
+@both
+def test_start_invites_only_when_there_are_points(stage: Stage, session: Session, panel: Any) -> None:
+    assert not panel.tasks.inviting
+    session.mission.add(1.0, 2.0)
+    settle(stage, panel)
+    assert panel.tasks.inviting
+
+
+@both
+def test_with_stop_pressed_nothing_that_moves_can_be_asked_for(
+    stage: Stage, session: Session, panel: Any
+) -> None:
+    assert not panel.tasks.held
+    tell(session, "/control/status", ControlStatus(stopped=True, mode="STOPPED"))
+    settle(stage, panel)
+    assert panel.tasks.held
