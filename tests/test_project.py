@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import pydoc
 import re
 import subprocess
 import sys
@@ -44,10 +45,55 @@ def test_the_topic_table_is_the_one_of_the_code(document):
     assert with_table(text) == text, "run python scripts/topic_table.py"
 
 
-def test_every_recipe_fits_fifteen_lines():
-    recipes = re.split(r"^## To add ", (ROOT / "CONTRIBUTING.md").read_text(), flags=re.MULTILINE)[1:]
-    assert [r.split("\n")[0] for r in recipes][:4] == ["a widget", "a vehicle", "a behaviour", "a gateway"]
-    assert all(len(recipe.strip().splitlines()) - 2 <= 15 for recipe in recipes)
+RECIPES = {
+    title: rest
+    for title, _, rest in (
+        part.partition("\n")
+        for part in re.split(r"^## To add ", (ROOT / "CONTRIBUTING.md").read_text(), flags=re.MULTILINE)[1:]
+    )
+}
+QUOTED = [(title, quoted) for title, recipe in RECIPES.items() for quoted in re.findall(r"`([^`]+)`", recipe)]
+
+
+def known_names() -> set[str]:
+    """Every class, function, attribute, key and task that the sources speak of."""
+    nodes = [node for path in SOURCES for node in ast.walk(ast.parse(path.read_text()))]
+    named = {node.name for node in nodes if isinstance(node, ast.ClassDef | ast.FunctionDef)}
+    used = {node.attr for node in nodes if isinstance(node, ast.Attribute)}
+    words = {node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)}
+    targets = {node.id for node in nodes if isinstance(node, ast.Name)}
+    return named | used | words | targets
+
+
+KNOWN = known_names()
+
+
+def exists(quoted: str) -> bool:
+    """What a recipe quotes, a path (NAME stands for any), a dotted name or a plain one, is there."""
+    path = quoted.removeprefix("python ")
+    if "/" in path:
+        return any(ROOT.glob(path.replace("NAME", "*").rstrip("/")))
+    parts = quoted.removesuffix("()").split(".")
+    if (ROOT / parts[0]).is_dir():
+        return pydoc.locate(quoted) is not None
+    return set(parts) <= KNOWN
+
+
+def test_there_is_a_recipe_for_each_part_that_grows_and_each_fits_fifteen_lines():
+    assert list(RECIPES) == ["a widget", "a vehicle", "a behaviour or a task", "a topic or message"]
+    assert all(len(recipe.strip().splitlines()) <= 15 for recipe in RECIPES.values())
+
+
+@pytest.mark.parametrize(("title", "quoted"), QUOTED)
+def test_everything_that_a_recipe_names_exists(title, quoted):
+    assert exists(quoted)
+
+
+@pytest.mark.parametrize(
+    "wrong", ["robotside/gateways/NAME.py", "sim.robot.ROBOTZ", "blackbord", "Guide.nope"]
+)
+def test_a_name_that_a_recipe_must_not_use_is_noticed(wrong):
+    assert not exists(wrong)
 
 
 def test_every_extra_is_pinned():
