@@ -47,8 +47,17 @@ class Autonomy:
     """The robot's own mind; fed with its messages, it drives when there is a task."""
 
     def __init__(
-        self, robot: Robot, grid: Grid, *, bus: Bus, events: Events, demand: Demand, rng: random.Random
+        self,
+        robot: Robot,
+        grid: Grid,
+        *,
+        bus: Bus,
+        events: Events,
+        demand: Demand,
+        clock: Callable[[], float],
+        rng: random.Random,
     ) -> None:
+        """`clock` is the operators' [s], by which the task's messages are stamped."""
         info = robot.info
         self._bus, self._events, self._demand, self._rng = bus, events, demand, rng
         self._now = 0.0
@@ -72,6 +81,7 @@ class Autonomy:
             show=self._show_status,
             progress=lambda progress: bus.publish("/task/progress", progress),
             say=events.say,
+            clock=clock,
             cruise=CRUISE * info.max_speed,
         )
         self._show_plan(np.empty((0, 2)))
@@ -97,7 +107,7 @@ class Autonomy:
             return
         for sense, heard in self._heard.items():
             if now - heard > SILENCE:
-                self.engine.pause(f"Paused: the {sense} has been silent for {SILENCE} s.", now, "alarm")
+                self.engine.pause(f"Paused: the {sense} has been silent for {SILENCE} s.", "alarm")
                 return
 
     def start_patrol(self, mission: Mission, now: float) -> None:
@@ -162,7 +172,7 @@ class Autonomy:
             self.start_home(self.mission.home[0], self._now)
         else:
             self._events.say("battery", f"{said}: the patrol ends here, since home is not set.", "alarm")
-            self.engine.cancel(f"{said}: the patrol ended, and home is not set.", self._now)
+            self.engine.cancel(f"{said}: the patrol ended, and home is not set.")
 
     def _bumper(self, msg: Bumper) -> None:
         was, self._bumped = self._bumped, msg.pressed
@@ -171,14 +181,14 @@ class Autonomy:
         pose = self.whereabouts.pose
         at = (pose.x, pose.y) if pose else None
         self._events.say("contact", f"The bumper touched something {_side(msg.bearing)}.", "alarm", at=at)
-        self.engine.pause("Paused: the bumper touched something.", self._now, "alarm")
+        self.engine.pause("Paused: the bumper touched something.", "alarm")
 
     def _found(self, intruder: Intruder) -> None:
         x, y = intruder.position.x, intruder.position.y
         text = f"Intruder {intruder.id}: a {intruder.class_id} at ({x:.1f}, {y:.1f})."
         self._events.say("intruder", text, "alarm", at=(x, y))
         if self.mission.stop_on_intruder and self.engine.status.task == "patrol":
-            self.engine.pause(f"Paused: intruder {intruder.id} was found.", self._now, "warn")
+            self.engine.pause(f"Paused: intruder {intruder.id} was found.", "warn")
 
     def _show_status(self, status: TaskStatus) -> None:
         self._demand.set(CAMERA, "task", status.state == "RUNNING")

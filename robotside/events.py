@@ -34,6 +34,7 @@ class Events:
     """Numbers events from 1, keeps the newest and passes each on once."""
 
     def __init__(self, boot: str, now: Callable[[], float], publish: Callable[[Event], None]) -> None:
+        """`now` is the operators' clock [s], by which events are stamped."""
         self.boot = boot
         """Identity of this run of the robot side."""
         self._now = now

@@ -159,7 +159,7 @@ class _Orders:
             return "The task is paused already."
         if not engine.running:
             raise Refusal("No task is running.")
-        engine.pause(f"Paused by {self._station.controls.name(client)}.", self._station.now)
+        engine.pause(f"Paused by {self._station.controls.name(client)}.")
         return "Paused."
 
     def resume(self, client: Client, _: CommandRequest) -> str:
@@ -171,7 +171,7 @@ class _Orders:
         if not engine.paused:
             raise Refusal("No task is paused.")
         self._station.controls.hold()
-        engine.resume(self._station.now)
+        engine.resume()
         return "Resumed."
 
     def cancel(self, client: Client, _: CommandRequest) -> str:
@@ -180,7 +180,7 @@ class _Orders:
         engine = self._station.autonomy.engine
         if not engine.active:
             raise Refusal("No task is running.")
-        engine.cancel(f"Canceled by {self._station.controls.name(client)}.", self._station.now)
+        engine.cancel(f"Canceled by {self._station.controls.name(client)}.")
         return "Canceled."
 
     def set_mission(self, client: Client, asked: SetMissionRequest) -> str:
@@ -194,7 +194,7 @@ class _Orders:
         self._check_places(mission)
         if mission.home:
             self._check_place("Home", mission.home[0])
-        stamp = Time.at(self._station.now)
+        stamp = Time.at(self._station.clock())
         try:
             self._station.keep(msgspec.structs.replace(mission, stamp=stamp, home=mission.home[:1]))
         except OSError as error:

@@ -1,7 +1,8 @@
 """The robot side as a whole, without sockets: commands in, robot's messages through, everything on one bus.
 
 Two clocks: `now` is the robot's [s], by which things are measured and tasks run; `clock` is the operators' [s], by
-which drive commands and control expire. They are one unless a simulation runs faster or slower than real time.
+which drive commands and control expire and by which everything that is told to operators is stamped. docs/bridge.md
+says which stamp is of which clock.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ from robotside.grid import Grid
 from robotside.guarded import Guarded
 from robotside.pose2 import Pose2
 from robotside.robot import Robot
-from robotside.store import Store
+from robotside.store import Left, Store
 
 __all__ = ["Station"]
 
@@ -64,7 +65,7 @@ class Station:
         self.controls = Controls(max_speed=self.info.max_speed, max_yaw_rate=self.info.max_yaw_rate)
         self.robot = Guarded(robot, lambda: self.controls.stopped)
         """The only way to the robot's wheels."""
-        self.events = Events(boot, lambda: self.now, lambda event: self.bus.publish("/events", event))
+        self.events = Events(boot, clock, lambda event: self.bus.publish("/events", event))
         self._store = store
         self._control = ControlStatus()
         self._next_remark: dict[str, float] = {}
@@ -76,7 +77,13 @@ class Station:
             raise ValueError(f"Robot {self.info.name} gave no map with its first messages.")
         self.bus.publish("/robot/info", self.info)
         self.autonomy = Autonomy(
-            self.robot, Grid.from_msg(grid), bus=self.bus, events=self.events, demand=self.demand, rng=rng
+            self.robot,
+            Grid.from_msg(grid),
+            bus=self.bus,
+            events=self.events,
+            demand=self.demand,
+            clock=clock,
+            rng=rng,
         )
         self.bus.publish("/intruders", IntruderArray(Header(Time.at(now), "map")))
         self.bus.publish("/control/status", self._control)
@@ -84,7 +91,11 @@ class Station:
         self.bus.publish("/mission", self.mission)
         if problem:
             self.events.say("mission", problem, "warn")
+        self._left = store.left()
+        self._ending = False
+        self._take_up(self._left)
         self._pass_on(first)
+        self.show_control()
 
     def step(self, now: float) -> None:
         """Bring everything up to `now` [s, robot clock]; call it often."""
@@ -122,7 +133,7 @@ class Station:
         if not self.controls.stopped:
             self.events.say("stop", f"STOP pressed by {name}.", "alarm")
         self.controls.stop(name)
-        self.autonomy.engine.pause(f"Stopped by {name}.", self.now, "alarm")
+        self.autonomy.engine.pause(f"Stopped by {name}.", "alarm")
 
     def release_stop(self, name: str) -> None:
         """Unlatch STOP; the robot stays where it is."""
@@ -146,7 +157,8 @@ class Station:
         self.events.say("mission", f"Mission stored: {count} {'point' if count == 1 else 'points'}.", "ok")
 
     def show_control(self) -> None:
-        """Tell everyone who steers, if that has changed."""
+        """Tell everyone who steers, if that has changed, and note what a restart must know."""
+        self._note()
         fresh = self._control_now()
         if fresh == self._control:
             return
@@ -154,7 +166,7 @@ class Station:
             said = f"{fresh.driver} has control." if fresh.driver_id else "Control is free."
             self.events.say("control", said)
         self._control = fresh
-        self.bus.publish("/control/status", msgspec.structs.replace(fresh, stamp=Time.at(self.now)))
+        self.bus.publish("/control/status", msgspec.structs.replace(fresh, stamp=Time.at(self.clock())))
 
     @property
     def at_rest(self) -> bool:
@@ -163,7 +175,9 @@ class Station:
 
     def end(self) -> None:
         """Brake, end the task and obey nobody any more: the robot side is about to go."""
-        self.autonomy.engine.cancel("The robot's computer was told to end.", self.now)
+        self.autonomy.engine.cancel("The robot's computer was told to end.")
+        self._note()
+        self._ending = True
         self.press_stop("the robot's computer, which ends")
         self.show_control()
 
@@ -171,6 +185,28 @@ class Station:
         """Bring the robot to rest and let go of it."""
         self.robot.stop()
         self.robot.close()
+
+    def _take_up(self, left: Left) -> None:
+        """Go on from how it was left: STOP stays pressed, a task has ended."""
+        if left.stopped_by:
+            self.controls.stop(left.stopped_by)
+            said = f"STOP is still pressed: {left.stopped_by} pressed it before the robot's computer restarted."
+            self.events.say("stop", said, "alarm")
+        if left.task:
+            said = f"The robot's computer restarted; the {left.task.lower()} has ended."
+            self.events.say("task", said, "warn")
+
+    def _note(self) -> None:
+        """Note how it would be left, if that has changed; its own STOP at the end is not a person's."""
+        left = Left(self.controls.stopped_by, self.autonomy.engine.title)
+        if left == self._left or self._ending:
+            return
+        self._left = left
+        try:
+            self._store.leave(left)
+        except OSError as error:
+            said = f"A restart will not know of STOP and the task: {error.strerror}."
+            self.events.say("stop", said, "warn")
 
     def _pass_on(self, messages: Iterable[tuple[str, Msg]]) -> None:
         for topic, msg in messages:
@@ -189,7 +225,7 @@ class Station:
                 log.exception("The robot's own mind failed")
                 self.events.say("task", f"The robot's program has a fault: {fault!r}.", "alarm")
             said = f"The task ended: the robot's program has a fault ({type(fault).__name__})."
-            self.autonomy.engine.fail(said, self.now)
+            self.autonomy.engine.fail(said)
 
     def _drive(self, client: Client, twist: Twist, stamp: float | None) -> None:
         engine = self.autonomy.engine
@@ -197,7 +233,7 @@ class Station:
         if ruling.twist is None:
             self._remark(client, ruling.said)
             return
-        engine.pause(f"Paused: {self.controls.name(client)} took the stick.", self.now, "warn")
+        engine.pause(f"Paused: {self.controls.name(client)} took the stick.", "warn")
         self.robot.drive(ruling.twist)
 
     def _place(self, client: Client, pose: Pose2) -> None:

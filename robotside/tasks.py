@@ -47,11 +47,13 @@ class Engine:
         show: Callable[[TaskStatus], None],
         progress: Callable[[TaskProgress], None],
         say: Say,
+        clock: Callable[[], float],
         cruise: float,
     ) -> None:
+        """`clock` is the operators' [s], by which messages are stamped; `cruise` is the usual speed [m/s]."""
         self._guide, self._situation = guide, situation
         self._show, self._progress, self._say = show, progress, say
-        self._cruise = cruise
+        self._clock, self._cruise = clock, cruise
         self._task: Task | None = None
         self._begun_at = self._odometer = 0.0
         self._next_progress = -math.inf
@@ -74,10 +76,15 @@ class Engine:
         """There is a task that has not ended."""
         return self._task is not None
 
+    @property
+    def title(self) -> str:
+        """Of the task that has not ended, as a sentence begins with it; empty when there is none."""
+        return self._task.title if self._task else ""
+
     def start(self, task: Task, now: float) -> None:
         """Begin `task`; one that has not ended yet is canceled."""
         if self._task:
-            self.cancel(f"{self._task.title} ended: {task.title.lower()} was asked for instead.", now)
+            self.cancel(f"{self._task.title} ended: {task.title.lower()} was asked for instead.")
         self._task, self._begun_at = task, self._odometer
         self._next_progress = now
         self._situation.now = now
@@ -91,34 +98,34 @@ class Engine:
             waypoints=len(course.goals),
             lap=1,
             laps=course.laps,
-            stamp=Time.at(now),
+            stamp=Time.at(self._clock()),
         )
         self._show(self.status)
         self._say("task", f"{task.title} started.", "info")
 
-    def pause(self, reason: str, now: float, level: str = "info") -> None:
+    def pause(self, reason: str, level: str = "info") -> None:
         """Hold the running task where it is; `reason` is one sentence."""
         if self.running:
             self._guide.rest()
-            self._tell("PAUSED", reason, now)
+            self._tell("PAUSED", reason)
             self._say("task", reason, level)
 
-    def resume(self, now: float) -> None:
+    def resume(self) -> None:
         """Go on with the paused task, from wherever the robot is now."""
         if self.paused and self._task:
             self._guide.rest()
-            self._tell("RUNNING", self._heading(self._task), now)
+            self._tell("RUNNING", self._heading(self._task))
             self._say("task", f"{self._task.title} resumed.", "info")
 
-    def cancel(self, reason: str, now: float) -> None:
+    def cancel(self, reason: str) -> None:
         """End the task before its time."""
         if self._task:
-            self._end("CANCELED", reason, now, "warn")
+            self._end("CANCELED", reason, "warn")
 
-    def fail(self, reason: str, now: float) -> None:
+    def fail(self, reason: str) -> None:
         """End the task, which cannot go on; `reason` is one sentence."""
         if self._task:
-            self._end("FAILED", reason, now, "alarm")
+            self._end("FAILED", reason, "alarm")
 
     def tick(self, pose: Pose2, points: Points, odometer: float, now: float) -> None:
         """Do the next bit of the running task; `odometer` is all that was ever driven [m]."""
@@ -129,27 +136,27 @@ class Engine:
         here.now, here.pose, here.points = now, pose, points
         task.root.tick_once()
         if task.root.status is Status.RUNNING:
-            self._tell("RUNNING", self._heading(task), now)
+            self._tell("RUNNING", self._heading(task))
             self._report(task.course, now)
         elif task.root.status is Status.SUCCESS:
-            self._end("SUCCEEDED", _done(task), now, "ok")
+            self._end("SUCCEEDED", _done(task), "ok")
         else:
-            self._end("FAILED", self._guide.reason or f"{task.title} failed.", now, "alarm")
+            self._end("FAILED", self._guide.reason or f"{task.title} failed.", "alarm")
 
-    def _end(self, state: str, reason: str, now: float, level: str) -> None:
+    def _end(self, state: str, reason: str, level: str) -> None:
         task, self._task = self._task, None
         if task is None:
             return
         task.root.stop(Status.INVALID)
         self._guide.finish()
-        self._count(task.course, state, reason, now)
+        self._count(task.course, state, reason)
         self._say("task", reason, level)
 
-    def _tell(self, state: str, reason: str, now: float) -> None:
+    def _tell(self, state: str, reason: str) -> None:
         if self._task:
-            self._count(self._task.course, state, reason, now)
+            self._count(self._task.course, state, reason)
 
-    def _count(self, course: Course, state: str, reason: str, now: float) -> None:
+    def _count(self, course: Course, state: str, reason: str) -> None:
         """Show the state with the course's counts, if anything of it is new."""
         fresh = msgspec.structs.replace(
             self.status,
@@ -160,7 +167,7 @@ class Engine:
             lap=course.lap,
         )
         if fresh != self.status:
-            self.status = msgspec.structs.replace(fresh, stamp=Time.at(now))
+            self.status = msgspec.structs.replace(fresh, stamp=Time.at(self._clock()))
             self._show(self.status)
 
     def _heading(self, task: Task) -> str:
@@ -176,7 +183,7 @@ class Engine:
         left = self._guide.remaining
         self._progress(
             TaskProgress(
-                Time.at(now),
+                Time.at(self._clock()),
                 self.status.task_id,
                 course.progress(left),
                 left,

@@ -50,30 +50,35 @@ SQUARE = [Waypoint(4.0, 0.0), Waypoint(4.0, 3.0), Waypoint(-2.0, 3.0)]
 
 
 class Scene:
-    """A station on a fake robot, with its messages recorded and time in hand."""
+    """A station on a fake robot, with its messages recorded and time in hand.
 
-    def __init__(self, robot: FakeRobot, state: Path) -> None:
-        self.now = 1000.0
+    `now` is the robot's clock, which runs `speed` times as fast as the operators', `clock`.
+    """
+
+    def __init__(self, robot: FakeRobot, state: Path, speed: float = 1.0) -> None:
+        self.now = self.clock = 1000.0
+        self._speed = speed
         self.robot = robot
         self.clients: list[FakeClient] = []
         self.anna = self.client("anna")
         self.station = Station(
-            robot, Store(state), now=self.now, clock=lambda: self.now, rng=random.Random(1), boot="b1"
+            robot, Store(state), now=self.now, clock=lambda: self.clock, rng=random.Random(1), boot="b1"
         )
         self.said: list[tuple[str, Msg]] = []
         self.station.bus.subscribe(None, lambda topic, msg: self.said.append((topic, msg)))
         self._services = {service.name: service for service in services(self.station)}
 
     def client(self, name: str) -> FakeClient:
-        client = FakeClient(name, self.now)
+        client = FakeClient(name, self.clock)
         self.clients.append(client)
         return client
 
     def run(self, seconds: float) -> None:
         for _ in range(round(seconds / TICK)):
             self.now += TICK
+            self.clock += TICK / self._speed
             for client in self.clients:
-                client.last_heard = self.now
+                client.last_heard = self.clock
             self.station.step(self.now)
 
     def run_task(self, limit: float = 200.0) -> TaskStatus:
@@ -526,6 +531,34 @@ def test_a_place_off_the_map_is_refused_with_what_the_map_holds(scene: Scene, x:
     ]
 
 
+def test_what_operators_are_told_carries_their_clock_at_any_speed_of_the_robots(tmp_path: Path) -> None:
+    scene = Scene(FakeRobot(), tmp_path, speed=4.0)
+    scene.run(40.0)
+    assert scene.now - scene.clock == pytest.approx(30.0)
+    told = len(scene.said)
+    scene.set(*SQUARE)
+    scene.start()
+    scene.run(1.0)
+    scene.ask("/task/pause")
+    stamped = [
+        (t, m)
+        for t, m in scene.said[told:]
+        if isinstance(m, Mission | Event | TaskStatus | TaskProgress | ControlStatus)
+    ]
+    assert {topic for topic, _ in stamped} == {
+        "/mission",
+        "/events",
+        "/task/status",
+        "/task/progress",
+        "/control/status",
+    }
+    for topic, msg in stamped:
+        assert msg.stamp.seconds == pytest.approx(scene.clock, abs=0.3), topic
+    pose = scene.station.bus.last("/pose")
+    assert isinstance(pose, PoseWithCovarianceStamped)
+    assert pose.header.stamp.seconds == pytest.approx(scene.now, abs=0.06)
+
+
 def test_what_was_missed_can_be_asked_for(scene: Scene) -> None:
     scene.set(*SQUARE)
     scene.start()
@@ -585,6 +618,59 @@ def test_what_others_call_things_is_cut_wherever_it_is_kept(scene: Scene) -> Non
     assert "at most 64 characters, not 65" in scene.refused("/task/pause", CommandRequest("c" * 65))
     assert scene.ask("/stop", CommandRequest("c" * 65)).success
     assert scene.events("stop") == [f"STOP pressed by {shown}."]
+
+
+def test_stop_is_still_pressed_after_the_computer_died_and_says_so(scene: Scene, tmp_path: Path) -> None:
+    scene.ask("/stop", CommandRequest(client_name="Anna"))
+    again = Scene(FakeRobot(), tmp_path)
+    assert (again.control.mode, again.control.stopped_by) == ("STOPPED", "Anna")
+    assert [event.text for event in again.station.events.since(0, "b1")] == [
+        "STOP is still pressed: Anna pressed it before the robot's computer restarted."
+    ]
+    again.run(4.0)
+    again.drive(Twist.planar(0.3, 0.0))
+    assert again.robot.at_rest
+    assert again.ask("/stop/release").success
+    assert not Scene(FakeRobot(), tmp_path).control.stopped
+
+
+def test_a_patrol_that_ran_when_the_computer_died_has_ended_and_that_is_said_once(
+    scene: Scene, tmp_path: Path
+) -> None:
+    scene.set(*SQUARE)
+    scene.start()
+    again = Scene(FakeRobot(), tmp_path)
+    said = "The robot's computer restarted; the patrol has ended."
+    assert [event.text for event in again.station.events.since(0, "b1")] == [said]
+    assert again.task.state == "IDLE"
+    assert Scene(FakeRobot(), tmp_path).station.events.since(0, "b1") == []
+
+
+def test_after_a_clean_end_nothing_but_a_persons_stop_is_left(scene: Scene, tmp_path: Path) -> None:
+    scene.set(*SQUARE)
+    scene.start()
+    scene.station.end()
+    scene.run(0.5)
+    again = Scene(FakeRobot(), tmp_path)
+    assert (again.control.stopped, again.station.events.since(0, "b1")) == (False, [])
+    again.ask("/stop", CommandRequest(client_name="Anna"))
+    again.station.end()
+    assert Scene(FakeRobot(), tmp_path).control.stopped_by == "Anna"
+
+
+def test_stop_is_obeyed_when_it_cannot_be_noted_and_that_is_said(
+    scene: Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Store, "leave", full)
+    scene.drive(Twist.planar(0.3, 0.0))
+    assert scene.ask("/stop").success
+    assert scene.robot.at_rest
+    assert scene.events("stop")[-1] == (
+        "A restart will not know of STOP and the task: No space left on device."
+    )
 
 
 def test_the_camera_is_wanted_only_while_a_task_runs(scene: Scene) -> None:
