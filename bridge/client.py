@@ -121,7 +121,7 @@ class BridgeClient(Reconnecting):
 
     @property
     def offset(self) -> float:
-        """The robot's clock minus `now()` [s], by the least rtt of the last 20 pings; NaN until known."""
+        """The operators' clock minus `now()` [s], by the least rtt of the last 20 pings; NaN until known."""
         return self._pings.offset
 
     @property
@@ -130,7 +130,7 @@ class BridgeClient(Reconnecting):
         return self._pings.lost(self._now())
 
     def robot_time(self) -> float:
-        """The robot's clock now [s]; NaN until it is known."""
+        """The operators' clock, which the robot tells, now [s]; NaN until it is known."""
         return self._now() + self.offset
 
     def subscribe(
@@ -171,7 +171,7 @@ class BridgeClient(Reconnecting):
     def publish(self, topic: str, msg: Msg, *, stamp: float | None = None) -> bool:
         """Send a message at once. False when it was dropped, because there is no connection or it is stuck.
 
-        It is never sent later. `stamp` is when the operator meant it [s], robot clock.
+        It is never sent later. `stamp` is when the operator meant it [s], operators' clock.
         """
         ws = self._ws
         if ws is None or self.state.phase is not Phase.CONNECTED:
@@ -400,7 +400,7 @@ def _response(answer: ServiceResponse, type: type[M]) -> M:
 
 
 def _time_in(answer: ServiceResponse) -> float:
-    """The robot's clock [s]; NaN when the robot cannot say."""
+    """The operators' clock [s]; NaN when the robot cannot say."""
     try:
         return from_json(answer.values, GetTimeResponse).time.seconds if answer.result else math.nan
     except ProtocolError:

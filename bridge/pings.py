@@ -1,4 +1,4 @@
-"""How long the way to the robot takes, how its clock differs from ours, and how many questions go unanswered."""
+"""How long the way to the robot takes, how the operators' clock differs from ours, and what goes unanswered."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Ping:
     rtt: float = math.nan
     """From the question to its answer [s]; NaN until there is one."""
     offset: float = math.nan
-    """The robot's clock minus ours [s]; NaN when the answer did not say the time."""
+    """The operators' clock minus ours [s]; NaN when the answer did not say the time."""
 
 
 class Pings:
@@ -33,7 +33,7 @@ class Pings:
         self.rtt = math.nan
         """Of the ping answered last [s]; NaN until there is one."""
         self.offset = math.nan
-        """The robot's clock minus ours [s], from the ping with the shortest way; NaN until known."""
+        """The operators' clock minus ours [s], from the ping with the shortest way; NaN until known."""
         self._last: deque[Ping] = deque(maxlen=KEPT)
 
     def send(self, now: float) -> Ping:
@@ -43,9 +43,9 @@ class Pings:
         return ping
 
     def answer(self, ping: Ping, now: float, robot_time: float) -> None:
-        """Note that it was answered at `now` with `robot_time` [s], NaN when the robot did not say.
+        """Note that it was answered at `now` with `robot_time` [s], operators' clock, NaN when the robot did not say.
 
-        The robot is taken to have looked at its clock half-way between question and answer.
+        The robot is taken to have looked at that clock half-way between question and answer.
         """
         self.rtt = ping.rtt = now - ping.sent
         ping.offset = robot_time - (ping.sent + ping.rtt / 2)

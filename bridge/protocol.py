@@ -1,6 +1,6 @@
 """rosbridge v2 without I/O: text in, operations out, and what each side must remember about the other.
 
-One extension: `publish` may carry `"stamp"`, the instant on the robot's clock [s] at which the sender meant it.
+One extension: `publish` may carry `"stamp"`, the instant on the operators' clock [s] at which the sender meant it.
 Foreign servers ignore it.
 """
 
@@ -81,7 +81,7 @@ class Publish(Op, frozen=True, tag="publish"):
     msg: Raw = Raw(b"{}")
     """The message as JSON text."""
     stamp: float | None = None
-    """When the sender meant it [s], robot clock; None when it does not say."""
+    """When the sender meant it [s], operators' clock; None when it does not say."""
 
 
 class Subscribe(Op, frozen=True, tag="subscribe"):

@@ -25,7 +25,7 @@ class RosApi:
     def __init__(
         self, topics: Mapping[str, Topic], services: Mapping[str, str], now: Callable[[], float]
     ) -> None:
-        """`services` gives each service's ROS type by its name; `now` is the robot's clock [s]."""
+        """`services` gives each service's ROS type by its name; `now` is the operators' clock [s]."""
         self._topics = topics
         self._services = services
         self._now = now

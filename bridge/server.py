@@ -62,10 +62,10 @@ class BridgeServer:
         on_demand: Callable[[str, bool], None] = _ignore,
         cameras: Iterable[str] | None = None,
     ) -> None:
-        """`now` is the robot's clock [s].
+        """`now` is the operators' clock [s], told by `/rosapi/get_time`.
 
         `on_message(session, topic, msg, stamp)` hears what clients publish on topics to the robot; `stamp` is
-        when the sender meant it [s], robot clock, None when it does not say. `on_gone(session)` hears that a
+        when the sender meant it [s], operators' clock, None when it does not say. `on_gone(session)` hears that a
         client left. `on_demand(topic, wanted)` hears that the first one came who wants a topic, or that the
         last one left. `cameras` are the names that may be asked for; None allows any.
         """

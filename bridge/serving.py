@@ -56,9 +56,9 @@ class Session:
         self.address = address
         """`HOST:PORT` of the client."""
         self.opened = opened
-        """When it connected [s], robot clock."""
+        """When it connected [s], operators' clock."""
         self.last_heard = opened
-        """When anything came from it [s], robot clock."""
+        """When anything came from it [s], operators' clock."""
 
     def __repr__(self) -> str:
         return f"Session({self.id!r}, {self.address!r})"
@@ -85,7 +85,7 @@ class Offer:
     services: Mapping[str, Service]
     rosapi: RosApi
     now: Callable[[], float]
-    """The robot's clock [s]."""
+    """The operators' clock [s]."""
     on_message: Callable[[Session, str, Any, float | None], None]
 
 

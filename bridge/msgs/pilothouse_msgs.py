@@ -207,7 +207,7 @@ class CommandRequest(Msg, frozen=True, gc=False):
     command_id: str = ""
     """Unique per command; the same id sent again gets the first answer and is not executed twice."""
     stamp: float = math.nan
-    """When the operator gave it [s], robot clock; NaN when the sender does not know the robot's clock."""
+    """When the operator gave it [s], operators' clock; NaN when the sender does not know it."""
     valid_for: float = 5.0
     """Refused when older than this on arrival [s]."""
     client_id: str = ""

@@ -12,7 +12,7 @@ __all__ = ["Duration", "Empty", "Float64", "Header", "Int32", "String", "Time"]
 
 
 class Time(Msg, frozen=True, gc=False):
-    """An instant of the robot's clock.
+    """An instant of the robot's clock or the operators': docs/bridge.md says which stamp is of which.
 
     ROS 1 calls the fields `secs` and `nsecs`, ROS 2 `sec` and `nanosec`; both are understood, and the
     ROS 1 names are sent because both servers accept them.
@@ -20,7 +20,7 @@ class Time(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "time"
     secs: int = 0
-    """Whole seconds since the epoch of the robot's clock [s]."""
+    """Whole seconds since the clock's epoch [s]."""
     nsecs: int = 0
     """The rest [ns], 0 to 999999999."""
     sec: int | msgspec.UnsetType = msgspec.UNSET
