@@ -30,6 +30,7 @@ LOOKS = {
     "good": ("signal_wifi_4_bar", "ok"),
     "fair": ("network_wifi_2_bar", "warn"),
     "bad": ("network_wifi_1_bar", "danger"),
+    "silent": ("network_wifi_1_bar", "warn"),
     "lost": ("signal_disconnected", "danger"),
     "unknown": ("signal_wifi_0_bar", "muted"),
 }
@@ -54,6 +55,8 @@ class LinkQuality(RobotWidget, BoxLayout):
     """Round trip [s]; NaN until measured."""
     lost = NumericProperty(0)
     """Unanswered of the last 20 pings."""
+    silence = NumericProperty(0.0)
+    """How long nothing has come at all, where that is longer than usual [s]; else 0."""
     sentence = StringProperty("")
     """Said instead of figures while there is no link, as in `no heartbeat for 6 s`."""
     brief = BooleanProperty(False)
@@ -62,20 +65,24 @@ class LinkQuality(RobotWidget, BoxLayout):
     def _quality(self) -> str:
         if self.state == "never":
             return "unknown"
-        return "lost" if self.sentence else quality(self.rtt, int(self.lost))
+        if self.sentence:
+            return "lost"
+        return "silent" if self.silence else quality(self.rtt, int(self.lost))
 
-    quality = AliasProperty(_quality, bind=["rtt", "lost", "sentence", "state"], cache=True)
-    """`good`, `fair`, `bad`, `lost` or `unknown`."""
+    quality = AliasProperty(_quality, bind=["rtt", "lost", "silence", "sentence", "state"], cache=True)
+    """`good`, `fair`, `bad`, `silent`, `lost` or `unknown`."""
 
     def _text(self) -> str:
         if self.sentence:
             return self.sentence
         if self.quality == "unknown":
             return "—"
+        if self.quality == "silent":
+            return f"silent {self.silence:.1f} s"
         milliseconds = f"{self.rtt * 1000:.0f} ms" if self.rtt < 1 else f"{self.rtt:.1f} s"
         return milliseconds if self.brief else f"{milliseconds} · {self.lost:.0f} lost"
 
-    text = AliasProperty(_text, bind=["quality", "rtt", "lost", "sentence", "brief"], cache=True)
+    text = AliasProperty(_text, bind=["quality", "rtt", "lost", "silence", "sentence", "brief"], cache=True)
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(size_hint=(None, None), height=dp(34), **kwargs)
@@ -103,6 +110,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "good": make(rtt=0.012),
         "fair": make(rtt=0.15, lost=1),
         "bad": make(rtt=0.42, lost=7),
+        "silent": make(rtt=0.028, silence=1.5),
         "lost": make(rtt=0.012, sentence="no heartbeat for 6 s", state="alarm"),
         "brief": make(rtt=0.012, brief=True),
     }

@@ -370,6 +370,7 @@ class Shell(FloatLayout):
         session, chip = self.session, self.ids.link
         chip.state = "live"
         chip.rtt, chip.lost = session.link.rtt, session.link.lost
+        chip.silence = session.link.silence if session.connected and session.link.silent else 0.0
         chip.sentence = "" if session.connected else "no link"
         fix: NavSatFix | None = session.feeds.latest("/fix")
         live = session.feeds.state("/fix") == "live"

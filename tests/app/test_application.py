@@ -158,6 +158,16 @@ def test_stop_is_sent_when_the_finger_comes_down_and_shown_when_the_robot_confir
     driving.until(lambda: stop.phase == "ready", "not released")
 
 
+def test_a_link_that_is_silent_says_so_before_it_is_lost(driving: Glass, robot: FakeRobot) -> None:
+    chip, link = driving.app.shell.ids.link, driving.app.session.link
+    driving.until(lambda: chip.text.endswith("ms") or "ms ·" in chip.text, "no round trip")
+    heard = driving.app._now() - 1.5
+    link._on_message("/pose", PoseWithCovarianceStamped(), heard)
+    link._measure = lambda: None
+    driving.until(lambda: "silent" in chip.text, chip.text)
+    assert chip.quality == "silent"
+
+
 def test_a_lost_link_is_said_and_takes_the_stick_away(driving: Glass, robot: FakeRobot) -> None:
     driving.app.mission.add(1.0, 2.0)
     push(driving, robot)

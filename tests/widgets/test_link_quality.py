@@ -46,3 +46,14 @@ def test_a_lost_link_is_a_sentence_and_stands_out():
 
 def test_every_quality_has_an_icon_of_its_own_or_another_role():
     assert len(set(LOOKS.values())) == len(LOOKS)
+
+
+def test_silence_is_said_instead_of_an_old_round_trip():
+    link = LinkQuality(state="live", rtt=0.028, brief=True)
+    link.silence = 1.52
+    assert (link.quality, link.text, link.children[0].role) == ("silent", "silent 1.5 s", "warn")
+    link.silence = 0.0
+    assert (link.quality, link.text) == ("good", "28 ms")
+    link.sentence = "no link"
+    link.silence = 4.0
+    assert link.text == "no link"
