@@ -7,6 +7,7 @@ robot.on("/events", log.show)
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
@@ -43,6 +44,21 @@ KINDS = {
     "localisation": ("my_location", "accent"),
 }
 """Kind of an event to its icon and the role of its colour."""
+
+WORDS = {
+    "started": "play_arrow",
+    "resumed": "play_arrow",
+    "paused": "pause",
+    "stopped": "pan_tool",
+    "released": "lock_open",
+    "home": "home",
+    "ended": "stop",
+    "cancelled": "stop",
+    "canceled": "stop",
+    "finished": "check_circle",
+    "done": "check_circle",
+}
+"""Words in a sentence about a task or about STOP to the icon of what happened; the first one counts."""
 
 LEVELS = {"warn": "warn", "alarm": "danger"}
 """Levels that bring their own role."""
@@ -82,7 +98,9 @@ Builder.load_string("""
     RecycleView:
         id: view
         viewclass: 'EventRow'
-        pos_hint: {'x': 0, 'y': 0}
+        size_hint: None, None
+        size: root.width - 2 * root.margin, root.height - root.margin - root.strip
+        pos: root.x + root.margin, root.y + root.margin
         bar_width: dp(3)
         bar_color: theme.muted
         bar_inactive_color: theme.line
@@ -98,8 +116,13 @@ Builder.load_string("""
 
 
 def look(event: Event) -> tuple[str, str]:
-    """Icon and role of an event: by its kind, the role by its level where that is grave."""
+    """Icon and role of an event: by its kind and its words, the role by its level where that is grave."""
     name, role = KINDS.get(event.kind, ("info", "muted"))
+    if event.kind in ("task", "stop"):
+        said = (WORDS[word] for word in re.findall("[a-z]+", event.text.lower()) if word in WORDS)
+        name = next(said, name)
+    if event.kind == "stop" and event.level == "ok":
+        role = "ok"
     if event.kind == "command" and event.level in LEVELS:
         name = "block"
     return name, LEVELS.get(event.level, role)
@@ -148,10 +171,29 @@ class EventLog(RobotWidget, FloatLayout):
 
     notice = AliasProperty(_notice, bind=["count"], cache=True)
 
+    def _strip(self) -> float:
+        return float(dp(34)) if self.state in ("stale", "alarm") else 0.0
+
+    strip = AliasProperty(_strip, bind=["state"], cache=True)
+    """Room above the list for the age or the sign of an alarm [px], so that they hide nothing."""
+
+    def _margin(self) -> float:
+        return float(dp(8)) if self.state == "alarm" else 0.0
+
+    margin = AliasProperty(_margin, bind=["state"], cache=True)
+    """Between the list and the outline of an alarm [px]."""
+
+    def _badge_pos(self) -> tuple[float, float]:
+        width, height = self.badge_size
+        return self.right - width - dp(2), self.top - self.strip / 2 - height / 2
+
+    badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "strip", "pos", "size"], cache=True)
+    """The age stands in the strip above the list."""
+
     def __init__(self, **kwargs: Any) -> None:
         self._events: list[Event] = []
         super().__init__(**kwargs)
-        self.bind(now=self._write_times, width=self._rewrite)
+        self.bind(now=self._write_times, width=self._rewrite, margin=self._rewrite)
 
     def show(self, msg: Event) -> None:
         """Put an event where it belongs: newest first."""
@@ -181,7 +223,7 @@ class EventLog(RobotWidget, FloatLayout):
 
     def _row(self, event: Event) -> dict[str, Any]:
         name, role = look(event)
-        height = row_height(event.text, max(dp(60), self.width - sp(20) - dp(61)), sp(14.5))
+        height = row_height(event.text, max(dp(60), self.width - 2 * self.margin - sp(20) - dp(61)), sp(14.5))
         when = ago(self.now - event.stamp.seconds)
         return {"icon": name, "role": role, "text": event.text, "when": when, "row_size": (None, height)}
 
@@ -210,7 +252,16 @@ def samples() -> dict[str, Callable[[], Widget]]:
         (199, "alarm", "intruder", "Intruder at 12.4 m, bearing 131°"),
     ]
 
-    def make(**kwargs: Any) -> Callable[[], Widget]:
+    words = [
+        (150, "info", "task", "Patrol resumed."),
+        (152, "info", "task", "Paused by tablet-B."),
+        (154, "alarm", "stop", "STOP pressed by tablet-B."),
+        (156, "ok", "stop", "STOP released by tablet-B."),
+        (158, "info", "task", "Going home."),
+        (160, "info", "task", "Patrol ended: go home was asked for instead."),
+    ]
+
+    def make(story: list[tuple[int, str, str, str]] = story, **kwargs: Any) -> Callable[[], Widget]:
         def build() -> Widget:
             log = EventLog(size_hint=(None, None), size=("330dp", "190dp"), **kwargs)
             if log.state != "never":
@@ -224,6 +275,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     return {
         "never": make(),
         "live": make(state="live"),
+        "orders": make(words, state="live"),
         "stale": make(state="stale", age=65.0),
         "alarm": make(state="alarm"),
         "disabled": make(state="disabled"),

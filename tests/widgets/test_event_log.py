@@ -6,14 +6,12 @@ import pytest
 
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
-from widgets.event_log import KINDS, MOST, EventLog, ago, look
+from widgets.event_log import KINDS, MOST, WORDS, EventLog, ago, look
 from widgets.icons import ICONS
 
 
 def event(number, stamp=0.0, **kwargs):
-    return Event(
-        id=number, boot=kwargs.pop("boot", "a"), stamp=Time.at(stamp), text=f"event {number}", **kwargs
-    )
+    return Event(id=number, stamp=Time.at(stamp), **{"boot": "a", "text": f"event {number}", **kwargs})
 
 
 @pytest.fixture
@@ -74,6 +72,37 @@ def test_ages_are_short(seconds, text):
     assert ago(seconds) == text
 
 
+@pytest.mark.parametrize(
+    ("kind", "text", "name"),
+    [
+        ("task", "Patrol started.", "play_arrow"),
+        ("task", "Patrol resumed.", "play_arrow"),
+        ("task", "Paused: the bumper touched something.", "pause"),
+        ("task", "Paused by Home tablet.", "pause"),
+        ("task", "Stopped by tablet-B.", "pan_tool"),
+        ("task", "Going home.", "home"),
+        ("task", "Patrol ended: go home was asked for instead.", "stop"),
+        ("stop", "STOP pressed by tablet-B.", "pan_tool"),
+        ("stop", "STOP released by tablet-B.", "lock_open"),
+        ("battery", "Battery at 12 %: going home.", "battery_alert"),
+    ],
+)
+def test_what_happened_to_a_task_has_an_icon_of_its_own(kind, text, name):
+    assert look(event(1, kind=kind, text=text))[0] == name
+
+
+@pytest.mark.parametrize("state", ["stale", "alarm"])
+def test_signs_of_the_state_hide_no_row(stage, log, state):
+    log.show(event(1))
+    log.state, log.age = state, 65.0
+    stage.frames(3)
+    assert log.ids.view.top <= log.badge_pos[1]
+    assert log.ids.view.top <= log.top - log.alarm_texture.height - 6
+    log.state = "live"
+    stage.frames(3)
+    assert log.ids.view.top == log.top
+
+
 def test_a_grave_level_colours_any_kind():
     assert look(event(1, kind="waypoint")) == ("flag", "plan")
     assert look(event(1, kind="waypoint", level="alarm")) == ("flag", "danger")
@@ -83,6 +112,7 @@ def test_a_grave_level_colours_any_kind():
 
 def test_every_kind_has_an_icon_that_the_font_has():
     assert all(name in ICONS for name, _ in KINDS.values())
+    assert set(WORDS.values()) <= set(ICONS)
 
 
 def test_a_long_sentence_is_given_a_taller_row(stage, log):
