@@ -195,8 +195,6 @@ class PilothouseApp(App):
         Window.bind(on_keyboard=self._key, focus=self._focus, **dict.fromkeys(RESTING, self._rest))
         Window.allow_screensaver = False
         self._list()
-        if self.settings.problem:
-            self.connect.say(self.settings.problem, "warn")
         if self._url:
             self.open(self._url)
 
@@ -309,11 +307,12 @@ class PilothouseApp(App):
             self.session.link.beat()
 
     def _tick(self) -> None:
-        if self.session is None:
-            return
-        if self.shell is None:
+        if self.session is not None and self.shell is None:
             self._tick_connecting()
-        else:
+            return
+        if problem := self.settings.news():
+            self._say(problem, "warn")
+        if self.shell is not None:
             self.shell.tick()
             self._judge_picture()
             self._watch_camera()

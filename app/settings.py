@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import logging
 import os
@@ -23,6 +24,7 @@ class Settings:
         self.path = folder / "settings.json"
         self.problem = ""
         """One sentence when the file could not be read or written; empty when all is well."""
+        self._said = ""
         self._values = self._read()
         self._writer: NewestWorker[str] = NewestWorker(self._write, "settings")
 
@@ -36,6 +38,12 @@ class Settings:
             return
         self._values = {**self._values, name: value}
         self._writer.put(json.dumps(self._values, indent=1))
+
+    def news(self) -> str:
+        """The problem where it was not told by this before; else empty."""
+        problem, before = self.problem, self._said
+        self._said = problem
+        return problem if problem != before else ""
 
     def close(self) -> None:
         """Write what is not written and end the thread."""
@@ -72,5 +80,7 @@ class Settings:
         except OSError as error:
             self.problem = f"The settings could not be saved: {error.strerror or error}."
             log.warning("%s", self.problem)
+            with contextlib.suppress(OSError):
+                fresh.unlink()
         else:
             self.problem = ""

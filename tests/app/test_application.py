@@ -272,6 +272,15 @@ def test_taking_the_glass_away_ends_the_link_and_giving_it_back_heals_it(
     assert robot.twists()[-1] == Twist()
 
 
+def test_what_cannot_be_saved_is_said_on_the_glass(driving: Glass) -> None:
+    problem = "The settings could not be saved: No space left on device."
+    driving.app.settings.problem = problem
+    driving.until(lambda: driving.banners() == [problem], driving.banners())
+    driving.app.leave()
+    driving.app.settings.problem = problem = "The settings could not be saved: Read-only file system."
+    driving.until(lambda: driving.app.connect._banner and driving.app.connect._banner.text == problem, "no")
+
+
 def test_the_theme_is_remembered(glass: Glass, tmp_path: Path) -> None:
     glass.app.next_theme()
     glass.app.settings.close()

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from app.settings import Settings
 
 
@@ -38,6 +40,28 @@ def test_a_folder_that_cannot_be_written_is_said_and_nothing_is_lost_in_memory(t
     settings.close()
     assert settings.get("theme") == "dark"
     assert settings.problem.startswith("The settings could not be")
+
+
+def test_a_full_disk_is_told_once_until_a_write_goes_well_and_leaves_no_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    settings = Settings(tmp_path)
+    full = OSError(28, "No space left on device")
+
+    def sync(_: int) -> None:
+        raise full
+
+    with monkeypatch.context() as patch:
+        patch.setattr("os.fsync", sync)
+        told = [settings.news()]
+        for text in ("{}", "{}"):
+            settings._write(text)
+            told += [settings.news(), settings.news()]
+    sentence = "The settings could not be saved: No space left on device."
+    assert told == ["", sentence, "", "", ""]
+    assert list(tmp_path.iterdir()) == []
+    settings._write("{}")
+    assert (settings.problem, settings.news()) == ("", "")
 
 
 def test_no_half_written_file_is_left(tmp_path: Path) -> None:
