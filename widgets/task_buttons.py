@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from kivy.clock import Clock
 from kivy.lang import Builder
 from kivy.metrics import dp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty, StringProperty
@@ -43,6 +44,12 @@ OUTCOMES = {
     "no_reply": ("No reply to: {what}", "signal_disconnected", "warn"),
 }
 """What became of a command, to its sentence, icon and role."""
+
+STAYS = {"accepted": 6.0, "refused": 15.0, "no_reply": 15.0}
+"""How long an outcome is told before the robot's own sentence comes back [s]."""
+
+LEADS_TO = {"start": "RUNNING", "resume": "RUNNING", "home": "RUNNING", "pause": "PAUSED", "stop": "CANCELED"}
+"""State of the task that a command brings about."""
 
 Builder.load_string("""
 <TaskButtons>:
@@ -198,6 +205,11 @@ class TaskButtons(Control, BoxLayout):
 
     outcome_role = AliasProperty(_outcome_role, bind=["outcome"], cache=True)
 
+    def __init__(self, **kwargs: Any) -> None:
+        self._told = Clock.create_trigger(lambda _: None)
+        super().__init__(**kwargs)
+        self.bind(held=self._contradict, task_state=self._contradict)
+
     def words(self, name: str) -> str:
         """What the button of a command says."""
         return BRIEF.get(name, COMMANDS[name][0]) if self.narrow else COMMANDS[name][0]
@@ -214,6 +226,18 @@ class TaskButtons(Control, BoxLayout):
     def answer(self, name: str, outcome: str, why: str = "", took: float = math.nan) -> None:
         """Say what became of a command: `sent`, `accepted`, `refused` (and why) or `no_reply`, after `took` [s]."""
         self.command, self.why, self.took, self.outcome = name, why, took, outcome
+        self._told.cancel()
+        if outcome in STAYS:
+            self._told = Clock.schedule_once(lambda _: self._forget(), STAYS[outcome])
+
+    def _forget(self) -> None:
+        self._told.cancel()
+        self.outcome = "none"
+
+    def _contradict(self, *_: object) -> None:
+        """What was accepted holds no longer when STOP is pressed or the task went on to something else."""
+        if self.outcome == "accepted" and (self.held or self.task_state != LEADS_TO.get(self.command)):
+            self._forget()
 
 
 REASONS = {"RUNNING": "Driving to point 3 of 6.", "PAUSED": "Paused by tablet-B at point 2."}

@@ -70,6 +70,40 @@ def test_until_then_it_says_what_the_robot_says(panel):
     assert panel.sentence == "Sent: pause"
 
 
+@pytest.mark.parametrize(("outcome", "stays"), [("accepted", 6.0), ("refused", 15.0), ("no_reply", 15.0)])
+def test_an_outcome_makes_room_for_what_the_robot_says(stage, panel, outcome, stays):
+    panel.show(TaskStatus(state="RUNNING", reason="Driving to point 3 of 6."))
+    panel.answer("resume", outcome)
+    stage.run_for(stays - 0.2)
+    assert panel.outcome == outcome
+    stage.run_for(0.4)
+    assert panel.sentence == "Driving to point 3 of 6."
+
+
+def test_a_newer_outcome_is_told_for_its_own_time(stage, panel):
+    panel.answer("pause", "accepted")
+    stage.run_for(4.0)
+    panel.answer("resume", "sent")
+    stage.run_for(4.0)
+    assert panel.outcome == "sent"
+
+
+def test_what_was_accepted_is_told_until_the_task_goes_on_to_something_else(panel):
+    panel.show(TaskStatus(state="RUNNING"))
+    panel.answer("pause", "accepted")
+    panel.show(TaskStatus(state="PAUSED", reason="Paused by tablet-B."))
+    assert panel.sentence == "Accepted: pause"
+    panel.show(TaskStatus(state="CANCELED", reason="Stopped."))
+    assert panel.sentence == "Stopped."
+
+
+def test_stop_takes_away_what_was_accepted(panel):
+    panel.show(TaskStatus(state="RUNNING", reason="Stopped by tablet-B."))
+    panel.answer("resume", "accepted")
+    panel.held = True
+    assert panel.sentence == "Stopped by tablet-B."
+
+
 def test_a_press_claims_nothing_by_itself(stage, panel):
     stage.tap(*buttons(panel)[0].center)
     assert (panel.asked, panel.outcome, panel.task_state) == (["start"], "none", "IDLE")
