@@ -97,7 +97,7 @@ async def _run(
     clock = RobotClock(wall(), options.speed)
     station = Station(
         robot,
-        Store(_state(options)),
+        _store(_state(options)),
         now=clock.now,
         clock=wall,
         rng=random.Random(options.seed),
@@ -124,6 +124,15 @@ def _state(options: argparse.Namespace) -> Path:
     base = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
     kind = options.robot.replace(":", "-")
     return Path(base) / "pilothouse" / f"{kind}-{options.world}"
+
+
+def _store(directory: Path) -> Store:
+    try:
+        return Store(directory)
+    except OSError as problem:
+        why = (problem.strerror or str(problem)).lower()
+        said = f"The mission cannot be kept in {str(directory)!r}: {why}; --state names another directory."
+        raise UserMistake(said) from problem
 
 
 def _robot(options: argparse.Namespace) -> Robot:

@@ -183,6 +183,18 @@ async def test_a_port_that_is_taken_is_said_and_nothing_is_left_open(tmp_path: P
             await web.run(lambda _: None)
 
 
+def test_a_state_directory_that_cannot_be_made_is_one_sentence_and_lets_go_of_the_robot(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    robot, state = FakeRobot(), tmp_path / "file" / "state"
+    state.parent.write_text("no directory")
+    monkeypatch.setattr("robotside.__main__._robot", lambda _: robot)
+    assert main(["serve", "--state", str(state)]) == 2
+    said = f"The mission cannot be kept in '{state}': not a directory; --state names another directory."
+    assert capsys.readouterr().err == f"robotside: {said}\n"
+    assert robot.closed
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
