@@ -1,4 +1,4 @@
-"""Drives a robot in a circle for two seconds, prints where it is and sends it home: `python examples/circle.py`."""
+"""Drives a robot in a circle for two seconds, prints where it is and sends it home: `python -m examples.circle`."""
 
 import time
 

@@ -154,6 +154,11 @@ def test_the_ten_lines_of_the_readme_are_a_program_of_the_examples():
     assert (ROOT / "examples" / "circle.py").read_text().endswith(shown)
 
 
+def test_the_widgets_of_the_documentation_are_a_program_of_the_examples():
+    shown = re.search(r"```python\n(.*?)```", (ROOT / "docs/architecture.md").read_text(), re.DOTALL).group(1)
+    assert (ROOT / "examples" / "two_widgets.py").read_text().endswith(f'"""\n\n{shown}')
+
+
 NAMED_OTHERWISE = {
     "PIL": "pillow",
     "kivy_garden": "kivy-garden.mapview",
