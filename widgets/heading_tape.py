@@ -50,7 +50,7 @@ class HeadingTape(Drawing):
     """Which way the bow points, on a strip."""
 
     accepts: ClassVar = (Imu, Odometry, PoseWithCovarianceStamped)
-    drawn_from: ClassVar = ("heading", "wanted", "span")
+    drawn_from: ClassVar = ("heading", "wanted", "span", "badge")
 
     heading = NumericProperty(math.nan)
     """Of the bow [deg], 0 north, clockwise; NaN when not known."""
@@ -70,7 +70,13 @@ class HeadingTape(Drawing):
         return self.right - width - dp(8), self.center_y - height / 2
 
     badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "pos", "size"], cache=True)
-    """The age stands at the end, where it hides least."""
+    """The age stands at the end; the strip ends before it."""
+
+    def _end(self) -> float:
+        """Where ticks and labels end, from the left edge [px]."""
+        if self.badge:
+            return float(self.badge_pos[0] - self.x - dp(4))
+        return float(self.width - (dp(30) if self.alarmed else 0))
 
     def __init__(self, **kwargs: Any) -> None:
         self._ink, self._words = Ink(), Words()
@@ -106,12 +112,13 @@ class HeadingTape(Drawing):
         high = self.top - self.height * 0.14
         for every, length, width in ((LABELLED, 0.26, 2.0), (STEP, 0.13, 1.6)):
             own = np.array([(mark % LABELLED == 0) == (every == LABELLED) for mark in marks])
+            own &= places - self.x < self._end()
             top = np.stack([places[own], np.full(own.sum(), high)], axis=1)
             colours = np.tile(np.asarray(theme.text, np.float32), (len(top), 1))
             colours[:, 3] = shown[own]
             shapes.segments(top, top - np.array([0, self.height * length]), dp(width), colours)
         for mark, place, strength in zip(marks, places, shown, strict=True):
-            if mark % LABELLED == 0 and dp(18) < place - self.x < self.width - dp(18):
+            if mark % LABELLED == 0 and dp(18) < place - self.x < self._end() - dp(18):
                 yield self._label(mark % 360, float(place), float(strength))
 
     def _label(self, heading: int, place: float, strength: float) -> Word:

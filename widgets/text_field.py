@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from kivy.graphics.texture import Texture
 from kivy.lang import Builder
-from kivy.properties import (
-    BooleanProperty,
-)
+from kivy.metrics import sp
+from kivy.properties import AliasProperty, BooleanProperty
 from kivy.uix.textinput import TextInput
 from kivy.uix.widget import Widget
+
+from widgets.base import text_texture
+from widgets.icons import icon
+from widgets.theme import theme
 
 __all__ = ["TextField"]
 
@@ -20,12 +24,19 @@ Builder.load_string("""
     height: theme.target
     font_name: theme.font
     font_size: theme.size_body
-    padding: dp(14), (self.height - self.line_height) / 2
+    padding: dp(14), (self.height - self.line_height) / 2, dp(46) if self.wrong else dp(14), (self.height - self.line_height) / 2
     foreground_color: theme.text
     hint_text_color: theme.muted
     cursor_color: theme.accent
     cursor_width: dp(2)
     selection_color: theme.accent[:3] + [.35]
+    canvas.after:
+        Color:
+            rgba: theme.danger if root.wrong else (0, 0, 0, 0)
+        Rectangle:
+            texture: root.sign
+            size: root.sign.size
+            pos: self.right - dp(14) - root.sign.width, self.center_y - root.sign.height / 2
     canvas.before:
         Color:
             rgba: theme.danger if root.wrong else theme.accent if root.focus else theme.line
@@ -53,6 +64,12 @@ class TextField(TextInput):
     """A line to type into; `wrong` while what it says cannot be used."""
 
     wrong = BooleanProperty(False)
+
+    def _sign(self) -> Texture:
+        return text_texture(icon("error"), sp(22), theme.icons)
+
+    sign = AliasProperty(_sign, cache=True)
+    """What stands at its end while it is wrong."""
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

@@ -6,6 +6,7 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Quaternion
 from bridge.msgs.sensor_msgs import Imu
+from widgets.base import text_texture
 from widgets.heading_tape import HeadingTape, samples
 from widgets.shapes import Shapes
 
@@ -39,6 +40,21 @@ def test_the_strip_goes_on_over_north(tape):
 def test_a_heading_lies_the_short_way_from_the_middle(tape, own, other, place):
     tape.heading = own
     assert tape.place_of(other) == pytest.approx(place)
+
+
+@pytest.mark.parametrize("state", ["stale", "alarm"])
+def test_the_strip_ends_before_the_sign_of_a_state(tape, state):
+    tape.heading, tape.age = 95, 5.0
+    assert "120" in labels(tape)
+    tape.heading = 90
+    assert tape.place_of(120) < 200
+    tape.state = state
+    sign = tape.badge_pos[0] if state == "stale" else tape.right - tape.alarm_texture.width - 6
+    shapes = Shapes()
+    words = list(tape._strip(shapes))
+    vertices = shapes.arrays()[0].reshape(-1, 12)
+    assert vertices[:, 0].max() < sign
+    assert all(word.x + text_texture(word.text, word.size).width / 2 < sign for word in words)
 
 
 def test_an_imu_sets_the_heading(tape):

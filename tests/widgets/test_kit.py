@@ -331,3 +331,13 @@ def test_a_value_with_its_unit_stays_within_its_room(stage):
     value = stage.show(ValueUnit(value="0.42", unit="m/s", room=54.0))
     stage.frames(3)
     assert 40 < value.width <= 56
+
+
+def test_a_wrong_field_has_a_sign_beside_its_text(stage):
+    field = stage.show(TextField(text="10.0.0.300"), size=(300, 60))
+    before = field.padding[2]
+    field.wrong = True
+    stage.frames(2)
+    drawn = [one.texture for one in field.canvas.after.children if getattr(one, "texture", None)]
+    assert field.sign in drawn
+    assert field.padding[2] >= before + field.sign.width
