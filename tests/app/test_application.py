@@ -130,17 +130,27 @@ def test_a_screen_change_under_a_pushed_stick_stops_the_robot(driving: Glass, ro
     rested(driving, robot)
 
 
-def test_a_turned_device_under_a_pushed_stick_stops_the_robot(driving: Glass, robot: FakeRobot) -> None:
+@pytest.mark.parametrize(
+    "happens",
+    [
+        pytest.param(lambda window: setattr(window, "size", window.size[::-1]), id="turned"),
+        pytest.param(lambda window: setattr(window, "size", (1000, 700)), id="resized"),
+        pytest.param(lambda window: window.dispatch("on_hide"), id="hidden"),
+        pytest.param(lambda window: window.dispatch("on_minimize"), id="minimised"),
+        pytest.param(lambda window: setattr(window, "_focus", False), id="out of focus"),
+    ],
+)
+def test_a_window_that_changes_under_a_pushed_stick_stops_the_robot(
+    driving: Glass, robot: FakeRobot, happens: Callable[[Any], object]
+) -> None:
+    window = driving.stage.window
+    size = tuple(window.size)
     push(driving, robot)
-    driving.stage.window.dispatch("on_resize", 800, 1280)
-    driving.app._rest()
-    rested(driving, robot)
-
-
-def test_a_lost_focus_under_a_pushed_stick_stops_the_robot(driving: Glass, robot: FakeRobot) -> None:
-    push(driving, robot)
-    driving.app._focus(None, False)
-    rested(driving, robot)
+    try:
+        happens(window)
+        rested(driving, robot)
+    finally:
+        window.size, window._focus = size, True
 
 
 def test_stop_is_sent_when_the_finger_comes_down_and_shown_when_the_robot_confirms(
