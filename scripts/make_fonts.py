@@ -30,7 +30,7 @@ TEXT = [*range(0x20, 0x180), *range(0x2010, 0x2030), *map(ord, "′″←↑→�
 """Latin with its accents, dashes, arrows and the signs of measured values."""
 HAIR_SPACE = 170
 """Width of a hair space [1/2000 of the letter height]."""
-FACES = ("B612-Regular", "B612-Bold", "B612Mono-Regular", "B612Mono-Bold")
+FACES = ("B612-Regular", "B612-Bold")
 
 
 def subset(font: TTFont, codes: list[int]) -> TTFont:

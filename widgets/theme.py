@@ -145,7 +145,6 @@ class Theme(EventDispatcher):
 
     font = StringProperty("B612")
     """For everything; its figures are all of one width."""
-    mono = StringProperty("B612Mono")
     icons = StringProperty("Icons")
 
     roles = DictProperty({role: get_color_from_hex(colour) for role, colour in PALETTES["dark"].items()})
@@ -205,13 +204,11 @@ def _luminance(colour: str) -> float:
 
 
 def _register_fonts() -> None:
-    for name in ("B612", "B612Mono"):
-        regular, bold = str(FONTS / f"{name}-Regular.ttf"), str(FONTS / f"{name}-Bold.ttf")
+    regular, bold = str(FONTS / "B612-Regular.ttf"), str(FONTS / "B612-Bold.ttf")
+    # Kivy's own widgets, such as TextInput, ask for its default font
+    for name in ("B612", DEFAULT_FONT):
         LabelBase.register(name, regular, fn_italic=regular, fn_bold=bold, fn_bolditalic=bold)
     LabelBase.register("Icons", str(FONTS / "Icons.ttf"))
-    # Kivy's own widgets, such as TextInput, ask for its default font
-    regular, bold = str(FONTS / "B612-Regular.ttf"), str(FONTS / "B612-Bold.ttf")
-    LabelBase.register(DEFAULT_FONT, regular, fn_italic=regular, fn_bold=bold, fn_bolditalic=bold)
 
 
 _register_fonts()

@@ -116,11 +116,18 @@ def test_the_fonts_have_every_icon_and_every_sign():
 
     with TTFont(FONTS / "Icons.ttf") as font:
         assert {ord(character) for character in ICONS.values()} <= font.getBestCmap().keys()
-    for face in ("B612-Regular", "B612-Bold", "B612Mono-Regular", "B612Mono-Bold"):
+    for face in ("B612-Regular", "B612-Bold"):
         with TTFont(FONTS / f"{face}.ttf") as font:
             known = font.getBestCmap()
             assert set(map(ord, "Aa0°−·–—…×²→≥≤±µéöß\u200a")) <= known.keys()
             assert len({font["hmtx"][known[ord(digit)]][0] for digit in "0123456789"}) == 1
+
+
+def test_no_font_is_shipped_that_no_widget_uses():
+    sources = "".join(p.read_text(encoding="utf-8") for p in WIDGETS.rglob("*.py") if p.name != "theme.py")
+    families = {"B612": "theme.font", "Icons": "theme.icons"}
+    assert {path.stem.split("-")[0] for path in FONTS.glob("*.ttf")} == set(families)
+    assert all(use in sources for use in families.values())
 
 
 def test_the_fonts_licences_are_beside_them():
