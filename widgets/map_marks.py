@@ -20,6 +20,7 @@ from widgets.shapes import Shapes
 from widgets.theme import theme
 
 __all__ = [
+    "ghost_mark",
     "grid_lines",
     "home_mark",
     "intruder_marks",
@@ -193,6 +194,14 @@ def robot_mark(
     shapes.polygon(arrow(x, y, yaw, radius), theme.ink_accent)
 
 
+def ghost_mark(shapes: Shapes, view: View, pose: tuple[float, float, float], radius: float) -> None:
+    """The robot where it is being put: hollow, because it is not there; `pose` is x, y [m] and yaw [rad]."""
+    x, y = view.to_screen(*pose[:2])
+    shapes.disc(x, y, radius + dp(3), tint(theme.bg, 0.35))
+    shapes.ring(x, y, radius, dp(2.6), theme.plan, dashes=12)
+    shapes.polygon(arrow(x, y, pose[2] + view.turn, radius), theme.plan)
+
+
 def arrow(x: float, y: float, yaw: float, radius: float) -> list[tuple[float, float]]:
     """Corners of the arrow on the screen, for a disc of `radius` [px]."""
     cos, sin = math.cos(yaw) * radius, math.sin(yaw) * radius
@@ -206,12 +215,12 @@ def place_handle(
     x, y = view.to_screen(*pose[:2])
     yaw, reach = pose[2] + view.turn, dp(HANDLE)
     hx, hy = x + reach * math.cos(yaw), y + reach * math.sin(yaw)
-    shapes.ring(x, y, reach, dp(2.4), tint(theme.accent, 0.8), dashes=36)
-    shapes.disc(x, y, reach, tint(theme.accent, 0.10))
-    shapes.line(np.array([[x, y], [hx, hy]]), dp(3), theme.accent)
+    shapes.ring(x, y, reach, dp(2.4), tint(theme.plan, 0.8), dashes=36)
+    shapes.disc(x, y, reach, tint(theme.plan, 0.10))
+    shapes.line(np.array([[x, y], [hx, hy]]), dp(3), theme.plan)
     shapes.disc(hx, hy, radius * 0.86 + dp(2), theme.text)
-    shapes.disc(hx, hy, radius * 0.86, theme.accent)
-    return Word(icon("autorenew"), hx, hy, radius * 1.1, theme.ink_accent, font=theme.icons), (hx, hy)
+    shapes.disc(hx, hy, radius * 0.86, theme.plan)
+    return Word(icon("autorenew"), hx, hy, radius * 1.1, theme.ink_plan, font=theme.icons), (hx, hy)
 
 
 def scale_bar(shapes: Shapes, view: View, left: float, bottom: float, longest: float) -> Iterator[Word]:

@@ -280,7 +280,7 @@ class MapOverlay(MapGestures, Drawing):
     def _fill_robot(self, shapes: Shapes) -> Iterator[Word]:
         yield from self._alarms(shapes)
         if self.located:
-            self._robot_shapes(shapes, tuple(self.robot), faded=self.state == "stale" or bool(self.placed))
+            self._robot_shapes(shapes, tuple(self.robot), faded=self.state == "stale")
         else:
             x, y = self._free_middle()
             word = Word("Waiting for the robot's position", x, y, sp(16), theme.text)
@@ -289,7 +289,7 @@ class MapOverlay(MapGestures, Drawing):
         if self.placed:
             pose = tuple(self.placed)
             word, _ = marks.place_handle(shapes, self.view, pose, self.mark_radius)
-            self._robot_shapes(shapes, pose, faded=False)
+            marks.ghost_mark(shapes, self.view, pose, self._robot_disc())
             yield word
         x, y, wide, _ = self.free_box
         yield from marks.scale_bar(shapes, self.view, x + dp(16), y + dp(14), min(dp(140), wide / 3))
@@ -303,11 +303,13 @@ class MapOverlay(MapGestures, Drawing):
             shapes, self.view, self.intruders, self.mark_radius, box=self.free_box, taken=taken
         )
 
+    def _robot_disc(self) -> float:
+        return max(self.mark_radius * 1.1, self.robot_radius * self.view.scale)
+
     def _robot_shapes(self, shapes: Shapes, pose: tuple[float, ...], *, faded: bool) -> None:
-        radius = max(self.mark_radius * 1.1, self.robot_radius * self.view.scale)
         alarm = self.state == "alarm"
         fov = math.nan if faded else self.camera_fov
-        marks.robot_mark(shapes, self.view, pose, radius, fov=fov, faded=faded, alarm=alarm)
+        marks.robot_mark(shapes, self.view, pose, self._robot_disc(), fov=fov, faded=faded, alarm=alarm)
 
     def _places(self) -> list[tuple[float, float]]:
         """The waypoints, with the one in a finger's grip where the finger is."""
