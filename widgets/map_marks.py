@@ -44,15 +44,20 @@ RANGE = 4.5
 """How far the camera's view is drawn [robot disc radii]."""
 ARROW = ((0.60, 0.0), (-0.42, 0.44), (-0.22, 0.0), (-0.42, -0.44))
 """Corners of the robot's arrow, which points along x, in disc radii."""
+GAP = 1.0
+"""Nothing drives so far between two poses [m]: it was carried, restarted, or not heard for a while."""
 
 
 def trail_line(shapes: Shapes, view: View, trail: Points) -> None:
-    """Where the robot has been, fainter the longer ago."""
-    seen = thinned(view.many_to_screen(trail), dp(2.5))
-    colours = np.tile(np.asarray(theme.accent, dtype=np.float32), (len(seen), 1))
-    colours[:, 3] = np.linspace(0.35, 0.85, len(seen))
-    shapes.line(seen, dp(7), tint(theme.bg, 0.35))
-    shapes.line(seen, dp(4), colours)
+    """Where the robot has been, fainter the longer ago; broken where it jumped."""
+    jumps = np.flatnonzero(np.hypot(*np.diff(trail, axis=0).T) > GAP) + 1
+    strengths = np.split(np.linspace(0.35, 0.85, len(trail)), jumps)
+    for piece, strength in zip(np.split(trail, jumps), strengths, strict=True):
+        seen = thinned(view.many_to_screen(piece), dp(2.5))
+        colours = np.tile(np.asarray(theme.accent, dtype=np.float32), (len(seen), 1))
+        colours[:, 3] = np.linspace(*strength[[0, -1]], len(seen)) if len(seen) else 0.0
+        shapes.line(seen, dp(7), tint(theme.bg, 0.35))
+        shapes.line(seen, dp(4), colours)
 
 
 def plan_line(shapes: Shapes, view: View, plan: Points) -> None:

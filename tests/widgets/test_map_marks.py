@@ -1,0 +1,54 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from widgets import map_marks as marks
+from widgets.geometry import View
+from widgets.grid_map import GridMap
+from widgets.shapes import Shapes
+from widgets.theme import theme
+
+
+class Noted(Shapes):
+    """Shapes that remember the lines and rings that were asked for."""
+
+    def __init__(self):
+        super().__init__()
+        self.lines, self.rings = [], []
+
+    def line(self, points, width, colour):
+        self.lines.append(np.asarray(points).tolist())
+        super().line(points, width, colour)
+
+    def ring(self, x, y, radius, width, colour, *, dashes=0):
+        self.rings.append((tuple(colour), dashes))
+        super().ring(x, y, radius, width, colour, dashes=dashes)
+
+
+@pytest.mark.parametrize("count", [0, 1, 2])
+def test_a_trail_of_few_points_is_drawn(count):
+    shapes = Noted()
+    marks.trail_line(shapes, View(), np.zeros((count, 2)))
+    assert [len(line) for line in shapes.lines] == [count, count]
+
+
+def test_a_trail_is_broken_where_the_robot_jumped():
+    shapes, view = Noted(), View.centred(0, 0, at=(0, 0), scale=10)
+    trail = np.array([[0.0, 0.0], [0.9, 0.0], [5.0, 5.0], [5.0, 6.0]])
+    marks.trail_line(shapes, view, trail)
+    seen = view.many_to_screen(trail).tolist()
+    assert shapes.lines == [seen[:2], seen[:2], seen[2:], seen[2:]]
+
+
+def test_the_robot_being_placed_is_hollow_and_the_robot_keeps_its_colour(stage, monkeypatch):
+    map_ = GridMap(state="live", robot=[0.0, 0.0, 0.0])
+    stage.show(map_, (400, 300))
+    map_.mode = "place_robot"
+    map_.placed = [2.0, 1.0, 0.5]
+    real, shapes = [], Noted()
+    monkeypatch.setattr(marks, "robot_mark", lambda *_, **looks: real.append(looks["faded"]))
+    list(map_._fill_robot(shapes))
+    assert real == [False]
+    assert all(colour[:3] == tuple(theme.plan[:3]) and dashes for colour, dashes in shapes.rings)
+    assert len(shapes.rings) == 2
