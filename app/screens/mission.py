@@ -150,6 +150,7 @@ class MissionScreen(FloatLayout):
         self._build_tools()
         self.add_widget(self.panel)
         self.panel.tasks.size_hint = (None, None)
+        self.panel.tasks.bind(on_command=self._set_going)
         ids.handle.bind(on_touch_down=self._pull)
         for button, icon, act in (
             ("earlier", "arrow_upward", lambda *_: self._reorder(-1)),
@@ -395,6 +396,11 @@ class MissionScreen(FloatLayout):
     def _mode_changed(self, *_: object) -> None:
         self.map.mode = self.mode
         self._show_selection()
+
+    def _set_going(self, _: object, name: str) -> None:
+        """Who sets the robot going is not placing it any more."""
+        if name != "stop" and self.mode == "place_robot":
+            self.mode = "view"
 
     def _show_selection(self) -> None:
         bar, index = self.selection, int(self.map.selected)

@@ -256,6 +256,18 @@ def test_the_robot_is_placed_by_hand(driving: Glass, robot: FakeRobot) -> None:
     assert mission.mode == "view"
 
 
+def test_start_drops_the_robot_that_is_being_placed(driving: Glass, robot: FakeRobot) -> None:
+    driving.app.show("mission")
+    mission = driving.app.screens["mission"]
+    mission.mode = "place_robot"
+    mission.panel.tasks.ask("stop")
+    assert mission.mode == "place_robot"
+    mission.panel.tasks.ask("start")
+    assert (mission.mode, mission.map.mode, list(mission.map.placed)) == ("view", "view", [])
+    assert robot.until(lambda: "/task/start" in robot.services())
+    assert not any(topic == "/initialpose" for topic, _ in robot.heard)
+
+
 def test_who_is_driven_by_another_is_only_watched(glass: Glass, robot: FakeRobot) -> None:
     robot.control = ControlStatus(driver="tablet-B", driver_id="b")
     robot.publish("/control/status", robot.control)
