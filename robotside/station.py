@@ -190,7 +190,7 @@ class Station:
         """Go on from how it was left: STOP stays pressed, a task has ended."""
         if left.stopped_by:
             self.controls.stop(left.stopped_by)
-            said = f"STOP is still pressed: {left.stopped_by} pressed it before the robot's computer restarted."
+            said = f"STOP, pressed by {left.stopped_by} before the restart, is still pressed."
             self.events.say("stop", said, "alarm")
         if left.task:
             said = f"The robot's computer restarted; the {left.task.lower()} has ended."

@@ -625,7 +625,7 @@ def test_stop_is_still_pressed_after_the_computer_died_and_says_so(scene: Scene,
     again = Scene(FakeRobot(), tmp_path)
     assert (again.control.mode, again.control.stopped_by) == ("STOPPED", "Anna")
     assert [event.text for event in again.station.events.since(0, "b1")] == [
-        "STOP is still pressed: Anna pressed it before the robot's computer restarted."
+        "STOP, pressed by Anna before the restart, is still pressed."
     ]
     again.run(4.0)
     again.drive(Twist.planar(0.3, 0.0))

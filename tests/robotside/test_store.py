@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+import os
 from pathlib import Path
 
 import pytest
 
 from bridge.msgs.pilothouse_msgs import Mission, Waypoint
 from bridge.msgs.std_msgs import Time
-from robotside.store import Store
+from robotside.store import Left, Store
 
 MISSION = Mission(
     Time(5), [Waypoint(1.0, 2.0), Waypoint(3.0, 4.0, 0.5, "gate")], [Waypoint(0.0, 0.0)], "random"
@@ -37,6 +38,34 @@ def test_saving_leaves_nothing_but_the_file(tmp_path: Path) -> None:
     store.save(MISSION)
     store.save(Mission())
     assert [path.name for path in tmp_path.iterdir()] == ["mission.json"]
+
+
+def test_how_it_was_left_is_read_back(tmp_path: Path) -> None:
+    assert Store(tmp_path).left() == Left()
+    Store(tmp_path).leave(Left("Anna", "Patrol"))
+    assert Store(tmp_path).left() == Left("Anna", "Patrol")
+
+
+@pytest.mark.parametrize("damage", [b"", b"{", b'{"stopped_by": 1}', b"\xff"])
+def test_a_damaged_note_of_how_it_was_left_counts_as_stop_pressed(tmp_path: Path, damage: bytes) -> None:
+    (tmp_path / "left.json").write_bytes(damage)
+    assert Store(tmp_path).left() == Left("somebody")
+
+
+def test_what_cannot_be_written_leaves_the_old_file_and_nothing_else(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    store = Store(tmp_path)
+    store.save(MISSION)
+
+    def full(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(OSError, match="No space left"):
+        store.save(Mission())
+    assert [path.name for path in tmp_path.iterdir()] == ["mission.json"]
+    assert store.load()[0].motion == "random"
 
 
 @pytest.mark.parametrize("damage", [b"", b"{", b'{"laps": "many"}', b"\xff\xfe", b"[]"])
