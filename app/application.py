@@ -27,7 +27,6 @@ from app.layout import Layout, load
 from app.link import Link
 from app.mission import MissionEditor
 from app.nearby import HELLO, LATENCY, Nearby
-from app.network import NetworkThread
 from app.recorder import Recorder
 from app.records import Records
 from app.screens.connect import THEMES, ConnectScreen
@@ -36,6 +35,7 @@ from app.session import Session
 from app.settings import Settings
 from bridge.frames import Frame
 from bridge.msgs.pilothouse_msgs import Event
+from bridge.network import NetworkThread
 from widgets import CATALOGUE
 from widgets.theme import theme
 

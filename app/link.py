@@ -14,7 +14,6 @@ from typing import Any
 from app.commands import Commands, DriveSlot, Outcome
 from app.events import EventStream
 from app.feeds import Mailbox
-from app.network import NetworkThread
 from bridge.client import BridgeClient, CameraStream, LinkState, Phase
 from bridge.errors import BridgeError
 from bridge.frames import Frame
@@ -22,6 +21,7 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, GetEventsResponse
 from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.network import NetworkThread
 from bridge.topics import TOPICS, Topic
 
 __all__ = ["EVENT", "LINK", "OUTCOME", "Link"]

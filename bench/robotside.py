@@ -17,12 +17,12 @@ from pathlib import Path
 
 from app.feeds import Mailbox
 from app.link import Link
-from app.network import NetworkThread
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
 from bench.support.station import ROUND, Serving, patrol, serving
 from bridge.frames import Frame
 from bridge.msgs.pilothouse_msgs import Mission, SetMissionRequest, StartTaskRequest, TaskProgress
+from bridge.network import NetworkThread
 from bridge.server import Session
 from robotside.orders import services
 from robotside.station import Station

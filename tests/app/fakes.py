@@ -8,7 +8,6 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from app.network import NetworkThread
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
@@ -23,6 +22,7 @@ from bridge.msgs.pilothouse_msgs import (
     SetMissionRequest,
     StartTaskRequest,
 )
+from bridge.network import NetworkThread
 from bridge.server import BridgeServer, Service, Session
 
 __all__ = ["FakeRobot"]

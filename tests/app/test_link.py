@@ -12,11 +12,11 @@ import pytest
 
 from app.feeds import Feeds, Mailbox, Post
 from app.link import Link
-from app.network import NetworkThread
 from app.session import Session
 from app.settings import Settings
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, Mission, Waypoint
+from bridge.network import NetworkThread
 from tests.app.fakes import FakeRobot
 
 PATIENCE = 10.0

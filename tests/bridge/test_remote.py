@@ -18,7 +18,8 @@ from bridge.errors import BridgeError, NoReply, NotConnected, Refused
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, RobotInfo
-from bridge.remote import NetworkThread, RemoteRobot
+from bridge.network import NetworkThread
+from bridge.remote import RemoteRobot
 from bridge.server import BridgeServer
 from tests.bridge.wires import PATIENCE, service
 
@@ -31,14 +32,14 @@ class Served:
         self.thread = NetworkThread("server")
         options = {"services": [service()], "on_message": lambda *all: self.heard.put(all)} | options
         self.bridge = BridgeServer(**options)
-        self.thread.begin(self.bridge.start(port=0)).result(PATIENCE)
+        self.thread.start(self.bridge.start(port=0)).result(PATIENCE)
         self.url = f"ws://127.0.0.1:{self.bridge.port}"
 
     def publish(self, topic, msg):
-        self.thread.post(self.bridge.publish, topic, msg)
+        self.thread.call(self.bridge.publish, topic, msg)
 
     def close(self):
-        self.thread.begin(self.bridge.close()).result(PATIENCE)
+        self.thread.start(self.bridge.close()).result(PATIENCE)
         self.thread.close()
 
 

@@ -1,4 +1,4 @@
-"""The network thread: one asyncio loop beside Kivy's, where every socket of the app lives."""
+"""The network thread: one asyncio loop beside whatever else a program does, where its sockets live."""
 
 from __future__ import annotations
 
@@ -8,13 +8,15 @@ import threading
 from collections.abc import Callable, Coroutine
 from typing import Any, TypeVar
 
+from bridge.errors import NotConnected
+
 __all__ = ["NetworkThread"]
 
 T = TypeVar("T")
 
 
 class NetworkThread:
-    """An asyncio loop in a thread. Every method may be called from any other thread."""
+    """An asyncio loop in a thread, running from its making to `close`. Every method may be called from any other thread."""
 
     def __init__(self, name: str = "network") -> None:
         self.loop = asyncio.new_event_loop()
@@ -30,11 +32,17 @@ class NetworkThread:
             self.loop.close()
 
     def start(self, coroutine: Coroutine[Any, Any, T]) -> concurrent.futures.Future[T]:
-        """Run a coroutine in the loop; the future may be waited for or cancelled."""
-        if self.loop.is_closed():
+        """Run a coroutine in the loop; the future may be waited for or cancelled. NotConnected once the thread has ended."""
+        try:
+            return asyncio.run_coroutine_threadsafe(coroutine, self.loop)
+        except RuntimeError as error:
             coroutine.close()
-            raise RuntimeError("The network thread has ended.")
-        return asyncio.run_coroutine_threadsafe(coroutine, self.loop)
+            raise NotConnected("The link is closed.") from error
+
+    @property
+    def inside(self) -> bool:
+        """The caller is in this thread."""
+        return threading.current_thread() is self._thread
 
     def call(self, function: Callable[..., object], *args: Any) -> None:
         """Call a function in the loop; does nothing once the thread has ended."""
@@ -45,7 +53,7 @@ class NetworkThread:
                 raise
 
     def close(self, patience: float = 2.0) -> None:
-        """Cancel what still runs, wait for it at most `patience` [s], and end the thread."""
+        """Cancel what still runs, wait for it at most `patience` [s], and end the thread. Again does nothing."""
         if self.loop.is_closed():
             return
         asyncio.run_coroutine_threadsafe(self._cancel_all(patience), self.loop).result(patience + 1.0)
