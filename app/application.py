@@ -27,7 +27,6 @@ from app.layout import Layout, load
 from app.link import Link
 from app.mission import MissionEditor
 from app.nearby import HELLO, LATENCY, Nearby
-from app.recorder import Recorder
 from app.records import Records
 from app.screens.connect import THEMES, ConnectScreen
 from app.screens.dialogs import AddressDialog
@@ -480,11 +479,6 @@ class PilothouseApp(App):
 
     # pictures and recordings
 
-    @property
-    def recorder(self) -> Recorder | None:
-        """The recording that runs; None when none does."""
-        return self.records.recorder
-
     def toggle_recording(self) -> None:
         """Start recording, or finish the one that runs."""
         self.records.toggle(self.session)
@@ -500,5 +494,5 @@ class PilothouseApp(App):
 
     def _tick_recording(self) -> None:
         self.records.check()
-        self.shell.recording = self.recorder is not None
+        self.shell.recording = self.records.recorder is not None
         self.shell.ids.record.text = self.records.clock
