@@ -38,8 +38,9 @@ Builder.load_string("""
             rgba: root.veil
         RoundedRectangle:
             pos: root.pos
-            # what is clear need not be drawn: over a whole screen it costs as much as a picture
-            size: root.size if root.veil[3] else (0, 0)
+            # what is clear need not be drawn: over a whole screen it costs as much as a picture; Kivy leaves
+            # a rounded rectangle without any size as it was
+            size: root.size if root.veil[3] else (1, 1)
             radius: [root.veil_radius]
         Color:
             rgba: theme.raised if root.badge else (0, 0, 0, 0)

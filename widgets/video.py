@@ -146,7 +146,8 @@ class Video(Drawing):
         """Bring the frame, the boxes and the words up to date; the picture itself comes by `show_frame`."""
         self._ground.rgba = theme.raised if self._texture is None else theme.bg
         self._place_picture()
-        self._frame.pos, self._frame.size = self.pos, (0, 0) if self._fills() else self.size
+        # Kivy leaves a rounded rectangle without any size as it was
+        self._frame.pos, self._frame.size = self.pos, (1, 1) if self._fills() else self.size
         self._frame.radius = [max(self.corner, 0.01)]
         shapes = Shapes()
         self._words.write([*self._box_marks(shapes), *self._sentence()])
@@ -227,7 +228,7 @@ class Video(Drawing):
     def _draw_chip(self) -> None:
         text = self.chip_text() if self.show_chip and self.state != "stale" else ""
         if not text:
-            self._chip.size = 0, 0
+            self._chip_ground.a = 0
             self._chip_words.write(())
             return
         size = sp(12.5)

@@ -190,3 +190,26 @@ def test_what_a_map_shows_stays_inside_it(stage):
     made.look(View.centred(0, 0, at=(75, 100), scale=20))
     stage.frames(2)
     assert stage.pixels(root)[:, 152:, 3].max() == 0
+
+
+@pytest.mark.parametrize("change", [{"show_chip": False}, {"state": "stale", "age": 3.0}])
+def test_a_chip_with_nothing_to_say_leaves_no_ground_behind(stage, change):
+    video = stage.show(Video(state="live", corner=0, rate=15.0), size=(320, 240))
+    video.show_frame(320, 240, bytes([255, 255, 255, 255]) * 320 * 240)
+    stage.frames(3)
+    there = video._chip.pos[0] + 4, video._chip.pos[1] + video._chip.size[1] / 2
+    assert at(stage.pixels(video), *there)[0] < 100
+    for name, value in change.items():
+        setattr(video, name, value)
+    stage.frames(3)
+    picture = stage.pixels(video)
+    assert (at(picture, *there) == at(picture, 310, there[1])).all()
+
+
+def test_a_veil_that_is_taken_away_covers_nothing(stage):
+    video = stage.show(Video(state="disabled", corner=0), size=(320, 240))
+    stage.frames(3)
+    (veil,) = (one for one in video.canvas.after.children if getattr(one, "size", None) == (320, 240))
+    video.state = "live"
+    stage.frames(3)
+    assert 0 < max(veil.size) <= 1
