@@ -22,6 +22,7 @@ from robotside.clock import RobotClock
 from robotside.http import site
 from robotside.orders import services
 from robotside.station import Station
+from robotside.visit import Visit
 from robotside.watch import jpeg_size
 
 __all__ = ["Addresses", "Serving"]
@@ -100,7 +101,9 @@ class Serving:
         where = self.addresses
         web_socket = _listen(where.host, where.http_port)
         where.http_port = web_socket.getsockname()[1]
-        web = _Web(uvicorn.Config(self._site, log_level="warning", lifespan="off", access_log=False))
+        web = _Web(
+            uvicorn.Config(self._site, http=Visit, log_level="warning", lifespan="off", access_log=False)
+        )
         beacon = Beacon(self._hello)
         try:
             await self.server.start(where.host, where.port)
