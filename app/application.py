@@ -475,7 +475,7 @@ class PilothouseApp(App):
     def alarm(self, event: Event) -> None:
         """Something happened that the operator must not miss."""
         if self.shell is not None:
-            self.shell.say(event.text, "danger")
+            self.shell.say(event.text, "danger", about=event.kind)
 
     # pictures and recordings
 

@@ -180,13 +180,13 @@ def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     dp = dp * min(1.0, body.height / ((590 if wide else 364) * dp))
     gap = (16 if wide else 10) * dp
     stop = Rect(
-        body.right - gap - (210 if wide else 150) * dp, body.y + gap, *_pair(wide, (210, 180), (150, 132), dp)
+        body.right - gap - (210 if wide else 150) * dp, body.y + gap, *_pair(wide, (210, 180), (150, 156), dp)
     )
     size = (242 if wide else 176) * dp
     stick = Rect(body.x + gap, body.y + gap, size, size)
     slider = Rect(stick.right + (38 if wide else 12) * dp, stick.y, *_pair(wide, (96, 238), (80, 176), dp))
     actions = Rect(
-        stop.x - gap - (150 if wide else 132) * dp, stop.y, (150 if wide else 132) * dp, stop.height
+        stop.x - 16 * dp - (150 if wide else 132) * dp, stop.y, (150 if wide else 132) * dp, stop.height
     )
     left = Rect(
         body.x + gap, body.top - gap - (228 if wide else 148) * dp, *_pair(wide, (326, 228), (212, 148), dp)
@@ -231,10 +231,10 @@ def _drive_tall(body: Rect, dp: float) -> dict[str, Rect]:
     actions = Rect(body.x + gap, controls.top + gap, body.width - 2 * gap, 52 * dp)
     cards_low = actions.top + gap
     cards = Rect(body.x + gap, cards_low, body.width - 2 * gap, video.y - gap - cards_low)
+    side = min(cards.height, cards.width * 0.52)
+    left = Rect(cards.x, cards.top - side, side, side)
+    right = Rect(left.right + gap, cards.y, cards.right - left.right - gap, cards.height)
     readouts_height = min(64 * dp, cards.height * 0.34)
-    upper = cards.height - readouts_height - gap
-    horizon = min(upper, cards.width * 0.4)
-    left = Rect(cards.x, cards.y + readouts_height + gap, cards.width - horizon - gap, upper)
     tape = Rect(body.x + body.width * 0.1, body.top - gap - 52 * dp, body.width * 0.8, 52 * dp)
     return {
         "video": video,
@@ -243,8 +243,10 @@ def _drive_tall(body: Rect, dp: float) -> dict[str, Rect]:
         "slider": slider,
         "actions": actions,
         "top_left": left,
-        "top_right": Rect(left.right + gap, left.y, horizon, upper),
-        "readouts": Rect(cards.x, cards.y, cards.width, readouts_height),
+        "top_right": Rect(
+            right.x, right.y + readouts_height + gap, right.width, right.height - readouts_height - gap
+        ),
+        "readouts": Rect(right.x, right.y, right.width, readouts_height),
         "top": tape,
         "notice": Rect(body.x + gap, tape.y - 82 * dp, body.width - 2 * gap, 46 * dp),
     }

@@ -131,13 +131,13 @@ Builder.load_string("""
             radius: [theme.corner]
     Icon:
         name: root.icon
-        role: 'accent' if root.active else 'muted'
+        role: root.tint or ('accent' if root.active else 'muted')
         pos_hint: {'center_x': .5}
     Label:
         text: root.text
         font_name: theme.font
         font_size: sp(12.5)
-        color: theme.text if root.active else theme.muted
+        color: theme.roles[root.tint or ('text' if root.active else 'muted')]
         disabled_color: self.color
 """)
 
@@ -218,6 +218,8 @@ class NavButton(ButtonBehavior, BoxLayout):
     text = StringProperty("")
     active = BooleanProperty(False)
     """Its screen is the one on the glass."""
+    tint = StringProperty("")
+    """Role of the icon and the words while what it stands for goes on, as a recording; empty for none."""
     framed = BooleanProperty(True)
     """Has a ground while active, as in a rail."""
 
@@ -243,5 +245,6 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "icon": lambda: IconButton(icon="my_location"),
         "icon bare": lambda: IconButton(icon="arrow_back", bare=True, role="muted"),
         "nav": lambda: NavButton(icon="sports_esports", text="Drive"),
+        "nav going on": lambda: NavButton(icon="fiber_manual_record_fill", text="REC 0:12", tint="danger"),
         "nav active": lambda: NavButton(icon="map", text="Mission", active=True),
     }

@@ -158,18 +158,19 @@ class DriveScreen(FloatLayout):
                 )
         tall = form == "tall"
         self.actions.cols = 3 if tall else 1
-        self.readouts.cols = 4 if tall else 2 if form == "wide" else 1
-        self._trim(form)
+        roomy = form == "wide" or places["readouts"].width >= 330 * dp
+        self.readouts.cols = 1 if form == "short" else 4 if roomy and tall else 2
+        self._trim(roomy)
         top, left = places["top"], places["top_left"]
         self.video.insets = [0 if tall else left.right - body.x, 0, 0, body.top - top.y]
         self.notice = places["notice"]
         return places["stop"]
 
-    def _trim(self, form: str) -> None:
-        """A phone on its side has room for two figures."""
+    def _trim(self, roomy: bool) -> None:
+        """A phone has room for two figures."""
         shown = list(reversed(self.readouts.children)) if not hasattr(self, "_figures") else self._figures
         self._figures = shown
-        wanted = shown[:2] if form == "short" else shown
+        wanted = shown if roomy else shown[:2]
         if list(reversed(self.readouts.children)) != wanted:
             self.readouts.clear_widgets()
             for widget in wanted:
@@ -202,13 +203,14 @@ class DriveScreen(FloatLayout):
         session = self.session
         self.stick.state = "live" if session.may_drive else "disabled"
         mine = session.connected and session.control != "other"
-        self.ids.home.disabled = not mine
+        held = session.stop_phase == "stopped"
+        self.ids.home.disabled = held or not mine
         status = session.feeds.latest("/task/status")
         paused = status is not None and status.state == "PAUSED"
         pause = self.ids.pause
         pause.text, pause.icon = ("Resume", "play_arrow") if paused else ("Pause", "pause")
         pause.meaning = pause.text
-        pause.disabled = not (mine and session.running)
+        pause.disabled = not (mine and session.running) or (held and paused)
         self.ids.snapshot.disabled = self.app.records.frame is None
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:

@@ -95,8 +95,9 @@ Builder.load_string("""
             icon: root.mode_icon if root.form != 'tall' else ''
             role: root.mode_role
             text: root.mode_text
+            usual: 'STOPPED' if root.form == 'tall' else 'PAUSED · patrol'
             spacing: dp(8) if self.icon else 0
-            padding: (dp(13) if root.form != 'tall' else dp(10)), 0
+            edge: dp(13) if root.form != 'tall' else dp(10)
             outlined: True
             pos_hint: {'center_y': .5}
         BatteryChip:
@@ -178,6 +179,7 @@ class Shell(FloatLayout):
         self.add_widget(self.stop, index=1)
         for name in BAR:  # kv holds ids weakly, and the narrow bar takes some of them out
             self.ids[name] = self.ids[name].__self__
+        self._said = ""
         self._banner = Banner(level="danger")
         self._banner.bind(height=self._place_notices)
         self._build_rail()
@@ -234,8 +236,10 @@ class Shell(FloatLayout):
             self.ids[name].active = self.screen == name
         icon, text, _ = THEMES[theme.name]
         self.ids.theme.icon, self.ids.theme.text = icon, text
-        self.ids.record.active = self.recording
-        self.ids.control_nav.active = self.session.control == "mine"
+        self.ids.record.tint = "danger" if self.recording else ""
+        self.ids.record.icon = "fiber_manual_record_fill" if self.recording else "fiber_manual_record"
+        self.ids.control_nav.icon = self.control_icon
+        self.ids.control_nav.tint = "warn" if self.session.control == "other" else ""
 
     # places
 
@@ -304,8 +308,10 @@ class Shell(FloatLayout):
             screen.hear(channel, post)
         if channel == OUTCOME:
             self._show_outcome(post.value)
-        elif channel == EVENT and post.value.level == "alarm":
-            self.app.alarm(post.value)
+        elif channel == EVENT:
+            self.unsay(post.value.kind)
+            if post.value.level == "alarm":
+                self.app.alarm(post.value)
 
     def replay(self, post: Post) -> None:
         """An event that came before this frame was there."""
@@ -315,15 +321,24 @@ class Shell(FloatLayout):
     def _show_outcome(self, outcome: Outcome) -> None:
         """What went wrong is said over every screen; what went well is said where it was asked."""
         if outcome.phase in ("refused", "no_reply") and outcome.name != "stop":
-            self.say(outcome.sentence, "warn")
+            self.say(outcome.sentence, "warn", about=outcome.name)
+        elif outcome.phase == "accepted":
+            self.unsay(outcome.name)
 
-    def say(self, text: str, level: str = "info") -> None:
-        """One sentence over the screen, for a few seconds."""
+    def say(self, text: str, level: str = "info", about: str = "") -> None:
+        """One sentence over the screen, for a few seconds; `about` is the command or the kind of event it tells of."""
+        self.unsay(self._said)
+        self._said = about
+        self.ids.notices.add_widget(Toast(text=text, level=level))
+        self._place_notices()
+
+    def unsay(self, about: str) -> None:
+        """Take the sentence away that was said about something: it is no longer true."""
+        if about != self._said:
+            return
         for child in list(self.ids.notices.children):
             if isinstance(child, Toast):
                 self.ids.notices.remove_widget(child)
-        self.ids.notices.add_widget(Toast(text=text, level=level, stay=6.0))
-        self._place_notices()
 
     def tick(self) -> None:
         """Bring everything up to date that time changes; ten times a second."""
@@ -332,6 +347,9 @@ class Shell(FloatLayout):
         self._dashboard.tick()
         self._tick_link()
         self._tick_control()
+        if self.stop.phase == "stopped" != self.session.stop_phase:
+            for kind in ("stop", "task"):
+                self.unsay(kind)
         self.stop.phase = self.session.stop_phase
         self._show_rail()
         for name, screen in self.screens.items():

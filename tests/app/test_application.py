@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Twist
-from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
+from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskStatus
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
 from tests.app.fakes import FakeRobot
 from tests.headless import Stage
@@ -226,6 +226,55 @@ def test_a_refused_command_is_said_over_the_screen(driving: Glass, robot: FakeRo
     robot.refusals["/task/go_home"] = "Home is not set."
     driving.tap(driving.app.screens["drive"].ids["home"])
     driving.until(lambda: driving.banners() == ["Refused: go home. Home is not set."], driving.banners())
+
+
+def test_an_alarm_leaves_when_what_it_told_is_over(driving: Glass, robot: FakeRobot) -> None:
+    held = ControlStatus(stopped=True, driver=robot.control.driver, driver_id=robot.control.driver_id)
+    robot.publish("/control/status", held)
+    driving.until(lambda: driving.app.shell.stop.phase == "stopped", "not stopped")
+    robot.publish("/events", Event(id=1, kind="task", level="alarm", text="Stopped by vm."))
+    driving.until(lambda: driving.banners() == ["Stopped by vm."], driving.banners())
+    robot.publish("/events", Event(id=2, kind="control", level="info", text="vm has control."))
+    driving.stage.run_for(0.3)
+    assert driving.banners() == ["Stopped by vm."]
+    robot.publish("/control/status", robot.control)
+    began = driving.stage.time.now
+    driving.until(lambda: not driving.banners(), driving.banners())
+    assert driving.stage.time.now - began < 2.0
+
+
+def test_the_next_of_its_kind_takes_an_alarm_away(driving: Glass, robot: FakeRobot) -> None:
+    robot.publish("/events", Event(id=1, kind="stop", level="alarm", text="STOP pressed by vm."))
+    driving.until(lambda: driving.banners() == ["STOP pressed by vm."], driving.banners())
+    robot.publish("/events", Event(id=2, kind="stop", level="ok", text="STOP released by vm."))
+    began = driving.stage.time.now
+    driving.until(lambda: not driving.banners(), driving.banners())
+    assert driving.stage.time.now - began < 2.0
+
+
+def test_with_stop_pressed_nothing_on_the_drive_screen_moves_the_robot(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    ids = driving.app.screens["drive"].ids
+    driving.until(lambda: not ids.home.disabled, "cannot go home")
+    robot.publish("/task/status", TaskStatus(task="patrol", state="PAUSED"))
+    driving.until(lambda: ids.pause.text == "Resume" and not ids.pause.disabled, "cannot resume")
+    robot.control = ControlStatus(
+        stopped=True, driver=robot.control.driver, driver_id=robot.control.driver_id
+    )
+    robot.publish("/control/status", robot.control)
+    driving.until(lambda: ids.home.disabled and ids.pause.disabled, "still offered")
+
+
+def test_only_the_screen_on_the_glass_looks_chosen(driving: Glass, tmp_path: Path) -> None:
+    shell = driving.app.shell
+    driving.app.start_recording(tmp_path / "run.mcap")
+    driving.stage.run_for(0.3)
+    assert [button.text for button in shell.rail if button.active] == ["Drive"]
+    assert (shell.ids.record.tint, shell.ids.record.icon) == ("danger", "fiber_manual_record_fill")
+    driving.app.stop_recording()
+    driving.stage.run_for(0.3)
+    assert shell.ids.record.tint == ""
 
 
 def test_points_are_tapped_sent_and_stored(driving: Glass, robot: FakeRobot) -> None:

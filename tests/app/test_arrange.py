@@ -74,6 +74,17 @@ def test_a_phone_on_its_side_leaves_the_middle_of_the_map_free() -> None:
     assert bar.x > video.right
 
 
+def test_three_buttons_of_46_dp_stand_beside_stop_on_a_phone() -> None:
+    places = drive(shell(892, 412)["body"], "short")
+    assert (places["actions"].height - 2 * 8) / 3 >= 46
+    assert places["stop"].x - places["actions"].right >= 16
+
+
+def test_the_laser_of_a_phone_has_a_square() -> None:
+    places = drive(shell(412, 892)["body"], "tall")
+    assert places["top_left"].width == places["top_left"].height > 180
+
+
 @pytest.mark.parametrize("size", SIZES)
 def test_the_frame_fills_the_window(size: tuple[int, int]) -> None:
     places = shell(*size)
