@@ -176,6 +176,7 @@ class BatteryChip(_Charge, BoxLayout):
 
     def _write(self, *_: object) -> None:
         self._chip.text = self.text.removesuffix(" %") if self.brief else self.text
+        self._chip.usual, self._chip.edge = ("100", dp(10)) if self.brief else ("100 %", dp(13))
         self._chip.role = self.role
         alarming = self.role == "danger" and not self.charging
         self._chip.icon = (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from kivy.lang import Builder
-from kivy.metrics import dp
+from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
 from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
@@ -77,7 +77,7 @@ Builder.load_string("""
     size_hint: None, None
     height: dp(34)
     width: self.minimum_width
-    padding: dp(13), 0
+    padding: root.edge + max(0, root.usual_width - words.texture_size[0]) / 2, 0
     spacing: dp(8) if root.icon else 0
     canvas.before:
         Color:
@@ -106,6 +106,7 @@ Builder.load_string("""
         width: self.font_size if root.icon else 0
         opacity: 1 if root.icon else 0
     Label:
+        id: words
         text: root.text
         font_name: theme.font
         font_size: sp(15)
@@ -186,6 +187,16 @@ class Chip(ButtonBehavior, BoxLayout):
     tinted = BooleanProperty(False)
     """Text in `role`."""
     pressable = BooleanProperty(False)
+    edge = NumericProperty("13dp")
+    """Left of the icon and right of the words [px]."""
+    usual = StringProperty("")
+    """The longest words it usually holds; it is never narrower than they are, so that its neighbours stand still."""
+
+    def _usual_width(self) -> float:
+        return float(text_texture(self.usual, sp(15), theme.font).width) if self.usual else 0.0
+
+    usual_width = AliasProperty(_usual_width, bind=["usual"], cache=True)
+    """Of those words [px]."""
 
     def collide_point(self, x: float, y: float) -> bool:
         """A pressable chip is hit within a whole target round it."""

@@ -89,12 +89,13 @@ class LinkQuality(RobotWidget, BoxLayout):
         self._chip = Chip()
         self._chip.bind(width=self.setter("width"))
         self.add_widget(self._chip)
-        self.bind(quality=self._write, text=self._write)
+        self.bind(quality=self._write, text=self._write, brief=self._write)
         self._write()
 
     def _write(self, *_: object) -> None:
         self._chip.icon, self._chip.role = LOOKS[self.quality]
         self._chip.text = self.text
+        self._chip.usual = "288 ms" if self.brief else "288 ms · 0 lost"
         self._chip.outlined = self.quality == "lost"
         self.width = self._chip.width
 

@@ -160,12 +160,12 @@ class MissionScreen(FloatLayout):
             widget = IconButton(icon=icon, bare=True, pos_hint={"center_y": 0.5})
             widget.bind(on_release=act)
             ids[button] = widget
-        for button, text, act in (
-            ("place_cancel", "Cancel", lambda *_: setattr(self, "mode", "view")),
-            ("place_here", "Set here", lambda *_: self._place_robot()),
+        for button, text, width, act in (
+            ("place_cancel", "Cancel", "68dp", lambda *_: setattr(self, "mode", "view")),
+            ("place_here", "Set here", "88dp", lambda *_: self._place_robot()),
         ):
             kind = PrimaryButton if button == "place_here" else QuietButton
-            word = kind(text=text, size_hint_x=None, width="78dp", height="40dp", pos_hint={"center_y": 0.5})
+            word = kind(text=text, size_hint_x=None, width=width, height="40dp", pos_hint={"center_y": 0.5})
             word.bind(on_release=act)
             ids[button] = word
         ids.update({"map": self.map, "video": self.video, "selection": self.selection, "panel": self.panel})

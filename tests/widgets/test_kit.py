@@ -95,6 +95,19 @@ def test_a_chip_is_as_wide_as_its_words(stage):
     assert chip.width > narrow > 50
 
 
+def test_a_chip_stands_still_while_its_words_are_no_longer_than_usual(stage):
+    chip = Chip(icon="bolt", text="9 ms", usual="288 ms")
+    stage.show(chip)
+    widths = set()
+    for chip.text in ("9 ms", "28 ms", "288 ms"):
+        stage.frames(3)
+        widths.add(chip.width)
+    assert len(widths) == 1
+    chip.text = "no heartbeat"
+    stage.frames(3)
+    assert chip.width > max(widths)
+
+
 def test_a_chip_takes_a_finger_only_where_it_may_be_pressed(stage):
     chip = stage.show(Chip(text="Sunlight"))
     stage.frames(2)
