@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from robotside.controls import AHEAD
-from robotside.words import plain
+from robotside.words import number, plain
 
 __all__ = ["KEPT", "Commands", "Refusal"]
 
@@ -67,12 +67,14 @@ class Commands:
             return None
         age = self._now() - request.stamp
         if age < -AHEAD:
-            ahead, allowed = f"{-age:.4g} s ahead of the robot's", f"at most {AHEAD:.0f} s is allowed"
+            ahead, allowed = f"{number(-age)} s ahead of the robot's", f"at most {AHEAD:.0f} s is allowed"
             return CommandResponse(False, f"The command is not done: its clock is {ahead}; {allowed}.")
         if age <= request.valid_for:
             return None
-        allowed = f"{request.valid_for:.1f} s"
-        return CommandResponse(False, f"The command is too old: given {age:.1f} s ago, valid for {allowed}.")
+        allowed = f"{number(request.valid_for)} s"
+        return CommandResponse(
+            False, f"The command is too old: given {number(age)} s ago, valid for {allowed}."
+        )
 
 
 def _answer(action: Callable[[], str]) -> CommandResponse:

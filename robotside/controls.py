@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
-from robotside.words import plain
+from robotside.words import number, plain
 
 __all__ = ["AHEAD", "LAPSE", "STOP_SENTENCE", "VALID", "Client", "Controls", "Driver", "Ruling"]
 
@@ -195,11 +195,9 @@ class Controls:
         if stamp is None or math.isnan(stamp):
             return ""
         if now - stamp > VALID:
-            return (
-                f"A drive command was dropped: it came {now - stamp:.1f} s late and is valid for {VALID} s."
-            )
+            return f"A drive command was dropped: it came {number(now - stamp)} s late and is valid for {VALID} s."
         if stamp - now > AHEAD:
-            return f"A drive command was dropped: its clock is {stamp - now:.1f} s ahead of the robot's."
+            return f"A drive command was dropped: its clock is {number(stamp - now)} s ahead of the robot's."
         if stamp <= self._last_stamp.get(client.id, -math.inf):
             return "A drive command was dropped: a newer one came before it."
         self._last_stamp[client.id] = stamp

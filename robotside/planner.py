@@ -11,6 +11,7 @@ from skimage.graph import route_through_array
 
 from robotside.grid import Grid
 from robotside.pose2 import Points
+from robotside.words import number
 
 __all__ = ["MARGIN", "PREFERRED", "STEP", "Planner", "Unreachable", "place_sentence"]
 
@@ -36,11 +37,7 @@ class Unreachable(Exception):
 
 def place_sentence(name: str, x: float, y: float) -> str:
     """A place as people read it: its name and coordinates."""
-    return f"{name} at ({_metres(x)}, {_metres(y)})"
-
-
-def _metres(value: float) -> str:
-    return f"{value:.1f}" if abs(value) < 1e6 else f"{value:.4g}"
+    return f"{name} at ({number(x)}, {number(y)})"
 
 
 class Planner:

@@ -1,8 +1,13 @@
-"""What others call things, made fit to be shown and kept."""
+"""What others send, made fit to be shown and kept."""
 
 from __future__ import annotations
 
-__all__ = ["plain"]
+__all__ = ["number", "plain"]
+
+
+def number(value: float) -> str:
+    """`value` with one decimal, or shortened from a million on, as in `1e+308`."""
+    return f"{value:.1f}" if abs(value) < 1e6 else f"{value:.4g}"
 
 
 def plain(text: str, most: int) -> str:

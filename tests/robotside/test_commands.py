@@ -85,7 +85,7 @@ def test_a_command_older_than_its_validity_is_refused_with_both_numbers(
 
 
 @pytest.mark.parametrize(
-    ("stamp", "shown"), [(102.0, "2"), (3700.0, "3600"), (1e300, "1e+300"), (math.inf, "inf")]
+    ("stamp", "shown"), [(102.0, "2.0"), (3700.0, "3600.0"), (1e300, "1e+300"), (math.inf, "inf")]
 )
 def test_a_command_from_the_future_is_refused(
     commands: Commands, counter: Counter, stamp: float, shown: str
@@ -103,6 +103,13 @@ def test_a_command_that_is_young_enough_or_tells_no_time_is_done(
     commands: Commands, counter: Counter, stamp: float, valid_for: float
 ) -> None:
     assert commands.run("/x", CommandRequest(stamp=stamp, valid_for=valid_for), counter.act).success
+
+
+def test_a_command_older_than_anything_is_refused_in_a_short_sentence(
+    commands: Commands, counter: Counter
+) -> None:
+    answer = commands.run("/x", CommandRequest(stamp=-1e308, valid_for=1e300), counter.act)
+    assert answer.message == "The command is too old: given 1e+308 s ago, valid for 1e+300 s."
 
 
 def test_a_validity_that_is_no_number_is_none(commands: Commands, counter: Counter) -> None:

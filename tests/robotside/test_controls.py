@@ -138,6 +138,8 @@ def test_each_client_has_its_own_order(controls: Controls, anna: FakeClient, ber
 def test_a_command_from_a_wrong_clock_does_not_lock_its_sender_out(
     controls: Controls, anna: FakeClient
 ) -> None:
+    assert "1e+308 s late" in controls.drive(anna, AHEAD, 10.0, stamp=-1e308).said
+    assert "1e+308 s ahead" in controls.drive(anna, AHEAD, 10.0, stamp=1e308).said
     assert "ahead of the robot's" in controls.drive(anna, AHEAD, 10.0, stamp=99.0).said
     assert controls.drive(anna, AHEAD, 10.1, stamp=10.1).twist == AHEAD
 

@@ -1,10 +1,12 @@
-"""What others call things."""
+"""What others send."""
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
-from robotside.words import plain
+from robotside.words import number, plain
 
 
 @pytest.mark.parametrize(
@@ -20,6 +22,21 @@ from robotside.words import plain
 )
 def test_a_name_is_one_line_of_printable_characters(text: str, shown: str) -> None:
     assert plain(text, 40) == shown
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"),
+    [
+        (-3.25, "-3.2"),
+        (999_999.0, "999999.0"),
+        (1e6, "1e+06"),
+        (-1e308, "-1e+308"),
+        (math.inf, "inf"),
+        (math.nan, "nan"),
+    ],
+)
+def test_a_number_is_short_however_large_it_is(value: float, shown: str) -> None:
+    assert number(value) == shown
 
 
 def test_a_long_name_is_cut() -> None:
