@@ -7,7 +7,6 @@ import typing
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import reduce
-from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -46,10 +45,6 @@ class Instrument:
     """What the number is multiplied by to be in `unit`."""
     digits: int = 1
     """Figures behind the point."""
-
-    def read(self, message: Msg) -> float:
-        """The number that `field` names, in `unit`; AttributeError where the message has no such field."""
-        return float(attrgetter(self.field)(message)) * self.factor
 
 
 @dataclass(frozen=True)

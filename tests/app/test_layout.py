@@ -7,8 +7,6 @@ from pathlib import Path
 import pytest
 
 from app.layout import LayoutError, load, names, parse
-from bridge.msgs.geometry_msgs import Twist, TwistWithCovariance
-from bridge.msgs.nav_msgs import Odometry
 from widgets import CATALOGUE
 
 WIDGETS = ["Compass", "LaserScanView", "Readout"]
@@ -52,20 +50,6 @@ def test_an_unknown_layout_names_those_there_are(tmp_path: Path) -> None:
     (tmp_path / "boat.toml").write_text("")
     with pytest.raises(LayoutError, match="There is no layout 'car'; there are: boat, patrol."):
         load("car", WIDGETS, tmp_path)
-
-
-def test_a_readout_reads_its_number_in_its_unit() -> None:
-    text = one(
-        widget="Readout",
-        slot="readouts",
-        topic="/odom",
-        field="twist.twist.linear.x",
-        factor=3.6,
-        unit="km/h",
-    )
-    (readout,) = parse("x", text, WIDGETS).instruments
-    message = Odometry(twist=TwistWithCovariance(twist=Twist.planar(2.0, 0.0)))
-    assert readout.read(message) == pytest.approx(7.2)
 
 
 @pytest.mark.parametrize("name", names())
