@@ -9,16 +9,10 @@ from typing import Any
 
 import msgspec
 
-from bridge.msgs.pilothouse_msgs import Mission, Waypoint
+from bridge.msgs.pilothouse_msgs import LONGEST_DWELL, MOST_LAPS, MOTIONS, Mission, Waypoint
 
-__all__ = ["MOTIONS", "Draft", "MissionEditor"]
+__all__ = ["Draft", "MissionEditor"]
 
-MOTIONS = ("loop", "random", "intermittent")
-"""In what order and with which pauses the points are visited."""
-DWELL = (0.0, 600.0)
-"""Shortest and longest stay at a point [s]."""
-LAPS = (0, 999)
-"""Fewest and most rounds; 0 goes on until stopped."""
 STEPS = 200
 """How many edits can be undone."""
 NEAR = 1e-6
@@ -180,8 +174,8 @@ class MissionEditor:
         if motion is not None and motion not in MOTIONS:
             raise ValueError(f"The motion is one of {', '.join(MOTIONS)}, not {motion!r}.")
         changes: dict[str, Any] = {"motion": motion, "stop_on_intruder": stop_on_intruder}
-        changes["dwell"] = None if dwell is None else min(max(dwell, DWELL[0]), DWELL[1])
-        changes["laps"] = None if laps is None else min(max(laps, LAPS[0]), LAPS[1])
+        changes["dwell"] = None if dwell is None else min(max(dwell, 0.0), LONGEST_DWELL)
+        changes["laps"] = None if laps is None else min(max(laps, 0), MOST_LAPS)
         changes = {name: value for name, value in changes.items() if value is not None}
         self._edit(replace(self.draft, **changes), merge=",".join(changes))
 

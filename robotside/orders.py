@@ -10,6 +10,9 @@ import msgspec
 
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (
+    LONGEST_DWELL,
+    MOST_LAPS,
+    MOTIONS,
     CommandRequest,
     CommandResponse,
     GetEventsRequest,
@@ -31,10 +34,7 @@ from robotside.words import plain
 
 __all__ = ["services"]
 
-MOTIONS = ("loop", "random", "intermittent")
 MOST_POINTS = 500
-LONGEST_DWELL = 3600.0
-MOST_LAPS = 10_000
 
 LONGEST_NAME = 60
 """Characters kept of a waypoint's name."""

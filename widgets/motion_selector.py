@@ -17,13 +17,11 @@ from kivy.uix.widget import Widget
 
 import widgets.choices
 import widgets.stepper  # noqa: F401 - same
-from bridge.msgs.pilothouse_msgs import Mission
+from bridge.msgs.pilothouse_msgs import LONGEST_DWELL, MOST_LAPS, MOTIONS, Mission
 from widgets.base import Control
 
-__all__ = ["MOTIONS", "MotionSelector"]
+__all__ = ["MotionSelector"]
 
-MOTIONS = [("loop", "Loop"), ("random", "Random"), ("intermittent", "Intermittent")]
-"""Each motion and its word."""
 
 Builder.load_string("""
 <MotionSelector>:
@@ -47,7 +45,7 @@ Builder.load_string("""
             value: root.dwell
             unit: 's'
             minimum: 1
-            maximum: 600
+            maximum: root.longest_dwell
             disabled: root.motion_name != 'intermittent'
             pos_hint: {'center_y': .5}
             on_change: root.choose('dwell', args[1])
@@ -56,7 +54,7 @@ Builder.load_string("""
         Stepper:
             value: root.laps
             zero: 'until stopped'
-            maximum: 99
+            maximum: root.most_laps
             pos_hint: {'center_y': .5}
             on_change: root.choose('laps', int(args[1]))
     MotionRow:
@@ -85,8 +83,10 @@ class MotionSelector(Control, BoxLayout):
     accepts = (Mission,)
     sends = (Mission,)
 
-    motions = MOTIONS
-    motion_name = OptionProperty("loop", options=[value for value, _ in MOTIONS])
+    motions = [(motion, motion.capitalize()) for motion in MOTIONS]
+    """Each motion and its word."""
+    longest_dwell, most_laps = LONGEST_DWELL, MOST_LAPS
+    motion_name = OptionProperty("loop", options=list(MOTIONS))
     """A property called `motion` would be given Kivy's touches by its `on_motion`."""
     dwell = NumericProperty(5.0)
     """How long it stands at each point in intermittent motion [s]."""

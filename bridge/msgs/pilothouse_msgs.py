@@ -21,6 +21,9 @@ __all__ = [
     "GetMissionResponse",
     "Intruder",
     "IntruderArray",
+    "LONGEST_DWELL",
+    "MOST_LAPS",
+    "MOTIONS",
     "Mission",
     "RobotInfo",
     "SetMissionRequest",
@@ -29,6 +32,13 @@ __all__ = [
     "TaskStatus",
     "Waypoint",
 ]
+
+
+MOTIONS = ("loop", "random", "intermittent")
+"""In what order and with which pauses a mission's points are visited."""
+LONGEST_DWELL = 600.0
+"""Longest stay at a point in intermittent motion [s]."""
+MOST_LAPS = 999
 
 
 class RobotInfo(Msg, frozen=True, gc=False):

@@ -31,9 +31,9 @@ SERVICES: dict[str, tuple[type[Msg], type[Msg]]] = {
 }
 HALVES = {half for halves in SERVICES.values() for half in halves}
 MESSAGES = [
-    getattr(pilothouse_msgs, name)
-    for name in pilothouse_msgs.__all__
-    if getattr(pilothouse_msgs, name) not in HALVES
+    kind
+    for kind in map(vars(pilothouse_msgs).get, pilothouse_msgs.__all__)
+    if isinstance(kind, type) and kind not in HALVES
 ]
 
 

@@ -404,8 +404,8 @@ def test_a_point_in_a_wall_is_refused_with_its_number_and_place(tmp_path: Path) 
     ("mission", "said"),
     [
         (Mission(motion="zigzag"), "There is no motion 'zigzag'; there are loop, random, intermittent."),
-        (Mission(dwell=math.nan), "The dwell must be 0 to 3600 s, not nan s."),
-        (Mission(laps=-1), "The laps must be 0 to 10000, not -1."),
+        (Mission(dwell=math.nan), "The dwell must be 0 to 600 s, not nan s."),
+        (Mission(laps=-1), "The laps must be 0 to 999, not -1."),
         (Mission(waypoints=[Waypoint(math.nan, 0.0)]), "Point 1 at (nan, 0.0) is off the map."),
         (Mission(home=[Waypoint(99.0, 0.0)]), "Home at (99.0, 0.0) is off the map."),
     ],
