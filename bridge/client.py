@@ -346,8 +346,6 @@ class CameraStream(Reconnecting):
     ) -> None:
         """`url` is `ws://HOST:PORT/camera/NAME`; `on_frame(frame, received)`, `received` by `now()` [s]."""
         super().__init__(url, now, backoff, rng)
-        self.sentence = ""
-        """Why there are no pictures; empty while connected."""
         self._on_frame = on_frame
 
     async def stay_connected(self) -> None:
@@ -358,13 +356,12 @@ class CameraStream(Reconnecting):
             try:
                 ws = await _dial(self.url, ping_interval=2.0)
                 attempt = 0
-                self.sentence = ""
                 await self._watch(ws)
             except BadAddress as error:
-                self.sentence = str(error)
+                log.warning("No pictures: %s", error)
                 return
             except LinkLost as error:
-                self.sentence = str(error)
+                log.info("No pictures: %s", error)
             await asyncio.sleep(self.wait_before(max(1, attempt)))
 
     async def _watch(self, ws: ClientConnection) -> None:

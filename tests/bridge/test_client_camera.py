@@ -51,7 +51,7 @@ async def test_a_camera_connects_again_and_passes_over_what_is_no_frame(caplog):
     assert "ZeroDivisionError" in caplog.text
 
 
-async def test_a_camera_at_an_address_that_can_never_work_says_so():
+async def test_a_camera_at_an_address_that_can_never_work_is_given_up_with_a_word(caplog):
     stream = CameraStream("front", print)
     await stream.run()
-    assert stream.sentence.startswith("The address must be like")
+    assert "No pictures: The address must be like" in caplog.text
