@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 __all__ = ["Rect", "connect_columns", "drive", "form", "mission", "shell"]
 
-SELECTION = 300
+SELECTION = 310
 """Width of the bar for what is selected on a phone's map [dp]."""
 
 
@@ -96,7 +96,7 @@ def mission(body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False
 
 def _mission_short(area: Rect, right: float, gap: float, dp: float) -> dict[str, Rect]:
     """The video in the corner of a phone's map, and beside it, or above it where that is too narrow, the selection."""
-    picture = min(120 * dp, 0.4 * (right - area.x))
+    picture = min(112 * dp, 0.4 * (right - area.x))
     video = Rect(area.x + gap, area.y + gap, picture, picture * 0.75)
     beside = right - video.right - 8 * dp
     if beside >= SELECTION * dp:
@@ -126,7 +126,7 @@ def _mission_instruments(area: Rect, gap: float, dp: float) -> dict[str, Rect]:
 
 def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
     gap = 12 * dp
-    low = min(306 * dp, body.height * 0.5)
+    low = min(314 * dp, body.height * 0.5)
     height = body.height - 120 * dp if sheet_open else low
     sheet = Rect(body.x, body.y, body.width, height)
     stop_width = min(max(158 * dp, body.width * 0.3), 260 * dp)

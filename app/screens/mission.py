@@ -22,6 +22,7 @@ from app.dashboard import Dashboard
 from app.feeds import Post
 from app.link import EVENT, OUTCOME
 from app.screens.panel import MissionPanel
+from app.screens.placing import put
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import RobotInfo, TaskStatus
 from bridge.msgs.vision_msgs import Detection2DArray
@@ -161,7 +162,7 @@ class MissionScreen(FloatLayout):
             widget.bind(on_release=act)
             ids[button] = widget
         for button, text, width, act in (
-            ("place_cancel", "Cancel", "68dp", lambda *_: setattr(self, "mode", "view")),
+            ("place_cancel", "Cancel", "78dp", lambda *_: setattr(self, "mode", "view")),
             ("place_here", "Set here", "88dp", lambda *_: self._place_robot()),
         ):
             kind = PrimaryButton if button == "place_here" else QuietButton
@@ -248,16 +249,16 @@ class MissionScreen(FloatLayout):
             ("modes", self.ids.modes),
             ("selection", self.selection),
         ):
-            _put(widget, places[name])
-        _put(self.map, places["map"])
+            put(widget, places[name])
+        put(self.map, places["map"])
         self._float(self.video, places.get("video"))
         self.video.show_chip = form == "wide"
         self._float(self.compass, places.get("compass"))
         self.panel.take_form(form)
         self.panel.sheet_open = bool(self.sheet) and tall
         self._float(self.panel.readouts, places.get("readouts"))
-        _put(self.panel, places["panel"])
-        _put(self.ids.handle, places.get("handle", Rect(-100, -100, 1, 1)))
+        put(self.panel, places["panel"])
+        put(self.ids.handle, places.get("handle", Rect(-100, -100, 1, 1)))
         self.ids.handle.opacity = 1 if tall else 0
         self._place_tasks(places.get("tasks"))
         self._place_tools(places["tools"], dp, tall)
@@ -315,7 +316,7 @@ class MissionScreen(FloatLayout):
             return
         if widget.parent is None:
             floats.add_widget(widget)
-        _put(widget, rect)
+        put(widget, rect)
 
     def _rearrange(self, *_: object) -> None:
         self.arrange(self._body, self._form, self._dp)
@@ -443,8 +444,3 @@ class MissionScreen(FloatLayout):
             self.session.place_robot(*self.map.placed)
             self.app.shell.say("Told the robot where it is.", "info")
             self.mode = "view"
-
-
-def _put(widget: Widget, rect: Rect) -> None:
-    widget.size_hint = (None, None)
-    widget.pos, widget.size = (rect.x, rect.y), (rect.width, rect.height)

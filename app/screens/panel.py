@@ -292,8 +292,9 @@ class MissionPanel(BoxLayout):
         if not self._session.running:
             self._progress.value = math.nan
             self.next.value = self.left.value = math.nan
-        self.lap.words = f"{status.lap}" if status.lap else ""
-        self.lap.unit = f"of {status.laps}" if status.laps and status.lap else ""
+        lap = status.lap if status.task == "patrol" else 0  # the way home has neither laps nor points
+        self.lap.words = f"{lap}" if lap else ""
+        self.lap.unit = f"of {status.laps}" if status.laps and lap else ""
         # the robot's own sentence stands under the buttons
         going = f"Point {status.waypoint} of {status.waypoints}" if status.waypoint else ""
         self._progress.where = going or status.reason or "No task runs."
@@ -301,7 +302,9 @@ class MissionPanel(BoxLayout):
     def _show_progress(self, progress: TaskProgress) -> None:
         if self._session.running:
             self._progress.value = progress.progress
-            self.next.value, self.left.value = progress.distance_to_next, progress.time_left
+            status = self._session.feeds.latest("/task/status")
+            self.next.value = progress.distance_to_next if status.task == "patrol" else math.nan
+            self.left.value = progress.time_left
 
     def tick(self) -> None:
         """Bring up to date what time changes."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -13,10 +14,10 @@ from app.feeds import Feeds, Post
 from app.session import Session
 from app.settings import Settings
 from bridge.client import LinkState, Phase
-from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskStatus
+from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskProgress, TaskStatus
 from tests.headless import Stage
 
-SIZES = {"tall": (388, 158), "short": (276, 254)}
+SIZES = {"tall": (388, 166), "short": (276, 254)}
 """Form to the room that `app.arrange` gives the panel on a phone of 412 by 892."""
 
 
@@ -43,7 +44,9 @@ def session(tmp_path: Path) -> Session:
 def panel(stage: Stage, session: Session, request: pytest.FixtureRequest) -> Any:
     from app.screens.panel import MissionPanel
 
-    panel = MissionPanel(session, Dashboard(session.feeds))
+    dashboard = Dashboard(session.feeds)
+    panel = MissionPanel(session, dashboard)
+    panel.dashboard_of_test = dashboard
     panel.take_form(request.param)
     stage.show(panel, SIZES[request.param])
     settle(stage, panel)
@@ -113,6 +116,24 @@ def test_what_is_changed_while_a_task_runs_can_be_sent(stage: Stage, session: Se
     session.mission.add(1.0, 2.0)
     settle(stage, panel)
     assert seen(panel, panel.ids["send"])
+
+
+@pytest.mark.parametrize("panel", ["tall"], indirect=True)
+@pytest.mark.parametrize(("task", "lap", "metres"), [("patrol", "2", 7.5), ("go_home", "", math.nan)])
+def test_the_way_home_has_no_laps_and_no_next_point(
+    session: Session, panel: Any, task: str, lap: str, metres: float
+) -> None:
+    dashboard = panel.dashboard_of_test
+    dashboard.enter()
+    for topic, message in (
+        ("/task/status", TaskStatus(task=task, state="RUNNING", lap=2, laps=3)),
+        ("/task/progress", TaskProgress(progress=0.5, distance_to_next=7.5, time_left=9.0)),
+    ):
+        tell(session, topic, message)
+        dashboard.deliver(topic, message)
+    assert panel.lap.words == lap
+    assert panel.next.value == pytest.approx(metres, nan_ok=True)
+    assert panel.left.value == 9.0
 
 
 @both
