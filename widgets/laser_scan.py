@@ -239,9 +239,10 @@ def _scan(*, around: bool = False, step_back: float = 0.0) -> LaserScan:
 def samples() -> dict[str, Callable[[], Widget]]:
     """The states of the picture by name."""
 
-    def made(scan: LaserScan | None = None, **more: Any) -> Callable[[], Widget]:
+    def made(
+        scan: LaserScan | None = None, size: tuple[float, float] = (326, 228), **more: Any
+    ) -> Callable[[], Widget]:
         def build() -> LaserScanView:
-            size = more.pop("size", (326, 228))
             view = LaserScanView(
                 size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **{"title": "Front laser", **more}
             )

@@ -188,3 +188,8 @@ def test_an_alarm_shows_one_sign(view):
     view.show(sweep(2.0, 0.4, 3.0))
     view.state = "alarm"
     assert said(view) == ["FRONT LASER", "0.4 m"]
+
+
+def test_a_sample_looks_the_same_when_it_is_built_again():
+    for build in samples().values():
+        assert tuple(build().size) == tuple(build().size)
