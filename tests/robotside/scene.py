@@ -1,0 +1,109 @@
+"""A station in virtual time, for the tests of what happens in it."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import (
+    Twist,
+)
+from bridge.msgs.pilothouse_msgs import (
+    CommandRequest,
+    CommandResponse,
+    ControlStatus,
+    Event,
+    Mission,
+    SetMissionRequest,
+    StartTaskRequest,
+    TaskStatus,
+    Waypoint,
+)
+from robotside.orders import services
+from robotside.station import Station
+from robotside.store import Store
+from tests.fakes import FakeClient, FakeRobot
+
+__all__ = ["SQUARE", "Scene"]
+
+TICK = 1 / 60
+SQUARE = [Waypoint(4.0, 0.0), Waypoint(4.0, 3.0), Waypoint(-2.0, 3.0)]
+
+
+class Scene:
+    """A station on a fake robot, with its messages recorded and time in hand.
+
+    `now` is the robot's clock, which runs `speed` times as fast as the operators', `clock`.
+    """
+
+    def __init__(self, robot: FakeRobot, state: Path, speed: float = 1.0) -> None:
+        self.now = self.clock = 1000.0
+        self._speed = speed
+        self.robot = robot
+        self.clients: list[FakeClient] = []
+        self.anna = self.client("anna")
+        self.station = Station(
+            robot, Store(state), now=self.now, clock=lambda: self.clock, rng=random.Random(1), boot="b1"
+        )
+        self.said: list[tuple[str, Msg]] = []
+        self.station.bus.subscribe(None, lambda topic, msg: self.said.append((topic, msg)))
+        self._services = {service.name: service for service in services(self.station)}
+
+    def client(self, name: str) -> FakeClient:
+        client = FakeClient(name, self.clock)
+        self.clients.append(client)
+        return client
+
+    def run(self, seconds: float) -> None:
+        for _ in range(round(seconds / TICK)):
+            self.now += TICK
+            self.clock += TICK / self._speed
+            for client in self.clients:
+                client.last_heard = self.clock
+            self.station.step(self.now)
+
+    def run_task(self, limit: float = 200.0) -> TaskStatus:
+        end = self.now + limit
+        while self.station.autonomy.engine.running and self.now < end:
+            self.run(0.1)
+        return self.station.autonomy.engine.status
+
+    def ask(self, name: str, request: Msg | None = None, client: FakeClient | None = None) -> CommandResponse:
+        answer = self._services[name].call(client or self.anna, request or CommandRequest())  # type: ignore[arg-type]
+        assert isinstance(answer, Msg)
+        return answer  # type: ignore[return-value]
+
+    def refused(self, name: str, request: Msg | None = None, client: FakeClient | None = None) -> str:
+        answer = self.ask(name, request, client)
+        assert not answer.success
+        return answer.message
+
+    def set(self, *points: Waypoint, **words: object) -> None:
+        home = words.pop("home", [Waypoint(0.0, 0.0)])
+        mission = Mission(waypoints=list(points), home=home, **words)  # type: ignore[arg-type]
+        answer = self.ask("/mission/set", SetMissionRequest(mission=mission))
+        assert answer.success, answer.message
+
+    def start(self) -> None:
+        answer = self.ask("/task/start", StartTaskRequest())
+        assert answer.success, answer.message
+
+    def drive(self, twist: Twist, client: FakeClient | None = None, stamp: float | None = None) -> None:
+        self.station.hear(client or self.anna, "/cmd_vel", twist, stamp)
+
+    def events(self, kind: str = "") -> list[str]:
+        return [msg.text for _, msg in self.said if isinstance(msg, Event) and (not kind or msg.kind == kind)]
+
+    def of(self, topic: str) -> list[Msg]:
+        return [msg for name, msg in self.said if name == topic]
+
+    @property
+    def task(self) -> TaskStatus:
+        return self.station.autonomy.engine.status
+
+    @property
+    def control(self) -> ControlStatus:
+        last = self.station.bus.last("/control/status")
+        assert isinstance(last, ControlStatus)
+        return last

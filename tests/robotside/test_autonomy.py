@@ -1,0 +1,127 @@
+"""What the robot does by itself, in virtual time."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Pose,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Quaternion,
+)
+from bridge.msgs.pilothouse_msgs import (
+    IntruderArray,
+    Waypoint,
+)
+from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.msgs.std_msgs import Header, Time
+from tests.fakes import Box, FakeRobot, Pillar
+from tests.robotside.scene import SQUARE, Scene
+from tests.robotside.test_detect import cone, jpeg, picture
+
+
+def test_an_empty_battery_sends_the_robot_home_by_itself(scene: Scene) -> None:
+    scene.set(*SQUARE)
+    scene.start()
+    scene.run(5.0)
+    scene.robot.battery = 0.09
+    scene.run(1.1)
+    assert scene.task.task == "go_home"
+    assert scene.events("battery") == ["Battery low: 9%.", "Battery at 9%: going home."]
+    assert scene.run_task().reason == "Home."
+
+
+def test_the_bumper_halts_the_patrol(scene: Scene) -> None:
+    scene.set(*SQUARE)
+    scene.start()
+    scene.run(1.0)
+    x, y, _ = scene.robot.pose
+    scene.robot.pillars.append(Pillar(x + 0.25, y, 0.12))
+    scene.run(0.2)
+    assert scene.task.reason == "Paused: the bumper touched something."
+    assert scene.robot.at_rest
+    assert len(scene.events("contact")) == 1
+
+
+@pytest.mark.parametrize(("topic", "sense"), [("/scan", "laser"), ("/odom", "odometry")])
+def test_a_robot_that_has_become_blind_halts(scene: Scene, topic: str, sense: str) -> None:
+    scene.set(*SQUARE)
+    scene.start()
+    scene.run(1.0)
+    scene.robot.silent.add(topic)
+    scene.run(0.9)
+    assert scene.task.reason == f"Paused: the {sense} has been silent for 0.6 s."
+    assert scene.robot.at_rest
+
+
+def test_a_robot_that_was_placed_by_a_finger_finds_its_exact_pose(tmp_path: Path) -> None:
+    hall = FakeRobot(start=(-6.0, 2.0, 0.8), boxes=[Box(-1.0, 2.0, 1.0, 4.0), Box(3.0, -5.0, 4.0, -2.0)])
+    scene = Scene(hall, tmp_path)
+    told = Pose(Point(-5.5, 1.6), Quaternion.from_yaw(0.5))
+    scene.run(0.5)
+    scene.station.hear(
+        scene.anna, "/initialpose", PoseWithCovarianceStamped(pose=PoseWithCovariance(told)), None
+    )
+    scene.run(2.0)
+    pose = scene.station.autonomy.whereabouts.pose
+    assert pose is not None
+    assert pose == pytest.approx((-6.0, 2.0, 0.8), abs=0.08)
+    assert scene.station.autonomy.whereabouts.sure
+
+
+def test_the_camera_is_wanted_only_while_a_task_runs(scene: Scene) -> None:
+    scene.set(*SQUARE, laps=1)
+    scene.start()
+    assert scene.robot.wanted["/camera/image/compressed"]
+    scene.run_task()
+    assert not scene.robot.wanted["/camera/image/compressed"]
+
+
+@pytest.mark.parametrize("stop", [True, False])
+def test_an_intruder_is_told_once_and_halts_the_patrol_if_asked(scene: Scene, stop: bool) -> None:
+    image, draw = picture()
+    focal = 320 / math.tan(0.6)
+    cone(draw, 320, 240 + focal * 0.36 / 3.0, 0.6 * focal / 3.0)
+    scene.set(Waypoint(6.0, -4.0), stop_on_intruder=stop)
+    scene.start()
+    scene.run(0.1)
+    for n in range(5):
+        shot = CompressedImage(Header(Time.at(scene.now - 0.5 + 0.21 * n), "camera"), "jpeg", jpeg(image))
+        scene.station.autonomy.take("/camera/image/compressed", shot, scene.now)
+    assert len(scene.events("intruder")) == 1
+    known = scene.station.bus.last("/intruders")
+    assert isinstance(known, IntruderArray)
+    assert [intruder.id for intruder in known.intruders] == [1]
+    assert scene.task.state == ("PAUSED" if stop else "RUNNING")
+
+
+def test_a_robot_that_was_carried_away_says_that_it_is_unsure_creeps_and_can_be_placed_again(
+    tmp_path: Path,
+) -> None:
+    boxes = [Box(-1.0, 2.0, 1.0, 4.0), Box(3.0, -5.0, 4.0, -2.0), Box(-8.0, -4.0, -6.0, -3.0)]
+    scene = Scene(FakeRobot(boxes=boxes), tmp_path)
+    scene.run(4.0)
+    scene.set(Waypoint(8.0, 0.0))
+    scene.start()
+    scene.run(2.0)
+    scene.robot.pose = (-4.0, 4.0, 2.0)
+    scene.run(3.0)
+    assert any(said.startswith("Position unsure") for said in scene.events("localisation"))
+    assert abs(scene.robot.twist.linear.x) <= 0.15
+    scene.ask("/task/pause")
+    x, y, yaw = scene.robot.pose
+    told = Pose(Point(x + 0.4, y - 0.3), Quaternion.from_yaw(yaw + 0.2))
+    scene.station.hear(
+        scene.anna, "/initialpose", PoseWithCovarianceStamped(pose=PoseWithCovariance(told)), None
+    )
+    scene.run(1.0)
+    assert scene.events("localisation")[-1] == "Position sure again."
+    scene.ask("/task/resume")
+    assert scene.run_task().state == "SUCCEEDED"
+    assert math.hypot(scene.robot.pose[0] - 8.0, scene.robot.pose[1]) < 0.2
+    assert scene.robot.contacts == 0
