@@ -34,7 +34,7 @@ class NoRendererError(RuntimeError):
 
 
 def _context() -> moderngl.Context:
-    # Mesa's software renderer would else take every core for pictures that one core draws in 2 ms.
+    # Mesa's software renderer would else take every core for pictures that one core draws in 10 ms.
     os.environ.setdefault("LP_NUM_THREADS", "1")
     backend: Any = "egl"
     try:
