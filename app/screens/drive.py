@@ -18,6 +18,7 @@ from app.camera import Picture
 from app.dashboard import Dashboard
 from app.feeds import Post
 from app.layout import Instrument, Layout, LayoutError
+from app.screens.placing import put
 from app.session import Session
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.vision_msgs import Detection2DArray
@@ -121,7 +122,6 @@ class DriveScreen(FloatLayout):
         return widget
 
     def _place(self, slot: str, widget: Widget) -> None:
-        widget.size_hint = (None, None)
         self.places.setdefault(slot, []).append(widget)
         self.add_widget(widget)
 
@@ -152,10 +152,7 @@ class DriveScreen(FloatLayout):
         places = self._arranged = arrange.drive(body, form, dp)
         for slot, found in self.places.items():
             for widget in found:
-                widget.pos, widget.size = (
-                    (places[slot].x, places[slot].y),
-                    (places[slot].width, places[slot].height),
-                )
+                put(widget, places[slot])
         tall = form == "tall"
         self.actions.cols = 3 if tall else 1
         roomy = form == "wide" or places["readouts"].width >= 330 * dp

@@ -10,7 +10,6 @@ from kivy.lang import Builder
 from kivy.metrics import Metrics
 from kivy.properties import BooleanProperty, ListProperty, ObjectProperty, OptionProperty, StringProperty
 from kivy.uix.floatlayout import FloatLayout
-from kivy.uix.widget import Widget
 
 import widgets.battery
 import widgets.link_quality  # noqa: F401
@@ -20,6 +19,7 @@ from app.dashboard import Dashboard
 from app.feeds import Post
 from app.link import EVENT, OUTCOME
 from app.screens.connect import THEMES
+from app.screens.placing import put
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
 from bridge.msgs.sensor_msgs import NavSatFix
@@ -248,14 +248,14 @@ class Shell(FloatLayout):
         self.form = arrange.form(self.width, self.height, dp)
         places = arrange.shell(self.width, self.height, dp)
         for name in ("bar", "nav", "body"):
-            _put(self.ids[name], places[name])
+            put(self.ids[name], places[name])
         self._arrange_bar()
         self._arrange_rail(places["nav"], dp)
         if self.screen:
             screen = self.screens[self.screen]
-            _put(screen, places["body"])
+            put(screen, places["body"])
             stop = screen.arrange(places["body"], self.form, dp)
-            _put(self.stop, stop)
+            put(self.stop, stop)
         self._place_notices()
 
     def _arrange_bar(self) -> None:
@@ -438,8 +438,3 @@ def _accuracy(fix: NavSatFix) -> str:
     if not fix.position_covariance_type or not fix.position_covariance:
         return "fix"
     return f"±{math.sqrt(max(0.0, fix.position_covariance[0])):.1f} m"
-
-
-def _put(widget: Widget, rect: arrange.Rect) -> None:
-    widget.size_hint = (None, None)
-    widget.pos, widget.size = (rect.x, rect.y), (rect.width, rect.height)
