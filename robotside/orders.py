@@ -35,6 +35,7 @@ from robotside.words import plain
 __all__ = ["services"]
 
 MOST_POINTS = 500
+"""Waypoints that one mission may have."""
 
 LONGEST_NAME = 60
 """Characters kept of a waypoint's name."""
