@@ -15,7 +15,7 @@ from kivy.properties import ListProperty, NumericProperty, ObjectProperty, Optio
 from kivy.uix.widget import Widget
 
 from widgets.geometry import View, nearest
-from widgets.map_marks import HANDLE
+from widgets.map_marks import handle_reach
 from widgets.theme import theme
 
 __all__ = ["Grip", "MapGestures"]
@@ -192,10 +192,14 @@ class MapGestures(Widget):
             return [("turn", [self.handle_place()]), ("robot", [self.placed])]
         return []
 
+    def handle_reach(self) -> float:
+        """From the robot being placed to its handle [px]; the handle stays on the map."""
+        return handle_reach(self.view, tuple(self.placed), (*self.pos, *self.size))
+
     def handle_place(self) -> tuple[float, float]:
         """Where the handle is that turns the robot being placed [m]."""
         x, y, yaw = self.placed
-        reach = dp(HANDLE) / self.view.scale
+        reach = self.handle_reach() / self.view.scale
         return x + reach * math.cos(yaw), y + reach * math.sin(yaw)
 
     def _drop(self, grip: Grip) -> None:

@@ -26,6 +26,7 @@ __all__ = [
     "intruder_marks",
     "laser_dots",
     "outlined",
+    "handle_reach",
     "place_handle",
     "plan_line",
     "robot_mark",
@@ -213,12 +214,27 @@ def arrow(x: float, y: float, yaw: float, radius: float) -> list[tuple[float, fl
     return [(x + cos * u - sin * v, y + sin * u + cos * v) for u, v in ARROW]
 
 
+def handle_reach(
+    view: View, pose: tuple[float, float, float], box: tuple[float, float, float, float]
+) -> float:
+    """How far from a robot being placed its handle stands [px]: less where it would leave the screen's `box`."""
+    x, y = view.to_screen(*pose[:2])
+    yaw = pose[2] + view.turn
+    left, low, width, height = box
+    room = float(dp(HANDLE))
+    for at, start, size, way in ((x, left, width, math.cos(yaw)), (y, low, height, math.sin(yaw))):
+        edge = start + size - dp(20) - at if way > 0 else at - start - dp(20)
+        if abs(way) > 1e-6:
+            room = min(room, edge / abs(way))
+    return max(room, float(dp(40)))
+
+
 def place_handle(
-    shapes: Shapes, view: View, pose: tuple[float, float, float], radius: float
+    shapes: Shapes, view: View, pose: tuple[float, float, float], radius: float, reach: float
 ) -> tuple[Word, tuple[float, float]]:
     """The ring round a robot that is being put somewhere and the handle that turns it; gives the handle's place."""
     x, y = view.to_screen(*pose[:2])
-    yaw, reach = pose[2] + view.turn, dp(HANDLE)
+    yaw = pose[2] + view.turn
     hx, hy = x + reach * math.cos(yaw), y + reach * math.sin(yaw)
     shapes.ring(x, y, reach, dp(2.4), tint(theme.plan, 0.8), dashes=36)
     shapes.disc(x, y, reach, tint(theme.plan, 0.10))

@@ -288,7 +288,7 @@ class MapOverlay(MapGestures, Drawing):
             yield word
         if self.placed:
             pose = tuple(self.placed)
-            word, _ = marks.place_handle(shapes, self.view, pose, self.mark_radius)
+            word, _ = marks.place_handle(shapes, self.view, pose, self.mark_radius, self.handle_reach())
             marks.ghost_mark(shapes, self.view, pose, self._robot_disc())
             yield word
         x, y, wide, _ = self.free_box

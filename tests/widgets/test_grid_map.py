@@ -194,6 +194,15 @@ def test_the_robot_is_dragged_and_then_turned_by_its_handle(map_, stage):
     assert map_.placed == []
 
 
+def test_the_handle_stays_on_the_map(map_):
+    map_.mode = "place_robot"
+    left, middle = map_.view.to_world(map_.x + 62, map_.center_y), map_.view.to_world(*map_.center)
+    map_.placed = [*left, math.pi]
+    assert map_.view.to_screen(*map_.handle_place())[0] == pytest.approx(map_.x + 20, abs=1)
+    map_.placed = [*middle, math.pi]
+    assert map_.center_x - map_.view.to_screen(*map_.handle_place())[0] == pytest.approx(74, abs=1)
+
+
 # several fingers
 
 
