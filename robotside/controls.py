@@ -12,7 +12,7 @@ from typing import Protocol
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from robotside.words import number, plain
 
-__all__ = ["AHEAD", "LAPSE", "STOP_SENTENCE", "VALID", "Client", "Controls", "Driver", "Ruling"]
+__all__ = ["AHEAD", "LAPSE", "STOP_SENTENCE", "VALID", "Controls", "Driver", "Operator", "Ruling"]
 
 VALID = 0.3
 """How long a drive command counts [s]; without a newer one the robot stops."""
@@ -32,8 +32,8 @@ LONGEST_ID = 64
 STOP_SENTENCE = "STOP is pressed; hold Release to drive again."
 
 
-class Client(Protocol):
-    """One connected client, as the bridge server knows it."""
+class Operator(Protocol):
+    """Who commands over one connection: a session of the bridge server."""
 
     id: str
     address: str
@@ -47,7 +47,7 @@ class Driver:
 
     client_id: str
     name: str
-    client: Client
+    client: Operator
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,20 +89,20 @@ class Controls:
         """A drive command is in force."""
         return self._driving_until is not None
 
-    def introduce(self, client: Client, client_id: str, name: str) -> None:
+    def introduce(self, client: Operator, client_id: str, name: str) -> None:
         """Remember what `client` calls itself, cut to a readable line; empty words change nothing."""
         client_id, name = plain(client_id, LONGEST_ID), plain(name, LONGEST_NAME)
         known_id, known_name = self._identity(client)
         self._names[client.id] = (client_id or known_id, name or known_name)
 
-    def name(self, client: Client) -> str:
+    def name(self, client: Operator) -> str:
         """What to call `client`."""
         return self._identity(client)[1]
 
-    def _identity(self, client: Client) -> tuple[str, str]:
+    def _identity(self, client: Operator) -> tuple[str, str]:
         return self._names.get(client.id, (client.id, f"a client at {client.address}"))
 
-    def acquire(self, client: Client, now: float) -> str:
+    def acquire(self, client: Operator, now: float) -> str:
         """Give control to `client` if it is free or its own; returns why not, empty when it has it now."""
         self.lapse(now)
         client_id, name = self._identity(client)
@@ -111,7 +111,7 @@ class Controls:
         self._driver = Driver(client_id, name, client)
         return ""
 
-    def release(self, client: Client) -> str:
+    def release(self, client: Operator) -> str:
         """Take control from `client`; returns why not, empty when it is free now."""
         if self._driver is None:
             return ""
@@ -120,7 +120,7 @@ class Controls:
         self._driver = None
         return ""
 
-    def objection(self, client: Client) -> str:
+    def objection(self, client: Operator) -> str:
         """Why `client` may not change what the robot will do; empty when it may."""
         held = self._driver
         if held is None or client.id == held.client.id or self._identity(client)[0] == held.client_id:
@@ -134,7 +134,7 @@ class Controls:
         name, self._driver = self._driver.name, None
         return name
 
-    def gone(self, client: Client) -> bool:
+    def gone(self, client: Operator) -> bool:
         """Forget a client whose socket closed; True when it was driving, so that the robot must stop."""
         self._names.pop(client.id, None)
         self._last_stamp.pop(client.id, None)
@@ -155,7 +155,7 @@ class Controls:
 
     def drive(
         self,
-        client: Client,
+        client: Operator,
         twist: Twist,
         now: float,
         *,
@@ -189,7 +189,7 @@ class Controls:
         """End the drive command in force: the robot drives itself from now on, or was stopped otherwise."""
         self._driving_until = None
 
-    def _fault(self, client: Client, twist: Twist, now: float, stamp: float | None) -> str:
+    def _fault(self, client: Operator, twist: Twist, now: float, stamp: float | None) -> str:
         if not all(map(math.isfinite, _numbers(twist))):
             return "A drive command was dropped: its speeds are not all numbers."
         if stamp is None or math.isnan(stamp):

@@ -28,7 +28,7 @@ from bridge.msgs.std_msgs import Time
 from bridge.server import Service, Session
 from robotside.autonomy import LOW_BELOW
 from robotside.commands import Commands, Refusal
-from robotside.controls import STOP_SENTENCE, Client
+from robotside.controls import STOP_SENTENCE, Operator
 from robotside.station import Station
 from robotside.words import plain
 
@@ -44,7 +44,7 @@ LONGEST_NAME = 60
 def services(station: Station) -> Iterable[Service]:
     """What the bridge offers for `station`."""
     orders = _Orders(station)
-    plain: dict[str, Callable[[Client, CommandRequest], str]] = {
+    plain: dict[str, Callable[[Operator, CommandRequest], str]] = {
         "/stop/release": orders.release_stop,
         "/task/pause": orders.pause,
         "/task/resume": orders.resume,
@@ -78,7 +78,7 @@ class _Orders:
     def service(
         self,
         name: str,
-        action: Callable[[Client, Any], str],
+        action: Callable[[Operator, Any], str],
         kind: str = "Command",
         request: type[CommandRequest] = CommandRequest,
         *,
@@ -94,12 +94,12 @@ class _Orders:
 
         return _service(name, kind, request, CommandResponse, call)
 
-    def stop(self, client: Client, _: CommandRequest) -> str:
+    def stop(self, client: Operator, _: CommandRequest) -> str:
         """Latch STOP."""
         self._station.press_stop(self._station.controls.name(client))
         return "Stopped."
 
-    def release_stop(self, client: Client, _: CommandRequest) -> str:
+    def release_stop(self, client: Operator, _: CommandRequest) -> str:
         """Unlatch STOP."""
         self._need_control(client)
         if not self._station.controls.stopped:
@@ -107,19 +107,19 @@ class _Orders:
         self._station.release_stop(self._station.controls.name(client))
         return "STOP is released."
 
-    def acquire(self, client: Client, _: CommandRequest) -> str:
+    def acquire(self, client: Operator, _: CommandRequest) -> str:
         """Take control."""
         self._need_control(client)
         return "You have control."
 
-    def release(self, client: Client, _: CommandRequest) -> str:
+    def release(self, client: Operator, _: CommandRequest) -> str:
         """Give control back."""
         problem = self._station.release_control(client)
         if problem:
             raise Refusal(problem)
         return "Control is free."
 
-    def start(self, client: Client, asked: StartTaskRequest) -> str:
+    def start(self, client: Operator, asked: StartTaskRequest) -> str:
         """Start a task on the stored mission."""
         if asked.task == "go_home":
             return self.go_home(client, asked)
@@ -140,7 +140,7 @@ class _Orders:
         count = len(mission.waypoints)
         return f"Patrol started: {count} {'point' if count == 1 else 'points'}, {mission.motion}."
 
-    def go_home(self, client: Client, _: CommandRequest) -> str:
+    def go_home(self, client: Operator, _: CommandRequest) -> str:
         """Go to the stored home, whatever it is doing."""
         self._may_move(client)
         station = self._station
@@ -152,7 +152,7 @@ class _Orders:
         station.autonomy.start_home(home, station.now)
         return "Going home."
 
-    def pause(self, client: Client, _: CommandRequest) -> str:
+    def pause(self, client: Operator, _: CommandRequest) -> str:
         """Hold the running task."""
         self._need_control(client)
         engine = self._station.autonomy.engine
@@ -163,7 +163,7 @@ class _Orders:
         engine.pause(f"Paused by {self._station.controls.name(client)}.")
         return "Paused."
 
-    def resume(self, client: Client, _: CommandRequest) -> str:
+    def resume(self, client: Operator, _: CommandRequest) -> str:
         """Go on with the paused task."""
         self._may_move(client)
         engine = self._station.autonomy.engine
@@ -175,7 +175,7 @@ class _Orders:
         engine.resume()
         return "Resumed."
 
-    def cancel(self, client: Client, _: CommandRequest) -> str:
+    def cancel(self, client: Operator, _: CommandRequest) -> str:
         """End the task."""
         self._need_control(client)
         engine = self._station.autonomy.engine
@@ -184,7 +184,7 @@ class _Orders:
         engine.cancel(f"Canceled by {self._station.controls.name(client)}.")
         return "Canceled."
 
-    def set_mission(self, client: Client, asked: SetMissionRequest) -> str:
+    def set_mission(self, client: Operator, asked: SetMissionRequest) -> str:
         """Check a mission and store it."""
         problem = self._station.controls.objection(client)
         if problem:
@@ -204,22 +204,22 @@ class _Orders:
         later = "; the patrol that is under way keeps its own" if self._station.autonomy.engine.active else ""
         return f"Stored {count} {'point' if count == 1 else 'points'}{later}."
 
-    def mission(self, _: Client, __: GetMissionRequest) -> GetMissionResponse:
+    def mission(self, _: Operator, __: GetMissionRequest) -> GetMissionResponse:
         """Give the stored mission."""
         mission = self._station.mission
         stored = mission.stamp.seconds > 0
         return GetMissionResponse(True, "" if stored else "No mission was stored yet.", mission)
 
-    def events(self, _: Client, asked: GetEventsRequest) -> GetEventsResponse:
+    def events(self, _: Operator, asked: GetEventsRequest) -> GetEventsResponse:
         """Give the events that a client missed."""
         return GetEventsResponse(self._station.events.since(asked.since, asked.boot))
 
-    def _need_control(self, client: Client) -> None:
+    def _need_control(self, client: Operator) -> None:
         problem = self._station.controls.acquire(client, self._station.clock())
         if problem:
             raise Refusal(problem)
 
-    def _may_move(self, client: Client) -> None:
+    def _may_move(self, client: Operator) -> None:
         if self._station.controls.stopped:
             raise Refusal(STOP_SENTENCE)
         self._need_control(client)

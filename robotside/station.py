@@ -23,7 +23,7 @@ from bridge.msgs.pilothouse_msgs import ControlStatus, IntruderArray, Mission, W
 from bridge.msgs.std_msgs import Header, Time
 from robotside.autonomy import LOW_BELOW, Autonomy
 from robotside.bus import Bus
-from robotside.controls import STOP_SENTENCE, Client, Controls
+from robotside.controls import STOP_SENTENCE, Controls, Operator
 from robotside.demand import Demand
 from robotside.events import Events
 from robotside.grid import Grid
@@ -110,7 +110,7 @@ class Station:
             self._next_diagnostics = now + 1.0
             self.bus.publish("/diagnostics", self._diagnostics())
 
-    def hear(self, client: Client, topic: str, msg: Msg, stamp: float | None) -> None:
+    def hear(self, client: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
         """A client published `msg`; `stamp` is when it meant it [s, operators' clock], None when it does not say."""
         if isinstance(msg, Twist):
             self._drive(client, msg, stamp)
@@ -120,7 +120,7 @@ class Station:
             self._go_to(client, Pose2.from_msg(msg.pose))
         self.show_control()
 
-    def gone(self, client: Client) -> None:
+    def gone(self, client: Operator) -> None:
         """A client's socket closed; if it was driving, the robot stops at once."""
         self._next_remark.pop(client.id, None)
         if self.controls.gone(client) and not self.autonomy.engine.running:
@@ -140,7 +140,7 @@ class Station:
         self.controls.release_stop()
         self.events.say("stop", f"STOP released by {name}.", "ok")
 
-    def release_control(self, client: Client) -> str:
+    def release_control(self, client: Operator) -> str:
         """Give control back; returns why not, empty when done. A robot driven by hand comes to rest."""
         problem = self.controls.release(client)
         if not problem and self.controls.driving:
@@ -227,7 +227,7 @@ class Station:
             said = f"The task ended: the robot's program has a fault ({type(fault).__name__})."
             self.autonomy.engine.fail(said)
 
-    def _drive(self, client: Client, twist: Twist, stamp: float | None) -> None:
+    def _drive(self, client: Operator, twist: Twist, stamp: float | None) -> None:
         engine = self.autonomy.engine
         ruling = self.controls.drive(client, twist, self.clock(), stamp=stamp, auto=engine.running)
         if ruling.twist is None:
@@ -236,7 +236,7 @@ class Station:
         engine.pause(f"Paused: {self.controls.name(client)} took the stick.", "warn")
         self.robot.drive(ruling.twist)
 
-    def _place(self, client: Client, pose: Pose2) -> None:
+    def _place(self, client: Operator, pose: Pose2) -> None:
         problem = self.controls.objection(client)
         if not all(map(math.isfinite, pose)):
             problem = "The pose to place the robot at is not all numbers."
@@ -249,7 +249,7 @@ class Station:
         text = f"{name} placed the robot at ({pose.x:.1f}, {pose.y:.1f})."
         self.events.say("localisation", text, at=(pose.x, pose.y))
 
-    def _go_to(self, client: Client, pose: Pose2) -> None:
+    def _go_to(self, client: Operator, pose: Pose2) -> None:
         problem = STOP_SENTENCE if self.controls.stopped else self.controls.acquire(client, self.clock())
         problem = problem or self.autonomy.guide.planner.fault("The goal", pose.x, pose.y)
         if not problem and self.autonomy.whereabouts.pose is None:
@@ -260,7 +260,7 @@ class Station:
         self.controls.hold()
         self.autonomy.start_goal(Waypoint(pose.x, pose.y, pose.yaw), self.now)
 
-    def _remark(self, client: Client, said: str) -> None:
+    def _remark(self, client: Operator, said: str) -> None:
         now = self.clock()
         if said and now >= self._next_remark.get(client.id, -math.inf):
             self._next_remark[client.id] = now + REMARK_PERIOD
