@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from kivy.lang import Builder
+from kivy.metrics import dp
 from kivy.properties import ListProperty, NumericProperty, ObjectProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
@@ -45,7 +46,7 @@ PICTURES = Path(widgets.__file__).parent / "data"
 Builder.load_string("""
 <SelectionBar>:
     size_hint: None, None
-    padding: dp(12), 0, dp(6), 0
+    padding: dp(12), dp(6), dp(6), dp(6)
     spacing: dp(6)
     canvas.before:
         Color:
@@ -166,8 +167,10 @@ class MissionScreen(FloatLayout):
             ("place_here", "Set here", "88dp", lambda *_: self._place_robot()),
         ):
             kind = PrimaryButton if button == "place_here" else QuietButton
-            word = kind(text=text, size_hint_x=None, width=width, height="40dp", pos_hint={"center_y": 0.5})
-            word.bind(on_release=act)
+            word = kind(text=text, size_hint=(None, None), width=width, pos_hint={"center_y": 0.5})
+            # a target as high as gloves need would stick out of the bar
+            word.bind(on_release=act, height=lambda one, _: setattr(one, "height", dp(40)))
+            word.height = dp(40)
             ids[button] = word
         ids.update({"map": self.map, "video": self.video, "selection": self.selection, "panel": self.panel})
         ids.update({"tasks": self.panel.tasks, "send": self.panel.ids.send, "motion": self.panel.motion})

@@ -300,6 +300,12 @@ def test_the_robot_is_placed_by_hand(driving: Glass, robot: FakeRobot) -> None:
     mission.mode = "place_robot"
     driving.stage.frames(3)
     driving.until(lambda: not mission.ids["place_here"].disabled, "cannot be placed")
+    theme.gloves = not theme.gloves  # the buttons stay within their bar whatever the size of a finger
+    driving.stage.frames(3)
+    for name in ("place_here", "place_cancel"):
+        assert mission.selection.top - mission.ids[name].top >= 6
+    theme.gloves = not theme.gloves
+    driving.stage.frames(3)
     driving.tap(mission.ids["place_here"])
     assert robot.until(lambda: any(topic == "/initialpose" for topic, _ in robot.heard))
     assert mission.mode == "view"
