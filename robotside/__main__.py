@@ -50,7 +50,11 @@ def _options(argv: Sequence[str] | None) -> argparse.Namespace:
     add = serve.add_argument
     add("--robot", default="sim:patrol", help="what to serve, as in sim:patrol")
     add("--world", default="parking_lot", help="where a simulated robot is")
-    add("--host", default="127.0.0.1", help="where to listen: this machine alone, unless 0.0.0.0 lets a phone in")
+    add(
+        "--host",
+        default="127.0.0.1",
+        help="where to listen: this machine alone, unless 0.0.0.0 lets a phone in",
+    )
     add("--port", type=int, default=9090, help="of the rosbridge socket; 0 takes a free one")
     add("--http-port", type=int, default=8080, help="of the web site; 0 takes a free one")
     add("--payloads", default="", help="what to serve besides; none exist yet")
