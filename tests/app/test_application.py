@@ -238,6 +238,8 @@ def test_an_alarm_leaves_when_what_it_told_is_over(driving: Glass, robot: FakeRo
     driving.stage.run_for(0.3)
     assert driving.banners() == ["Stopped by vm."]
     robot.publish("/control/status", robot.control)
+    heard = driving.app.session.feeds
+    driving.until(lambda: not heard.latest("/control/status").stopped, "still stopped")
     began = driving.stage.time.now
     driving.until(lambda: not driving.banners(), driving.banners())
     assert driving.stage.time.now - began < 2.0
@@ -246,7 +248,10 @@ def test_an_alarm_leaves_when_what_it_told_is_over(driving: Glass, robot: FakeRo
 def test_the_next_of_its_kind_takes_an_alarm_away(driving: Glass, robot: FakeRobot) -> None:
     robot.publish("/events", Event(id=1, kind="stop", level="alarm", text="STOP pressed by vm."))
     driving.until(lambda: driving.banners() == ["STOP pressed by vm."], driving.banners())
+    heard: list[str] = []
+    driving.app.session.listeners.append(lambda channel, _: heard.append(channel))
     robot.publish("/events", Event(id=2, kind="stop", level="ok", text="STOP released by vm."))
+    driving.until(lambda: "event" in heard, "not heard")
     began = driving.stage.time.now
     driving.until(lambda: not driving.banners(), driving.banners())
     assert driving.stage.time.now - began < 2.0

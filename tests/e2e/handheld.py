@@ -45,7 +45,16 @@ class Handheld:
     def tap(self, words: str, kind: str = "Widget") -> None:
         """Tap what says `words`."""
         found = self.until(lambda: self.glass.labelled(words, kind), f"something that says {words!r}")
+        self.settle(found[0])
         self.play(self.hand.tap(middle(found[0])))
+
+    def settle(self, widget: Widget) -> None:
+        """Wait until the layout leaves `widget` where it is, as a person does before touching it."""
+        places = [middle(widget)]
+        self.until(
+            lambda: places.append(middle(widget)) or (len(places) > 5 and len(set(places[-5:])) == 1),
+            "it to stand still",
+        )
 
     def play(self, steps: Iterator[None]) -> None:
         """Carry a gesture through."""
