@@ -44,8 +44,8 @@ log = logging.getLogger(__name__)
 
 GLASS = 1 / 30
 """Between two looks at what came that is not urgent [s]."""
-TICK = 0.1
-"""Between two looks at what only time changes [s]."""
+TICK = 3
+"""Every so many of them what only time changes is brought up to date as well."""
 BEAT = 0.03
 """Between two heartbeats of the user interface [s]; without one for 0.15 s the robot rests."""
 LIST = 0.5
@@ -109,6 +109,7 @@ class PilothouseApp(App):
         """When the pictures of the last second came [s]."""
         self._picture_at = math.nan
         self._drained = -math.inf
+        self._looks = 0
         self._camera_wanted: str | None = None
 
     # what tests and the demo look at
@@ -186,7 +187,6 @@ class PilothouseApp(App):
         self._events = [
             Clock.schedule_interval(lambda _: self._look(), GLASS),
             Clock.schedule_interval(lambda _: self._beat(), BEAT),
-            Clock.schedule_interval(lambda _: self._tick(), TICK),
             Clock.schedule_interval(lambda _: self._list(), LIST),
         ]
         if self._poll:  # Kivy hands a touch on two frames after it came; this saves one of them
@@ -253,6 +253,9 @@ class PilothouseApp(App):
         """Take in what is not urgent, unless something urgent has just brought it along: each time is a drawing."""
         if self._now() - self._drained >= GLASS * 0.6:
             self._drain()
+        self._looks += 1
+        if self._looks % TICK == 0:  # in the same frame: one of its own would be drawn for it
+            self._tick()
 
     def _drain(self) -> None:
         self._drained = self._now()
