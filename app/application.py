@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import math
-import os
 import sys
 import time
 import uuid
@@ -20,7 +19,7 @@ from kivy.uix.floatlayout import FloatLayout
 from app import simulator as simulators
 from app.camera import PICTURE, Camera, Picture
 from app.commands import Commands
-from app.device import device_name, is_android
+from app.device import device_name, is_android, own_folder
 from app.discovery import Robots
 from app.feeds import Feeds, Mailbox, Post
 from app.layout import Layout, load
@@ -143,7 +142,7 @@ class PilothouseApp(App):
 
     def build(self) -> Root:
         """Make the connect screen; the others are made when there is a robot to show."""
-        folder = Path(self._settings_dir or self._own_folder())
+        folder = Path(self._settings_dir or own_folder(lambda: self.user_data_dir))
         self.settings = Settings(folder)
         self.records = Records(folder, self._say)
         theme.name = self._theme or self._remembered_theme()
@@ -156,13 +155,6 @@ class PilothouseApp(App):
         root = Root()
         root.show_page(self.connect)
         return root
-
-    def _own_folder(self) -> str:
-        """Where the system wants an app's files; Kivy makes only the last folder of the way there."""
-        if not is_android():
-            config = os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config"
-            Path(config).mkdir(parents=True, exist_ok=True)
-        return str(self.user_data_dir)
 
     def _remembered_theme(self) -> str:
         name = self.settings.get("theme")

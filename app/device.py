@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import platform
 import sys
+from collections.abc import Callable
+from pathlib import Path
 
-__all__ = ["device_name", "is_android", "sees_broadcasts"]
+__all__ = ["device_name", "is_android", "own_folder", "sees_broadcasts"]
 
 
 def is_android() -> bool:
@@ -20,6 +23,14 @@ def device_name() -> str:
 
         return str(autoclass("android.os.Build").MODEL)
     return platform.node().partition(".")[0] or "handheld"
+
+
+def own_folder(ask: Callable[[], str]) -> str:
+    """Where the system wants this app's files, as `ask` tells: Kivy, who makes only the last folder of the way there."""
+    if not is_android():
+        config = os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config"
+        Path(config).mkdir(parents=True, exist_ok=True)
+    return ask()
 
 
 class sees_broadcasts:  # noqa: N801 - used as a word in `with`
