@@ -23,10 +23,11 @@ from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
+from bridge.camera_socket import CameraSocket
 from bridge.errors import BridgeError
 from bridge.msgs import Msg
 from bridge.rosapi import RosApi
-from bridge.serving import CameraSocket, Client, Offer, Service, Session
+from bridge.serving import Client, Offer, Service, Session
 from bridge.switchboard import Switchboard
 from bridge.topics import TOPICS, Topic
 

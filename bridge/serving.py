@@ -1,20 +1,18 @@
-"""The server's side of one connection: a client of the rosbridge protocol, or somebody who watches a camera."""
+"""The server's side of one connection: a client of the rosbridge protocol."""
 
 from __future__ import annotations
 
 import asyncio
 import logging
-from collections import deque
-from collections.abc import AsyncIterator, Awaitable, Callable, Coroutine, Mapping
+from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import msgspec
 from msgspec import Raw
 
 from bridge.codec import from_json, shown, to_json
 from bridge.errors import BridgeError, ProtocolError, Refused
-from bridge.frames import sequence
 from bridge.msgs import Msg, ros1_name
 from bridge.outbox import Frame, Outbox, Outgoing
 from bridge.protocol import (
@@ -35,16 +33,14 @@ from bridge.protocol import (
     parse,
 )
 from bridge.rosapi import RosApi
+from bridge.sockets import Socket, end, wait
 from bridge.switchboard import Switchboard
 from bridge.topics import Topic
 
-__all__ = ["CameraSocket", "Client", "Offer", "Service", "Session", "Socket"]
+__all__ = ["Client", "Offer", "Service", "Session"]
 
 log = logging.getLogger(__name__)
 MsgClass = type[Msg]
-
-UNACKNOWLEDGED = 2
-"""Frames on their way to one client; a third waits, so that a slow link shows the newest picture."""
 
 
 class Session:
@@ -89,20 +85,6 @@ class Offer:
     on_message: Callable[[Session, str, Any, float | None], None]
 
 
-class Socket(Protocol):
-    """What is needed of a WebSocket; iterating and sending raise when the connection ends badly."""
-
-    @property
-    def transport(self) -> asyncio.Transport:
-        """The connection below."""
-
-    def __aiter__(self) -> AsyncIterator[str | bytes]:
-        """What comes."""
-
-    async def send(self, message: bytes, *, text: bool | None = None) -> None:
-        """Send one message; waits while too much is on its way."""
-
-
 class Client:
     """One client of the rosbridge protocol."""
 
@@ -133,7 +115,7 @@ class Client:
                 self._session.last_heard = self._offer.now()
                 self._receive(text)
         finally:
-            await _end(self._tasks)
+            await end(self._tasks)
             for topic in list(self.remembered.subscriptions):
                 self._offer.switchboard.unsubscribe(self, topic)
 
@@ -242,7 +224,7 @@ class Client:
         while True:
             frame = self._next(clock())
             if frame is None:
-                await _wait(self._wake, self._outbox.delay(clock()))
+                await wait(self._wake, self._outbox.delay(clock()))
             else:
                 await self._socket.send(frame.data, text=frame.text)
 
@@ -263,64 +245,3 @@ class Client:
         if not task.cancelled() and task.exception() is not None:
             log.info("%s can no longer be sent to: %s", self._session.address, task.exception())
             self._socket.transport.abort()
-
-
-class CameraSocket:
-    """Somebody who watches one camera."""
-
-    def __init__(self, socket: Socket) -> None:
-        self._socket = socket
-        self._newest: tuple[int, bytes] | None = None
-        self._flying: deque[int] = deque()
-        self._wake = asyncio.Event()
-
-    async def run(self) -> None:
-        """Serve until the connection ends; raises what the socket raises when it ends badly."""
-        writer = asyncio.create_task(self._write())
-        try:
-            async for text in self._socket:
-                self._acknowledge(text)
-        finally:
-            await _end({writer})
-
-    def offer(self, frame: bytes) -> None:
-        """Have a frame sent as soon as there is room for it; a newer one replaces one that still waits.
-
-        ProtocolError when it is no packed frame.
-        """
-        self._newest = sequence(frame), frame
-        self._wake.set()
-
-    def _acknowledge(self, text: str | bytes) -> None:
-        word, _, number = str(text).partition(" ")
-        seq = int(number) if word == "ack" and number.isdecimal() and len(number) < 11 else -1
-        if seq in self._flying:
-            while self._flying.popleft() != seq:
-                pass
-            self._wake.set()
-
-    async def _write(self) -> None:
-        while True:
-            await _wait(self._wake, None)
-            while self._newest is not None and len(self._flying) < UNACKNOWLEDGED:
-                (seq, frame), self._newest = self._newest, None
-                self._flying.append(seq)
-                await self._socket.send(frame)
-
-
-async def _wait(wake: asyncio.Event, seconds: float | None) -> None:
-    """Until `wake` is set or `seconds` have passed; None waits for ever."""
-    timer = None if seconds is None else asyncio.get_running_loop().call_later(seconds, wake.set)
-    try:
-        await wake.wait()
-    finally:
-        wake.clear()
-        if timer is not None:
-            timer.cancel()
-
-
-async def _end(tasks: set[asyncio.Task[None]]) -> None:
-    left = list(tasks)
-    for task in left:
-        task.cancel()
-    await asyncio.gather(*left, return_exceptions=True)
