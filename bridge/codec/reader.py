@@ -1,8 +1,4 @@
-"""Messages to JSON and CBOR and back.
-
-JSON has no NaN and no infinity: both travel as `null`, which comes back as NaN. `uint8[]` travels as base64.
-In CBOR numbers keep their value, `uint8[]` is a byte string and number arrays are RFC 8746 typed arrays.
-"""
+"""Messages from decoded JSON or CBOR, each field checked; what is wrong is named with its value and what is allowed."""
 
 from __future__ import annotations
 
@@ -10,51 +6,26 @@ import base64
 import binascii
 import functools
 import math
-import sys
 import types
 import typing
 from array import array
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-import cbor2
 import msgspec
 
 from bridge.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.msgs.arrays import ARRAYS
 
-__all__ = ["from_builtins", "from_cbor", "from_json", "shown", "to_builtins", "to_cbor", "to_json"]
+__all__ = ["from_builtins", "shown", "to_builtins"]
 
 M = TypeVar("M", bound=Msg)
 Reader = Callable[[Any, str], Any]
 """Makes a field's value of what was decoded; the text is the field's path, for the error."""
 
 _TYPED = tuple(ARRAYS.values())
-_CBOR_TYPES = (bytes, cbor2.CBORTag)
-_TAGS = {cls: tag for tag, cls in ARRAYS.items()}
-_CODES = {64: "B", 69: "H", 70: "I", 71: "Q", 72: "b", 77: "h", 78: "i", 79: "q", 85: "f", 86: "d"}
-"""RFC 8746 tags of little-endian arrays and the matching type codes of `array.array`."""
-_HOLDS = {"b": "whole numbers from -128 to 127", "f": "numbers", "d": "numbers"}
-
-
-def to_json(msg: Msg) -> bytes:
-    """`msg` as JSON text in UTF-8; NaN and infinities become `null`. ProtocolError for what JSON cannot say."""
-    try:
-        return _ENCODER.encode(msg)
-    except (UnicodeEncodeError, TypeError) as error:
-        raise ProtocolError(f"{msg.MSGTYPE} cannot be sent: {error}.") from error
-
-
-def from_json(raw: bytes | str | msgspec.Raw, type: type[M]) -> M:
-    """The message in JSON text; missing fields take their defaults, `null` numbers become NaN.
-
-    ProtocolError names the field, its value and what is allowed.
-    """
-    try:
-        return typing.cast(M, _decoder(type).decode(raw))
-    except (msgspec.MsgspecError, OverflowError, UnicodeError, RecursionError):
-        return from_builtins(_loads(raw, type), type)
+_WIDTHS = {"b": 8, "B": 8, "h": 16, "H": 16, "i": 32, "I": 32, "q": 64, "Q": 64}
 
 
 def to_builtins(msg: Msg) -> dict[str, Any]:
@@ -70,75 +41,11 @@ def from_builtins(obj: object, type: type[M]) -> M:
         raise ProtocolError(f"{type.MSGTYPE} is nested too deeply.") from error
 
 
-def to_cbor(obj: object) -> bytes:
-    """A message, or a structure of plain values that may hold messages, as CBOR."""
-    try:
-        return cbor2.dumps(msgspec.to_builtins(obj, builtin_types=_CBOR_TYPES, enc_hook=_tagged))
-    except (cbor2.CBORError, OverflowError, UnicodeEncodeError, TypeError) as error:
-        raise ProtocolError(f"This cannot be sent as CBOR: {error}.") from error
-
-
-def from_cbor(raw: bytes) -> Any:
-    """What a CBOR text holds, number arrays as `array.array`; ProtocolError when it is not CBOR."""
-    try:
-        return cbor2.loads(raw, tag_hook=_cbor_tag)
-    except Exception as error:  # CBOR tags name dates, patterns, addresses: their makers raise what they like
-        raise ProtocolError(f"{len(raw)} bytes that are not CBOR ({error}).") from error
-
-
-def _enc_hook(obj: object) -> object:
-    if isinstance(obj, array):
-        return obj.tolist()
-    raise TypeError(f"{obj!r} has no JSON form")
-
-
-def _dec_hook(type: type[Any], obj: object) -> object:
-    if not isinstance(obj, list):
-        raise TypeError("not a list")
-    return type(obj)
-
-
-_ENCODER = msgspec.json.Encoder(enc_hook=_enc_hook)
-
-
-@functools.cache
-def _decoder(type: type[Msg]) -> msgspec.json.Decoder[Any]:
-    return msgspec.json.Decoder(type, dec_hook=_dec_hook)
-
-
-def _loads(raw: bytes | str | msgspec.Raw, type: type[Msg]) -> Any:
-    try:
-        return msgspec.json.decode(raw)
-    except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
-        raise ProtocolError(f"{type.MSGTYPE} is not JSON: {error}.") from error
-
-
-def _tagged(obj: object) -> cbor2.CBORTag:
-    if isinstance(obj, _TYPED):
-        return cbor2.CBORTag(_TAGS[obj.__class__], _little(obj).tobytes())
-    raise TypeError(f"{obj.__class__.__name__} has no CBOR form")
-
-
-def _cbor_tag(*told: Any) -> object:
-    tag = next(
-        each for each in told if isinstance(each, cbor2.CBORTag)
-    )  # cbor2 5 tells it last, cbor2 6 first
-    code = _CODES.get(tag.tag)
-    if code is None or not isinstance(tag.value, bytes):
-        return tag
-    cls = ARRAYS.get(tag.tag)
-    return _little(cls(tag.value) if cls else array(code, tag.value))
-
-
-def _little(values: array[Any]) -> array[Any]:
-    if sys.byteorder == "big":
-        values = values[:]
-        values.byteswap()
-    return values
-
-
-@functools.cache
+@functools.lru_cache(maxsize=4096)
 def _reader(hint: Any) -> Reader:
+    if typing.get_origin(hint) is typing.Annotated:
+        hint, *told = typing.get_args(hint)
+        return _within(_reader(hint), [each for each in told if isinstance(each, msgspec.Meta)])
     if hint in _SCALARS:
         return _SCALARS[hint]
     if typing.get_origin(hint) is list:
@@ -151,7 +58,7 @@ def _reader(hint: Any) -> Reader:
 
 
 def _msg_reader(type: type[Msg]) -> Reader:
-    fields = {field.name: _reader(field.type) for field in msgspec.structs.fields(type)}
+    fields = [(field.name, field.encode_name, _reader(field.type)) for field in msgspec.structs.fields(type)]
 
     def read(obj: Any, path: str) -> Msg:
         if isinstance(obj, type):
@@ -160,7 +67,7 @@ def _msg_reader(type: type[Msg]) -> Reader:
             raise _wrong(path or type.MSGTYPE, obj, "an object")
         prefix = f"{path}." if path else ""
         return type(
-            **{name: reader(obj[name], f"{prefix}{name}") for name, reader in fields.items() if name in obj}
+            **{name: reader(obj[key], f"{prefix}{key}") for name, key, reader in fields if key in obj}
         )
 
     return read
@@ -183,7 +90,43 @@ def _read_array(cls: type[Any], obj: Any, path: str) -> Any:
             return cls(obj)
     except (TypeError, ValueError, OverflowError):
         pass
-    raise _wrong(path, obj, f"a list of {_HOLDS[cls.code]}")
+    raise _wrong(path, obj, f"a list of {_held(cls.code)}")
+
+
+def _held(code: str) -> str:
+    if code in "fd":
+        return "numbers"
+    bits = _WIDTHS[code]
+    least, most = (0, 2**bits - 1) if code.isupper() else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+    return f"whole numbers from {least} to {most}"
+
+
+def _within(read: Reader, told: list[msgspec.Meta]) -> Reader:
+    """Also checks what a type is annotated with: least and most of a number, of a length."""
+
+    def checked(obj: Any, path: str) -> Any:
+        value = read(obj, path)
+        for meta in told:
+            _check_range(meta, value, path)
+            _check_length(meta, value, path)
+        return value
+
+    return checked
+
+
+def _check_range(meta: msgspec.Meta, value: Any, path: str) -> None:
+    if (meta.ge is not None and value < meta.ge) or (meta.le is not None and value > meta.le):
+        raise _wrong(path, value, f"a number from {meta.ge} to {meta.le}")
+
+
+def _check_length(meta: msgspec.Meta, value: Any, path: str) -> None:
+    least, most = meta.min_length, meta.max_length
+    if least is None and most is None:
+        return
+    if least is not None and least == most and len(value) != most:
+        raise ProtocolError(f"{path} must hold {most}, not {len(value)}.")
+    if len(value) < (least or 0) or (most is not None and len(value) > most):
+        raise ProtocolError(f"{path} must hold {least or 0} to {most or 'any number'}, not {len(value)}.")
 
 
 def _read_float(obj: Any, path: str) -> float:
