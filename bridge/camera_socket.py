@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 import asyncio
-from collections import deque
+from collections.abc import Callable
 
-from bridge.frames import sequence
+from bridge.levels import Picture
+from bridge.quality import COARSEST, Quality
 from bridge.sockets import Socket, end, wait
 
 __all__ = ["CameraSocket"]
 
-UNACKNOWLEDGED = 2
-"""Frames on their way to one client; a third waits, so that a slow link shows the newest picture."""
-
 
 class CameraSocket:
-    """Somebody who watches one camera."""
+    """Somebody who watches one camera; gets the newest picture, as good and as often as the link carries it."""
 
-    def __init__(self, socket: Socket) -> None:
+    def __init__(
+        self, socket: Socket, clock: Callable[[], float] | None = None, *, coarsest: int = COARSEST
+    ) -> None:
+        """`clock` tells the time that acknowledgements take [s], None is the loop's; `coarsest` as in Quality."""
         self._socket = socket
-        self._newest: tuple[int, bytes] | None = None
-        self._flying: deque[int] = deque()
+        self._newest: Picture | None = None
+        self._clock = clock or asyncio.get_running_loop().time
+        self.quality = Quality(coarsest)
+        """What may be sent when."""
         self._wake = asyncio.Event()
 
     async def run(self) -> None:
@@ -32,26 +35,27 @@ class CameraSocket:
         finally:
             await end({writer})
 
-    def offer(self, frame: bytes) -> None:
-        """Have a frame sent as soon as there is room for it; a newer one replaces one that still waits.
-
-        ProtocolError when it is no packed frame.
-        """
-        self._newest = sequence(frame), frame
+    def offer(self, picture: Picture) -> None:
+        """Have a picture sent as soon as there is room for it; a newer one replaces one that still waits."""
+        self._newest = picture
         self._wake.set()
 
     def _acknowledge(self, text: str | bytes) -> None:
         word, _, number = str(text).partition(" ")
-        seq = int(number) if word == "ack" and number.isdecimal() and len(number) < 11 else -1
-        if seq in self._flying:
-            while self._flying.popleft() != seq:
-                pass
+        if word == "ack" and number.isdecimal() and len(number) < 11:
+            self.quality.acknowledged(int(number), self._clock())
             self._wake.set()
 
     async def _write(self) -> None:
         while True:
-            await wait(self._wake, None)
-            while self._newest is not None and len(self._flying) < UNACKNOWLEDGED:
-                (seq, frame), self._newest = self._newest, None
-                self._flying.append(seq)
-                await self._socket.send(frame)
+            delay = self.quality.delay(self._clock()) if self._newest else None
+            if delay != 0.0:
+                await wait(self._wake, delay)
+                continue
+            picture, level = self._newest, self.quality.level
+            self._newest = None
+            if picture is None:
+                continue
+            frame = await picture.at(level)
+            self.quality.sent(picture.seq, len(frame), level, self._clock())
+            await self._socket.send(frame)

@@ -48,9 +48,11 @@ class _Sent(NamedTuple):
 class Quality:
     """The judge for one watcher; starts with the best pictures."""
 
-    def __init__(self) -> None:
+    def __init__(self, coarsest: int = COARSEST) -> None:
+        """`coarsest` is the highest level that can be made; 0 where there is but the original."""
+        self._coarsest = coarsest
         self.level = 0
-        """Of the next picture, 0 to COARSEST."""
+        """Of the next picture, 0 to the coarsest."""
         self.pause = 0.0
         """Least time between two pictures now [s]."""
         self.base = 0.0
@@ -117,7 +119,7 @@ class Quality:
 
     def _coarser(self, now: float) -> None:
         self._good_since = math.inf
-        if self.level == COARSEST:
+        if self.level == self._coarsest:
             return
         if now - self._climbed < 2.0 * self._patience:
             self._patience = min(PATIENCE[1], 2.0 * self._patience)

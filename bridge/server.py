@@ -25,6 +25,7 @@ from websockets.http11 import Request, Response
 
 from bridge.camera_socket import CameraSocket
 from bridge.errors import BridgeError
+from bridge.levels import Levels, Shrink
 from bridge.msgs import Msg
 from bridge.rosapi import RosApi
 from bridge.serving import Client, Offer, Service, Session
@@ -62,6 +63,7 @@ class BridgeServer:
         on_gone: Callable[[Session], None] = _ignore,
         on_demand: Callable[[str, bool], None] = _ignore,
         cameras: Iterable[str] | None = None,
+        shrink: Shrink | None = None,
     ) -> None:
         """`now` is the operators' clock [s], told by `/rosapi/get_time`.
 
@@ -69,6 +71,7 @@ class BridgeServer:
         when the sender meant it [s], operators' clock, None when it does not say. `on_gone(session)` hears that a
         client left. `on_demand(topic, wanted)` hears that the first one came who wants a topic, or that the
         last one left. `cameras` are the names that may be asked for; None allows any.
+        `shrink` makes their pictures smaller for slow watchers; without it they only come less often.
         """
         self.port = 0
         """Where it listens; 0 until started."""
@@ -81,6 +84,7 @@ class BridgeServer:
         self._offer = Offer(self._switchboard, by_name, rosapi, now, on_message)
         self._on_gone = on_gone
         self._cameras = None if cameras is None else frozenset(cameras)
+        self._levels = Levels(shrink)
         self._numbers = itertools.count(1)
         self._open: set[ServerConnection] = set()
         self._server: Server | None = None
@@ -108,6 +112,7 @@ class BridgeServer:
 
     async def close(self) -> None:
         """Close all connections and stop listening; nothing is left running. Takes a second at most."""
+        await self._levels.close()
         server, self._server = self._server, None
         if server is None:
             return
@@ -130,7 +135,7 @@ class BridgeServer:
 
     def publish_frame(self, camera: str, frame: bytes) -> None:
         """Send a packed camera frame to whoever watches `camera`; it replaces one that still waits."""
-        self._switchboard.publish_frame(camera, frame)
+        self._switchboard.publish_frame(camera, self._levels.picture(frame))
 
     def _admit(self, connection: ServerConnection, request: Request) -> Response | None:
         camera = _CAMERA_PATH.match(request.path)
@@ -162,7 +167,7 @@ class BridgeServer:
             self._on_gone(session)
 
     async def _serve_camera(self, ws: ServerConnection, camera: str) -> None:
-        watcher = CameraSocket(ws)
+        watcher = CameraSocket(ws, coarsest=self._levels.coarsest)
         self._switchboard.watch(watcher, camera)
         try:
             await watcher.run()

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from typing import Protocol
 
 from bridge.errors import BridgeError
+from bridge.levels import Picture
 from bridge.msgs import Msg
 from bridge.outbox import Outgoing
 from bridge.topics import Topic
@@ -26,8 +27,8 @@ class Listener(Protocol):
 class Watcher(Protocol):
     """Takes the frames of one camera."""
 
-    def offer(self, frame: bytes) -> None:
-        """Take one packed frame; returns at once."""
+    def offer(self, picture: Picture) -> None:
+        """Take one picture; returns at once."""
 
 
 class Switchboard:
@@ -52,10 +53,10 @@ class Switchboard:
         for listener in self._listeners.get(topic, ()):
             listener.deliver(entry, message)
 
-    def publish_frame(self, camera: str, frame: bytes) -> None:
-        """Pass a packed frame on to whoever watches `camera`."""
+    def publish_frame(self, camera: str, picture: Picture) -> None:
+        """Pass a picture on to whoever watches `camera`."""
         for watcher in self._watchers.get(camera, ()):
-            watcher.offer(frame)
+            watcher.offer(picture)
 
     def subscribe(self, listener: Listener, topic: str) -> None:
         """`listener` wants `topic` from now on, and at once its last message if it is a latched one."""
