@@ -34,7 +34,7 @@ class Outgoing:
 
     def frame(self, wanted: Subscribed) -> Frame:
         """The message in the form that a client wants; ProtocolError when it cannot be encoded."""
-        key = (wanted.name, wanted.binary)
+        key = (wanted.name, wanted.compression == "cbor")
         frame = self._frames.get(key)
         if frame is None:
             frame = self._frames[key] = self._encode(*key)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bridge.protocol.client_session import ClientSession, Subscription
+from bridge.protocol.fragments import Fragments, split
 from bridge.protocol.ops import (
     COMPRESSIONS,
     LEVELS,
@@ -32,6 +33,7 @@ from bridge.protocol.ops import (
     UnadvertiseService,
     Unsubscribe,
 )
+from bridge.protocol.png import from_png, to_png
 from bridge.protocol.server_session import ServerSession, Subscribed
 from bridge.protocol.wire import absolute, arguments, dump, encode, parse, parse_binary
 
@@ -48,6 +50,7 @@ __all__ = [
     "CancelActionGoal",
     "ClientSession",
     "Fragment",
+    "Fragments",
     "Id",
     "LEVELS",
     "OPS",
@@ -71,6 +74,9 @@ __all__ = [
     "arguments",
     "dump",
     "encode",
+    "from_png",
     "parse",
     "parse_binary",
+    "split",
+    "to_png",
 ]

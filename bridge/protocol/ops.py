@@ -59,6 +59,8 @@ class Op(msgspec.Struct, frozen=True, tag_field="op", omit_defaults=True, kw_onl
     """One operation."""
 
     id: Id = UNSET
+    fragment_size: Number | UnsetType = UNSET
+    """Longest text frame [characters] that the sender wants from now on, longer ones come as `Fragment`s; null for no end."""
 
 
 class Advertise(Op, frozen=True, tag="advertise"):
@@ -113,8 +115,6 @@ class Subscribe(Op, frozen=True, tag="subscribe"):
     """Shortest time between two messages [ms]."""
     queue_length: Number = 0
     """How many messages may wait; 0 as many as the server sees fit."""
-    fragment_size: Number = None
-    """Longest text frame [characters]; longer ones come as `Fragment`s."""
     compression: str | None = "none"
     """One of `COMPRESSIONS`; anything else counts as `none`."""
     reduce: Reduction | None = None
@@ -132,7 +132,6 @@ class CallService(Op, frozen=True, tag="call_service"):
     service: str
     args: Raw = _EMPTY
     """An object, or a list of the fields in their order, as JSON text."""
-    fragment_size: Number = None
     compression: str | None = "none"
     timeout: Number = None
     """How long the answer may take [s]; None as long as it wants."""
@@ -182,7 +181,6 @@ class SendActionGoal(Op, frozen=True, tag="send_action_goal"):
     """The goal as JSON text: an object, or a list of the fields in their order."""
     feedback: bool | None = False
     """The sender wants to hear how it goes."""
-    fragment_size: Number = None
     compression: str | None = "none"
 
 

@@ -8,7 +8,16 @@ from msgspec import UNSET
 
 from bridge.codec import shown
 from bridge.errors import ProtocolError
-from bridge.protocol.ops import LEVELS, Advertise, Id, SetLevel, Subscribe, Unadvertise, Unsubscribe
+from bridge.protocol.ops import (
+    LEVELS,
+    Advertise,
+    Id,
+    Reduction,
+    SetLevel,
+    Subscribe,
+    Unadvertise,
+    Unsubscribe,
+)
 from bridge.protocol.wire import absolute
 
 __all__ = ["ServerSession", "Subscribed"]
@@ -24,8 +33,16 @@ class Subscribed:
     """The topic as the client wrote it."""
     period: float = 0.0
     """Shortest time between two messages [s]."""
-    binary: bool = False
-    """It wants CBOR."""
+    queue: int = 0
+    """How many messages may wait; 0 as many as the server sees fit."""
+    compression: str = "none"
+    """One of `COMPRESSIONS`."""
+    fragment_size: int | None = None
+    """Longest text frame [characters]; None for no end. Binary frames are never cut."""
+    reduction: Reduction | None = None
+    """How much of each message it wants; None for all."""
+    ros2: bool = False
+    """It spells types as `pkg/msg/Type` and wants times as `sec` and `nanosec`."""
 
 
 class ServerSession:
@@ -87,5 +104,5 @@ class ServerSession:
         self.subscriptions[topic] = Subscribed(
             name=asked[0].topic,
             period=max(0.0, min(op.throttle_rate or 0 for op in asked) / 1000),
-            binary=any(op.compression == "cbor" for op in asked),
+            compression="cbor" if any(op.compression == "cbor" for op in asked) else "none",
         )

@@ -92,7 +92,7 @@ def test_a_message_is_encoded_once_per_codec_and_only_when_wanted(monkeypatch):
 
 
 def test_a_message_in_cbor_is_a_binary_frame_with_the_topic_as_the_client_wrote_it():
-    frame = number(ODOM, 1.5).frame(Subscribed("odom", binary=True))
+    frame = number(ODOM, 1.5).frame(Subscribed("odom", compression="cbor"))
     assert not frame.text
     assert cbor2.loads(frame.data) == {"op": "publish", "topic": "odom", "msg": {"data": 1.5}}
 

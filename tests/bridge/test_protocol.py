@@ -80,7 +80,12 @@ def test_what_other_libraries_add_is_passed_over():
         '"compression":null,"throttle_rate":null,"queue_length":0,"fragment_size":null,"latch":false}'
     )
     assert op == Subscribe(
-        topic="/odom", type="nav_msgs/Odometry", id="subscribe:/odom:1", compression=None, throttle_rate=None
+        topic="/odom",
+        type="nav_msgs/Odometry",
+        id="subscribe:/odom:1",
+        compression=None,
+        throttle_rate=None,
+        fragment_size=None,
     )
 
 
@@ -191,9 +196,10 @@ def test_two_subscriptions_of_one_client_are_one_delivery_at_the_faster_rate():
     session.subscribe(Subscribe(topic="/odom", id="a", throttle_rate=200))
     session.subscribe(Subscribe(topic="odom", id="b", throttle_rate=50, compression="cbor"))
     wanted = session.subscriptions["/odom"]
-    assert (wanted.name, wanted.period, wanted.binary) == ("/odom", 0.05, True)
+    assert (wanted.name, wanted.period, wanted.compression) == ("/odom", 0.05, "cbor")
     session.unsubscribe(Unsubscribe(topic="/odom", id="b"))
-    assert (session.subscriptions["/odom"].period, session.subscriptions["/odom"].binary) == (0.2, False)
+    wanted = session.subscriptions["/odom"]
+    assert (wanted.period, wanted.compression) == (0.2, "none")
 
 
 @pytest.mark.parametrize("id", [UNSET, None])
