@@ -57,5 +57,7 @@ class CameraSocket:
             if picture is None:
                 continue
             frame = await picture.at(level)
+            if level and frame is picture.frame and self._newest is not None:
+                continue  # it could not be made smaller in time, and a newer one can
             self.quality.sent(picture.seq, len(frame), level, self._clock())
             await self._socket.send(frame)

@@ -21,6 +21,7 @@ from robotside.autonomy import CAMERA
 from robotside.clock import RobotClock
 from robotside.http import site
 from robotside.orders import services
+from robotside.pictures import Pictures
 from robotside.station import Station
 from robotside.visit import Visit
 from robotside.watch import jpeg_size
@@ -82,6 +83,7 @@ class Serving:
         self.station = station
         """What is served."""
         self._clock, self._wall, self._wanted = clock, wall, wanted
+        self._pictures = Pictures()
         offered = list(services(station))
         self.server = BridgeServer(
             services=offered,
@@ -90,6 +92,7 @@ class Serving:
             on_gone=station.gone,
             on_demand=lambda topic, wanted: station.demand.set(topic, "clients", wanted),
             cameras=station.info.cameras,
+            shrink=self._pictures.shrink,
         )
         kinds = {service.name: service.type for service in offered}
         self._site = site(station, lambda: addresses.bridge, kinds)
@@ -120,6 +123,7 @@ class Serving:
         finally:
             self.station.robot.stop()
             await self.server.close()
+            await self._pictures.close()
             web_socket.close()
 
     def end(self) -> None:

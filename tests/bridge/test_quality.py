@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+from itertools import pairwise
 from statistics import quantiles
 
 import pytest
@@ -93,7 +94,7 @@ def test_without_a_judge_the_same_link_shows_old_pictures():
 def test_the_level_does_not_swing_on_a_link_that_does_not_change():
     link = Link(1e6 / 8).run(300)
     late = link.levels[-600:]
-    assert sum(a != b for a, b in zip(late, late[1:], strict=False)) <= 4
+    assert sum(a != b for a, b in pairwise(late)) <= 4
 
 
 def test_a_link_too_slow_for_anything_shows_the_coarsest_pictures_seldom_and_none_wait():
@@ -147,7 +148,7 @@ def test_a_link_that_gets_worse_and_better_again_is_followed_both_ways():
 
 def test_each_failure_of_a_finer_level_doubles_the_patience_before_the_next():
     link = Link(1e6 / 8).run(300)
-    climbs = [n for n, (a, b) in enumerate(zip(link.levels, link.levels[1:], strict=False)) if b < a]
+    climbs = [n for n, (a, b) in enumerate(pairwise(link.levels)) if b < a]
     assert len(climbs) < 14
 
 
