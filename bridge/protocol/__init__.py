@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bridge.protocol.client_session import ClientSession, Subscription
 from bridge.protocol.fragments import Fragments, split
+from bridge.protocol.names import absolute, ros2_name, service_and_id, spells_ros2
 from bridge.protocol.ops import (
     COMPRESSIONS,
     LEVELS,
@@ -35,7 +36,18 @@ from bridge.protocol.ops import (
 )
 from bridge.protocol.png import from_png, to_png
 from bridge.protocol.server_session import ServerSession, Subscribed
-from bridge.protocol.wire import absolute, arguments, dump, encode, parse, parse_binary
+from bridge.protocol.wire import (
+    arguments,
+    complaint,
+    dump,
+    encode,
+    goal_status,
+    parse,
+    parse_binary,
+    parse_each,
+    parse_many,
+    too_deep,
+)
 
 __all__ = [
     "ActionFeedback",
@@ -72,11 +84,19 @@ __all__ = [
     "Unsubscribe",
     "absolute",
     "arguments",
+    "complaint",
     "dump",
     "encode",
     "from_png",
+    "goal_status",
     "parse",
     "parse_binary",
+    "parse_each",
+    "parse_many",
+    "ros2_name",
+    "service_and_id",
+    "spells_ros2",
     "split",
     "to_png",
+    "too_deep",
 ]

@@ -12,6 +12,7 @@ from msgspec import UNSET
 
 from bridge.codec import shown
 from bridge.errors import ProtocolError
+from bridge.protocol.names import checked_id, plain_id, wrong
 from bridge.protocol.ops import Fragment, Id
 
 __all__ = ["MOST_SLICES", "Fragments", "split"]
@@ -141,6 +142,7 @@ class Fragments:
         `limit_bytes`; its text is given up then.
         """
         self.expire(now)
+        checked_id(op)
         num, total = self._place(op)
         if total == 1:
             return op.data
@@ -180,11 +182,11 @@ class Fragments:
     def _place(self, op: Fragment) -> tuple[int, int]:
         if op.id is UNSET or op.id is None:
             raise _wrong(op, "it needs an id")
-        if not math.isfinite(op.total) or int(op.total) < 1:
+        if not 1 <= op.total < math.inf:
             raise _wrong(op, f"total must be a whole number from 1, not {shown(op.total)}")
         if int(op.total) * SLICE_COST > max(self._limit, SLICE_COST):
             raise _wrong(op, f"total must be at most {self._limit // SLICE_COST}, not {shown(op.total)}")
-        if not math.isfinite(op.num) or op.num != int(op.num) or not 0 <= op.num < int(op.total):
+        if not 0 <= op.num < int(op.total) or op.num != int(op.num):
             raise _wrong(op, f"num must be a whole number from 0 to {int(op.total) - 1}, not {shown(op.num)}")
         return int(op.num), int(op.total)
 
@@ -197,10 +199,8 @@ class Fragments:
         dropped = self._drop(id)
         if dropped is not None and self._given_up is not None:
             sentence = f"{len(dropped.slices)} of {dropped.total} fragments are dropped: {reason}."
-            self._given_up(ProtocolError(sentence, op="fragment", id=None if id is UNSET else id))
+            self._given_up(ProtocolError(sentence, op="fragment", id=plain_id(id)))
 
 
 def _wrong(op: Fragment, reason: str) -> ProtocolError:
-    return ProtocolError(
-        f"A fragment cannot be used: {reason}.", op="fragment", id=None if op.id is UNSET else op.id
-    )
+    return wrong(op, f"A fragment cannot be used: {reason}.")

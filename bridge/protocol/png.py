@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from itertools import accumulate
 
 from bridge.errors import ProtocolError
+from bridge.protocol.names import wrong
 from bridge.protocol.ops import Png
 
 __all__ = ["from_png", "to_png"]
@@ -170,5 +171,4 @@ def _paeth(row: bytes, above: bytes, channels: int) -> bytes:
 
 
 def _wrong(op: Png, reason: str) -> ProtocolError:
-    id = op.id if isinstance(op.id, (str, int, float)) else None
-    return ProtocolError(f"A png cannot be read: {reason}.", op="png", id=id)
+    return wrong(op, f"A png cannot be read: {reason}.")

@@ -8,6 +8,7 @@ from msgspec import UNSET
 
 from bridge.codec import shown
 from bridge.errors import ProtocolError
+from bridge.protocol.names import absolute
 from bridge.protocol.ops import (
     LEVELS,
     Advertise,
@@ -18,7 +19,6 @@ from bridge.protocol.ops import (
     Unadvertise,
     Unsubscribe,
 )
-from bridge.protocol.wire import absolute
 
 __all__ = ["ServerSession", "Subscribed"]
 

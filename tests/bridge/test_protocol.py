@@ -93,7 +93,7 @@ def test_a_bare_nan_as_python_writes_it_counts_as_null():
     text = json.dumps(
         {"op": "publish", "topic": "/cmd_vel", "msg": {"linear": {"x": math.nan, "y": -math.inf}}}
     )
-    assert bytes(parse(text).msg) == b'{"linear":{"x":null,"y":null}}'
+    assert bytes(parse(text).msg) == b'{"linear": {"x": null, "y": null}}'
 
 
 def test_a_text_that_says_nan_stays_a_text_beside_a_bare_one():
