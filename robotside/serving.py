@@ -23,6 +23,7 @@ from robotside.http import site
 from robotside.orders import services
 from robotside.pictures import Pictures
 from robotside.station import Station
+from robotside.streams import Streams
 from robotside.visit import Visit
 from robotside.watch import jpeg_size
 
@@ -95,7 +96,8 @@ class Serving:
             shrink=self._pictures.shrink,
         )
         kinds = {service.name: service.type for service in offered}
-        self._site = site(station, lambda: addresses.bridge, kinds)
+        streams = Streams(station.bus, station.demand, self._pictures)
+        self._site = site(station, lambda: addresses.bridge, kinds, streams)
         self._frames = 0
         self._patience = math.inf
 
