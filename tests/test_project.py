@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import pydoc
 import re
 import subprocess
@@ -108,6 +109,15 @@ def test_the_pins_name_no_registry():
     assert all(line.startswith("#") or re.fullmatch(r"[\w.-]+==[\w.]+", line) for line in lines)
 
 
+def test_the_javascript_library_and_all_that_it_needs_are_pinned_and_name_no_registry():
+    wanted = json.loads((ROOT / "tests/clients/package.json").read_text())["dependencies"]
+    assert "roslib" in wanted
+    assert all(re.fullmatch(r"\d+\.\d+\.\d+", version) for version in wanted.values())
+    found = json.loads((ROOT / "tests/clients/node_modules/.package-lock.json").read_text())["packages"]
+    installed = {path.removeprefix("node_modules/"): entry["version"] for path, entry in found.items()}
+    assert installed == wanted
+
+
 def test_no_file_is_over_500_lines_and_no_function_over_40():
     files = [path.name for path in SOURCES if len(path.read_text().splitlines()) > 500]
     functions = [
@@ -135,10 +145,10 @@ def test_each_verb_of_the_makefile_says_what_it_does():
 
 def test_set_up_is_not_done_twice(tmp_path):
     """With the stamp of a finished set-up in place the script ends at once and says nothing."""
-    (tmp_path / "scripts").mkdir()
-    for name in ("pyproject.toml", "constraints.txt", "scripts/setup.sh"):
+    files = ["pyproject.toml", "constraints.txt", "scripts/setup.sh", "tests/clients/package.json"]
+    for name in files:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_bytes((ROOT / name).read_bytes())
-    files = ["pyproject.toml", "constraints.txt", "scripts/setup.sh"]
     content = b"".join((ROOT / name).read_bytes() for name in files)
     stamp = subprocess.run(["cksum"], input=content, capture_output=True, check=True).stdout
     (tmp_path / ".venv").mkdir()
