@@ -115,8 +115,13 @@ def _within(read: Reader, told: list[msgspec.Meta]) -> Reader:
 
 
 def _check_range(meta: msgspec.Meta, value: Any, path: str) -> None:
-    if (meta.ge is not None and value < meta.ge) or (meta.le is not None and value > meta.le):
-        raise _wrong(path, value, f"a number from {meta.ge} to {meta.le}")
+    least, most = meta.ge, meta.le
+    if least is None or most is None:
+        return
+    if (least, most) == (0, 2**63 - 1):  # msgspec cannot say what a uint64 holds
+        most = 2**64 - 1
+    if not least <= value <= most:
+        raise _wrong(path, value, f"a whole number from {least} to {most}")
 
 
 def _check_length(meta: msgspec.Meta, value: Any, path: str) -> None:
