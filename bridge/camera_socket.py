@@ -52,8 +52,7 @@ class CameraSocket:
             if delay != 0.0:
                 await wait(self._wake, delay)
                 continue
-            picture, level = self._newest, self.quality.level
-            self._newest = None
+            picture, level = self._take(), self.quality.level
             if picture is None:
                 continue
             frame = await picture.at(level)
@@ -61,3 +60,7 @@ class CameraSocket:
                 continue  # it could not be made smaller in time, and a newer one can
             self.quality.sent(picture.seq, len(frame), level, self._clock())
             await self._socket.send(frame)
+
+    def _take(self) -> Picture | None:
+        picture, self._newest = self._newest, None
+        return picture
