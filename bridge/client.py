@@ -204,7 +204,7 @@ class BridgeClient(Reconnecting):
         except TimeoutError as error:
             raise NoReply(f"The robot did not answer {service} within {timeout:g} s.") from error
         finally:
-            self._session.calls.pop(op.id, None)
+            self._session.calls.forget(op.id)
         if found is None:
             raise NotConnected(f"The connection was cut before the robot answered {service}.")
         return _response(found, response)

@@ -16,14 +16,15 @@ class Compat:
     values it gave.
 
     Both servers in use do so: for them the exchange went well, and what failed stands in the values. roslibpy's users
-    read the values in their ordinary callback and would get an error with nothing in it instead. When False the
-    caller gets `result: false` as the provider said.
+    read the values in their ordinary callback and would get an error with nothing in it instead. A refusal without
+    any values stays one: there is nothing to read in it. When False the caller gets `result: false` as the provider
+    said.
     """
     missing_values_as_defaults: bool = True
-    """A client that answers a call without `values` is taken to mean a response of defaults.
+    """A client that answers a call with `result: true` and without `values` is taken to mean a response of defaults.
 
-    roslib leaves `values` out when a service of its user returns false; the ROS 1 server then never answers the caller,
-    who waits for ever. When False the caller is told at once that the answer was incomplete.
+    Services without a response leave `values` out, and the ROS 1 server then never answers the caller, who waits for
+    ever. When False the caller is told at once, by `result: false`, that the answer was incomplete.
     """
     shortest_queue: bool = True
     """Of several `queue_length`s of a client for one topic the shortest counts.

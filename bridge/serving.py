@@ -97,7 +97,7 @@ class Client:
         self._outbox = Outbox(self.remembered)
         self._wake = asyncio.Event()
         self._tasks: set[asyncio.Task[None]] = set()
-        self._hear: dict[type[Op], Callable[[Any], None]] = {
+        self._hear: dict[type[Op], Callable[[Any], object]] = {
             Publish: self._publish,
             CallService: self._call_service,
             Subscribe: self._subscribe,

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from bridge.protocol.client_session import ClientSession, Subscription
+from bridge.protocol.arrivals import Arrival, Arrivals
+from bridge.protocol.client_session import ClientSession, Given, Provided, Served, Subscription
 from bridge.protocol.fragments import Fragments, split
+from bridge.protocol.merging import Subscribed
 from bridge.protocol.names import absolute, ros2_name, service_and_id, spells_ros2
 from bridge.protocol.ops import (
     COMPRESSIONS,
     LEVELS,
+    MISSING,
     OPS,
     ActionFeedback,
     ActionResult,
@@ -34,8 +37,9 @@ from bridge.protocol.ops import (
     UnadvertiseService,
     Unsubscribe,
 )
+from bridge.protocol.pending import Calls, Goals
 from bridge.protocol.png import from_png, to_png
-from bridge.protocol.server_session import ServerSession, Subscribed
+from bridge.protocol.server_session import ServerSession
 from bridge.protocol.wire import (
     arguments,
     complaint,
@@ -55,22 +59,30 @@ __all__ = [
     "Advertise",
     "AdvertiseAction",
     "AdvertiseService",
+    "Arrival",
+    "Arrivals",
     "Auth",
     "BinaryPublish",
     "COMPRESSIONS",
     "CallService",
+    "Calls",
     "CancelActionGoal",
     "ClientSession",
     "Fragment",
     "Fragments",
+    "Given",
+    "Goals",
     "Id",
     "LEVELS",
+    "MISSING",
     "OPS",
     "Op",
     "Png",
+    "Provided",
     "Publish",
     "Reduction",
     "SendActionGoal",
+    "Served",
     "ServerSession",
     "ServiceResponse",
     "SetLevel",

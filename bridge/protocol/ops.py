@@ -25,6 +25,7 @@ __all__ = [
     "Fragment",
     "Id",
     "LEVELS",
+    "MISSING",
     "OPS",
     "Op",
     "Png",
@@ -52,7 +53,8 @@ COMPRESSIONS = ("none", "png", "cbor", "cbor-raw")
 
 Number = int | float | None
 """Clients send whole numbers as floats, and null where they mean nothing."""
-_EMPTY = Raw(b"{}")
+MISSING = Raw(b"{}")
+"""Stands where a message, arguments or values were left out: that very object, and an empty one to whoever reads it."""
 
 
 class Op(msgspec.Struct, frozen=True, tag_field="op", omit_defaults=True, kw_only=True):
@@ -83,7 +85,7 @@ class Publish(Op, frozen=True, tag="publish"):
     """A message."""
 
     topic: str
-    msg: Raw = _EMPTY
+    msg: Raw = MISSING
     """The message as JSON text; fields that are missing take their defaults."""
     latch: bool | None = False
     queue_size: Number = 100
@@ -130,7 +132,7 @@ class CallService(Op, frozen=True, tag="call_service"):
     """Asks for something to be done once and answered."""
 
     service: str
-    args: Raw = _EMPTY
+    args: Raw = MISSING
     """An object, or a list of the fields in their order, as JSON text."""
     compression: str | None = "none"
     timeout: Number = None
@@ -141,7 +143,7 @@ class ServiceResponse(Op, frozen=True, tag="service_response", omit_defaults=Fal
     """The answer to a `CallService` with the same `id`."""
 
     service: str = ""
-    values: Raw = _EMPTY
+    values: Raw = MISSING
     """The response; the reason as a text when `result` is false."""
     result: bool = True
 
@@ -177,7 +179,7 @@ class SendActionGoal(Op, frozen=True, tag="send_action_goal"):
 
     action: str
     action_type: str = ""
-    args: Raw = _EMPTY
+    args: Raw = MISSING
     """The goal as JSON text: an object, or a list of the fields in their order."""
     feedback: bool | None = False
     """The sender wants to hear how it goes."""
@@ -194,14 +196,14 @@ class ActionFeedback(Op, frozen=True, tag="action_feedback", omit_defaults=False
     """How far the goal called `id` is."""
 
     action: str
-    values: Raw = _EMPTY
+    values: Raw = MISSING
 
 
 class ActionResult(Op, frozen=True, tag="action_result", omit_defaults=False):
     """What became of the goal called `id`."""
 
     action: str
-    values: Raw = _EMPTY
+    values: Raw = MISSING
     """The result; the reason as a text when `result` is false."""
     status: int = 0
     """As in action_msgs/GoalStatus: 0 unknown, 1 accepted, 2 executing, 3 canceling, 4 succeeded, 5 canceled, 6 aborted."""

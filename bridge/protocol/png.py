@@ -16,7 +16,7 @@ from bridge.errors import ProtocolError
 from bridge.protocol.names import wrong
 from bridge.protocol.ops import Png
 
-__all__ = ["from_png", "to_png"]
+__all__ = ["from_png", "pixels", "to_png"]
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _HEADER = struct.Struct(">IIBBBBB")
@@ -28,9 +28,9 @@ _LONGEST_SIDE = 1 << 20
 
 def to_png(text: bytes) -> Png:
     """`text` as the pixels of a picture. Line breaks at its end do not come back."""
-    pixels = math.ceil(len(text) / 3)
-    width = max(1, math.isqrt(pixels))
-    height = max(1, math.ceil(pixels / width))
+    needed = math.ceil(len(text) / 3)
+    width = max(1, math.isqrt(needed))
+    height = max(1, math.ceil(needed / width))
     stride = 3 * width
     padded = text.ljust(stride * height, b"\n")
     rows = b"".join(b"\0" + padded[start : start + stride] for start in range(0, len(padded), stride))
@@ -49,6 +49,11 @@ def from_png(op: Png, limit: int) -> bytes:
     `limit` is how large the text may be with what fills the picture up [byte]; nothing larger is ever unpacked.
     ProtocolError when it is larger or no such picture.
     """
+    return pixels(op, limit).rstrip(b"\n")
+
+
+def pixels(op: Png, limit: int) -> bytes:
+    """The same with the line breaks that fill the picture up."""
     try:
         picture = binascii.a2b_base64(op.data)
     except ValueError as error:
@@ -63,7 +68,7 @@ def from_png(op: Png, limit: int) -> bytes:
             packed.append(content)
     width, height, channels = _shape(op, header, limit)
     rows = _inflate(op, b"".join(packed), (channels * width + 1) * height)
-    return _pixels(op, rows, width * channels, channels).rstrip(b"\n")
+    return _unfiltered(op, rows, width * channels, channels)
 
 
 def _chunk(name: bytes, content: bytes) -> bytes:
@@ -110,19 +115,19 @@ def _inflate(op: Png, packed: bytes, expected: int) -> bytes:
     return rows
 
 
-def _pixels(op: Png, rows: bytes, stride: int, channels: int) -> bytes:
+def _unfiltered(op: Png, rows: bytes, stride: int, channels: int) -> bytes:
     """What the filters of the rows hide; of RGBA without the A."""
     above = bytes(stride)
     found = []
     for start in range(0, len(rows), stride + 1):
         above = _restored(op, rows[start], rows[start + 1 : start + 1 + stride], above, channels)
         found.append(above)
-    pixels = b"".join(found)
+    restored = b"".join(found)
     if channels == 3:
-        return pixels
-    without = bytearray(len(pixels) // 4 * 3)
+        return restored
+    without = bytearray(len(restored) // 4 * 3)
     for channel in range(3):
-        without[channel::3] = pixels[channel::4]
+        without[channel::3] = restored[channel::4]
     return bytes(without)
 
 

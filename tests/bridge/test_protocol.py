@@ -224,7 +224,7 @@ def test_advertisements_are_counted_by_id():
     session.advertise(Advertise(topic="/cmd_vel", id="a"))
     session.advertise(Advertise(topic="/cmd_vel", id="b"))
     session.unadvertise(Unadvertise(topic="/cmd_vel", id="a"))
-    assert session.advertised == {"/cmd_vel": {"b"}}
+    assert {topic: set(ids) for topic, ids in session.advertised.items()} == {"/cmd_vel": {"b"}}
     session.unadvertise(Unadvertise(topic="/cmd_vel"))
     assert session.advertised == {}
 
