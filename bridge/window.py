@@ -34,7 +34,7 @@ DEAD = 15.0
 """A client that leaves a ping unanswered for this long is gone [s]."""
 MEMORY = 30.0
 """For how long the shortest way seen is believed in [s]; the way may have changed."""
-GENTLY = 0.25
+GENTLY = 0.125
 """What of the bytes that arrive is added to the window once its end was met; before, all of them."""
 MOST_PINGS = 64
 """How many may be unanswered at a time."""
