@@ -7,12 +7,13 @@ from bridge.protocol.fragments import Fragments
 from bridge.protocol.names import wrong
 from bridge.protocol.ops import BinaryPublish, Fragment, Op, Png
 from bridge.protocol.png import pixels
-from bridge.protocol.wire import parse_binary, parse_each
+from bridge.protocol.wire import parse, parse_binary, parse_each
 
 __all__ = ["Arrival", "Arrivals"]
 
 Arrival = Op | BinaryPublish | ProtocolError
 """An operation, or what was wrong with one."""
+_PACKED = {Fragment, Png}
 
 
 class Arrivals:
@@ -35,9 +36,14 @@ class Arrivals:
             return [ProtocolError(f"A frame may have at most {self._limit} bytes, not {len(frame)}.")]
         if isinstance(frame, bytes) and frame[:1] > b"\x7f":  # a CBOR map begins so, JSON text never does
             return [_binary(frame)]
-        found = parse_each(frame)
-        if len(found) == 1 and not isinstance(found[0], (Fragment, Png)):
-            return [found[0]]
+        try:
+            op = parse(frame)
+        except ProtocolError:
+            found = parse_each(frame)
+        else:
+            if type(op) not in _PACKED:
+                return [op]
+            found = [op]
         return _Unpacking(self._limit, self._fragments, self._lost, now).unpacked(found)
 
     def expire(self, now: float) -> list[ProtocolError]:

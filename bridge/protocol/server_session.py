@@ -26,6 +26,7 @@ from bridge.protocol.ops import (
     CancelActionGoal,
     Id,
     Op,
+    Publish,
     SendActionGoal,
     ServiceResponse,
     SetLevel,
@@ -40,6 +41,7 @@ from bridge.protocol.pending import Answer, Calls, Feedback, Goals, Result
 __all__ = ["MOST_ADVERTISED", "MOST_CALLS", "MOST_GOALS", "MOST_SUBSCRIPTIONS", "ServerSession"]
 
 NAMELESS = (None, UNSET)
+_TYPED = (Subscribe, Advertise, AdvertiseService, AdvertiseAction)
 LARGEST = 32 * 1024 * 1024
 """The largest frame, and the most that may wait in fragments [byte]."""
 MOST_SUBSCRIPTIONS = 1000
@@ -86,14 +88,7 @@ class ServerSession:
         What is wrong stands among them as a ProtocolError that names op and id where they can be read. Fragments and
         pictures are unpacked; `fragment_size` and the spelling of types are remembered.
         """
-        arrivals = self._arrivals.take(frame, now)
-        for place, arrival in enumerate(arrivals):
-            if isinstance(arrival, Op):
-                try:
-                    self.note(arrival)
-                except ProtocolError as error:
-                    arrivals[place] = error
-        return arrivals
+        return [self._noted(arrival) for arrival in self._arrivals.take(frame, now)]
 
     def note(self, op: Op) -> None:
         """Remember what any operation may say beside its own matter; `receive` does it."""
@@ -103,10 +98,10 @@ class ServerSession:
                 self.fragment_size = size
                 for topic in self.subscriptions:
                     self._merge(topic)
-        if not self.ros2 and isinstance(op, (Subscribe, Advertise, AdvertiseService, AdvertiseAction)):
-            self.ros2 = spells_ros2(op.type)
-        elif not self.ros2 and isinstance(op, SendActionGoal):
+        if not self.ros2 and isinstance(op, SendActionGoal):
             self.ros2 = spells_ros2(op.action_type)
+        elif not self.ros2 and isinstance(op, _TYPED):
+            self.ros2 = spells_ros2(op.type)
 
     def answer_size(self, op: Op) -> int | None:
         """Longest text frame [characters] of what answers `op`; None for no end."""
@@ -292,6 +287,16 @@ class ServerSession:
         finally:
             self._goals.lose()
         return goals
+
+    def _noted(self, arrival: Arrival) -> Arrival:
+        if type(arrival) is Publish and arrival.fragment_size is UNSET:
+            return arrival  # most that comes is such, and has nothing beside its own matter
+        if isinstance(arrival, Op):
+            try:
+                self.note(arrival)
+            except ProtocolError as error:
+                return error
+        return arrival
 
     def _check_room(self, op: Op) -> None:
         topics = sum(len(ids) for ids in self.advertised.values())

@@ -111,7 +111,11 @@ def parse_binary(raw: bytes) -> BinaryPublish:
     """The publish operation in one frame of CBOR; ProtocolError when it is none."""
     obj = from_cbor(raw)
     if not isinstance(obj, dict) or obj.get("op") != "publish" or not isinstance(obj.get("topic"), str):
-        raise ProtocolError(f"A binary frame must hold a publish operation, not {shown(obj)}.")
+        try:
+            found = shown(obj)
+        except RecursionError:
+            found = "something nested too deeply"
+        raise ProtocolError(f"A binary frame must hold a publish operation, not {found}.")
     return BinaryPublish(obj["topic"], obj.get("msg", {}))
 
 
