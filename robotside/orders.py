@@ -29,7 +29,7 @@ from bridge.server import Service, Session
 from robotside.autonomy import LOW_BELOW
 from robotside.commands import Commands, Refusal
 from robotside.controls import STOP_SENTENCE, Operator
-from robotside.station import Station
+from robotside.station import NO_MAP, Station
 from robotside.words import plain
 
 __all__ = ["services"]
@@ -223,6 +223,8 @@ class _Orders:
         if self._station.controls.stopped:
             raise Refusal(STOP_SENTENCE)
         self._need_control(client)
+        if self._station.unfit:
+            raise Refusal(self._station.unfit)
         if self._station.autonomy.whereabouts.pose is None:
             raise Refusal("The robot does not know yet where it is; place it on the map.")
 
@@ -236,6 +238,8 @@ class _Orders:
             self._check_place(f"Point {number}", point)
 
     def _check_place(self, name: str, place: Waypoint) -> None:
+        if not self._station.autonomy.has_map:
+            raise Refusal(NO_MAP)
         problem = self._station.autonomy.guide.planner.fault(name, place.x, place.y)
         if problem:
             raise Refusal(problem)
