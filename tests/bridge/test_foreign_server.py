@@ -280,13 +280,14 @@ async def test_after_the_server_was_restarted_everything_flows_again_and_nothing
             await heard.until(lambda _: second.robot.heard == 1)
 
 
-async def test_a_server_that_takes_the_connection_and_says_nothing_is_found_out(monkeypatch):
-    monkeypatch.setattr("bridge.client.SILENCE", 0.1)
-    monkeypatch.setattr("bridge.client.PING_PERIOD", 0.02)
+async def test_a_server_that_answers_nothing_but_pings_is_a_robot_that_does_not_tell_its_time(monkeypatch):
+    monkeypatch.setattr("bridge.liveness.SILENCE", 0.2)
+    monkeypatch.setattr("bridge.heartbeat.PING_PERIOD", 0.02)
     async with foreign() as robot:
         robot.deaf = True
         async with link(f"ws://127.0.0.1:{robot.port}") as far:
-            assert "is a WebSocket but no robot" in await far.sentence(Phase.WAITING)
+            expected = f"Connected to 127.0.0.1:{robot.port}, which does not tell its time."
+            assert await far.sentence(Phase.CONNECTED) == expected
 
 
 async def test_a_frozen_line_is_lost_and_heals():

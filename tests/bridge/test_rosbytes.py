@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 from collections.abc import Callable
 from typing import Any, ClassVar
@@ -17,7 +18,7 @@ from bridge.errors import ProtocolError
 from bridge.msgs import TYPES, Msg
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.std_msgs import Duration, Empty, Header, Time
-from bridge.rosbytes import serialize
+from bridge.rosbytes import deserialize, serialize
 
 
 class Inner(Msg, frozen=True, gc=False):
@@ -166,13 +167,15 @@ def their_value(value: Any, field: Field, types: Any) -> Any:
 
 @pytest.mark.parametrize("cdr", [False, True], ids=["ros1", "cdr"])
 @pytest.mark.parametrize("cls", CLASSES.values(), ids=CLASSES)
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=5, deadline=None)
 @given(data=st.data())
 def test_every_type_has_the_bytes_that_rosbags_gives_it(cls, cdr, data):
     msg = data.draw(messages(cls))
     types = store(not cdr)
     write = types.serialize_cdr if cdr else types.serialize_ros1
-    assert serialize(msg, cdr) == bytes(write(theirs(msg, types), ros_name(cls.MSGTYPE)))
+    raw = bytes(write(theirs(msg, types), ros_name(cls.MSGTYPE)))
+    assert serialize(msg, cdr) == raw
+    assert repr(deserialize(raw, cls, cdr)) == repr(msg)
 
 
 def test_a_time_alone_has_two_numbers():
@@ -219,3 +222,46 @@ def test_what_has_no_such_bytes_is_a_protocol_error(msg, sentence):
     with pytest.raises(ProtocolError) as caught:
         serialize(msg)
     assert str(caught.value).startswith(sentence)
+
+
+@pytest.mark.parametrize("cdr", [False, True], ids=["ros1", "cdr"])
+@settings(max_examples=200, deadline=None)
+@given(data=st.data())
+def test_nothing_but_a_protocol_error_leaves_the_reader(cdr, data):
+    whole = serialize(data.draw(messages(Everything)), cdr)
+    raw = data.draw(
+        st.one_of(st.binary(max_size=80), st.integers(0, len(whole)).map(lambda end: whole[:end]))
+    )
+    with contextlib.suppress(ProtocolError):
+        deserialize(raw, Everything, cdr)
+
+
+@pytest.mark.parametrize(
+    ("raw", "cdr", "sentence"),
+    [
+        (b"\1\2\3", False, "3 bytes that are no test_msgs/Byte: 2 would be enough."),
+        (b"\1", False, "1 bytes that are no test_msgs/Byte: it ends after 1 bytes, where 2 are needed."),
+        (
+            b"\0\0\0\0\1\2",
+            True,
+            "test_msgs/Byte is not in little-endian CDR: it begins with b'\\x00\\x00\\x00\\x00'.",
+        ),
+    ],
+)
+def test_bytes_that_are_no_such_message_are_a_protocol_error(raw, cdr, sentence):
+    with pytest.raises(ProtocolError) as caught:
+        deserialize(raw, Byte, cdr)
+    assert str(caught.value) == sentence
+
+
+def test_a_count_that_no_message_can_hold_is_not_believed():
+    with pytest.raises(ProtocolError, match="4294967295 elements cannot stand in 4 bytes"):
+        deserialize(b"\xff\xff\xff\xff", Texts)
+
+
+class Texts(Msg, frozen=True, gc=False):
+    """Any number of texts."""
+
+    MSGTYPE: ClassVar[str] = "test_msgs/Texts"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string[]",)
+    data: list[str]

@@ -1,11 +1,4 @@
-"""Messages in the bytes of ROS itself, for the compression `cbor-raw`.
-
-ROS 1: little-endian, nothing between the fields, texts and arrays of any length with their length before them [1]. ROS 2:
-CDR as OMG's DDSI-RTPS has it [2], little-endian, after the four bytes that say so; each number stands at a multiple
-of its size, and a text ends in a zero that its length counts.
-
-[1] ROS wiki, "Connection header" and roscpp's serialization traits. [2] DDS-XTYPES 1.3, 7.4.1 (plain CDR version 1).
-"""
+"""Messages to bytes of ROS."""
 
 from __future__ import annotations
 
@@ -17,18 +10,13 @@ from collections.abc import Callable, Iterator, Sequence
 from operator import attrgetter
 from typing import Any
 
-from bridge.codec.fields import CODES, TIMES, Field, fields_of, is_time
+from bridge.codec.fields import CODES, Field, is_time
 from bridge.errors import ProtocolError
 from bridge.msgs import Msg
-from bridge.msgs.std_msgs import Duration
+from bridge.rosbytes.layout import CDR_LITTLE_ENDIAN, counted, fields_with_widths, time_codes
 
-__all__ = ["CDR_LITTLE_ENDIAN", "serialize"]
+__all__ = ["serialize"]
 
-CDR_LITTLE_ENDIAN = b"\x00\x01\x00\x00"
-"""What stands before a message in CDR; alignment counts from behind it."""
-
-_HEADER = "std_msgs/Header"
-"""ROS 1 has the publisher's count of messages before the stamp; ours are not counted, and 0 stands there."""
 _U32 = struct.Struct("<I")
 Step = Callable[[bytearray, Any], None]
 """Writes one part of a message."""
@@ -71,14 +59,12 @@ def _steps(cls: type[Msg], cdr: bool) -> tuple[Step, ...]:
 def _parts(cls: type[Msg], prefix: str, cdr: bool) -> Iterator[tuple[str, str] | Step]:
     """Path and code of each number, and a step for what has no length of its own."""
     if is_time(cls):
-        yield from zip((f"{prefix}secs", f"{prefix}nsecs"), _time_codes(cls, cdr), strict=True)
+        yield from zip((f"{prefix}secs", f"{prefix}nsecs"), time_codes(cls, cdr), strict=True)
         return
-    fields = fields_of(cls)
-    if not hasattr(cls, "ROSTYPES") and any(field.base in CODES for field in fields):
-        raise ProtocolError(f"{cls.MSGTYPE or cls.__name__} does not tell the widths of its numbers.")
+    fields = fields_with_widths(cls)
     if cdr and not fields:
         yield "", "x"  # IDL knows no empty structure: ROS 2 puts one byte there
-    if cls.MSGTYPE == _HEADER and not cdr and fields[0].name != "seq":
+    if counted(cls, cdr):
         yield "", "4x"
     for field in fields:
         yield from _field(field, f"{prefix}{field.name}", cdr)
@@ -98,12 +84,6 @@ def _field(field: Field, path: str, cdr: bool) -> Iterator[tuple[str, str] | Ste
         yield _several(field, path, cdr, _array(code, cdr))
     else:
         raise ProtocolError(f"{path} is a {field.rostype}, which has no form in bytes of ROS here.")
-
-
-def _time_codes(cls: type[Msg], cdr: bool) -> str:
-    if cdr:
-        return TIMES["builtin_interfaces/Time"]
-    return TIMES["duration" if issubclass(cls, Duration) else "time"]
 
 
 def _numbers(run: list[tuple[str, str]], cdr: bool) -> Step:
