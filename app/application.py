@@ -22,6 +22,7 @@ from app.commands import Commands
 from app.device import device_name, is_android, own_folder
 from app.discovery import Robots
 from app.feeds import Feeds, Mailbox, Post
+from app.garbage import Collector
 from app.layout import Layout, load
 from app.link import Link
 from app.mission import MissionEditor
@@ -107,8 +108,7 @@ class PilothouseApp(App):
         self._pictures: list[float] = []
         """When the pictures of the last second came [s]."""
         self._picture_at = math.nan
-        self._drained = -math.inf
-        self._looks = 0
+        self._drained, self._looks = -math.inf, 0
         self._camera_wanted: str | None = None
 
     # what tests and the demo look at
@@ -168,6 +168,7 @@ class PilothouseApp(App):
     def on_start(self) -> None:
         """Open the network and begin to look at the clock."""
         sys.setswitchinterval(SWITCH)
+        self.collector = Collector()
         make = getattr(Clock, "create_trigger_free", None) if hasattr(Clock, "get_min_free_timeout") else None
         wake = (make or Clock.create_trigger)(lambda _: self._drain(), 0)
         self.mailbox = Mailbox(wake)
@@ -202,6 +203,7 @@ class PilothouseApp(App):
         if self.simulator is not None:
             self.simulator.close()
         self.settings.close()
+        self.collector.close()
 
     def on_pause(self) -> bool:
         """The glass is taken away: rest, and let go of the robot; the patrol goes on without us."""
@@ -209,10 +211,12 @@ class PilothouseApp(App):
         if self.session is not None:
             self.session.link.close(0.3)
         self.stop_recording()
+        self.collector.pause()
         return True
 
     def on_resume(self) -> None:
         """Come back: connect again; whoever wants to drive has to push the stick anew."""
+        self.collector.resume()
         if self.session is not None:
             self.session.resume(self._new_link(self.session.link.url))
             self._camera_wanted = None
@@ -248,6 +252,7 @@ class PilothouseApp(App):
         self._looks += 1
         if self._looks % TICK == 0:  # in the same frame: one of its own would be drawn for it
             self._tick()
+        self.collector.look()
 
     def _drain(self) -> None:
         self._drained = self._now()
@@ -462,6 +467,7 @@ class PilothouseApp(App):
         self.connect.say("")
         self.stop_recording()
         self.root.show_page(self.connect)
+        self.collector.expect()
         self._list()
 
     def _say(self, text: str, level: str) -> None:

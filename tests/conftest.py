@@ -1,4 +1,5 @@
-"""What every test gets: a Kivy that needs no display, and a check that nothing is left running.
+"""What every test gets: a Kivy that needs no display, no collector in the middle of it, and a check that nothing is
+left running.
 
 `tests/pixels` and `tests/e2e` draw, and Kivy chooses its GL once in a process: they run when they are named
 (`pytest tests/pixels`), everything else runs together.
@@ -10,11 +11,12 @@ import asyncio
 import inspect
 import threading
 import time
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator, Generator, Iterator
 from pathlib import Path
 
 import pytest
 
+from app.garbage import Collector
 from tests import headless
 
 HERE = Path(__file__).parent
@@ -42,6 +44,20 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 MODE = pytest.StashKey[str]()
+COLLECTOR = pytest.StashKey[Collector]()
+
+
+def pytest_collection_finish(session: pytest.Session) -> None:
+    """Keep Python's collector out of the tests: `app.garbage` says what it does to a widget of an earlier one."""
+    session.config.stash[COLLECTOR] = Collector()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
+    """Collect between the tests, when nothing holds what a test made any more."""
+    result = yield
+    item.config.stash[COLLECTOR].look()
+    return result
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import threading
+import weakref
 
 from kivy.clock import Clock
 from kivy.uix.button import Button
+
+from tests.thrown import Lasting, throw_away
 
 
 def test_time_passes_only_when_the_test_says_so(stage):
@@ -29,6 +32,26 @@ def test_a_finger_presses_the_button_under_it(stage):
 
 def test_the_next_test_finds_an_empty_window(stage):
     assert stage.window.children == []
+
+
+def test_a_widget_that_was_thrown_away_does_not_vanish_in_the_middle_of_a_test():
+    lasting = Lasting()
+    thrown = throw_away(lasting)
+    lasting.name = "after"
+    assert thrown().followed[0] == "after"
+
+
+MUCH: list[weakref.ref[object]] = []
+
+
+def test_what_a_test_threw_away():
+    MUCH.extend(throw_away(Lasting()) for _ in range(100))
+    assert all(thrown() is not None for thrown in MUCH)
+
+
+def test_is_gone_in_the_next_one():
+    assert MUCH
+    assert not [thrown for thrown in MUCH if thrown() is not None]
 
 
 async def test_a_finished_task_is_no_task_left():

@@ -5,6 +5,7 @@ kv rules write `theme.accent`, `theme.font`, `theme.target` and follow when `the
 
 from __future__ import annotations
 
+import gc
 from pathlib import Path
 
 from kivy.core.text import DEFAULT_FONT, LabelBase
@@ -176,6 +177,20 @@ class Theme(EventDispatcher):
         super().__init__()
         self.on_gloves()
         Metrics.bind(dpi=self.on_gloves)
+
+    def __setattr__(self, key: str, value: object) -> None:
+        """Keep Python's collector away until every rule has followed.
+
+        The theme outlives all widgets, and a rule knows its widget weakly: one that was thrown away and is still bound
+        must not vanish while its rule is computed, which ends in a ReferenceError out of whoever set the theme.
+        """
+        collecting = gc.isenabled()
+        gc.disable()
+        try:
+            super().__setattr__(key, value)
+        finally:
+            if collecting:
+                gc.enable()
 
     def on_name(self, *_: object) -> None:
         """Take every colour from the palette of that name."""

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import time
+import weakref
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -15,6 +17,7 @@ from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskStatus
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
 from tests.app.fakes import FakeRobot
 from tests.headless import Stage
+from tests.thrown import Lasting, automatic, throw_away
 from widgets.theme import theme
 
 PATIENCE = 10.0
@@ -52,6 +55,14 @@ def robot() -> Iterator[FakeRobot]:
     robot = FakeRobot()
     yield robot
     robot.close()
+
+
+@pytest.fixture
+def collecting() -> Iterator[None]:
+    """Before the app starts Python collects by itself, and again after the app's end."""
+    with automatic():
+        yield
+        assert gc.isenabled()
 
 
 @pytest.fixture
@@ -352,6 +363,29 @@ def test_taking_the_glass_away_ends_the_link_and_giving_it_back_heals_it(
     driving.app.on_resume()
     driving.until(lambda: driving.app.session.connected, "did not come back")
     assert robot.twists()[-1] == Twist()
+
+
+def test_in_the_app_a_widget_that_was_thrown_away_does_not_vanish_in_the_middle_of_its_rule(
+    collecting: None, glass: Glass
+) -> None:
+    lasting = Lasting()
+    thrown = throw_away(lasting)
+    lasting.name = "after"
+    assert thrown().followed[0] == "after"
+
+
+def test_screens_that_were_left_are_collected(driving: Glass) -> None:
+    left = weakref.ref(driving.app.shell)
+    driving.app.leave()
+    driving.stage.run_for(0.1)
+    assert left() is None
+
+
+def test_while_the_glass_is_away_python_collects_by_itself(collecting: None, glass: Glass) -> None:
+    glass.app.on_pause()
+    assert gc.isenabled()
+    glass.app.on_resume()
+    assert not gc.isenabled()
 
 
 def test_what_cannot_be_saved_is_said_on_the_glass(driving: Glass) -> None:

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import gc
 import itertools
 import re
 from pathlib import Path
@@ -8,6 +9,7 @@ import pytest
 from kivy.lang import Builder
 from kivy.metrics import mm
 
+from tests.thrown import automatic, throw_away
 from widgets.icons import FILLED, ICONS, OUTLINED, icon
 from widgets.theme import FONTS, PALETTES, Theme, contrast, theme
 
@@ -133,3 +135,21 @@ def test_no_font_is_shipped_that_no_widget_uses():
 def test_the_fonts_licences_are_beside_them():
     assert "SIL OPEN FONT LICENSE" in (FONTS / "B612-LICENSE.txt").read_text(encoding="utf-8")
     assert "Apache License" in (FONTS / "Icons-LICENSE.txt").read_text(encoding="utf-8")
+
+
+def test_a_widget_that_was_thrown_away_does_not_vanish_while_it_follows_the_theme():
+    with automatic():
+        thrown = throw_away(theme)
+        theme.name = "night"
+        assert thrown().followed[0] == "night"
+        assert gc.isenabled()
+
+
+def test_a_name_that_is_none_leaves_the_collector_as_it_was():
+    with automatic():
+        with pytest.raises(ValueError, match="dusk"):
+            theme.name = "dusk"
+        assert gc.isenabled()
+        gc.disable()
+        theme.name = "night"
+        assert not gc.isenabled()
