@@ -216,7 +216,7 @@ def _without_nulls(raw: bytes) -> bytes:
 
 def _whole_numbers(obj: object) -> object:
     if isinstance(obj, dict):
-        return {name: _whole_numbers(value) for name, value in obj.items() if name != "resolution"}
+        return {name: _whole_numbers(value) for name, value in obj.items()}
     return int(obj) if isinstance(obj, float) and obj.is_integer() else obj
 
 
