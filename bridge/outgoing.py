@@ -46,9 +46,9 @@ class Form(NamedTuple):
         return cls(wanted.name, wanted.compression, wanted.fragment_size, wanted.reduction, wanted.ros2)
 
 
-def text_frame(*parts: bytes) -> bytes:
-    """`parts` as one text message of a server."""
-    return b"".join((_head(_TEXT, sum(map(len, parts))), *parts))
+def text_frame(text: bytes) -> bytes:
+    """`text` as one text message of a server."""
+    return _head(_TEXT, len(text)) + text
 
 
 def binary_frame(data: bytes) -> bytes:
@@ -87,8 +87,8 @@ class Outgoing:
         self._reduce = reduce
         self._now = now
         self._frames: dict[Form, bytes] = {}
-        self._bodies: dict[tuple[Reduction | None, bool], bytes] = {}
-        self._lesser: dict[Reduction, Msg | Raw] = {}
+        self._bodies: dict[tuple[Reduction | None, bool], bytes] | None = None
+        self._lesser: dict[Reduction, Msg | Raw] | None = None
 
     def frame(self, form: Form) -> bytes:
         """The message in WebSocket frames; ProtocolError when it cannot be encoded."""
@@ -101,6 +101,8 @@ class Outgoing:
         """As much of the message as is wanted; ProtocolError when it has no such fields."""
         if reduction is None or isinstance(self.msg, Raw):
             return self.msg
+        if self._lesser is None:
+            self._lesser = {}
         found = self._lesser.get(reduction)
         if found is None:
             found = self.msg if self._reduce is None else self._reduce(self.msg, reduction)
@@ -117,12 +119,15 @@ class Outgoing:
         body = self._body(form)
         if form.compression == "png":
             return _cut(encode(to_png(b"".join((_beginning(form.name), body, b"}")))), form.fragment_size)
+        beginning = _beginning(form.name)
         if form.fragment_size is not None:
-            return _cut(b"".join((_beginning(form.name), body, b"}")), form.fragment_size)
-        return text_frame(_beginning(form.name), body, b"}")
+            return _cut(b"".join((beginning, body, b"}")), form.fragment_size)
+        return b"".join((_head(_TEXT, len(beginning) + len(body) + 1), beginning, body, b"}"))
 
     def _body(self, form: Form) -> bytes:
         key = (form.reduction, form.ros2)
+        if self._bodies is None:
+            self._bodies = {}
         body = self._bodies.get(key)
         if body is None:
             msg = self.lesser(form.reduction)

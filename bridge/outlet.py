@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import time
 from collections.abc import Callable
 from typing import Protocol
 
@@ -20,9 +21,8 @@ log = logging.getLogger(__name__)
 class Line(Protocol):
     """What frames are written to."""
 
-    @property
-    def clear(self) -> bool:
-        """Whether everything written so far left this process."""
+    paused: bool
+    """Not everything written so far has left this process."""
 
     @property
     def open(self) -> bool:
@@ -61,13 +61,15 @@ class Round:
 class Outlet:
     """The way out to one client. What cannot leave soon waits in lanes, bounded by a window of unanswered pings."""
 
-    def __init__(self, line: Line, round: Round, name: str) -> None:
-        """`name` is the client's, for the log."""
+    def __init__(
+        self, line: Line, round: Round, name: str, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        """`name` is the client's, for the log; `clock` [s] only goes forward."""
         self._line = line
         self._round = round
         self._name = name
         self._loop = asyncio.get_running_loop()
-        self._clock = self._loop.time
+        self._clock = clock
         self._lanes = Lanes()
         self._urgent: list[bytes] = []
         self._batch: list[bytes] = []
@@ -79,7 +81,7 @@ class Outlet:
     def send(self, lane: Lane, frame: bytes) -> None:
         """Send what must not be lost. A client for whom too much waits is cut off."""
         line = self._line
-        if lane is Lane.CONTROL and line.clear:
+        if lane is Lane.CONTROL and not line.paused:
             self._gather(self._urgent, frame)
         elif self._room() and not self._lanes.blocked(lane):
             self._gather(self._batch, frame)
@@ -92,16 +94,28 @@ class Outlet:
         if stream.ordered:
             self._send_in_order(stream, message)
             return
-        now = self._clock()
-        if stream.waiting or now < stream.due or not self._room():
+        now, window = self._clock(), self.window
+        if (
+            stream.waiting
+            or now < stream.due
+            or self._line.paused
+            or window.sent - window.acknowledged >= window.limit
+            or now >= window.late
+        ):
             self._lanes.offer(stream, message)
             self._arm(now)
             return
-        stream.due = now + stream.period
+        if stream.period:
+            stream.due = now + stream.period
         try:
-            self._gather(self._batch, message.frame(stream.form))
+            frame = message.frame(stream.form)
         except ProtocolError as error:
             log.warning("%s is not sent: %s", message.topic, error)
+            return
+        if not self._batch and not self._urgent:
+            self._round.add(self)
+        self._batch.append(frame)
+        window.sent += len(frame)
 
     def forget(self, stream: Stream) -> None:
         """Nothing of this topic is wanted any more."""
@@ -109,9 +123,10 @@ class Outlet:
 
     def flush(self) -> None:
         """Write what was gathered, with a ping behind it when one is due."""
-        frames = self._urgent + self._batch
-        self._urgent.clear()
-        self._batch.clear()
+        frames, self._batch = self._batch, []
+        if self._urgent:
+            frames = self._urgent + frames
+            self._urgent.clear()
         if not self._line.open:
             return
         now = self._clock()
@@ -128,7 +143,7 @@ class Outlet:
     def pump(self) -> None:
         """Send of what waits as much as there is room for."""
         now = self._clock()
-        while self._line.clear and self._lanes.blocked(Lane.CONTROL):
+        while not self._line.paused and self._lanes.blocked(Lane.CONTROL):
             self._gather(self._urgent, self._lanes.take(now) or b"")
         while self._room():
             try:
@@ -160,7 +175,7 @@ class Outlet:
             self._timer = None
 
     def _room(self) -> bool:
-        return self._line.clear and self.window.room(self._clock())
+        return not self._line.paused and self.window.room(self._clock())
 
     def _send_in_order(self, stream: Stream, message: Outgoing) -> None:
         try:

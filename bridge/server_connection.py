@@ -50,11 +50,6 @@ class HeardConnection(ServerConnection):
     _pieces: list[bytes]
 
     @property
-    def clear(self) -> bool:
-        """Whether everything written so far left this process."""
-        return not self.paused
-
-    @property
     def open(self) -> bool:
         """Whether frames may still be written."""
         return self.protocol.state is State.OPEN

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Iterable
 from typing import Protocol
 
@@ -111,21 +110,22 @@ class Switchboard:
         }
         """All topics there are, by absolute name."""
         self._on_demand = on_demand
-        self._outgoing = functools.partial(Outgoing, reduce=reduce, now=now)
+        self._reduce = reduce
+        self._now = now
         self._watchers: dict[str, set[Watcher]] = {}
 
     def publish(self, topic: str, msg: Msg) -> None:
         """Pass a message of the robot on; BridgeError for a topic that is not in its table."""
-        if topic not in self.topics:
+        entry = self.topics.get(topic)
+        if entry is None:
             raise BridgeError(f"There is no topic {topic} in the table.")
-        channel = self.channels[topic]
-        self.pass_on(channel, msg, None, latch=self.topics[topic].latched)
+        self.pass_on(self.channels[topic], msg, None, latch=entry.latched)
 
     def pass_on(self, channel: Channel, msg: Msg | Raw, publisher: object, *, latch: bool) -> None:
         """Pass a message of `publisher`, None is the robot, on to all who want it, and to later ones when latched."""
         if not channel.streams and not latch:
             return
-        message = self._outgoing(channel.name, msg)
+        message = Outgoing(channel.name, msg, self._reduce, self._now)
         if latch:
             channel.last[publisher] = message
         for listener, stream in channel.streams.items():

@@ -64,7 +64,8 @@ class Window:
         self._numbers = 0
         self._marked = 0
         self._last = -math.inf
-        self._late = math.inf
+        self.late = math.inf
+        """From when on the client counts as standing still [s]: it gets nothing until it answers."""
         self._way = math.inf
         self._way_seen = now
         self._usual = 0.0
@@ -78,22 +79,22 @@ class Window:
 
     def room(self, now: float) -> bool:
         """Whether a message may be sent; the last one may go beyond the limit."""
-        return self.sent - self.acknowledged < self.limit and now < self._late
+        return self.sent - self.acknowledged < self.limit and now < self.late
 
     def ping_due(self, now: float) -> bool:
         """Whether a ping must follow what was sent, or is due for its own sake."""
         fresh = self.sent - self._marked
+        if fresh >= FLOOR and fresh >= self.limit >> 2:
+            return len(self._pings) < MOST_PINGS
         if self._pings:
-            return fresh >= self.limit >> 2 and len(self._pings) < MOST_PINGS
-        return now - self._last >= BEAT or (
-            fresh > 0 and (fresh >= self.limit >> 2 or now - self._last >= PAUSE)
-        )
+            return False
+        return now - self._last >= (PAUSE if fresh > 0 else BEAT)
 
     def ping(self, now: float) -> bytes:
         """Note that a ping is sent now, behind everything else; gives its content, 8 bytes."""
         self._numbers += 1
         if not self._pings:
-            self._late = now + SILENCE + 4 * self._usual
+            self.late = now + SILENCE + 4 * self._usual
         self._pings.append(_Ping(self._numbers, self.sent, self.acknowledged, now))
         self._marked = self.sent
         self._last = now
@@ -107,12 +108,12 @@ class Window:
         ping = self._pings.popleft()
         while ping.number != number:
             ping = self._pings.popleft()
-        full = 4 * self.under_way >= 3 * self.limit
+        full = 2 * self.under_way >= self.limit
         fresh = ping.sent - self.acknowledged
         self.acknowledged = ping.sent
         took = max(now - ping.at, 1e-6)
         self._usual += (took - self._usual) / 8 if self._usual else took
-        self._late = self._pings[0].at + SILENCE + 4 * self._usual if self._pings else math.inf
+        self.late = self._pings[0].at + SILENCE + 4 * self._usual if self._pings else math.inf
         self._believe(took, now)
         self._adjust(ping, took, fresh if full else 0)
         return True
