@@ -58,7 +58,11 @@ def parse(text: str | bytes) -> Op:
     where it means nothing.
     """
     try:
+        if isinstance(text, bytes) and not text.isascii():
+            text.decode()  # the decoder does not look at the texts of a message, which may be passed on as it is
         return _decoder().decode(text)
+    except UnicodeError as error:
+        raise _explained(error, text) from error
     except _FAULTS as error:
         fault = error
     try:
@@ -251,6 +255,8 @@ def _explained(error: Exception, text: str | bytes) -> ProtocolError:
     start = text[:80] if isinstance(text, str) else text[:80].decode(errors="replace")
     if isinstance(error, RecursionError):
         return ProtocolError(f"This is nested too deeply: {start!r}.")
+    if isinstance(error, UnicodeError):
+        return ProtocolError(f"This is not UTF-8: {start!r}.")
     try:
         raw = _without_nan(text.encode() if isinstance(text, str) else text)
         msgspec.json.decode(raw, type=Raw)

@@ -61,6 +61,14 @@ def test_a_text_that_says_nan_stays_a_text_beside_a_bare_one(told):
     assert msgspec.json.decode(parse(text).msg) == [None, told, None]
 
 
+@pytest.mark.parametrize(
+    "text",
+    [b'{"op":"publish","topic":"/a","msg":{"data":"\xff"}}', b'{"op":"publish","topic":"\xc3"}', b"\x80"],
+)
+def test_what_is_not_utf_8_is_refused_even_within_a_message_that_may_be_passed_on(text):
+    assert str(refusal(text)).startswith("This is not UTF-8: ")
+
+
 def test_of_a_field_that_comes_twice_the_last_counts():
     assert parse('{"op":"publish","topic":"/a","msg":1,"topic":"/b","msg":2}').topic == "/b"
 
