@@ -17,7 +17,7 @@ class Compat:
 
     Both servers in use do so: for them the exchange went well, and what failed stands in the values. roslibpy's users
     read the values in their ordinary callback and would get an error with nothing in it instead. A refusal without
-    any values stays one: there is nothing to read in it. When False the caller gets `result: false` as the provider
+    any values, or with a sentence in their place, stays one: who reads values would stumble over it. When False the caller gets `result: false` as the provider
     said.
     """
     missing_values_as_defaults: bool = True

@@ -190,7 +190,7 @@ class ServerSession:
         if op.values is MISSING and not (op.result and self.compat.missing_values_as_defaults):
             reason = f"{absolute(op.service)} {'answered' if op.result else 'refused'} without saying more."
             op = msgspec.structs.replace(op, values=Raw(msgspec.json.encode(reason)), result=False)
-        elif not op.result and self.compat.refusal_as_success:
+        elif not op.result and self.compat.refusal_as_success and bytes(op.values).lstrip().startswith(b"{"):
             op = msgspec.structs.replace(op, result=True)
         return self._calls.answered(op)
 

@@ -278,6 +278,7 @@ def test_its_answer_reaches_who_asked_once():
 
 REFUSAL = '{"op":"service_response","service":"/lamp","id":"service_request:/lamp:1","result":false,"values":{"success":false}}'
 SILENT_REFUSAL = REFUSAL.replace(',"values":{"success":false}', "")
+SAID_WHY = REFUSAL.replace('{"success":false}', '"no key"')
 SILENCE = '{"op":"service_response","service":"/lamp","id":"service_request:/lamp:1","result":true}'
 
 
@@ -286,6 +287,7 @@ SILENCE = '{"op":"service_response","service":"/lamp","id":"service_request:/lam
     [
         (None, REFUSAL, True, {"success": False}),
         (STRICT, REFUSAL, False, {"success": False}),
+        (None, SAID_WHY, False, "no key"),
         (None, SILENCE, True, {}),
         (STRICT, SILENCE, False, "/lamp answered without saying more."),
         (None, SILENT_REFUSAL, False, "/lamp refused without saying more."),
