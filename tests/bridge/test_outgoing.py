@@ -8,7 +8,6 @@ import cbor2
 import pytest
 from msgspec import Raw
 from websockets.frames import Opcode
-from websockets.protocol import CLIENT, Protocol, State
 
 from bridge import outgoing as module
 from bridge.codec import to_json
@@ -20,15 +19,14 @@ from bridge.msgs.std_msgs import Float64, Header, String, Time
 from bridge.outgoing import Form, Outgoing, ping_frame, said
 from bridge.protocol import Png, Reduction, Status, from_png
 from bridge.rosbytes import serialize
+from tests.bridge.ws_frames import frames
 
 
 def received(data):
     """The messages in WebSocket frames, as a client's library reads them."""
-    library = Protocol(CLIENT, state=State.OPEN)
-    library.receive_data(data)
     return [
         json.loads(bytes(frame.data)) if frame.opcode is Opcode.TEXT else cbor2.loads(bytes(frame.data))
-        for frame in library.events_received()
+        for frame in frames(data)
     ]
 
 
@@ -115,7 +113,5 @@ def test_operations_are_cut_as_messages_are():
 
 
 def test_a_ping_is_one_for_the_library():
-    library = Protocol(CLIENT, state=State.OPEN)
-    library.receive_data(ping_frame(b"12345678"))
-    (frame,) = library.events_received()
+    (frame,) = frames(ping_frame(b"12345678"))
     assert (frame.opcode, bytes(frame.data)) == (Opcode.PING, b"12345678")
