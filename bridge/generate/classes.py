@@ -15,6 +15,7 @@ __all__ = ["WIDTH", "class_text", "listed"]
 WIDTH = 110
 """Longest line [characters]."""
 _INDENT = "    "
+_CONSTANTS = {"bool": "bool", "string": "str", "wstring": "str"}
 
 
 def class_text(part: Part, library: Library, names: Names) -> str:
@@ -73,7 +74,7 @@ def _base(part: Part, parent: Part | None, names: Names) -> str:
 def _constant(constant: Constant, part: Part, names: Names) -> Iterator[str]:
     value = literal(Kind(constant.base), constant.value, f"{part.rosname}.{constant.name}")
     names.math |= "math." in value
-    hint = {"bool": "bool", "string": "str"}.get(constant.base, "int" if constant.base in RANGES else "float")
+    hint = _CONSTANTS.get(constant.base, "int" if constant.base in RANGES else "float")
     yield from _assigned(f"{_INDENT}{constant.name}: ClassVar[{hint}] = ", value)
     yield from _docstring(constant.comment)
 

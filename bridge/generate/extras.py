@@ -16,6 +16,8 @@ BASES = {
 EXTENDS = {
     "pilothouse_msgs/StartTaskRequest": "pilothouse_msgs/CommandRequest",
     "pilothouse_msgs/StartTaskResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/RunTaskGoal": "pilothouse_msgs/StartTaskRequest",
+    "pilothouse_msgs/RunTaskFeedback": "pilothouse_msgs/TaskProgress",
     "pilothouse_msgs/SetMissionRequest": "pilothouse_msgs/CommandRequest",
     "pilothouse_msgs/SetMissionResponse": "pilothouse_msgs/CommandResponse",
 }
@@ -37,6 +39,10 @@ DEFAULTS = {
     "pilothouse_msgs/CommandRequest": {"stamp": "math.nan"},
     "pilothouse_msgs/StartTaskRequest": {"stamp": "math.nan"},
     "pilothouse_msgs/SetMissionRequest": {"stamp": "math.nan"},
+    "pilothouse_msgs/RunTaskGoal": {"stamp": "math.nan"},
+    "pilothouse_msgs/RunTaskFeedback": dict.fromkeys(
+        ("progress", "distance_to_next", "time_left"), "math.nan"
+    ),
     "sensor_msgs/BatteryState": {
         **dict.fromkeys(
             ("voltage", "temperature", "current", "charge", "capacity", "design_capacity", "percentage"),

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 from bridge.generate.model import Definition, TextError
-from bridge.generate.rostext import SUFFIXES, package_of, read
+from bridge.generate.rostext import SUFFIXES, read
 
 __all__ = ["definitions"]
 
@@ -16,8 +16,8 @@ def definitions(given: Iterable[Path], package: str | None, known: Callable[[str
 
     What is neither given nor `known` is looked for beside the file that needs it. TextError where it is not found.
     """
-    waiting = [(path, package_of(path, package)) for path in _files(given)]
-    found: dict[Path, Definition] = {path: read(path, owner) for path, owner in waiting}
+    found: dict[Path, Definition] = {path: read(path, package) for path in _files(given)}
+    waiting = [(path, definition.parts[0].package) for path, definition in found.items()]
     names = {part.rosname for definition in found.values() for part in definition.parts}
     while waiting:
         path, owner = waiting.pop(0)

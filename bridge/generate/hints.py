@@ -31,9 +31,9 @@ RANGES = {
 }
 """Least and most of each whole number."""
 NUMBERS = {"float32", "float64", *RANGES}
-_PLAIN = {"float32": "float", "float64": "float", "bool": "bool", "string": "str"}
+_PLAIN = {"float32": "float", "float64": "float", "bool": "bool", "string": "str", "wstring": "str"}
 _BYTES = ("uint8", "char", "byte")
-_ZERO = {"bool": "False", "string": '""', "float32": "0.0", "float64": "0.0"}
+_ZERO = {"bool": "False", "string": '""', "wstring": '""', "float32": "0.0", "float64": "0.0"}
 _TAKEN = {
     *keyword.kwlist,
     *_PLAIN.values(),
@@ -117,6 +117,8 @@ def _sized(hint: str, name: str, kind: Kind, names: Names) -> str:
     exactly = kind.many is Many.EXACTLY
     alias = f"_{name}{'x' if exactly else 'to'}{kind.size}"
     least = f"min_length={kind.size}, " if exactly else ""
+    if "/" in kind.base:
+        hint = f'"{hint}"'  # the alias stands above the class
     names.aliases[alias] = f"Annotated[{hint}, Meta({least}max_length={kind.size})]"
     names.msgspec.add("Meta")
     names.typing |= {"Annotated", "TypeAlias"}
@@ -179,7 +181,7 @@ def _given(kind: Kind, value: Value, where: str) -> tuple[str, bool]:
 
 def literal(kind: Kind, value: Value, where: str) -> str:
     """One value of `kind` as Python; TextError when it is none."""
-    if kind.base == "string":
+    if kind.base in ("string", "wstring"):
         text = value if isinstance(value, str) else str(value)
         if kind.longest and len(text) > kind.longest:
             raise TextError(f"{where}: {text!r} is longer than {kind.longest} characters.")

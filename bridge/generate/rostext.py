@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from rosbags.typesys.msg import MSGParser
 from bridge.generate.comments import Comments, read_comments, without_comment
 from bridge.generate.model import Constant, Definition, Field, Kind, Many, Part, TextError
 
-__all__ = ["SUFFIXES", "package_of", "read"]
+__all__ = ["SUFFIXES", "read"]
 
 SUFFIXES = {".msg": ("",), ".srv": ("Request", "Response"), ".action": ("Goal", "Result", "Feedback")}
 """What the classes of each kind of file are called behind the file's own name."""
@@ -25,10 +26,12 @@ _SAID = {
     "Feedback": "How far `{}` is.",
 }
 _TIMES = {"builtin_interfaces/Time": "time", "builtin_interfaces/Duration": "duration"}
+_WIDE = re.compile(r"^([ \t]*)w(string(?:<=\d+)?(?:\[[<=\d]*\])?[ \t]+(\w+))", re.MULTILINE)
+"""A field or constant of the one type that the parser does not know; it is read as a `string`."""
 _MANY = {Cardinality.SCALAR: Many.ONE, Cardinality.ARRAY: Many.EXACTLY, Cardinality.SEQUENCE: Many.ANY}
 
 
-def package_of(path: Path, package: str | None) -> str:
+def _package_of(path: Path, package: str | None) -> str:
     """The package that `path` belongs to: `package` if given, else the folder round `msg`, `srv` or `action`."""
     found = package or (path.parent.parent.name if path.parent.name in ("msg", "srv", "action") else "")
     if not found:
@@ -45,7 +48,7 @@ def read(path: Path, package: str | None = None) -> Definition:
         raise TextError(f"{path} ends neither in .msg nor in .srv nor in .action.")
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", path.stem):
         raise TextError(f"{path}: a type is called by letters, digits and _, not {path.stem!r}.")
-    package = package_of(path, package)
+    package = _package_of(path, package)
     try:
         text = path.resolve().read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
@@ -63,15 +66,21 @@ def read(path: Path, package: str | None = None) -> Definition:
 
 
 def _part(text: str, package: str, name: str, suffix: str, where: str, first: int) -> Part:
-    message = _parsed(text, f"{package}/msg/{name}", where, first)
+    wide = {found[3] for found in _WIDE.finditer(text)}
+    message = _parsed(_WIDE.sub(r"\1\2", text), f"{package}/msg/{name}", where, first)
     comments = read_comments(text)
     told = comments.part or (_SAID[suffix].format(name) if suffix else "")
     names = [each.name for each in message.fields] + [each.name for each in message.constants]
     if twice := next((each for each in names if names.count(each) > 1), None):
         raise TextError(f"{where.removesuffix(', line')} defines {twice} twice.")
-    fields = tuple(_field(each, comments) for each in message.fields)
+    fields = tuple(_field(each, each.name in wide, comments) for each in message.fields)
     constants = tuple(
-        Constant(each.name, each.typ.value, _unescaped(each.value), comments.of.get(each.name, ""))
+        Constant(
+            each.name,
+            "wstring" if each.name in wide else each.typ.value,
+            _unescaped(each.value),
+            comments.of.get(each.name, ""),
+        )
         for each in message.constants
     )
     return Part(package, f"{name}{suffix}", fields, constants, told)
@@ -83,7 +92,8 @@ def _parsed(text: str, name: str, where: str, first: int) -> Message:
     except (TypesysError, ValueError) as error:
         for number, line in enumerate(text.splitlines(), first):
             if not _right(line, name):
-                raise TextError(f"{where} {number}: {_what(line)}.") from error
+                said = without_comment(line)[0].strip()
+                raise TextError(f"{where} {number}: {said!r} is neither a field nor a constant.") from error
         raise TextError(f"{where} {first}: this is no ROS text.") from error
     return message
 
@@ -95,14 +105,11 @@ def _right(line: str, name: str) -> bool:
         return False
 
 
-def _what(line: str) -> str:
-    if re.match(r"\s*wstring\b", line):
-        return "wstring is not supported, string is"
-    return f"{without_comment(line)[0].strip()!r} is neither a field nor a constant"
-
-
-def _field(each: ParsedField, comments: Comments) -> Field:
-    return Field(each.name, _kind(each.typ), _unescaped(each.value), comments.of.get(each.name, ""))
+def _field(each: ParsedField, wide: bool, comments: Comments) -> Field:
+    kind = _kind(each.typ)
+    if wide:
+        kind = replace(kind, base="wstring")
+    return Field(each.name, kind, _unescaped(each.value), comments.of.get(each.name, ""))
 
 
 def _kind(typ: Type) -> Kind:

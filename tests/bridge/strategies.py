@@ -21,25 +21,29 @@ SCALARS: dict[Any, st.SearchStrategy] = {
 
 
 def messages(cls: type[Msg]) -> st.SearchStrategy[Msg]:
-    return st.builds(cls, **{field.name: values(field.type) for field in msgspec.structs.fields(cls)})
+    rostypes = (*getattr(cls, "ROSTYPES", ()), "", "")
+    fields = zip(msgspec.structs.fields(cls), rostypes, strict=False)
+    return st.builds(cls, **{field.name: values(field.type, rostype) for field, rostype in fields})
 
 
-def values(hint: Any) -> st.SearchStrategy:
+def values(hint: Any, rostype: str = "") -> st.SearchStrategy:
     if typing.get_origin(hint) is typing.Annotated:
         hint, meta = typing.get_args(hint)
-        return bounded(hint, meta)
+        return bounded(hint, meta, rostype)
+    if hint is float and rostype.startswith("float32"):
+        return st.floats(width=32)
     if hint in SCALARS:
         return SCALARS[hint]
     if hint in ARRAYS.values():
         return numbers(hint)
     if typing.get_origin(hint) is list:
-        return st.lists(values(typing.get_args(hint)[0]), max_size=3)
+        return st.lists(values(typing.get_args(hint)[0], rostype), max_size=3)
     if typing.get_origin(hint) in (typing.Union, types.UnionType):
         return st.just(msgspec.UNSET)
     return messages(hint)
 
 
-def bounded(hint: Any, meta: msgspec.Meta) -> st.SearchStrategy:
+def bounded(hint: Any, meta: msgspec.Meta, rostype: str) -> st.SearchStrategy:
     if hint is int:
         return st.integers(meta.ge, 2**64 - 1 if (meta.ge, meta.le) == (0, 2**63 - 1) else meta.le)
     sizes = {"min_size": meta.min_length or 0, "max_size": meta.max_length}
@@ -47,7 +51,7 @@ def bounded(hint: Any, meta: msgspec.Meta) -> st.SearchStrategy:
         return st.text(**sizes)
     if hint is bytes:
         return st.binary(**sizes)
-    return st.lists(values(typing.get_args(hint)[0]), **sizes)
+    return st.lists(values(typing.get_args(hint)[0], rostype), **sizes)
 
 
 def numbers(cls: Any) -> st.SearchStrategy:
