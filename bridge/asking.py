@@ -108,7 +108,7 @@ class Asking:
             on_feedback,
             lambda: self._cancel(ids[0]),
         )
-        told = made.hear if on_feedback else None
+        told = None if on_feedback is None else made.hear
         op = self._session.goal(action, name, to_json(goal, self._session.ros2), told, made.end)
         ids.append(op.id)
         if not self._send(op):
