@@ -21,38 +21,8 @@ from bridge.msgs.pilothouse_msgs import CommandResponse, ControlStatus, Event, R
 from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header
 from bridge.server import BridgeServer
+from tests.bridge.peers import peer
 from tests.bridge.wires import PATIENCE, Clock, Record, server, service, url
-
-
-class Peer:
-    """A foreign client: says JSON, hears JSON."""
-
-    def __init__(self, ws):
-        self.ws = ws
-
-    async def say(self, **op):
-        await self.ws.send(json.dumps(op))
-
-    async def hear(self):
-        async with asyncio.timeout(PATIENCE):
-            raw = await self.ws.recv()
-        return cbor2.loads(raw) if isinstance(raw, bytes) else json.loads(raw)
-
-    async def call(self, name, **more):
-        await self.say(op="call_service", service=name, **more)
-        return await self.hear()
-
-    async def settled(self):
-        """Everything said so far was heard, and nothing came back before this answer."""
-        answer = await self.call("/rosapi/nodes", id="settled")
-        assert answer["id"] == "settled", answer
-
-
-@asynccontextmanager
-async def peer(made, path="", **options):
-    options = {"compression": None, "proxy": None, "close_timeout": 0.1} | options
-    async with connect(url(made) + path, **options) as ws:
-        yield Peer(ws)
 
 
 async def test_a_subscriber_gets_what_is_published_from_then_on():
