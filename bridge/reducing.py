@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+from concurrent.futures import ThreadPoolExecutor
 
 from bridge.errors import BridgeError
 from bridge.lanes import Stream
@@ -31,6 +32,7 @@ class Reducing:
     def __init__(self) -> None:
         self._works: dict[tuple[str, Reduction], _Work] = {}
         self._tasks: set[asyncio.Task[None]] = set()
+        self._worker: ThreadPoolExecutor | None = None
 
     def offer(self, outlet: Outlet, stream: Stream, message: Outgoing) -> None:
         """Have `message` sent by `outlet` once it is made smaller; a newer one replaces one that still waits."""
@@ -51,6 +53,9 @@ class Reducing:
     async def close(self) -> None:
         """Give up what is still to be made."""
         await end(self._tasks)
+        worker, self._worker = self._worker, None
+        if worker is not None:
+            worker.shutdown(wait=False, cancel_futures=True)
 
     async def _run(self, key: tuple[str, Reduction], work: _Work) -> None:
         try:
@@ -58,7 +63,7 @@ class Reducing:
                 message, work.message = work.message, None
                 streams, work.streams = work.streams, {}
                 try:
-                    await asyncio.to_thread(message.lesser, key[1])
+                    await self._in_thread(message, key[1])
                 except BridgeError as error:
                     log.warning("%s is not sent: %s", key[0], error)
                     continue
@@ -69,3 +74,8 @@ class Reducing:
             log.exception("%s could not be made smaller", key[0])
         finally:
             del self._works[key]
+
+    async def _in_thread(self, message: Outgoing, reduction: Reduction) -> None:
+        if self._worker is None:
+            self._worker = ThreadPoolExecutor(1, "bridge-reducing")
+        await asyncio.get_running_loop().run_in_executor(self._worker, message.lesser, reduction)

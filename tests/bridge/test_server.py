@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import base64
-import json
-from contextlib import asynccontextmanager
 
-import cbor2
 import pytest
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
@@ -22,7 +19,7 @@ from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header
 from bridge.server import BridgeServer
 from tests.bridge.peers import peer
-from tests.bridge.wires import PATIENCE, Clock, Record, server, service, url
+from tests.bridge.wires import Clock, Record, server, service, url
 
 
 async def test_a_subscriber_gets_what_is_published_from_then_on():
