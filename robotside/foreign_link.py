@@ -13,11 +13,11 @@ from bridge.address import host_and_port
 from bridge.client import BridgeClient, LinkState, Phase
 from bridge.errors import BridgeError, NotConnected
 from bridge.msgs import Msg
-from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.msgs.std_msgs import Header, Time
 from bridge.network import NetworkThread
 from robotside.autonomy import CAMERA
-from robotside.foreign_topics import Found, TwistStamped, match, usual
+from robotside.foreign_topics import Found, match, usual
 
 __all__ = ["ForeignLink", "Listener"]
 

@@ -4,26 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar
 
 from bridge.msgs import Msg, ros1_name
-from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, Imu, JointState, LaserScan, NavSatFix
-from bridge.msgs.std_msgs import Header
 from robotside.autonomy import CAMERA
 
-__all__ = ["Found", "TwistStamped", "match", "usual"]
-
-
-class TwistStamped(Msg, frozen=True, gc=False):
-    """A speed with the moment it is meant for; what newer ROS 2 robots are driven with."""
-
-    MSGTYPE: ClassVar[str] = "geometry_msgs/TwistStamped"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "geometry_msgs/Twist")
-    header: Header = Header()
-    twist: Twist = Twist()
+__all__ = ["Found", "match", "usual"]
 
 
 @dataclass(frozen=True)

@@ -19,9 +19,11 @@ from bridge.server import BridgeServer
 from bridge.topics import TOPICS
 from robotside.autonomy import CAMERA
 from robotside.clock import RobotClock
+from robotside.goals import actions
 from robotside.http import site
 from robotside.orders import services
 from robotside.pictures import Pictures
+from robotside.reduce import reduce
 from robotside.station import Station
 from robotside.streams import Streams
 from robotside.visit import Visit
@@ -94,6 +96,8 @@ class Serving:
             on_demand=lambda topic, wanted: station.demand.set(topic, "clients", wanted),
             cameras=station.info.cameras,
             shrink=self._pictures.shrink,
+            reduce=reduce,
+            actions=actions(station),
         )
         kinds = {service.name: service.type for service in offered}
         streams = Streams(station.bus, station.demand, self._pictures)

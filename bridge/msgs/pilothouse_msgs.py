@@ -30,6 +30,9 @@ __all__ = [
     "MOTIONS",
     "Mission",
     "RobotInfo",
+    "RunTaskFeedback",
+    "RunTaskGoal",
+    "RunTaskResult",
     "SetMissionRequest",
     "SetMissionResponse",
     "StartTaskRequest",
@@ -287,6 +290,63 @@ class RobotInfo(Msg, frozen=True, gc=False):
     """Horizontal field of view of the first camera [rad]."""
 
 
+class TaskProgress(Msg, frozen=True, gc=False):
+    """How far the running task is; /task/progress at 2 Hz, only while one runs."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskProgress"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
+    stamp: Time = Time()
+    """When it was reckoned."""
+    task_id: int32 = 0
+    """That of TaskStatus."""
+    progress: float = math.nan
+    """Of this lap, or of the whole where laps are counted: 0 to 1."""
+    distance_to_next: float = math.nan
+    """Along the path [m]."""
+    time_left: float = math.nan
+    """Estimate to the end of this lap, or of the whole where laps are counted [s]."""
+    distance_driven: float = 0.0
+    """In this run [m]."""
+
+
+class RunTaskFeedback(TaskProgress, frozen=True, gc=False):
+    """How far `RunTask` is."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskFeedback"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
+
+
+class StartTaskRequest(CommandRequest, frozen=True, gc=False):
+    """Start a task on the stored mission."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/StartTaskRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
+    task: str = "patrol"
+    """patrol or go_home."""
+
+
+class RunTaskGoal(StartTaskRequest, frozen=True, gc=False):
+    """Run a task on the stored mission and be told what became of it. Taking the goal back ends the task."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskGoal"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
+
+
+class RunTaskResult(Msg, frozen=True, gc=False):
+    """What `RunTask` came to."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskResult"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string", "string", "int32")
+    task_id: int32 = 0
+    """Number of this run, as in TaskStatus."""
+    state: str = ""
+    """SUCCEEDED; whatever else became of it is told as a failure with its reason."""
+    message: str = ""
+    """One sentence: what was done."""
+    visited: int32 = 0
+    """Waypoints reached."""
+
+
 class SetMissionRequest(CommandRequest, frozen=True, gc=False):
     """Store a mission on the robot."""
 
@@ -310,39 +370,11 @@ class SetMissionResponse(CommandResponse, frozen=True, gc=False):
     ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
 
 
-class StartTaskRequest(CommandRequest, frozen=True, gc=False):
-    """Start a task on the stored mission."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/StartTaskRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
-    task: str = "patrol"
-    """patrol or go_home."""
-
-
 class StartTaskResponse(CommandResponse, frozen=True, gc=False):
     """What `StartTask` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/StartTaskResponse"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
-
-
-class TaskProgress(Msg, frozen=True, gc=False):
-    """How far the running task is; /task/progress at 2 Hz, only while one runs."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskProgress"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
-    stamp: Time = Time()
-    """When it was reckoned."""
-    task_id: int32 = 0
-    """That of TaskStatus."""
-    progress: float = math.nan
-    """Of this lap, or of the whole where laps are counted: 0 to 1."""
-    distance_to_next: float = math.nan
-    """Along the path [m]."""
-    time_left: float = math.nan
-    """Estimate to the end of this lap, or of the whole where laps are counted [s]."""
-    distance_driven: float = 0.0
-    """In this run [m]."""
 
 
 class TaskStatus(Msg, frozen=True, gc=False):
