@@ -19,6 +19,7 @@ from app.dashboard import Dashboard
 from app.feeds import Post
 from app.layout import Instrument, Layout, LayoutError
 from app.link import OFFER
+from app.offer import POSE
 from app.screens.placing import put
 from app.session import Session
 from bridge.msgs.geometry_msgs import Twist
@@ -81,6 +82,7 @@ class DriveScreen(FloatLayout):
         self.actions = GridLayout(cols=1, spacing="10dp")
         self.places: dict[str, list[Widget]] = {}
         self._titled: list[tuple[Any, Instrument]] = []
+        self._places_told: list[tuple[Readout, Instrument]] = []
         self._place("video", self.video)
         self._build_instruments(layout)
         self._build_controls()
@@ -113,6 +115,8 @@ class DriveScreen(FloatLayout):
                 font_size="21sp",
             )
             widget.size_hint_x = 1
+            if one.topic == POSE:
+                self._places_told.append((widget, one))
         else:
             wanted = topic(one.topic).type
             if wanted not in kind.accepts:
@@ -221,7 +225,7 @@ class DriveScreen(FloatLayout):
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
         """A decoded camera frame; `rate` [Hz] and `latency` [s] are said on it, NaN for unknown."""
-        self.video.show_frame(picture.width, picture.height, picture.rgba)
+        self.video.show_frame(picture.width, picture.height, picture.rgba, picture.taken)
         self.video.rate, self.video.latency = rate, latency
 
     def _name_sources(self) -> None:
@@ -230,6 +234,9 @@ class DriveScreen(FloatLayout):
         for widget, one in self._titled:
             source = offer.source(one.topic) if offer is not None else None
             widget.title = f"{one.title} · {_brief(source)}" if source and source != one.topic else one.title
+        for readout, one in self._places_told:
+            by_wheels = offer is not None and offer.pose_by_odometry
+            readout.name = one.title.replace("Map", "Odom") if by_wheels else one.title
 
     # what the fingers do
 

@@ -363,7 +363,7 @@ class MissionScreen(FloatLayout):
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
         """A decoded camera frame; `rate` [Hz] and `latency` [s] are said on it, NaN for unknown."""
-        self.video.show_frame(picture.width, picture.height, picture.rgba)
+        self.video.show_frame(picture.width, picture.height, picture.rgba, picture.taken)
         self.video.rate, self.video.latency = rate, latency
 
     def _can_place(self) -> bool:
