@@ -311,7 +311,7 @@ class ForeignServer:
         """While it is set every client is accepted and none is listened to."""
         self._nagle = ros == 1 if nagle is None else nagle
         self._numbers = itertools.count(1)
-        self._running: dict[str, asyncio.Task[None]] = {}
+        self.counting: dict[str, asyncio.Task[None]] = {}
         self._work: list[asyncio.Task[None]] = []
         self._listening: Server | None = None
         self.rosapi = RosApi(self, now)
@@ -328,7 +328,7 @@ class ForeignServer:
         self._work.append(asyncio.create_task(self._moving()))
 
     async def close(self) -> None:
-        work = [*self._work, *self._running.values()]
+        work = [*self._work, *self.counting.values()]
         for task in work:
             task.cancel()
         await asyncio.gather(*work, return_exceptions=True)
@@ -434,7 +434,7 @@ class ForeignServer:
             goal = {"action": name, "action_type": kind, "args": op.get("args", {}), "feedback": True}
             self.performers[name][0].say(op="send_action_goal", id=id, **goal)
         elif name == "/fibonacci":
-            self._running[op["id"]] = asyncio.create_task(self._count(caller, op))
+            self.counting[op["id"]] = asyncio.create_task(self._count(caller, op))
         else:
             values = f"Action server {name} is not available"
             caller.say(
@@ -443,8 +443,8 @@ class ForeignServer:
 
     def cancel(self, id: Any) -> None:
         """Have a goal given up, by the id that its sender gave it."""
-        if id in self._running:
-            self._running[id].cancel()
+        if id in self.counting:
+            self.counting[id].cancel()
         for ours, (_, op) in self.goals.items():
             if op["id"] == id:
                 name = resolved(op["action"])
@@ -462,7 +462,7 @@ class ForeignServer:
             status = 4
         except asyncio.CancelledError:
             log.info("%s was given up", op["id"])
-        del self._running[op["id"]]
+        del self.counting[op["id"]]
         caller.say(op="action_result", **named, values={"sequence": sequence}, status=status, result=True)
 
 

@@ -13,7 +13,7 @@ import pytest
 from websockets.asyncio.client import connect
 
 from bridge.client import Phase
-from bridge.errors import NoReply, Refused
+from bridge.errors import NoReply, ProtocolError, Refused
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
@@ -333,3 +333,86 @@ def test_the_ten_lines_work_on_it(ros):
         assert isinstance(seen.get(timeout=PATIENCE), Odometry)
         assert remote.call("/beep", response=Told).message == "beep"
         assert robot.robot.heard == 1
+
+
+@BOTH
+async def test_a_type_that_nobody_knows_here_is_learned_from_it(ros):
+    async with linked(ros) as (_, client):
+        kind = await client.learn("acme_msgs/Gripper")
+        heard = Record()
+        client.subscribe("/gripper", kind, heard)
+        message, _ = (await heard.reach(1))[0]
+        assert kind.MSGTYPE == "acme_msgs/Gripper"
+        assert (message.MODE_CLOSED, message.mode, message.fingers[1].name) == (1, 1, "right")
+        assert (list(message.limits), list(message.raw)) == ([0.0, 0.08, 40.0], [-3, 512])
+        assert message.header.stamp.seconds > 1e9
+
+
+@BOTH
+async def test_a_type_that_it_does_not_know_is_refused_in_its_words(ros):
+    async with linked(ros) as (_, client):
+        with pytest.raises((Refused, ProtocolError), match="no type acme_msgs/Nothing"):
+            await client.learn("acme_msgs/Nothing")
+
+
+@BOTH
+async def test_a_service_offered_to_it_is_called_and_may_refuse(ros):
+    def open_door(request):
+        if not request.data:
+            raise Refused("It is shut already.")
+        return Told(success=True, message="open")
+
+    async with linked(ros) as (robot, client), link(f"ws://127.0.0.1:{robot.port}") as far:
+        other = await far.connected()
+        client.serve("/door", "std_srvs/SetBool", open_door, request=On)
+        await client.call("/beep", None, Told)
+        assert (await other.call("/door", On(data=True), Told)).message == "open"
+        with pytest.raises((Refused, ProtocolError)):
+            await other.call("/door", On(data=False), Told)
+
+
+class FibonacciGoal(Msg, frozen=True):
+    """How many numbers."""
+
+    MSGTYPE = "example_interfaces/FibonacciGoal"
+    ROSTYPES = ("int32",)
+    order: int = 0
+
+
+class Numbers(Msg, frozen=True):
+    """The numbers so far."""
+
+    MSGTYPE = "example_interfaces/FibonacciResult"
+    ROSTYPES = ("int32[]",)
+    sequence: list[int] = []
+
+
+def fibonacci(client, order, heard):
+    goal = FibonacciGoal(order=order)
+    return client.goal("/fibonacci", goal, on_feedback=heard, result=Numbers, feedback=Numbers)
+
+
+async def test_its_actions_tell_how_far_they_are_and_what_came_of_them():
+    async with linked(2) as (_, client):
+        heard = Record()
+        result = await fibonacci(client, 5, heard).result()
+        assert result.sequence == [0, 1, 1, 2, 3, 5]
+        assert [len(told.sequence) for told in heard] == [3, 4, 5, 6]
+
+
+async def test_a_goal_that_is_taken_back_ends_on_the_robot_too():
+    async with linked(2) as (robot, client):
+        heard = Record()
+        goal = fibonacci(client, 500, heard)
+        await heard.reach(1)
+        goal.cancel()
+        with pytest.raises(Refused):
+            await goal.result()
+        assert not robot.counting
+
+
+async def test_an_action_on_ros_1_is_given_up_by_time():
+    async with linked(1) as (_, client):
+        with pytest.raises((NoReply, Refused)):
+            async with asyncio.timeout(PATIENCE):
+                await fibonacci(client, 5, Record()).result(timeout=0.1)
