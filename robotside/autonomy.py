@@ -73,8 +73,6 @@ class Autonomy:
         self.whereabouts = Whereabouts(info, events.say, bus.publish)
         self.has_map = False
         """There is a map to localise and plan on."""
-        self._chart: OccupancyGrid | None = None
-        self._coming: OccupancyGrid | None = None
         self.guide = Guide(robot, Grid.unknown(), self._show_plan)
         if chart is not None:
             self._take_map(chart)
@@ -90,16 +88,10 @@ class Autonomy:
             cruise=CRUISE * info.max_speed,
         )
         self._show_plan(np.empty((0, 2)))
-        self._take: dict[str, Callable[[Any], None]] = {
-            "/map": self._map,
-            "/odom": self._odom,
-            "/scan": self._scan,
-            "/fix": self.whereabouts.take_fix,
-            "/imu/data": self.whereabouts.take_imu,
-            "/battery_state": self._battery,
-            "/bumper": self._bumper,
-            CAMERA: self._image,
-        }
+        self._take = self._takers()
+
+    _chart: OccupancyGrid | None = None
+    _coming: OccupancyGrid | None = None
 
     def take(self, topic: str, msg: Msg, now: float) -> None:
         """Take in one message of the robot, at `now` [s, robot clock]."""
@@ -117,6 +109,19 @@ class Autonomy:
             if now - heard > SILENCE:
                 self.engine.pause(f"Paused: the {sense} has been silent for {SILENCE} s.", "alarm")
                 return
+
+    def _takers(self) -> dict[str, Callable[[Any], None]]:
+        """What is done with each topic's messages."""
+        return {
+            "/map": self._map,
+            "/odom": self._odom,
+            "/scan": self._scan,
+            "/fix": self.whereabouts.take_fix,
+            "/imu/data": self.whereabouts.take_imu,
+            "/battery_state": self._battery,
+            "/bumper": self._bumper,
+            CAMERA: self._image,
+        }
 
     def start_patrol(self, mission: Mission, now: float) -> None:
         """Patrol the points of `mission`, which must have some."""
