@@ -287,7 +287,9 @@ class PilothouseApp(App):
         latency = (
             self.session.link.robot_time() - picture.stamp if self.session and picture.stamp else math.nan
         )
-        self.shell.screens[self.shell.screen].show_picture(picture, rate, latency)
+        self.shell.screens[self.shell.screen].show_picture(
+            picture, rate, latency if latency > 0 else math.nan
+        )
 
     def _judge_picture(self) -> None:
         """A picture is believed for a second; after that it says how old it is."""

@@ -94,7 +94,8 @@ class Offer:
             return ""
         if not self.rosapi:
             return "This robot does not tell what it offers (it runs no rosapi): the usual names are tried."
-        return "This robot has no Pilothouse services: it is watched and driven by its own topics."
+        told = "This robot has no Pilothouse services: it is watched and driven by its own topics."
+        return f"{told} Its place is the one by its wheels." if self.pose_by_odometry else told
 
 
 NOTHING = Offer({}, frozenset(), rosapi=False)

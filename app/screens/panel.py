@@ -30,8 +30,9 @@ STATES = {
     "stored": ("Stored on the robot.", "ok"),
 }
 """State of the draft to its sentence and the role of its colour."""
-NO_TASKS = "This robot offers no tasks to start."
-NO_MISSIONS = "This robot stores no missions."
+NO_TASKS = "It offers no tasks."
+NO_MISSIONS = "It stores no missions."
+NEITHER = "It stores no missions and offers no tasks."
 
 Builder.load_string("""
 <MissionPanel>:
@@ -321,7 +322,8 @@ class MissionPanel(BoxLayout):
         self.tasks.held = session.stop_phase == "stopped"
         self._send.may_send = int(mine and missions and session.mission.state == "draft")
         if not missions:
-            self._send.note, self._send.role, self._send.icon = NO_MISSIONS, "muted", "block"
+            self._send.note = NO_MISSIONS if tasks else NEITHER
+            self._send.role, self._send.icon = "muted", "block"
         state = session.feeds.state("/task/status")
         for figure in (self.next, self.lap, self.left):
             figure.state = state

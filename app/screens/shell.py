@@ -187,6 +187,7 @@ class Shell(FloatLayout):
         self._stop_banner = Banner(level="warn")
         for banner in (self._banner, self._stop_banner):
             banner.bind(height=self._place_notices)
+        self.ids.notices.bind(height=self._place_notices)
         self._greeted = ""
         self._build_rail()
         self._dashboard = Dashboard(self.session.feeds)
@@ -398,6 +399,7 @@ class Shell(FloatLayout):
         banner.text = text or banner.text
         banner.level = "ok" if session.stop_phase == "stopped" else "warn"
         if text and banner.parent is None:
+            self.unsay("offer")
             self.ids.notices.add_widget(banner)
         elif not text and banner.parent is not None:
             self.ids.notices.remove_widget(banner)
