@@ -64,6 +64,7 @@ def test_what_it_took_back_it_does_not_say_again():
     assert session.stop_providing("dock") == UnadvertiseAction(action="/dock")
     assert session.stop_providing("dock") is None
     assert list(session.opening()) == [kept.op]
+    assert list(session.subscriptions) == ["/odom"]
 
 
 def test_it_asks_for_remarks_first_if_it_wants_them():

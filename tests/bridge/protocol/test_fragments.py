@@ -85,6 +85,11 @@ def test_slices_give_the_text_again_in_any_order_and_never_cut_an_escape(told, a
     assert (len(together), together.held) == (0, 0)
 
 
+def test_what_only_looks_like_half_of_a_pair_is_not_taken_for_one():
+    text = rb'{"s":"\\ud83d\ude00"}'
+    assert [each.data for each in slices(text, 16)] == [r'{"s":"\\ud83d', r'\ude00"}']
+
+
 @settings(max_examples=200, deadline=None)
 @given(text=st.text(st.characters(exclude_categories=["Cs"]), min_size=1), size=st.integers(1, 9))
 def test_any_text_comes_back(text, size):
@@ -220,6 +225,13 @@ def test_what_waits_is_bounded_in_bytes():
     with pytest.raises(ProtocolError, match="must stay under 1000 bytes"):
         together.add(a_slice(1, 3, "x" * 500, id="a"), 0.0)
     assert (len(together), together.held) == (0, 0)
+
+
+def test_what_just_fits_is_kept():
+    together = Fragments(2 * (500 + SLICE_COST))
+    together.add(a_slice(0, 2, "x" * 500), 0.0)
+    assert together.add(a_slice(1, 2, "x" * 500), 0.0) == "x" * 1000
+    assert Fragments(2 * SLICE_COST).add(a_slice(0, 2, ""), 0.0) is None
 
 
 def test_empty_slices_cost_something_too():

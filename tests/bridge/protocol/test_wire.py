@@ -183,6 +183,7 @@ def test_one_frame_holds_a_thousand_operations_at_most():
     found = parse_each('{"op":"unsubscribe","topic":"/a"}' * (MOST_OPERATIONS + 5))
     assert len(found) == MOST_OPERATIONS + 1
     assert str(found[-1]) == "A frame may hold at most 1000 operations."
+    assert len(parse_many('{"op":"unsubscribe","topic":"/a"}' * MOST_OPERATIONS)) == MOST_OPERATIONS
 
 
 @pytest.mark.parametrize(
