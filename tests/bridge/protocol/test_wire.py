@@ -87,6 +87,7 @@ SENTENCES = {
 @pytest.mark.parametrize("text", SENTENCES)
 def test_what_is_no_operation_is_named_with_its_beginning(text):
     assert str(refusal(text)) == SENTENCES[text]
+    assert str(refusal(text.encode())) == SENTENCES[text]
 
 
 def test_an_unknown_operation_is_told_which_ones_there_are():
