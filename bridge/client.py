@@ -274,6 +274,7 @@ class BridgeClient(Asking, Reconnecting):
         )
         self._connection = connection
         work = {asyncio.create_task(self._listen(connection, heart)), asyncio.create_task(heart.run())}
+        lost = False
         try:
             for op in self._session.opening():
                 self._send(op)
@@ -281,6 +282,9 @@ class BridgeClient(Asking, Reconnecting):
             done, _ = await asyncio.wait(work, return_when=asyncio.FIRST_COMPLETED)
             for task in done:
                 task.result()
+        except LinkLost:
+            lost = True
+            raise
         finally:
             self._connection = None
             for task in work:
@@ -288,7 +292,7 @@ class BridgeClient(Asking, Reconnecting):
             await asyncio.gather(*work, return_exceptions=True)
             self._session.lose()
             await self._providing.lose()
-            await connection.hang_up()
+            await connection.hang_up(lost=lost)
 
     def _met(self) -> None:
         clock = "" if math.isfinite(self.offset) else ", which does not tell its time"

@@ -48,7 +48,7 @@ class Connection:
 
     @property
     def local(self) -> str:
-        """The numeric address of this machine that it uses; empty once it is closed."""
+        """The numeric address of this machine that it uses; empty where the system does not tell."""
         name = self._ws.transport.get_extra_info("sockname")
         return str(name[0]) if name else ""
 
@@ -86,8 +86,11 @@ class Connection:
                 _acknowledge_at_once(self._socket)
                 yield raw
 
-    async def hang_up(self) -> None:
-        """Close it; 0.2 s at most, even when nothing listens at its other end any more. What was not sent never will be."""
+    async def hang_up(self, *, lost: bool = False) -> None:
+        """Close it; 0.2 s at most, even when nothing listens at its other end any more.
+
+        When it is `lost` the system is told to throw away what it could not deliver yet: it would arrive late.
+        """
         if self._pinging is not None:
             self._pinging.cancel()
             await asyncio.gather(self._pinging, return_exceptions=True)
@@ -96,9 +99,11 @@ class Connection:
                 await self._ws.close()
         except TimeoutError:
             log.debug("%s did not say goodbye", self.address)
+            # Only then: after a goodbye the other end may still be reading what was sent last, and a reset would take it away.
+            if lost:
+                with contextlib.suppress(OSError):
+                    self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, _RESET)
         finally:
-            with contextlib.suppress(OSError):
-                self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, _RESET)
             self._ws.transport.abort()
 
 

@@ -134,7 +134,7 @@ async def test_what_the_system_could_not_deliver_of_a_lost_connection_is_thrown_
         made = await connection.dial(place, 5.0)
         while not made.stuck:
             made.post("x" * 10_000)
-        await made.hang_up()
+        await made.hang_up(lost=True)
         lost.set()
         assert await ended == "thrown away"
 
