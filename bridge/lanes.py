@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Callable
 from enum import IntEnum
 
 from bridge.outgoing import Form, Outgoing
@@ -74,6 +75,8 @@ class Lanes:
         self._bytes = [0] * len(Lane)
         self._streams: tuple[dict[Stream, None], ...] = tuple({} for _ in Lane)
         self._passed = 0
+        self.held = False
+        """The next message is due and too large for what room there was when last asked."""
 
     def put(self, lane: Lane, frame: bytes) -> bool:
         """Queue a frame that must not be lost; False when too many wait in this lane already."""
@@ -99,21 +102,27 @@ class Lanes:
         """Whether frames wait in this lane, behind which others must stand."""
         return bool(self._frames[lane])
 
-    def take(self, now: float) -> bytes | None:
-        """The next frame to send at `now` [s]; None when nothing is due. ProtocolError when it cannot be encoded."""
+    def take(self, now: float, fits: Callable[[int], bool] = lambda _: True) -> bytes | None:
+        """The next frame to send at `now` [s]; None when nothing is due, or the next is `held`.
+
+        `fits` tells whether there is room for so many bytes. ProtocolError when the next cannot be encoded.
+        """
+        self.held = False
         for lane in (Lane.CONTROL, Lane.REPLY, Lane.EVENT):
-            if self._frames[lane]:
-                frame = self._frames[lane].popleft()
-                self._bytes[lane] -= len(frame)
-                return frame
+            frames = self._frames[lane]
+            if frames:
+                if not fits(len(frames[0])):
+                    self.held = True
+                    return None
+                self._bytes[lane] -= len(frames[0])
+                return frames.popleft()
         order = (Lane.EVENT, Lane.TELEMETRY, Lane.BULK)
         if self._passed >= PATIENCE:
             order = (Lane.EVENT, Lane.BULK, Lane.TELEMETRY)
         for lane in order:
             stream = next((stream for stream in self._streams[lane] if stream.due <= now), None)
             if stream is not None:
-                self._passed = self._passed + 1 if lane is Lane.TELEMETRY and self._streams[Lane.BULK] else 0
-                return self._next(stream, now)
+                return self._next(stream, now, fits)
         return None
 
     def delay(self, now: float) -> float | None:
@@ -123,11 +132,21 @@ class Lanes:
         dues = [stream.due for streams in self._streams for stream in streams]
         return max(0.0, min(dues) - now) if dues else None
 
-    def _next(self, stream: Stream, now: float) -> bytes:
-        message = stream.waiting.popleft()
+    def _next(self, stream: Stream, now: float, fits: Callable[[int], bool]) -> bytes | None:
+        try:
+            frame = stream.waiting[0].frame(stream.form)
+            self.held = not fits(len(frame))
+        finally:
+            if not self.held:
+                self._sent(stream, now)
+        return None if self.held else frame
+
+    def _sent(self, stream: Stream, now: float) -> None:
+        stream.waiting.popleft()
         streams = self._streams[stream.lane]
         del streams[stream]
         if stream.waiting:
             streams[stream] = None
         stream.due = now + stream.period
-        return message.frame(stream.form)
+        passed = stream.lane is Lane.TELEMETRY and bool(self._streams[Lane.BULK])
+        self._passed = self._passed + 1 if passed else 0

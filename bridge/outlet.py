@@ -83,9 +83,11 @@ class Outlet:
         line = self._line
         if lane is Lane.CONTROL and not line.paused:
             self._gather(self._urgent, frame)
-        elif self._room() and not self._lanes.blocked(lane):
+        elif self._room() and not self._lanes.blocked(lane) and self.window.fits(len(frame)):
             self._gather(self._batch, frame)
-        elif line.open and not self._lanes.put(lane, frame):
+        elif self._lanes.put(lane, frame):
+            self.pump()
+        elif line.open:
             log.warning("%s does not read what it asked for and is disconnected", self._name)
             line.cut()
 
@@ -101,17 +103,20 @@ class Outlet:
             or self._line.paused
             or window.sent - window.acknowledged >= window.limit
             or now >= window.late
+            or self._lanes.held
         ):
-            self._lanes.offer(stream, message)
-            self._arm(now)
+            self._wait(stream, message)
             return
-        if stream.period:
-            stream.due = now + stream.period
         try:
             frame = message.frame(stream.form)
         except ProtocolError as error:
             log.warning("%s is not sent: %s", message.topic, error)
             return
+        if not window.fits(len(frame)):
+            self._wait(stream, message)
+            return
+        if stream.period:
+            stream.due = now + stream.period
         if not self._batch and not self._urgent:
             self._round.add(self)
         self._batch.append(frame)
@@ -130,7 +135,7 @@ class Outlet:
         if not self._line.open:
             return
         now = self._clock()
-        if self.window.ping_due(now):
+        if self.window.ping_due(now, self._lanes.held):
             frames.append(ping_frame(self.window.ping(now)))
         if frames:
             self._line.write(frames[0] if len(frames) == 1 else b"".join(frames))
@@ -147,13 +152,15 @@ class Outlet:
             self._gather(self._urgent, self._lanes.take(now) or b"")
         while self._room():
             try:
-                frame = self._lanes.take(now)
+                frame = self._lanes.take(now, self.window.fits)
             except ProtocolError as error:
                 log.warning("A message is not sent: %s", error)
                 continue
             if frame is None:
                 break
             self._gather(self._batch, frame)
+        if self._lanes.held and not self._batch and not self._urgent:
+            self._round.add(self)  # for a ping: what is under way must be known to have arrived
         self._arm(now)
 
     def beat(self) -> None:
@@ -174,6 +181,10 @@ class Outlet:
             self._timer.cancel()
             self._timer = None
 
+    def _wait(self, stream: Stream, message: Outgoing) -> None:
+        self._lanes.offer(stream, message)
+        self.pump()
+
     def _room(self) -> bool:
         return not self._line.paused and self.window.room(self._clock())
 
@@ -192,7 +203,7 @@ class Outlet:
     def _arm(self, now: float) -> None:
         """Come back when a throttled message is due; whatever waits for room comes with the room."""
         delay = self._lanes.delay(now)
-        if delay is None or not self._room() or not self._line.open:
+        if delay is None or self._lanes.held or not self._room() or not self._line.open:
             return
         if self._timer is not None:
             if self._timer.when() <= now + delay:

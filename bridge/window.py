@@ -78,12 +78,19 @@ class Window:
         return self.sent - self.acknowledged
 
     def room(self, now: float) -> bool:
-        """Whether a message may be sent; the last one may go beyond the limit."""
+        """Whether anything may be sent."""
         return self.sent - self.acknowledged < self.limit and now < self.late
 
-    def ping_due(self, now: float) -> bool:
-        """Whether a ping must follow what was sent, or is due for its own sake."""
+    def fits(self, size: int) -> bool:
+        """Whether a message of `size` [byte] may be sent: within the limit, or larger and with hardly any before it."""
+        under_way = self.sent - self.acknowledged
+        return under_way + size <= self.limit or under_way <= self.limit >> 3
+
+    def ping_due(self, now: float, waiting: bool = False) -> bool:
+        """Whether a ping must follow what was sent, or is due for its own sake; `waiting` is for what does not fit."""
         fresh = self.sent - self._marked
+        if waiting and fresh > 0:
+            return len(self._pings) < MOST_PINGS
         if fresh >= FLOOR and fresh >= self.limit >> 2:
             return len(self._pings) < MOST_PINGS
         if self._pings:

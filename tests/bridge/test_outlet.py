@@ -68,8 +68,7 @@ class Bench:
 
     def fill(self):
         """Send until there is no room any more."""
-        while self.outlet.window.room(self.clock()):
-            self.outlet.send(Lane.REPLY, text_of(500))
+        self.outlet.send(Lane.REPLY, text_of(self.outlet.window.limit))
         self.step()
         self.line.writes.clear()
 
@@ -248,3 +247,35 @@ async def test_a_connection_that_is_closing_and_does_not_end_is_cut(bench):
     assert cuts == []
     bench.outlet.beat()
     assert cuts == [1]
+
+
+async def test_what_does_not_fit_waits_until_the_way_is_nearly_empty_and_is_pinged_for(bench):
+    for _ in range(3):
+        bench.outlet.send(Lane.REPLY, text_of(1000))
+    grid, odom = stream("/map", Lane.BULK), stream(queue=9)
+    bench.outlet.offer(grid, Outgoing("/map", String("x" * 2 * START)))
+    bench.step()
+    assert len(bench.line.heard) == 3
+    bench.outlet.send(Lane.REPLY, text_of(300))
+    bench.step()
+    assert len(bench.line.heard) == 4
+    assert bench.line.unanswered
+    bench.answer()
+    assert len(bench.line.heard) == 5
+    bench.outlet.offer(odom, number(1))
+    bench.step()
+    assert len(bench.line.heard) == 6
+
+
+async def test_a_map_gets_its_turn_among_samples_without_end(bench):
+    grid, odom = stream("/map", Lane.BULK), stream()
+    bench.outlet.offer(odom, number(0))
+    bench.outlet.send(Lane.REPLY, text_of(4000))
+    bench.outlet.offer(grid, Outgoing("/map", String("x" * 2 * START)))
+    for value in range(40):
+        bench.outlet.offer(odom, number(value))
+        bench.step()
+        if bench.line.unanswered:
+            bench.outlet.answered(bench.line.unanswered.pop(0))
+            bench.step()
+    assert max(map(len, bench.line.heard)) > START

@@ -104,23 +104,15 @@ async def test_a_client_may_ping_and_close_as_ever():
 
 
 async def test_a_vanished_clients_session_is_over_before_what_it_left_is_tidied_up():
-    order = []
-    gone = Record()
-
-    def left(session):
-        order.append("gone")
-        gone(session)
-
-    def demand(topic, wanted):
-        order.append(wanted)
-
-    async with server(on_gone=left, on_demand=demand) as robot, peer(robot) as foreign:
+    order = Record()
+    async with (
+        server(on_gone=lambda _: order("gone"), on_demand=lambda _, wanted: order(wanted)) as robot,
+        peer(robot) as foreign,
+    ):
         await foreign.say(op="subscribe", topic="/scan")
         await foreign.settled()
         foreign.ws.transport.abort()
-        await gone.reach(1)
-        while order[-1] is not False:
-            await asyncio.sleep(0)
+        await order.reach(3)
     assert order == [True, "gone", False]
 
 

@@ -153,3 +153,14 @@ def test_who_leaves_a_ping_unanswered_for_long_is_dead():
     window.ping(100.0)
     assert not window.dead(100.0 + DEAD - 0.1)
     assert window.dead(100.0 + DEAD)
+
+
+def test_a_message_beyond_the_limit_goes_only_when_hardly_anything_is_before_it():
+    window = Window(0.0)
+    assert window.fits(10 * START)
+    window.sent += START // 4
+    assert window.fits(START // 2)
+    assert not window.fits(START)
+    assert not window.ping_due(0.0) or window.ping(0.0)
+    window.sent += 10
+    assert window.ping_due(0.0, waiting=True)
