@@ -77,6 +77,8 @@ def _list_reader(item: Reader) -> Reader:
     def read(obj: Any, path: str) -> list[Any]:
         if not isinstance(obj, (list, array)):
             raise _wrong(path, obj, "a list")
+        if item is _read_float and isinstance(obj, array) and obj.typecode in "fd":
+            return obj.tolist()
         return [item(value, f"{path}[{index}]") for index, value in enumerate(obj)]
 
     return read

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -34,18 +35,25 @@ class Strange:
         """Topics that somebody subscribes to."""
         return {name for peer in list(self._server.peers) for name in list(peer.wishes)}
 
-    def rename(self, old: str, new: str) -> None:
-        """Offer a topic under another name, to clients that come later."""
+    def withhold(self, *services: str) -> None:
+        """Have no longer these services of rosapi; none at all without names."""
+        for name in services or tuple(self._server.rosapi.asked):
+            del self._server.rosapi.asked[name]
 
-        def change() -> None:
-            self._server.topics[new] = self._server.topics.pop(old)
+    def cut(self) -> None:
+        """Break every connection; whoever connects again is served."""
 
-        self._network.call(change)
+        def abort() -> None:
+            for peer in list(self._server.peers):
+                peer.ws.transport.abort()
+
+        self._network.call(abort)
 
 
 @contextmanager
 def strange_robot(ros: int = 1) -> Iterator[Strange]:
     """Serves with the manners of ROS 1 or 2 until the end of the block."""
+    logging.getLogger("websockets.server").setLevel(logging.WARNING)  # Kivy logs every byte otherwise
     network = NetworkThread("strange robot")
     server = ForeignServer(ros)
     try:
