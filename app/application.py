@@ -135,7 +135,7 @@ class PilothouseApp(App):
 
     @property
     def screens(self) -> dict[str, Any]:
-        """Every screen there is now by its name: `connect`, and with a robot `mission` and `drive`."""
+        """Every screen there is now by its name: `connect`, and with a robot `mission`, `drive` and `topics`."""
         return {"connect": self.connect, **(self.shell.screens if self.shell else {})}
 
     # life
@@ -239,7 +239,8 @@ class PilothouseApp(App):
             dialogs[0].close()
             return True
         if self.session is not None:
-            self.leave()
+            if self.shell is None or not self.shell.back():
+                self.leave()
             return True
         return not is_android()
 
@@ -286,11 +287,15 @@ class PilothouseApp(App):
         latency = (
             self.session.link.robot_time() - picture.stamp if self.session and picture.stamp else math.nan
         )
-        self.shell.screens[self.shell.screen].show_picture(picture, rate, latency)
+        self.shell.screens[self.shell.screen].show_picture(
+            picture, rate, latency if latency > 0 else math.nan
+        )
 
     def _judge_picture(self) -> None:
         """A picture is believed for a second; after that it says how old it is."""
         video = self.shell.screens[self.shell.screen].video
+        if video is None:
+            return
         age = self._now() - self._picture_at
         video.state = "never" if math.isnan(age) else "live" if age < PICTURE_LIVES else "stale"
         if video.state == "stale" and not abs(age - video.age) < 0.5:
@@ -338,8 +343,7 @@ class PilothouseApp(App):
         session = self.session
         if not session.connected:
             return
-        info = session.feeds.latest("/robot/info")
-        wanted = (info.cameras[0] if info.cameras else None) if info is not None else self._camera_wanted
+        wanted = session.camera(self._camera_wanted)
         if wanted != self._camera_wanted:
             self._camera_wanted = wanted
             session.link.watch(wanted)
@@ -433,23 +437,18 @@ class PilothouseApp(App):
         self.connect.say(f"Connecting to {url} …", "info", self.leave)
 
     def _enter_robot(self) -> None:
-        from app.screens.drive import DriveScreen
-        from app.screens.mission import MissionScreen
-        from app.screens.shell import Shell
+        from app.screens.robot import robot_shell
 
         self.connect.say("")
-        screens = {
-            "mission": MissionScreen(app=self, session=self.session),
-            "drive": DriveScreen(self.layout_file, app=self, session=self.session),
-        }
-        self.shell = Shell(screens, app=self, session=self.session, size=self.root.size, pos=self.root.pos)
+        place = {"size": self.root.size, "pos": self.root.pos}
+        self.shell = robot_shell(self, self.session, self.layout_file, **place)
         self.root.show_page(self.shell)
         for post in self.session.early:
             self.shell.replay(post)
         self.show(self._first_screen)
 
     def show(self, screen: str) -> None:
-        """Put `mission` or `drive` on the glass; KeyError for another."""
+        """Put `mission`, `drive` or `topics` on the glass; KeyError for another."""
         self.shell.go(screen)
         self._first_screen = screen
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["Rect", "connect_columns", "drive", "form", "mission", "shell"]
+__all__ = ["Rect", "connect_columns", "drive", "form", "mission", "shell", "topics"]
 
 SELECTION = 310
 """Width of the bar for what is selected on a phone's map [dp]."""
@@ -250,3 +250,27 @@ def _drive_tall(body: Rect, dp: float) -> dict[str, Rect]:
         "top": tape,
         "notice": Rect(body.x + gap, tape.y - 82 * dp, body.width - 2 * gap, 46 * dp),
     }
+
+
+def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+    """Of the topics screen: `list` and `detail`, side by side or in the same place on a phone, `strip` and `stop`.
+
+    The strip is what is left beside STOP: under the list on a phone, under the detail elsewhere.
+    """
+    gap = 12 * dp
+    if shape == "tall":
+        stop = _mission_tall(body, dp, sheet_open=False)["stop"]
+        low = stop.top + 10 * dp
+        whole = Rect(body.x + gap, low, body.width - 2 * gap, body.top - gap - low)
+        strip = Rect(whole.x, stop.y, stop.x - gap - whole.x, stop.height)
+        notice = Rect(whole.x, low, whole.width, 120 * dp)
+        return {"list": whole, "detail": whole, "strip": strip, "stop": stop, "notice": notice}
+    wide = shape == "wide"
+    stop = mission(body, shape, dp)["stop"]
+    left = min((420 if wide else 320) * dp, body.width * 0.42)
+    listed = Rect(body.x + gap, body.y + gap, left, body.height - 2 * gap)
+    x, low = listed.right + gap, stop.top + gap
+    detail = Rect(x, low, body.right - gap - x, body.top - gap - low)
+    strip = Rect(x, stop.y, stop.x - gap - x, stop.height)
+    notice = Rect(detail.x, low, detail.width, 110 * dp)
+    return {"list": listed, "detail": detail, "strip": strip, "stop": stop, "notice": notice}

@@ -35,6 +35,8 @@ class Picture:
     height: int
     rgba: bytes
     """Rows from the top, four bytes a pixel."""
+    taken: tuple[int, int] = (0, 0)
+    """Width and height before it was made smaller on its way [px]; 0 when nobody says."""
 
 
 def best_decoder() -> Decoder:
@@ -106,6 +108,5 @@ class Camera:
             self.bad += 1
             log.info("frame %d is no picture: %s", frame.seq, error)
             return
-        self._mailbox.post(
-            PICTURE, Picture(frame.seq, frame.stamp, width, height, rgba), received, urgent=True
-        )
+        picture = Picture(frame.seq, frame.stamp, width, height, rgba, (frame.width, frame.height))
+        self._mailbox.post(PICTURE, picture, received, urgent=True)

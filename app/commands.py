@@ -25,6 +25,8 @@ HEARTBEAT = 0.15
 """A user interface silent for longer steers nothing [s]."""
 REARM = 1.0
 """After a longer silence of the user interface the stick must be pushed anew [s]."""
+LATCHED = 0.1
+"""Between two commands to rest while the slot is latched [s]."""
 ZEROS = 3
 """How often the command to rest is said after the stick is let go."""
 VALID_FOR = 5.0
@@ -60,6 +62,22 @@ class DriveSlot:
         self._last_sent = _ZERO
         self._sent_at = -math.inf
         self._zeros = 0
+        self._latched = False
+
+    @property
+    def latched(self) -> bool:
+        """Nothing but rest is sent, again and again."""
+        return self._latched
+
+    def latch(self, on: bool) -> None:
+        """Send rest at once and ten times a second whatever anybody wants, or end that; from any thread.
+
+        It is how a robot without a STOP of its own is stopped. Afterwards the stick must be pushed anew.
+        """
+        with self._lock:
+            self._latched, self._wanted = on, _ZERO
+            if on:
+                self._sent_at = -math.inf
 
     def want(self, twist: Twist) -> None:
         """Set the twist to drive with, from any thread; one that is not finite means rest."""
@@ -87,15 +105,16 @@ class DriveSlot:
         Not `allowed` means rest, and that the stick must be pushed anew.
         """
         with self._lock:
-            if not allowed:
+            if not allowed or self._latched:
                 self._wanted = _ZERO
             now = self._now()
             twist = self._effective(now)
             changed = twist != self._last_sent
             if changed and twist == _ZERO:
                 self._zeros = ZEROS
-            waited = now - self._sent_at >= PERIOD - 1e-9
-            if not changed and (not waited or (twist == _ZERO and self._zeros == 0)):
+            waited = now - self._sent_at >= (LATCHED if self._latched else PERIOD) - 1e-9
+            silent = twist == _ZERO and self._zeros == 0 and not self._latched
+            if not changed and (not waited or silent):
                 return None
             self._zeros = max(0, self._zeros - 1) if twist == _ZERO else 0
             self._last_sent, self._sent_at = twist, now
@@ -193,6 +212,7 @@ class Commands:
         """What to ask for, by command, once the one that is under way is answered."""
         self._stopping = False
         self._stop_confirmed = False
+        self._stop_void = False
 
     @property
     def stopping(self) -> bool:
@@ -269,7 +289,7 @@ class Commands:
         """
         if self._stopping:
             return
-        self._stopping, self._stop_confirmed = True, False
+        self._stopping, self._stop_confirmed, self._stop_void = True, False, False
         outcome, started = Outcome("stop", self._new_id(), "sent"), self._now()
         request = self._request(outcome, NEVER_VOID, {})
         self._report(outcome)
@@ -283,6 +303,8 @@ class Commands:
         while True:
             answer = await self._try_stop(request)
             latency = self._now() - started
+            if self._stop_void:
+                return
             if self._stop_confirmed or (answer is not None and answer.success):
                 message = answer.message if answer is not None else ""
                 self._report(replace(outcome, phase="accepted", reason=message, latency=latency))
@@ -305,3 +327,7 @@ class Commands:
     def confirm_stop(self) -> None:
         """The robot's own status says that it is stopped: no need to go on asking."""
         self._stop_confirmed = True
+
+    def void_stop(self) -> None:
+        """The robot turned out to have no such service: asking for it is of no use."""
+        self._stop_void = True

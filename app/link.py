@@ -14,33 +14,31 @@ from typing import Any
 from app.commands import Commands, DriveSlot, Outcome
 from app.events import EventStream
 from app.feeds import Mailbox
+from app.offer import DRIVE, Offer, ask
+from app.sources import Peek, Seen, Sources
 from bridge.client import BridgeClient, CameraStream, LinkState, Phase
-from bridge.errors import BridgeError
+from bridge.errors import BridgeError, NoReply, NotConnected
 from bridge.frames import Frame
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
-from bridge.msgs.pilothouse_msgs import ControlStatus, Event, GetEventsResponse
+from bridge.msgs.pilothouse_msgs import ControlStatus, Event, GetEventsRequest, GetEventsResponse
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.network import NetworkThread
-from bridge.topics import TOPICS, Topic
 
-__all__ = ["EVENT", "LINK", "OUTCOME", "Link"]
+__all__ = ["EVENT", "LINK", "OFFER", "OUTCOME", "SEEN", "Link"]
 
 log = logging.getLogger(__name__)
 
 EVENT, LINK, OUTCOME = "event", "link", "outcome"
 """Channels of the mailbox beside the topics: `Event`s, `LinkState`s and `Outcome`s, all queued."""
-UNUSED = ("/tf", "/joint_states", "/diagnostics", "/bumper")
-"""Topics that no screen shows."""
-FASTEST = 50
-"""No stream is asked for more often than this [ms]: the eye sees no more."""
+OFFER, SEEN = "offer", "seen"
+"""Two more: the robot's `Offer` when it is known and when it changed, and what is `Seen` of the topic looked at."""
 SILENT = 0.7
 """A link on which nothing came for longer carries no drive commands [s]: they would arrive late, if at all."""
-BULKY = ("/scan", "/map")
-"""Topics whose numbers travel as CBOR."""
 TICK = 0.05
 """How often the drive slot is looked at when nothing wakes it [s]."""
-COMPRESSED = "/camera/image/compressed"
+ASK_AGAIN, LOOK_AGAIN = 1.0, 5.0
+"""Between two questions for what the robot offers, while it does not answer and, where it is not ours, later on [s]."""
 
 
 class Link:
@@ -88,8 +86,13 @@ class Link:
         self._running: concurrent.futures.Future[None] | None = None
         self._camera_task: asyncio.Task[None] | None = None
         self._camera_topic: Callable[[], None] | None = None
-        for entry in TOPICS:
-            self._subscribe(entry)
+        self.offer: Offer | None = None
+        """What the robot offers; None until it said so, which a robot that is not ours does before it is listened to."""
+        self._sources = Sources(self._client, self._on_message, self._on_event)
+        self._peek = Peek(self._client, self._on_seen)
+        self._asking: asyncio.Task[None] | None = None
+        self._followed = False
+        self._advertised: set[str] = set()
 
     # what the UI thread calls
 
@@ -111,6 +114,16 @@ class Link:
     def silent(self) -> bool:
         """Nothing came for a while, though the connection still stands: whoever drives has to push anew."""
         return self.silence > SILENT
+
+    @property
+    def foreign(self) -> bool:
+        """The robot is known to have no Pilothouse services."""
+        return self.offer is not None and not self.offer.ours
+
+    @property
+    def drive_topic(self) -> str | None:
+        """Where drive commands go; None when the robot has no such topic."""
+        return DRIVE if self.offer is None else self.offer.drive
 
     def start(self) -> None:
         """Connect, and go on reconnecting until `close`."""
@@ -141,10 +154,38 @@ class Link:
         self._network.call(self._spawn, self.commands.send, name, fields)
 
     def stop(self) -> None:
-        """STOP: the stick is let go and the robot is told until it confirms."""
+        """STOP: the stick is let go and the robot is told until it confirms.
+
+        A robot without that service, or not yet known to have it, is sent zero speed until `unlatch`.
+        """
         self._slot.want(Twist())
+        ours = self.offer is not None and self.offer.ours
+        if not ours:
+            self._slot.latch(True)
         self._network.call(self._wake.set)
-        self._network.call(self._spawn, self.commands.stop, None, {})
+        if ours or self.offer is None:
+            self._network.call(self._spawn, self.commands.stop, None, {})
+
+    def latch(self) -> None:
+        """Send zero speed until `unlatch`; over a new link too, where STOP was pressed on the one before."""
+        self._slot.latch(True)
+        self._network.call(self._wake.set)
+
+    def unlatch(self) -> None:
+        """Zero speed is no longer sent of itself; the stick must be pushed anew."""
+        self._slot.latch(False)
+
+    def look(self, topic: str, type_name: str) -> None:
+        """Listen to one topic and tell what is `SEEN` of it; the one before ends."""
+        self._network.call(self._spawn, self._peek.open, None, {"topic": topic, "type_name": type_name})
+
+    def look_away(self) -> None:
+        """Listen to that topic no longer."""
+        self._network.call(self._peek.close)
+
+    def ask_offer(self) -> None:
+        """Ask again what the robot offers; told when it changed."""
+        self._network.call(self._spawn, self._renew_offer, None, {})
 
     def place(self, message: PoseWithCovarianceStamped) -> None:
         """Tell the robot where it is."""
@@ -156,24 +197,7 @@ class Link:
 
     # what happens in the network thread
 
-    def _subscribe(self, entry: Topic) -> None:
-        if entry.to != "handheld" or entry.on_demand or entry.name in UNUSED:
-            return
-        if entry.once:
-            self._client.subscribe(entry.name, entry.type, self._on_event, queue_length=100)
-            return
-        fast = entry.rate * FASTEST > 1000
-        self._client.subscribe(
-            entry.name,
-            entry.type,
-            lambda message, received, name=entry.name: self._on_message(name, message, received),
-            throttle_rate=FASTEST if fast else 0,
-            compression="cbor" if entry.name in BULKY else "none",
-        )
-
     async def _run(self) -> None:
-        self._client.advertise("/cmd_vel", Twist)
-        self._client.advertise("/initialpose", PoseWithCovarianceStamped)
         sender = asyncio.create_task(self._send())
         self._keep(sender)
         try:
@@ -191,10 +215,13 @@ class Link:
             self._wake.clear()
             self._measure()
             stamp = self._client.robot_time()
-            forbidden = self.commands.stopping or self.silent or math.isnan(stamp)
+            forbidden = self.commands.stopping or self.silent or (math.isnan(stamp) and not self.foreign)
             twist = self._slot.due(allowed=not forbidden)
-            if twist is not None:
-                self._client.publish("/cmd_vel", twist, stamp=None if math.isnan(stamp) else stamp)
+            topic = self.drive_topic
+            if twist is not None and topic is not None:
+                # rest goes out whatever is known of the clock; what moves a robot of ours does not without one
+                void = twist == Twist() and (self._slot.latched or math.isnan(stamp))
+                self._client.publish(topic, twist, stamp=None if void else stamp)
 
     def _measure(self) -> None:
         """Copy what the client knows for other threads; an answered ping is a sign of life as well."""
@@ -207,13 +234,60 @@ class Link:
         self._mailbox.queue(LINK, state, self._now())
         if state.phase is Phase.CONNECTED:
             self._heard = self._now()
-            self._keep(asyncio.get_running_loop().create_task(self._fetch_events()))
+            self._asking = asyncio.get_running_loop().create_task(self._arrive())
+            self._keep(self._asking)
         else:
             self._slot.drop()
+            if self._asking is not None:
+                self._asking.cancel()
 
-    async def _fetch_events(self) -> None:
+    async def _arrive(self) -> None:
+        """Find out what the robot offers and listen to that; of a foreign one, look again now and then."""
+        request = self._events.ask()
+        known = await self._renew_offer()
+        if not known:
+            self._sources.follow(self.offer)
+        if known and not self._serves("/events/get"):
+            self._events.give_up()
+        else:
+            await self._fetch_events(request)
+        while not known or self.foreign:
+            await asyncio.sleep(LOOK_AGAIN if known else ASK_AGAIN)
+            known = await self._renew_offer() or known
+
+    async def _renew_offer(self) -> bool:
+        """Ask what the robot offers, and follow it; False when there was no answer."""
         try:
-            answer = await self._client.call("/events/get", self._events.ask(), GetEventsResponse)
+            offer = await ask(self._client.call, self.offer)
+        except (NoReply, NotConnected) as problem:
+            log.info("what the robot offers is not known: %s", problem)
+            return False
+        if offer != self.offer or not self._followed:
+            self._follow(offer)
+        return True
+
+    def _follow(self, offer: Offer) -> None:
+        """Listen to what is there, advertise what is wanted, and stop a robot by the STOP that it has."""
+        self.offer, self._followed = offer, True
+        self._sources.follow(offer)
+        if offer.drive is not None and offer.drive not in self._advertised:
+            self._advertised.add(offer.drive)
+            self._client.advertise(offer.drive, Twist)
+        if "/initialpose" not in self._advertised and (offer.ours or "/initialpose" in offer.topics):
+            self._advertised.add("/initialpose")
+            self._client.advertise("/initialpose", PoseWithCovarianceStamped)
+        if offer.ours:
+            self._slot.latch(False)
+        elif self.commands.stopping:
+            self.commands.void_stop()
+        self._mailbox.queue(OFFER, offer, self._now())
+
+    def _serves(self, service: str) -> bool:
+        return self.offer is None or self.offer.serves(service)
+
+    async def _fetch_events(self, request: GetEventsRequest) -> None:
+        try:
+            answer = await self._client.call("/events/get", request, GetEventsResponse)
         except BridgeError as problem:
             log.info("no stored events: %s", problem)
             self._events.give_up()
@@ -226,6 +300,12 @@ class Link:
             self.commands.confirm_stop()
         self._mailbox.post(name, message, received)
 
+    def _on_seen(self, seen: Seen, received: float) -> None:
+        if seen.message is None:
+            self._mailbox.queue(SEEN, seen, self._now())
+        else:
+            self._mailbox.post(SEEN, seen, received)
+
     def _on_event(self, event: Event, received: float) -> None:
         self._events.live(event)
 
@@ -235,7 +315,7 @@ class Link:
     def _spawn(
         self, send: Callable[..., Coroutine[Any, Any, Any]], name: str | None, fields: dict[str, Any]
     ) -> None:
-        self._keep(self._network.loop.create_task(send(name, **fields) if name else send()))
+        self._keep(self._network.loop.create_task(send(name, **fields) if name else send(**fields)))
 
     def _keep(self, task: asyncio.Task[Any]) -> None:
         """The loop holds tasks only weakly: keep each until it is done."""
@@ -253,7 +333,7 @@ class Link:
             self._camera_task = self._network.loop.create_task(self._show_camera(camera))
             self._keep(self._camera_task)
         elif camera == "":
-            self._camera_topic = self._client.subscribe(COMPRESSED, CompressedImage, self._on_image)
+            self._camera_topic = self._sources.camera(self._on_image)
 
     async def _show_camera(self, name: str) -> None:
         stream = CameraStream(f"{self.url.rstrip('/')}/camera/{name}", self._on_frame)
@@ -269,11 +349,12 @@ class Link:
         self._on_frame(Frame(0, image.header.stamp.seconds, 0, 0, image.data), received)
 
     async def _close(self) -> None:
-        driving = self._slot.driving
+        rest = self._slot.driving or self._slot.latched
         self._slot.drop()
-        if driving:
-            self._client.publish("/cmd_vel", Twist())
+        if rest and self.drive_topic is not None:
+            self._client.publish(self.drive_topic, Twist())
         self._watch(None)
+        self._peek.close()
         await self._client.close()
         for task in self._tasks - {asyncio.current_task()}:
             task.cancel()

@@ -7,6 +7,7 @@ import logging
 import queue
 import threading
 import time
+from array import array
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,6 @@ import msgspec
 
 from bridge import codec
 from bridge.msgs import Msg
-from bridge.msgs.arrays import Float32Array, Float64Array, Int8Array
 
 __all__ = ["Recorder", "schema"]
 
@@ -26,11 +26,14 @@ WAITING = 2000
 
 
 def _array_schema(type_: type) -> dict[str, Any]:
-    if issubclass(type_, Int8Array):
-        return {"type": "array", "items": {"type": "integer", "minimum": -128, "maximum": 127}}
-    if issubclass(type_, Float32Array | Float64Array):
+    if not issubclass(type_, array):
+        raise NotImplementedError(f"no JSON schema for {type_.__name__}")
+    code = type_.code  # type: ignore[attr-defined]
+    if code in "fd":
         return {"type": "array", "items": {"type": ["number", "null"]}}
-    raise NotImplementedError(f"no JSON schema for {type_.__name__}")
+    bits = 8 * array(code).itemsize
+    least, most = (0, 2**bits - 1) if code.isupper() else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+    return {"type": "array", "items": {"type": "integer", "minimum": least, "maximum": most}}
 
 
 def schema(type_: type[Msg]) -> bytes:

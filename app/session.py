@@ -9,8 +9,10 @@ from urllib.parse import urlsplit
 
 from app.commands import Outcome
 from app.feeds import Feeds, Post
-from app.link import EVENT, LINK, OUTCOME, Link
+from app.link import EVENT, LINK, OFFER, OUTCOME, Link
+from app.local_stop import LocalStop
 from app.mission import Draft, MissionEditor
+from app.offer import CAMERA, Offer
 from app.settings import Settings
 from bridge.client import LinkState, Phase
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
@@ -49,6 +51,10 @@ class Session:
         """Called with each channel and post, after the session took it in."""
         self.early: list[Post] = []
         """Events that came while nobody listened."""
+        self.offer: Offer | None = None
+        """What the robot offers; None until it said so."""
+        self.local_stop = LocalStop(now)
+        """STOP of a robot that has none of its own."""
         self.link_state: LinkState = link.state
         self.ever_connected = False
         self._settings, self._now = settings, now
@@ -56,6 +62,10 @@ class Session:
         self._asked_control = False
         self._known = False
         self._told_mission: Mission | None = None
+
+    def now(self) -> float:
+        """Our clock [s]."""
+        return self._now()
 
     # what the robot is
 
@@ -75,8 +85,31 @@ class Session:
         return self.info.name or urlsplit(self.link.url).hostname or self.link.url
 
     @property
+    def foreign(self) -> bool:
+        """The robot is known to have no Pilothouse services."""
+        return self.offer is not None and not self.offer.ours
+
+    def offers(self, service: str) -> bool:
+        """Whether the robot has that service, or has not yet said which ones it has."""
+        return self.offer is None or self.offer.serves(service)
+
+    def camera(self, watched: str | None) -> str | None:
+        """Which camera to show, as `Link.watch` takes it; `watched` while the robot has not said what there is."""
+        info: RobotInfo | None = self.feeds.latest("/robot/info")
+        if info is not None:
+            return info.cameras[0] if info.cameras else None
+        if self.foreign and self.offer is not None:
+            return "" if self.offer.source(CAMERA) else None
+        return watched
+
+    @property
     def control(self) -> str:
-        """Who has control: `mine`, `free`, `other` or, while the link is down or nothing was heard, `unknown`."""
+        """Who has control: `mine`, `free`, `other` or, while the link is down or nothing was heard, `unknown`.
+
+        `none` on a robot that is not ours: there is none to have, and whoever sends drives it.
+        """
+        if self.foreign and self.connected:
+            return "none"
         status: ControlStatus | None = self.feeds.latest("/control/status")
         if status is None or not self.connected:
             return "unknown"
@@ -86,7 +119,13 @@ class Session:
 
     @property
     def may_drive(self) -> bool:
-        """The stick may be pushed: the link is alive, its clock known, STOP not pressed and control not another's."""
+        """The stick may be pushed: the link is alive, its clock known, STOP not pressed and control not another's.
+
+        Of a robot that is not ours: the link is alive, it has a topic to drive by, and STOP is not latched here.
+        """
+        if self.foreign:
+            alive = self.connected and not self.link.silent
+            return alive and self.link.drive_topic is not None and not self.local_stop.latched
         status: ControlStatus | None = self.feeds.latest("/control/status")
         return (
             self.connected
@@ -98,7 +137,9 @@ class Session:
 
     @property
     def stop_phase(self) -> str:
-        """What became of STOP: `ready`, `sent`, `stopped` (the robot says so) or `no_answer`."""
+        """What became of STOP: `ready`, `sent`, `stopped` (the robot, or else its odometry, says so) or `no_answer`."""
+        if self.foreign:
+            return self.local_stop.phase
         status: ControlStatus | None = self.feeds.latest("/control/status")
         if status is not None and status.stopped:
             return "stopped"
@@ -127,10 +168,15 @@ class Session:
         """Take in what the mailbox held."""
         if channel in self.feeds:
             self.feeds.put(channel, post)
-        if channel == LINK:
-            self._link_changed(post.value)
-        elif channel == OUTCOME:
-            self._outcome(post.value)
+        takes: dict[str, Callable[[Any], None]] = {
+            LINK: self._link_changed,
+            OFFER: self._offered,
+            OUTCOME: self._outcome,
+        }
+        if channel in takes:
+            takes[channel](post.value)
+        elif channel == "/odom":
+            self.local_stop.hear(post.value, post.received)
         elif channel == "/robot/info":
             self._introduced()
         elif channel == "/mission":
@@ -146,9 +192,16 @@ class Session:
     def resume(self, link: Link) -> None:
         """Go on over a new link to the same robot; what was entered and heard stays."""
         self.link = link
+        if self.local_stop.latched:
+            link.latch()
         if self.mission.sent is not None:
             self.mission.answered(self.mission.sent, False, "No reply: the link was closed.")
         self._link_changed(link.state)
+
+    def _offered(self, offer: Offer) -> None:
+        self.offer = offer
+        if offer.ours:
+            self.local_stop.release()
 
     def _link_changed(self, state: LinkState) -> None:
         self.link_state, self._state_since = state, self._now()
@@ -205,6 +258,19 @@ class Session:
     def command(self, name: str, **fields: Any) -> None:
         """Send a one-shot command of `app.commands.COMMANDS`."""
         self.link.command(name, **fields)
+
+    def stop(self) -> None:
+        """STOP, by the robot's own service or, where it has none, by zero speed until `release_stop`."""
+        if self.offer is None or self.foreign:
+            self.local_stop.press()
+        self.link.stop()
+
+    def release_stop(self) -> None:
+        """The operator wants to drive again; nothing moves by that alone."""
+        self.local_stop.release()
+        self.link.unlatch()
+        if not self.foreign:
+            self.command("stop_release")
 
     def take_control(self) -> None:
         """Ask for control, and for it again after a reconnect."""

@@ -12,6 +12,12 @@ class BridgeError(Exception):
 class ProtocolError(BridgeError):
     """The other side sent something that is no message; says which part, its value and what is allowed."""
 
+    def __init__(self, sentence: str, *, op: str | None = None, id: str | float | None = None) -> None:
+        """`op` and `id` are those of the operation at fault; None where it has none or they cannot be read."""
+        super().__init__(sentence)
+        self.op = op
+        self.id = id
+
 
 class NotConnected(BridgeError):
     """There is no connection, or it was cut before the answer came."""

@@ -9,6 +9,10 @@ from collections.abc import Callable
 __all__ = ["Reconnecting", "cancelled_from_outside"]
 
 
+_LONGER = 1.25
+"""How much longer each wait is than the one before."""
+
+
 class Reconnecting:
     """Something that keeps one connection open until it is closed for good."""
 
@@ -47,9 +51,12 @@ class Reconnecting:
         raise NotImplementedError
 
     def wait_before(self, attempt: int) -> float:
-        """How long to wait before attempt number `attempt`, from 1 [s]: doubles each time."""
+        """How long to wait before attempt number `attempt`, from 1 [s]: a quarter longer each time, and spread.
+
+        So little that after an outage of t seconds the next attempt comes within half of t.
+        """
         first, longest = self._backoff
-        return min(longest, first * 2.0 ** min(attempt - 1, 30)) * self._rng.uniform(0.8, 1.0)
+        return min(longest, first * _LONGER ** min(attempt - 1, 100)) * self._rng.uniform(0.8, 1.0)
 
 
 def cancelled_from_outside() -> bool:

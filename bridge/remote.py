@@ -9,21 +9,52 @@ from __future__ import annotations
 
 import concurrent.futures
 import contextlib
-import math
+import functools
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from typing import Any, Self, TypeVar
 
 from bridge.client import BridgeClient, LinkState, Phase
 from bridge.errors import BridgeError, NoReply, NotConnected
-from bridge.msgs import Msg
+from bridge.goals import Goal, part_of
+from bridge.msgs import Msg, ros1_name
 from bridge.msgs.pilothouse_msgs import CommandResponse
 from bridge.network import NetworkThread
+from bridge.protocol import Reduction
+from bridge.providing import Call, Run
 from bridge.topics import topic as entry_of
 
-__all__ = ["RemoteRobot"]
+__all__ = ["RemoteGoal", "RemoteRobot"]
 
 M = TypeVar("M", bound=Msg)
+T = TypeVar("T")
+
+
+class RemoteGoal:
+    """A goal that was given to a robot; may be used from any thread."""
+
+    def __init__(self, goal: Goal[Any], network: NetworkThread, wait_for: Callable[..., Any]) -> None:
+        self._goal = goal
+        self._network = network
+        self._wait_for = wait_for
+
+    @property
+    def status(self) -> int:
+        """As in action_msgs/GoalStatus: 2 under way, 4 succeeded, 5 canceled, 6 aborted; 0 when nobody can say."""
+        return self._goal.status
+
+    @property
+    def done(self) -> bool:
+        """What became of it is known, or never will be."""
+        return self._goal.done
+
+    def cancel(self) -> None:
+        """Take it back; `result` says what became of it."""
+        self._network.call(self._goal.cancel)
+
+    def result(self, timeout: float | None = None) -> Any:
+        """Wait for what comes of it, `timeout` at most [s]; raises as `bridge.goals.Goal.result` does."""
+        return self._wait_for(self._goal.result(timeout), self._goal.action, timeout)
 
 
 class RemoteRobot:
@@ -35,6 +66,7 @@ class RemoteRobot:
     def __init__(self, url: str) -> None:
         """`url` is `ws://HOST:PORT`; returns at once, whether anybody answers there or not."""
         self._connected = threading.Event()
+        self._published: set[str] = set()
         self._client = BridgeClient(url, on_state=self._note)
         self._network = NetworkThread(f"link to {url}")
         self._network.start(self._client.run())
@@ -50,37 +82,52 @@ class RemoteRobot:
             raise NotConnected(self.state.sentence)
 
     def on(
-        self, topic: str, callback: Callable[[Any], object], type: type[Msg] | None = None
+        self,
+        topic: str,
+        callback: Callable[[Any], object],
+        type: type[Msg] | None = None,
+        *,
+        throttle_rate: int = 0,
+        compression: str = "none",
+        reduce: Reduction | None = None,
     ) -> Callable[[], None]:
         """Have `callback(msg)` called for each message on `topic`; gives the unsubscriber.
 
-        `type` is needed for topics that are not in `bridge.topics`; KeyError without.
+        `type` is needed for topics that are not in `bridge.topics`, KeyError without; `learn` finds it. The others are as
+        in `BridgeClient.subscribe`.
         """
         wanted = entry_of(topic).type if type is None else type
-        stop: list[Callable[[], None]] = []
-
-        def begin() -> None:
-            stop.append(self._client.subscribe(topic, wanted, lambda msg, _: callback(msg)))
-
-        def end() -> None:
-            while stop:
-                stop.pop()()
-
-        def off() -> None:
-            self._network.call(end)
-
-        self._network.call(begin)
-        return off
+        return self._lasting(
+            lambda: self._client.subscribe(
+                topic,
+                wanted,
+                lambda msg, _: callback(msg),
+                throttle_rate=throttle_rate,
+                compression=compression,
+                reduce=reduce,
+            )
+        )
 
     def publish(self, topic: str, msg: Msg) -> None:
         """Send a message at once; without a connection it is dropped, never sent later.
 
-        It carries the moment of this call, so that a robot can tell a drive command that was held up on its way.
+        It carries the moment of this call, so that a robot can tell a drive command that was held up on its way. Foreign
+        servers are told of the topic with its first message, which those of ROS 1 may lose; `advertise` is sooner.
         """
         self._network.call(self._publish, topic, msg, self._client.robot_time())
 
     def _publish(self, topic: str, msg: Msg, stamp: float) -> None:
-        self._client.publish(topic, msg, stamp=stamp if math.isfinite(stamp) else None)
+        if topic not in self._published:
+            self._advertise(topic, type(msg), latch=False)
+        self._client.publish(topic, msg, stamp=stamp)
+
+    def advertise(self, topic: str, type: type[Msg], *, latch: bool = False) -> None:
+        """Say that this program publishes on `topic`; with `latch` later subscribers get the last message at once."""
+        self._network.call(functools.partial(self._advertise, topic, type, latch=latch))
+
+    def _advertise(self, topic: str, type: type[Msg], *, latch: bool) -> None:
+        self._published.add(topic)
+        self._client.advertise(topic, type, latch=latch)
 
     def call(
         self,
@@ -95,14 +142,69 @@ class RemoteRobot:
         The answer is a CommandResponse unless `response` says otherwise. Raises Refused, NotConnected or NoReply;
         BridgeError when called from a callback, which must not wait.
         """
-        if self._network.inside:
-            raise BridgeError(f"{service} cannot be called from a callback; callbacks must not wait.")
         kind: type[Msg] = CommandResponse if response is None else response
-        future = self._network.start(self._client.call(service, request, kind, timeout=timeout))
+        return self._wait_for(self._client.call(service, request, kind, timeout=timeout), service, timeout)
+
+    def learn(self, type_name: str, *, timeout: float = 3.0) -> type[Msg]:
+        """The class of a message type by its ROS name; the robot is asked about one never seen. Raises as `call` does."""
+        return self._wait_for(self._client.learn(type_name, timeout=timeout), type_name, timeout)
+
+    def goal(
+        self,
+        action: str,
+        goal: Msg,
+        *,
+        on_feedback: Callable[[Any], object] | None = None,
+        result: type[Msg] | None = None,
+        feedback: type[Msg] | None = None,
+    ) -> RemoteGoal:
+        """Ask for something that takes a while: `on_feedback(msg)` hears how it goes, `RemoteGoal` what comes of it.
+
+        `result` and `feedback` are needed for types that are not in `bridge.msgs.TYPES`. Raises NotConnected; ProtocolError
+        without a needed type.
+        """
+
+        async def begin() -> Goal[Any]:
+            return self._client.goal(action, goal, on_feedback=on_feedback, result=result, feedback=feedback)
+
+        return RemoteGoal(self._wait_for(begin(), action, 2.0), self._network, self._wait_for)
+
+    def serve(self, service: str, type: str, call: Call) -> Callable[[], None]:
+        """Answer calls of `service`, of ROS type `type`, from now on; gives what ends it.
+
+        `call(request)` gives the response, or an awaitable of it; it is called in the network thread. Refused says no.
+        """
+        part_of(ros1_name(type), "Request")  # says so here when it is not known
+        return self._lasting(lambda: self._client.serve(service, type, call))
+
+    def provide_action(self, action: str, type: str, run: Run) -> Callable[[], None]:
+        """Carry out goals of `action`, of ROS type `type`, from now on; gives what ends it.
+
+        `run(goal, tell)` is a coroutine function that runs in the network thread, gives the result and calls `tell(feedback)`.
+        """
+        part_of(ros1_name(type), "Goal")  # says so here when it is not known
+        return self._lasting(lambda: self._client.provide_action(action, type, run))
+
+    def _lasting(self, begin: Callable[[], Callable[[], None]]) -> Callable[[], None]:
+        """Begin something in the network thread; gives what ends it there."""
+        stop: list[Callable[[], None]] = []
+
+        def end() -> None:
+            while stop:
+                stop.pop()()
+
+        self._network.call(lambda: stop.append(begin()))
+        return lambda: self._network.call(end)
+
+    def _wait_for(self, work: Coroutine[Any, Any, T], about: str, timeout: float | None) -> T:
+        if self._network.inside:
+            work.close()
+            raise BridgeError(f"{about} cannot be called from a callback; callbacks must not wait.")
+        future = self._network.start(work)
         try:
-            return future.result(timeout + 1.0)
+            return future.result(None if timeout is None else timeout + 1.0)
         except (concurrent.futures.TimeoutError, concurrent.futures.CancelledError) as error:
-            raise NoReply(f"The robot did not answer {service}.") from error
+            raise NoReply(f"The robot did not answer {about}.") from error
 
     def close(self) -> None:
         """End the link and its thread; again does nothing."""

@@ -1,7 +1,8 @@
 """The robot's end of the socket: a rosbridge v2 server that publishes, answers services and hears commands.
 
-Each message is encoded once per codec, however many clients want it. Each client has its own outbox, in which
+Each message is encoded once in each form, however many clients want it. Each client has its own way out, where
 a newer message of a stream replaces one that still waits, so that a slow client costs the others nothing.
+Clients may publish to each other on topics that are not the robot's own, and offer each other services and actions.
 Camera frames travel on WebSockets of their own at `/camera/NAME`.
 """
 
@@ -15,7 +16,7 @@ import logging
 import re
 import socket
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from http import HTTPStatus
 from typing import Any
 
@@ -23,14 +24,26 @@ from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
+from bridge.camera_socket import CameraSocket
+from bridge.compat import Compat
 from bridge.errors import BridgeError
+from bridge.exchange import Exchange
+from bridge.levels import Levels, Shrink
 from bridge.msgs import Msg
+from bridge.offer import Action, Service, Session
+from bridge.outgoing import Reduce
+from bridge.outlet import Round
+from bridge.params import Params
+from bridge.reducing import Reducing
 from bridge.rosapi import RosApi
-from bridge.serving import CameraSocket, Client, Offer, Service, Session
+from bridge.server_connection import HeardConnection
+from bridge.serving import Client, Offer
+from bridge.sockets import end
 from bridge.switchboard import Switchboard
 from bridge.topics import TOPICS, Topic
+from bridge.who import Who
 
-__all__ = ["BridgeServer", "Service", "Session"]
+__all__ = ["Action", "BridgeServer", "Service", "Session"]
 
 log = logging.getLogger(__name__)
 
@@ -40,6 +53,10 @@ _UNSENT = 65536
 
 _DEAD = 15_000
 """How long a client may leave unacknowledged what was sent to it [ms]; then it is disconnected."""
+_LARGEST = 16_777_216
+"""The largest message that a client may send [byte]; a larger one is not read and closes the connection."""
+_BEAT = 1.0
+"""How often every client is looked after [s]."""
 _FAREWELL = 0.5
 """How long clients have to say goodbye before they are cut off [s]."""
 
@@ -61,6 +78,11 @@ class BridgeServer:
         on_gone: Callable[[Session], None] = _ignore,
         on_demand: Callable[[str, bool], None] = _ignore,
         cameras: Iterable[str] | None = None,
+        shrink: Shrink | None = None,
+        actions: Iterable[Action] = (),
+        reduce: Reduce | None = None,
+        params: Mapping[str, Any] | None = None,
+        compat: Compat | None = None,
     ) -> None:
         """`now` is the operators' clock [s], told by `/rosapi/get_time`.
 
@@ -68,24 +90,44 @@ class BridgeServer:
         when the sender meant it [s], operators' clock, None when it does not say. `on_gone(session)` hears that a
         client left. `on_demand(topic, wanted)` hears that the first one came who wants a topic, or that the
         last one left. `cameras` are the names that may be asked for; None allows any.
+        `shrink` makes their pictures smaller for slow watchers; without it they only come less often.
+        `reduce` makes less of a message for subscribers who ask for fewer beams, smaller pictures or coarser maps; of
+        pictures and maps in a worker thread. `params` are there from the start, for `/rosapi/get_param`.
         """
         self.port = 0
         """Where it listens; 0 until started."""
         self.sessions: set[Session] = set()
         """The clients connected now; who only watches a camera is none."""
-        self._switchboard = Switchboard(topics, on_demand)
+        self._switchboard = Switchboard(topics, on_demand, reduce=reduce, now=now)
         by_name = {service.name: service for service in services}
-        types = {name: service.type for name, service in by_name.items()}
-        rosapi = RosApi(self._switchboard.topics, types, now)
-        self._offer = Offer(self._switchboard, by_name, rosapi, now, on_message)
+        acts = {action.name: action for action in actions}
+        exchange = Exchange(by_name, acts)
+        self._clients: dict[Session, Client] = {}
+        who = Who(self._switchboard, by_name, acts, exchange, self._clients)
+        self._reducing = Reducing()
+        self._offer = Offer(
+            switchboard=self._switchboard,
+            services=by_name,
+            actions=acts,
+            exchange=exchange,
+            rosapi=RosApi(who.graph(), Params(params), now),
+            reducing=self._reducing,
+            compat=compat or Compat(),
+            now=now,
+            on_message=on_message,
+        )
         self._on_gone = on_gone
         self._cameras = None if cameras is None else frozenset(cameras)
+        self._levels = Levels(shrink)
         self._numbers = itertools.count(1)
         self._open: set[ServerConnection] = set()
         self._server: Server | None = None
+        self._round: Round | None = None
+        self._tasks: set[asyncio.Task[None]] = set()
 
     async def start(self, host: str = "127.0.0.1", port: int = 9090) -> None:
         """Begin to listen; port 0 takes a free one. BridgeError when that is not possible."""
+        self._round = Round(asyncio.get_running_loop().call_soon)
         try:
             self._server = await serve(
                 self._serve,
@@ -93,10 +135,12 @@ class BridgeServer:
                 port,
                 process_request=self._admit,
                 compression=None,
+                create_connection=HeardConnection,
                 open_timeout=5,
-                ping_interval=10,
-                ping_timeout=20,
+                ping_interval=5,
+                ping_timeout=10,
                 close_timeout=_FAREWELL,
+                max_size=_LARGEST,
                 write_limit=_UNSENT,
                 server_header="Pilothouse",
                 logger=_quiet_log(),
@@ -104,9 +148,13 @@ class BridgeServer:
         except OSError as error:
             raise BridgeError(_cannot_listen(host, port, error)) from error
         self.port = next(iter(self._server.sockets)).getsockname()[1]
+        self._tasks.add(asyncio.create_task(self._beat()))
 
     async def close(self) -> None:
         """Close all connections and stop listening; nothing is left running. Takes a second at most."""
+        await self._levels.close()
+        await self._reducing.close()
+        await end(self._tasks)
         server, self._server = self._server, None
         if server is None:
             return
@@ -122,17 +170,19 @@ class BridgeServer:
     def publish(self, topic: str, msg: Msg) -> None:
         """Send `msg` to everybody who subscribed; BridgeError for a topic that is not in the table.
 
-        Of a stream a newer message replaces one that still waits for a slow client. All others are kept in
-        order; a client for whom too many wait is disconnected.
+        It leaves at the end of this step of the loop. Of a stream a newer message replaces one that still waits for a
+        slow client. All others are kept in order; a client for whom too many wait is disconnected.
         """
         self._switchboard.publish(topic, msg)
 
     def publish_frame(self, camera: str, frame: bytes) -> None:
         """Send a packed camera frame to whoever watches `camera`; it replaces one that still waits."""
-        self._switchboard.publish_frame(camera, frame)
+        self._switchboard.publish_frame(camera, self._levels.picture(frame))
 
     def _admit(self, connection: ServerConnection, request: Request) -> Response | None:
         camera = _CAMERA_PATH.match(request.path)
+        if camera is None:
+            connection.ping_interval = None  # a client's outlet asks for signs of life itself
         if camera is None or self._cameras is None or camera[1] in self._cameras:
             return None
         names = ", ".join(sorted(self._cameras)) or "none"
@@ -143,7 +193,10 @@ class BridgeServer:
         camera = _CAMERA_PATH.match(ws.request.path) if ws.request else None
         self._open.add(ws)
         try:
-            await (self._serve_camera(ws, camera[1]) if camera else self._serve_client(ws))
+            if camera:
+                await self._serve_camera(ws, camera[1])
+            elif isinstance(ws, HeardConnection) and self._round is not None:
+                await self._serve_client(ws, self._round)
         except ConnectionClosed:
             log.info("%s was cut off", _address(ws))
         except Exception:
@@ -151,17 +204,31 @@ class BridgeServer:
         finally:
             self._open.discard(ws)
 
-    async def _serve_client(self, ws: ServerConnection) -> None:
+    async def _serve_client(self, ws: HeardConnection, round: Round) -> None:
         session = Session(str(next(self._numbers)), _address(ws), self._offer.now())
+        client = Client(ws, round, session, self._offer)
+        ws.round = round
         self.sessions.add(session)
+        self._clients[session] = client
         try:
-            await Client(ws, session, self._offer).run()
+            await ws.heard_by(client)
         finally:
             self.sessions.discard(session)
-            self._on_gone(session)
+            del self._clients[session]
+            try:
+                self._on_gone(session)
+            finally:
+                await client.close()
+
+    async def _beat(self) -> None:
+        """Ask the clients for signs of life."""
+        while True:
+            await asyncio.sleep(_BEAT)
+            for client in list(self._clients.values()):
+                client.outlet.beat()
 
     async def _serve_camera(self, ws: ServerConnection, camera: str) -> None:
-        watcher = CameraSocket(ws)
+        watcher = CameraSocket(ws, coarsest=self._levels.coarsest)
         self._switchboard.watch(watcher, camera)
         try:
             await watcher.run()

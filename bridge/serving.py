@@ -1,80 +1,69 @@
-"""The server's side of one connection: a client of the rosbridge protocol, or somebody who watches a camera."""
+"""The server's side of one connection: a client of the rosbridge protocol."""
 
 from __future__ import annotations
 
 import asyncio
 import logging
-from collections import deque
-from collections.abc import AsyncIterator, Awaitable, Callable, Coroutine, Mapping
+from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import msgspec
-from msgspec import Raw
+from msgspec import UNSET, Raw
 
-from bridge.codec import from_json, shown, to_json
+from bridge.codec import from_builtins, from_json, shown, to_json
+from bridge.compat import Compat
+from bridge.complaints import Complaints
+from bridge.errands import Errands
 from bridge.errors import BridgeError, ProtocolError, Refused
-from bridge.frames import sequence
-from bridge.msgs import Msg, ros1_name
-from bridge.outbox import Frame, Outbox, Outgoing
+from bridge.exchange import Exchange
+from bridge.lanes import Lane, Stream
+from bridge.msgs import Msg
+from bridge.offer import Action, Service, Session
+from bridge.outgoing import Outgoing, said
+from bridge.outlet import Line, Outlet, Round
 from bridge.protocol import (
+    ActionFeedback,
+    ActionResult,
     Advertise,
+    AdvertiseAction,
+    AdvertiseService,
+    Auth,
+    BinaryPublish,
     CallService,
+    CancelActionGoal,
+    Id,
     Op,
     Publish,
+    SendActionGoal,
     ServerSession,
     ServiceResponse,
     SetLevel,
-    Status,
     Subscribe,
     Unadvertise,
+    UnadvertiseAction,
+    UnadvertiseService,
     Unsubscribe,
     absolute,
     arguments,
-    encode,
-    parse,
+    complaint,
+    service_and_id,
+    too_deep,
 )
+from bridge.reducing import Reducing
 from bridge.rosapi import RosApi
-from bridge.switchboard import Switchboard
-from bridge.topics import Topic
+from bridge.sockets import end
+from bridge.switchboard import Channel, Switchboard
 
-__all__ = ["CameraSocket", "Client", "Offer", "Service", "Session", "Socket"]
+__all__ = ["Client", "Offer"]
 
 log = logging.getLogger(__name__)
-MsgClass = type[Msg]
 
-UNACKNOWLEDGED = 2
-"""Frames on their way to one client; a third waits, so that a slow link shows the newest picture."""
+FIRST = frozenset({"/stop", "/stop/release", "/control/acquire", "/control/release"})
+"""Services whose answers go before everything else."""
 
-
-class Session:
-    """One connected client."""
-
-    def __init__(self, id: str, address: str, opened: float) -> None:
-        self.id = id
-        """Unique in this run of the server."""
-        self.address = address
-        """`HOST:PORT` of the client."""
-        self.opened = opened
-        """When it connected [s], operators' clock."""
-        self.last_heard = opened
-        """When anything came from it [s], operators' clock."""
-
-    def __repr__(self) -> str:
-        return f"Session({self.id!r}, {self.address!r})"
-
-
-@dataclass(frozen=True, slots=True)
-class Service:
-    """Something a client may ask for once and be answered."""
-
-    name: str
-    type: str
-    """ROS type, as in `std_srvs/Trigger`."""
-    request: MsgClass
-    response: MsgClass
-    call: Callable[[Session, Any], Msg | Awaitable[Msg]]
-    """Does it. Raises Refused with the sentence for the caller, who gets `result: false`."""
+MOST_CALLS = 256
+"""So many of the robot's services may be at work for one client at a time; those of `FIRST` always may."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,244 +72,250 @@ class Offer:
 
     switchboard: Switchboard
     services: Mapping[str, Service]
+    actions: Mapping[str, Action]
+    exchange: Exchange
     rosapi: RosApi
+    reducing: Reducing
+    compat: Compat
     now: Callable[[], float]
     """The operators' clock [s]."""
     on_message: Callable[[Session, str, Any, float | None], None]
 
 
-class Socket(Protocol):
-    """What is needed of a WebSocket; iterating and sending raise when the connection ends badly."""
-
-    @property
-    def transport(self) -> asyncio.Transport:
-        """The connection below."""
-
-    def __aiter__(self) -> AsyncIterator[str | bytes]:
-        """What comes."""
-
-    async def send(self, message: bytes, *, text: bool | None = None) -> None:
-        """Send one message; waits while too much is on its way."""
-
-
 class Client:
     """One client of the rosbridge protocol."""
 
-    def __init__(self, socket: Socket, session: Session, offer: Offer) -> None:
-        self.remembered = ServerSession()
-        """What it asked for."""
-        self._socket = socket
-        self._session = session
+    def __init__(self, line: Line, round: Round, session: Session, offer: Offer) -> None:
+        self.remembered = ServerSession(offer.compat)
+        """What it asked for and what is asked of it."""
+        self.session = session
+        self.outlet = Outlet(line, round, session.address)
         self._offer = offer
-        self._outbox = Outbox(self.remembered)
-        self._wake = asyncio.Event()
+        self._clock = asyncio.get_running_loop().time
+        self._complaints = Complaints(session.address)
+        self._errands = Errands(self, session, self.outlet, offer.actions, offer.exchange)
         self._tasks: set[asyncio.Task[None]] = set()
-        self._hear: dict[type[Op], Callable[[Any], None]] = {
+        self._size: int | None = None
+        exchange = offer.exchange
+        self._hear: dict[type[Op], Callable[[Any], object]] = {
             Publish: self._publish,
             CallService: self._call_service,
             Subscribe: self._subscribe,
             Unsubscribe: self._unsubscribe,
             Advertise: self._advertise,
-            Unadvertise: self.remembered.unadvertise,
+            Unadvertise: self._unadvertise,
+            AdvertiseService: lambda op: exchange.advertise_service(self, op),
+            UnadvertiseService: lambda op: exchange.unadvertise_service(self, op),
+            ServiceResponse: self.remembered.answered,
+            AdvertiseAction: lambda op: exchange.advertise_action(self, op),
+            UnadvertiseAction: lambda op: exchange.unadvertise_action(self, op),
+            SendActionGoal: self._errands.begin,
+            CancelActionGoal: self._errands.cancel,
+            ActionFeedback: self.remembered.fed_back,
+            ActionResult: self.remembered.finished,
             SetLevel: self.remembered.set_level,
+            Auth: lambda _: None,
         }
 
-    async def run(self) -> None:
-        """Serve until the connection ends; raises what the socket raises when it ends badly."""
-        self._begin(self._write())
-        try:
-            async for text in self._socket:
-                self._session.last_heard = self._offer.now()
-                self._receive(text)
-        finally:
-            await _end(self._tasks)
-            for topic in list(self.remembered.subscriptions):
-                self._offer.switchboard.unsubscribe(self, topic)
+    def hear(self, message: str | bytes) -> None:
+        """Do what one message of the client says; never raises what the message can cause."""
+        self.session.last_heard = self._offer.now()
+        arrivals = self.remembered.receive(message, self._clock())
+        if self.remembered.fragment_size != self._size:
+            self._size = self.remembered.fragment_size
+            for topic, wanted in self.remembered.subscriptions.items():
+                self._offer.switchboard.alter(self, topic, wanted)
+        for arrival in arrivals:
+            try:
+                self._do(arrival)
+            except ProtocolError as error:
+                self._complain(error, arrival)
 
-    def deliver(self, entry: Topic, message: Outgoing) -> None:
+    def answered(self, content: bytes) -> None:
+        """The client answered a ping."""
+        self.outlet.answered(content)
+
+    def pump(self) -> None:
+        """The connection takes more."""
+        self.outlet.pump()
+
+    def deliver(self, stream: Stream, message: Outgoing) -> None:
         """Have a message sent as soon as the client can take it; of a stream, the newest only."""
-        if entry.rate > 0:
-            self._outbox.put_latest(message)
-            self._wake.set()
-            return
-        try:
-            self._send(message.frame(self.remembered.subscriptions[entry.name]))
-        except ProtocolError as error:
-            log.warning("%s is not sent: %s", entry.name, error)
+        if stream.heavy:
+            self._offer.reducing.offer(self.outlet, stream, message)
+        else:
+            self.outlet.offer(stream, message)
 
-    def _receive(self, text: str | bytes) -> None:
+    def send(self, op: Op, lane: Lane = Lane.REPLY, size: int | None = None) -> None:
+        """Send an operation that must not be lost, in frames of at most `size` characters of it."""
         try:
-            op = parse(text)
-            hear = self._hear.get(type(op))
-            if hear is None:
-                raise ProtocolError(f"{op.__struct_config__.tag} is not for a server.")
-            hear(op)
+            frames = said(op, size)
         except ProtocolError as error:
-            self._remark(str(error))
+            log.warning("%s: %s", self.session.address, error)
+            return
+        self.outlet.send(lane, frames)
+
+    async def close(self) -> None:
+        """The client is gone: undo all that it asked for and offered."""
+        switchboard = self._offer.switchboard
+        self._offer.exchange.leave(self)
+        for topic in list(self.remembered.subscriptions):
+            switchboard.unsubscribe(self, topic)
+        for topic in list(self.remembered.advertised):
+            switchboard.unadvertise(self, topic)
+        self.remembered.lose()
+        self.outlet.close()
+        self._complaints.close()
+        await self._errands.close()
+        await end(self._tasks)
+
+    def _do(self, arrival: Op | BinaryPublish | ProtocolError) -> None:
+        hear = self._hear.get(type(arrival))  # type: ignore[arg-type]
+        if hear is not None:
+            hear(arrival)
+        elif isinstance(arrival, ProtocolError):
+            raise arrival
+        elif isinstance(arrival, BinaryPublish):
+            self._publish_binary(arrival)
+        else:
+            raise ProtocolError(f"{arrival.__struct_config__.tag} is not for a server.")
 
     def _publish(self, op: Publish) -> None:
-        topic = absolute(op.topic)
-        entry = self._offer.switchboard.topics.get(topic)
-        if entry is None or entry.to != "robot":
-            raise ProtocolError(f"This robot does not listen to {shown(topic)}.")
-        msg = from_json(op.msg, entry.type)
-        try:
-            self._offer.on_message(self._session, topic, msg, op.stamp)
-        except Exception:
-            log.exception("%s from %s failed", topic, self._session.address)
+        channel = self._heard_on(op.topic)
+        if channel.cls is not None:
+            self._published(channel, from_json(op.msg, channel.cls), op.stamp, latch=bool(op.latch))
+        elif bytes(op.msg)[:1] != b"{" or too_deep(bytes(op.msg)):
+            raise ProtocolError(f"A message on {channel.name} must be an object, and not nested too deeply.")
+        else:
+            self._published(channel, Raw(bytes(op.msg)), op.stamp, latch=bool(op.latch))
+
+    def _publish_binary(self, op: BinaryPublish) -> None:
+        channel = self._heard_on(op.topic)
+        if channel.cls is None:
+            raise ProtocolError(
+                f"The type of {channel.name} is not known here, so it cannot be read as CBOR."
+            )
+        self._published(channel, from_builtins(op.msg, channel.cls), None, latch=False)
+
+    def _heard_on(self, topic: str) -> Channel:
+        channels = self._offer.switchboard.channels
+        channel = channels.get(topic) or channels.get(absolute(topic))
+        if channel is None:
+            raise ProtocolError(f"This robot does not listen to {shown(topic)}, and nobody advertised it.")
+        if channel.entry is not None and channel.entry.to != "robot":
+            raise ProtocolError(f"This robot does not listen to {shown(topic)}, it speaks there.")
+        return channel
+
+    def _published(self, channel: Channel, msg: Msg | Raw, stamp: float | None, *, latch: bool) -> None:
+        if channel.entry is not None:
+            latch = False
+            try:
+                self._offer.on_message(self.session, channel.name, msg, stamp)
+            except Exception:
+                log.exception("%s from %s failed", channel.name, self.session.address)
+        elif channel.publishers:
+            latch = self in channel.publishers and (latch or self.remembered.latches(channel.name))
+        self._offer.switchboard.pass_on(channel, msg, self, latch=latch)
 
     def _subscribe(self, op: Subscribe) -> None:
-        self._check_type(op)
-        self._offer.switchboard.subscribe(self, self.remembered.subscribe(op))
+        topic, switchboard = absolute(op.topic), self._offer.switchboard
+        switchboard.check(topic, op.type)
+        self.remembered.subscribe(op)
+        try:
+            switchboard.subscribe(self, topic, self.remembered.subscriptions[topic], op.type or "")
+        except ProtocolError:
+            self.remembered.unsubscribe(Unsubscribe(topic=op.topic, id=op.id))
+            raise
 
     def _unsubscribe(self, op: Unsubscribe) -> None:
         topic = self.remembered.unsubscribe(op)
-        if topic not in self.remembered.subscriptions:
-            self._offer.switchboard.unsubscribe(self, topic)
+        wanted = self.remembered.subscriptions.get(topic)
+        switchboard = self._offer.switchboard
+        if wanted is None:
+            stream = switchboard.unsubscribe(self, topic)
+            if stream is not None:
+                self.outlet.forget(stream)
+        else:
+            switchboard.alter(self, topic, wanted)
 
     def _advertise(self, op: Advertise) -> None:
-        self._check_type(op)
+        topic, switchboard = absolute(op.topic), self._offer.switchboard
+        switchboard.check(topic, op.type)
+        own = switchboard.topics.get(topic)
+        if own is not None and own.to != "robot":
+            raise ProtocolError(f"{topic} is this robot's own topic.")
         self.remembered.advertise(op)
+        try:
+            switchboard.advertise(self, topic, op.type or "")
+        except ProtocolError:
+            self.remembered.unadvertise(Unadvertise(topic=op.topic, id=op.id))
+            raise
 
-    def _check_type(self, op: Subscribe | Advertise) -> None:
-        entry = self._offer.switchboard.topics.get(absolute(op.topic))
-        if entry is None:
-            raise ProtocolError(f"This robot has no topic {shown(op.topic)}.")
-        if op.type and op.type != "*" and ros1_name(op.type) != entry.type.MSGTYPE:
-            raise ProtocolError(f"{entry.name} is {entry.type.MSGTYPE}, not {shown(op.type)}.")
+    def _unadvertise(self, op: Unadvertise) -> None:
+        topic = self.remembered.unadvertise(op)
+        if topic not in self.remembered.advertised:
+            self._offer.switchboard.unadvertise(self, topic)
 
     def _call_service(self, op: CallService) -> None:
-        name = absolute(op.service)
+        name, id = service_and_id(op)
         try:
             known = self._offer.rosapi.answer(name, op.args)
             if known is not None:
-                self._answer(op, known)
+                self._answer(op, name, id, known)
                 return
             service = self._offer.services.get(name)
             if service is None:
-                raise Refused(f"This robot has no service {shown(name)}.")
-            outcome = service.call(self._session, arguments(op.args, service.request))
+                self._call_client(op, name, id)
+                return
+            if len(self._tasks) >= MOST_CALLS and name not in FIRST:
+                raise Refused(f"{MOST_CALLS} calls of this client wait for their answer already.")
+            outcome = service.call(self.session, arguments(op.args, service.request))
             if isinstance(outcome, Msg):
-                self._answer(op, to_json(outcome))
+                self._answer(op, name, id, to_json(outcome))
             else:
-                self._begin(self._await_answer(op, outcome))
+                self._begin(self._await_answer(op, name, id, outcome))
         except Exception as error:  # noqa: BLE001 -- a service may fail in any way; the caller and the log are told
-            self._refuse(op, error)
+            self._refuse(op, name, id, error)
 
-    async def _await_answer(self, op: CallService, outcome: Awaitable[Msg]) -> None:
+    def _call_client(self, op: CallService, name: str, id: Id) -> None:
+        if name not in self._offer.exchange.services:
+            raise Refused(f"This robot has no service {shown(name)}.")
+        self._offer.exchange.call(self, name, id, op)
+
+    async def _await_answer(self, op: CallService, name: str, id: Id, outcome: Awaitable[Msg]) -> None:
+        patience = asyncio.timeout(op.timeout if op.timeout and op.timeout > 0 else None)
         try:
-            self._answer(op, to_json(await outcome))
+            async with patience:
+                answer = to_json(await outcome)
         except Exception as error:  # noqa: BLE001 -- a service may fail in any way; the caller and the log are told
-            self._refuse(op, error)
+            late = Refused(f"{name} gave no answer within {op.timeout or 0:g} s.")
+            self._refuse(op, name, id, late if patience.expired() else error)
+        else:
+            self._answer(op, name, id, answer)
 
-    def _refuse(self, op: CallService, error: Exception) -> None:
+    def _refuse(self, op: CallService, name: str, id: Id, error: Exception) -> None:
         if isinstance(error, BridgeError):
             reason = str(error)
         else:
-            log.error("%s from %s failed", op.service, self._session.address, exc_info=error)
+            log.error("%s from %s failed", op.service, self.session.address, exc_info=error)
             reason = f"The robot failed at {op.service}; its log says why."
-        self._answer(op, msgspec.json.encode(reason), result=False)
+        self._answer(op, name, id, msgspec.json.encode(reason), result=False)
 
-    def _answer(self, op: CallService, values: bytes, *, result: bool = True) -> None:
-        response = ServiceResponse(id=op.id, service=op.service, values=Raw(values), result=result)
-        self._send(Frame(encode(response), text=True))
+    def _answer(self, op: CallService, name: str, id: Id, values: bytes, *, result: bool = True) -> None:
+        response = ServiceResponse(id=id, service=op.service, values=Raw(values), result=result)
+        lane = Lane.CONTROL if name in FIRST else Lane.REPLY
+        self.send(response, lane, self.remembered.answer_size(op))
 
-    def _remark(self, sentence: str) -> None:
-        log.debug("%s: %s", self._session.address, sentence)
+    def _complain(self, error: ProtocolError, arrival: Op | BinaryPublish | ProtocolError) -> None:
+        """Log what was wrong with an operation, and tell who asked to be told, with its name and id."""
+        if error.op is None and isinstance(arrival, Op):
+            id = None if arrival.id is UNSET else arrival.id
+            error = ProtocolError(str(error), op=str(arrival.__struct_config__.tag), id=id)
+        self._complaints.note(error)
         if self.remembered.wants("error"):
-            self._send(Frame(encode(Status(level="error", msg=sentence)), text=True))
-
-    def _send(self, frame: Frame) -> None:
-        if self._outbox.put(frame):
-            self._wake.set()
-        else:
-            log.warning("%s does not read what it asked for and is disconnected", self._session.address)
-            self._socket.transport.abort()
-
-    async def _write(self) -> None:
-        clock = asyncio.get_running_loop().time
-        while True:
-            frame = self._next(clock())
-            if frame is None:
-                await _wait(self._wake, self._outbox.delay(clock()))
-            else:
-                await self._socket.send(frame.data, text=frame.text)
-
-    def _next(self, now: float) -> Frame | None:
-        while True:
-            try:
-                return self._outbox.take(now)
-            except ProtocolError as error:
-                log.warning("A message is not sent: %s", error)
+            self.send(complaint(error))
 
     def _begin(self, work: Coroutine[Any, Any, None]) -> None:
         task = asyncio.create_task(work)
         self._tasks.add(task)
-        task.add_done_callback(self._ended)
-
-    def _ended(self, task: asyncio.Task[None]) -> None:
-        self._tasks.discard(task)
-        if not task.cancelled() and task.exception() is not None:
-            log.info("%s can no longer be sent to: %s", self._session.address, task.exception())
-            self._socket.transport.abort()
-
-
-class CameraSocket:
-    """Somebody who watches one camera."""
-
-    def __init__(self, socket: Socket) -> None:
-        self._socket = socket
-        self._newest: tuple[int, bytes] | None = None
-        self._flying: deque[int] = deque()
-        self._wake = asyncio.Event()
-
-    async def run(self) -> None:
-        """Serve until the connection ends; raises what the socket raises when it ends badly."""
-        writer = asyncio.create_task(self._write())
-        try:
-            async for text in self._socket:
-                self._acknowledge(text)
-        finally:
-            await _end({writer})
-
-    def offer(self, frame: bytes) -> None:
-        """Have a frame sent as soon as there is room for it; a newer one replaces one that still waits.
-
-        ProtocolError when it is no packed frame.
-        """
-        self._newest = sequence(frame), frame
-        self._wake.set()
-
-    def _acknowledge(self, text: str | bytes) -> None:
-        word, _, number = str(text).partition(" ")
-        seq = int(number) if word == "ack" and number.isdecimal() and len(number) < 11 else -1
-        if seq in self._flying:
-            while self._flying.popleft() != seq:
-                pass
-            self._wake.set()
-
-    async def _write(self) -> None:
-        while True:
-            await _wait(self._wake, None)
-            while self._newest is not None and len(self._flying) < UNACKNOWLEDGED:
-                (seq, frame), self._newest = self._newest, None
-                self._flying.append(seq)
-                await self._socket.send(frame)
-
-
-async def _wait(wake: asyncio.Event, seconds: float | None) -> None:
-    """Until `wake` is set or `seconds` have passed; None waits for ever."""
-    timer = None if seconds is None else asyncio.get_running_loop().call_later(seconds, wake.set)
-    try:
-        await wake.wait()
-    finally:
-        wake.clear()
-        if timer is not None:
-            timer.cancel()
-
-
-async def _end(tasks: set[asyncio.Task[None]]) -> None:
-    left = list(tasks)
-    for task in left:
-        task.cancel()
-    await asyncio.gather(*left, return_exceptions=True)
+        task.add_done_callback(self._tasks.discard)

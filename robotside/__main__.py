@@ -7,6 +7,7 @@ import asyncio
 import math
 import os
 import random
+import re
 import secrets
 import signal
 import sys
@@ -14,8 +15,10 @@ import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from bridge.address import BadAddress
 from bridge.errors import BridgeError
 from robotside.clock import RobotClock
+from robotside.foreign import ForeignRobot
 from robotside.robot import Robot
 from robotside.serving import Addresses, Serving
 from robotside.station import Station
@@ -48,7 +51,11 @@ def _options(argv: Sequence[str] | None) -> argparse.Namespace:
     parser = _Parser(prog="python -m robotside", description="The robot's computer.")
     serve = parser.add_subparsers(dest="command", required=True).add_parser("serve", help="serve one robot")
     add = serve.add_argument
-    add("--robot", default="sim:patrol", help="what to serve, as in sim:patrol")
+    add(
+        "--robot",
+        default="sim:patrol",
+        help="what to serve: sim:patrol, or ros:ws://HOST:9090 for one behind a rosbridge server",
+    )
     add("--world", default="parking_lot", help="where a simulated robot is")
     add(
         "--host",
@@ -126,8 +133,9 @@ def _state(options: argparse.Namespace) -> Path:
     if options.state is not None:
         return Path(options.state)
     base = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
-    kind = options.robot.replace(":", "-")
-    return Path(base) / "pilothouse" / f"{kind}-{options.world}"
+    kind = re.sub(r"[^\w.-]+", "-", options.robot)
+    place = "" if options.robot.startswith("ros:") else f"-{options.world}"
+    return Path(base) / "pilothouse" / f"{kind}{place}"
 
 
 def _store(directory: Path) -> Store:
@@ -141,8 +149,11 @@ def _store(directory: Path) -> Store:
 
 def _robot(options: argparse.Namespace) -> Robot:
     port, _, model = options.robot.partition(":")
+    if port == "ros" and model:
+        return _foreign(model, options.speed)
     if port != "sim" or not model:
-        raise UserMistake(f"There is no robot {options.robot!r}; simulated ones are written as sim:patrol.")
+        said = "simulated ones are written as sim:patrol, others as ros:ws://192.168.1.7:9090"
+        raise UserMistake(f"There is no robot {options.robot!r}; {said}.")
     try:
         from sim.robot import make
     except ImportError as missing:
@@ -151,6 +162,18 @@ def _robot(options: argparse.Namespace) -> Robot:
         return make(model, options.world, seed=options.seed)
     except ValueError as problem:
         raise UserMistake(str(problem)) from problem
+
+
+def _foreign(url: str, speed: float) -> Robot:
+    if speed != 1.0:
+        raise UserMistake(f"A real robot moves in real time: --speed must be 1, not {speed:g}.")
+    try:
+        robot = ForeignRobot(url)
+    except BadAddress as problem:
+        raise UserMistake(str(problem)) from problem
+    if robot.trouble:
+        print(f"robotside: {robot.trouble} It is taken when it comes.", file=sys.stderr, flush=True)
+    return robot
 
 
 if __name__ == "__main__":

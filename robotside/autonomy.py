@@ -11,7 +11,7 @@ import numpy as np
 
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseStamped
-from bridge.msgs.nav_msgs import Odometry, Path
+from bridge.msgs.nav_msgs import OccupancyGrid, Odometry, Path
 from bridge.msgs.pilothouse_msgs import Bumper, Intruder, Mission, TaskStatus, Waypoint
 from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header, Time
@@ -49,7 +49,7 @@ class Autonomy:
     def __init__(
         self,
         robot: Robot,
-        grid: Grid,
+        chart: OccupancyGrid | None,
         *,
         bus: Bus,
         events: Events,
@@ -57,7 +57,7 @@ class Autonomy:
         clock: Callable[[], float],
         rng: random.Random,
     ) -> None:
-        """`clock` is the operators' [s], by which the task's messages are stamped."""
+        """`chart` is the map, None or of no use while there is none; `clock` is the operators' [s], by which the task's messages are stamped."""
         info = robot.info
         self._bus, self._events, self._demand, self._rng = bus, events, demand, rng
         self._now = 0.0
@@ -71,8 +71,11 @@ class Autonomy:
         self.mission = Mission()
         """As it was when the task began."""
         self.whereabouts = Whereabouts(info, events.say, bus.publish)
-        self.whereabouts.take_map(grid)
-        self.guide = Guide(robot, grid, self._show_plan)
+        self.has_map = False
+        """There is a map to localise and plan on."""
+        self.guide = Guide(robot, Grid.unknown(), self._show_plan)
+        if chart is not None:
+            self._take_map(chart)
         self.situation = Situation()
         self.watch = Watch(self.whereabouts.track, info.camera_fov, bus.publish, self._found)
         self.engine = Engine(
@@ -85,15 +88,10 @@ class Autonomy:
             cruise=CRUISE * info.max_speed,
         )
         self._show_plan(np.empty((0, 2)))
-        self._take: dict[str, Callable[[Any], None]] = {
-            "/odom": self._odom,
-            "/scan": self._scan,
-            "/fix": self.whereabouts.take_fix,
-            "/imu/data": self.whereabouts.take_imu,
-            "/battery_state": self._battery,
-            "/bumper": self._bumper,
-            CAMERA: self._image,
-        }
+        self._take = self._takers()
+
+    _chart: OccupancyGrid | None = None
+    _coming: OccupancyGrid | None = None
 
     def take(self, topic: str, msg: Msg, now: float) -> None:
         """Take in one message of the robot, at `now` [s, robot clock]."""
@@ -102,13 +100,28 @@ class Autonomy:
             self._take[topic](msg)
 
     def check(self, now: float) -> None:
-        """Halt the running task when it has become blind; call it often."""
+        """Halt the running task when it has become blind, and take a new map between two tasks; call it often."""
+        if self._coming is not None and not self.engine.active:
+            self._take_map(self._coming)
         if not self.engine.running:
             return
         for sense, heard in self._heard.items():
             if now - heard > SILENCE:
                 self.engine.pause(f"Paused: the {sense} has been silent for {SILENCE} s.", "alarm")
                 return
+
+    def _takers(self) -> dict[str, Callable[[Any], None]]:
+        """What is done with each topic's messages."""
+        return {
+            "/map": self._map,
+            "/odom": self._odom,
+            "/scan": self._scan,
+            "/fix": self.whereabouts.take_fix,
+            "/imu/data": self.whereabouts.take_imu,
+            "/battery_state": self._battery,
+            "/bumper": self._bumper,
+            CAMERA: self._image,
+        }
 
     def start_patrol(self, mission: Mission, now: float) -> None:
         """Patrol the points of `mission`, which must have some."""
@@ -132,6 +145,25 @@ class Autonomy:
         self.whereabouts.told(pose)
         self.guide.obstacles.forget()
         self.watch.intruders.forget()
+
+    def _map(self, msg: OccupancyGrid) -> None:
+        """A map came later, or another one: it counts when no task is under way."""
+        if msg is self._chart:
+            return
+        if not self.has_map and not Grid.fault(msg):
+            self._events.say("localisation", "There is a map now.", "ok")
+        self._coming = msg
+
+    def _take_map(self, msg: OccupancyGrid) -> None:
+        self._coming, self._chart = None, msg
+        problem = Grid.fault(msg)
+        if problem:
+            self._events.say("localisation", problem, "warn")
+            return
+        self.has_map = True
+        grid = Grid.from_msg(msg)
+        self.whereabouts.take_map(grid)
+        self.guide.take_map(grid)
 
     def _odom(self, msg: Odometry) -> None:
         self._heard["odometry"] = self._now

@@ -32,6 +32,11 @@ class Grid:
     y: float
 
     @classmethod
+    def unknown(cls) -> Grid:
+        """No map at all: a few cells at the origin that nobody can stand in."""
+        return cls(np.ones((2, 2), dtype=np.bool_), 0.1, 0.0, 0.0)
+
+    @classmethod
     def from_msg(cls, msg: OccupancyGrid) -> Grid:
         """What the map message says; unknown cells count as occupied."""
         info = msg.info
@@ -39,6 +44,20 @@ class Grid:
         corner = info.origin.position
         occupied: NDArray[np.bool_] = np.logical_or(data >= OCCUPIED, data < 0)
         return cls(occupied, info.resolution, corner.x, corner.y)
+
+    @staticmethod
+    def fault(msg: OccupancyGrid) -> str:
+        """Why the map message is of no use, as one sentence; empty when it is."""
+        info, turned = msg.info, msg.info.origin.orientation
+        if not (math.isfinite(info.resolution) and info.resolution > 0):
+            return f"The map is of no use: its cells are {info.resolution} m wide."
+        if not 4 <= info.width * info.height == len(msg.data) or min(info.width, info.height) < 2:
+            return (
+                f"The map is of no use: it says {info.width} x {info.height} cells and has {len(msg.data)}."
+            )
+        if abs(turned.yaw) > 1e-3:
+            return f"The map is of no use: it is turned by {turned.yaw:.3f} rad against its own frame."
+        return ""
 
     @cached_property
     def distance(self) -> NDArray[np.float64]:

@@ -20,6 +20,11 @@ class Guarded:
         """Who it is and what it can do."""
         self._robot, self._stopped = robot, stopped
 
+    @property
+    def trouble(self) -> str:
+        """Why it can be neither driven nor heard just now; empty when all is well."""
+        return self._robot.trouble
+
     def drive(self, twist: Twist) -> None:
         """Move with `twist` in `base_link` until the next `drive` or `stop`; brake while STOP is pressed."""
         if self._stopped():

@@ -64,8 +64,8 @@ class Guide:
     def __init__(self, robot: Robot, grid: Grid, show: Callable[[Points], None]) -> None:
         info = robot.info
         self._robot, self._show = robot, show
-        self.planner = Planner(grid, info.radius)
-        self.obstacles = Obstacles(grid)
+        self._radius = info.radius
+        self.take_map(grid)
         self._avoidance = Avoidance(info.radius, max_yaw_rate=info.max_yaw_rate)
         self._clear = info.radius + 0.18
         self._cruise, self._turn = CRUISE * info.max_speed, info.max_yaw_rate
@@ -79,6 +79,13 @@ class Guide:
         self._planned = self._moved = -math.inf
         self._best = math.inf
         self._stuck = 0
+
+    def take_map(self, grid: Grid) -> None:
+        """Plan on `grid` from now on; only between two tasks."""
+        self.planner = Planner(grid, self._radius)
+        """What plans the ways on the map."""
+        self.obstacles = Obstacles(grid)
+        """What was seen that is not on the map."""
 
     @property
     def remaining(self) -> float:

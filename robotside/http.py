@@ -1,21 +1,21 @@
-"""What a browser or curl gets on the HTTP port: a page about the robot, its health, and a picture."""
+"""What a browser or curl gets on the HTTP port: a page about the robot, its health, and its camera."""
 
 from __future__ import annotations
 
-import asyncio
 import html
 from collections.abc import Callable
+from typing import Any
 
 from starlette.applications import Starlette
+from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, Response
 from starlette.routing import Route
 
-from bridge.msgs import Msg
-from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.errors import BridgeError
 from bridge.topics import TOPICS
-from robotside.autonomy import CAMERA
 from robotside.station import Station
+from robotside.streams import BadViewError, FullError, Streams, View, view_of
 
 __all__ = ["site"]
 
@@ -32,8 +32,16 @@ td,th{{text-align:left;padding:.2em 1em .2em 0}}code{{background:#eee;padding:.1
 <h2>Topics</h2><table><tr><th>topic</th><th>type</th><th>rate</th><th>what</th></tr>{topics}</table>
 <h2>Services</h2><table><tr><th>service</th><th>type</th></tr>{services}</table></html>"""
 
+_CAMERA = """<li>camera {name}: <code>{bridge}/camera/{name}</code>, <a href="/snapshot/{name}.jpg">a picture</a>,
+<a href="/stream/{name}.mjpeg">moving pictures</a>; both take <code>?width=</code> [px] and <code>quality=</code>
+(1 to 95), the moving ones <code>rate=</code> [Hz] as well<br>
+<img src="/stream/{name}.mjpeg?width=480&amp;rate=10" width="480" alt="what the camera sees"></li>
+"""
 
-def site(station: Station, bridge_url: Callable[[], str], services: dict[str, str]) -> Starlette:
+
+def site(
+    station: Station, bridge_url: Callable[[], str], services: dict[str, str], streams: Streams
+) -> Starlette:
     """The web site of one robot; `services` are types by name."""
 
     async def page(_: Request) -> Response:
@@ -43,42 +51,23 @@ def site(station: Station, bridge_url: Callable[[], str], services: dict[str, st
         return JSONResponse(_health(station))
 
     async def snapshot(request: Request) -> Response:
-        names = {*station.info.cameras, "camera"} if station.info.cameras else set()
-        if request.path_params["name"] not in names:
-            return PlainTextResponse(_no_camera(station), 404)
-        jpeg = await _picture(station, f"snapshot {id(request)}")
+        jpeg = await streams.picture(_view(request, station), PICTURE_PATIENCE)
         if jpeg is None:
-            return PlainTextResponse(f"No picture came within {PICTURE_PATIENCE} s.\n", 503)
+            raise HTTPException(503, f"No picture came within {PICTURE_PATIENCE:g} s.")
         return Response(jpeg, media_type="image/jpeg", headers={"Cache-Control": "no-store"})
+
+    async def stream(request: Request) -> Any:
+        return streams.viewer(_view(request, station))
 
     return Starlette(
         routes=[
             Route("/", page),
             Route("/healthz", health),
             Route("/snapshot/{name}.jpg", snapshot),
-        ]
+            Route("/stream/{name}.mjpeg", stream),
+        ],
+        exception_handlers={HTTPException: _sentence, FullError: _full, BridgeError: _broken},
     )
-
-
-async def _picture(station: Station, asker: str) -> bytes | None:
-    """The next picture; None when none comes in time."""
-    coming: asyncio.Future[bytes] = asyncio.get_running_loop().create_future()
-    old = station.bus.last(CAMERA)
-
-    def take(_: str, msg: Msg) -> None:
-        if isinstance(msg, CompressedImage) and msg is not old and not coming.done():
-            coming.set_result(msg.data)
-
-    leave = station.bus.subscribe(CAMERA, take)
-    station.demand.set(CAMERA, asker, True)
-    try:
-        async with asyncio.timeout(PICTURE_PATIENCE):
-            return await coming
-    except TimeoutError:
-        return None
-    finally:
-        station.demand.set(CAMERA, asker, False)
-        leave()
 
 
 def _health(station: Station) -> dict[str, object]:
@@ -93,16 +82,35 @@ def _health(station: Station) -> dict[str, object]:
     }
 
 
-def _no_camera(station: Station) -> str:
-    names = ", ".join(station.info.cameras) or "none"
-    return f"This robot has no such camera; there is: {names}.\n"
+def _view(request: Request, station: Station) -> View:
+    """What of which camera is asked for; HTTPException with one sentence for what does not exist."""
+    cameras = station.info.cameras
+    if request.path_params["name"] not in ({*cameras, "camera"} if cameras else ()):
+        names = ", ".join(cameras) or "none"
+        raise HTTPException(404, f"This robot has no such camera; there is: {names}.")
+    try:
+        return view_of(request.query_params)
+    except BadViewError as problem:
+        raise HTTPException(422, str(problem)) from problem
+
+
+async def _sentence(_: Request, problem: Exception) -> Response:
+    status, said = (problem.status_code, problem.detail) if isinstance(problem, HTTPException) else (500, "")
+    return PlainTextResponse(f"{said}\n", status)
+
+
+async def _full(_: Request, problem: Exception) -> Response:
+    return PlainTextResponse(f"{problem}\n", 503, {"Retry-After": "5"})
+
+
+async def _broken(_: Request, problem: Exception) -> Response:
+    return PlainTextResponse(f"{problem}\n", 502)
 
 
 def _page(station: Station, bridge: str, services: dict[str, str]) -> str:
     info, status = station.info, station.autonomy.engine.status
     cameras = "".join(
-        f'<li>camera {name}: <code>{bridge}/camera/{name}</code>, <a href="/snapshot/{name}.jpg">a picture</a></li>\n'
-        for name in map(html.escape, info.cameras)
+        _CAMERA.format(name=html.escape(name), bridge=html.escape(bridge)) for name in info.cameras
     )
     topics = "".join(
         f"<tr><td>{t.name}</td><td>{t.type.MSGTYPE}</td>"

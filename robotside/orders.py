@@ -20,6 +20,7 @@ from bridge.msgs.pilothouse_msgs import (
     GetMissionRequest,
     GetMissionResponse,
     Mission,
+    RunTaskGoal,
     SetMissionRequest,
     StartTaskRequest,
     Waypoint,
@@ -29,10 +30,10 @@ from bridge.server import Service, Session
 from robotside.autonomy import LOW_BELOW
 from robotside.commands import Commands, Refusal
 from robotside.controls import STOP_SENTENCE, Operator
-from robotside.station import Station
+from robotside.station import NO_MAP, Station
 from robotside.words import plain
 
-__all__ = ["services"]
+__all__ = ["runner", "services"]
 
 MOST_POINTS = 500
 """Waypoints that one mission may have."""
@@ -60,6 +61,12 @@ def services(station: Station) -> Iterable[Service]:
     yield orders.service("/mission/set", orders.set_mission, "SetMission", SetMissionRequest)
     yield _service("/mission/get", "GetMission", GetMissionRequest, GetMissionResponse, orders.mission)
     yield _service("/events/get", "GetEvents", GetEventsRequest, GetEventsResponse, orders.events)
+
+
+def runner(station: Station) -> Callable[[Session, RunTaskGoal], CommandResponse]:
+    """What begins a task for whoever wants to hear its end: refused while another one has not ended."""
+    orders = _Orders(station)
+    return orders.service("/task/run", orders.run, request=RunTaskGoal).call  # type: ignore[return-value]
 
 
 def _service(
@@ -127,9 +134,7 @@ class _Orders:
             raise Refusal(f"There is no task {asked.task!r}; there are patrol and go_home.")
         self._may_move(client)
         station = self._station
-        if station.autonomy.engine.active:
-            state = station.autonomy.engine.status.state.lower()
-            raise Refusal(f"A task is {state} already; stop it first.")
+        self._check_idle()
         mission = station.mission
         if not mission.waypoints:
             raise Refusal("The mission has no points; set at least one.")
@@ -139,6 +144,11 @@ class _Orders:
         station.autonomy.start_patrol(mission, station.now)
         count = len(mission.waypoints)
         return f"Patrol started: {count} {'point' if count == 1 else 'points'}, {mission.motion}."
+
+    def run(self, client: Operator, asked: RunTaskGoal) -> str:
+        """Start a task that is the only one."""
+        self._check_idle()
+        return self.start(client, asked)
 
     def go_home(self, client: Operator, _: CommandRequest) -> str:
         """Go to the stored home, whatever it is doing."""
@@ -223,8 +233,15 @@ class _Orders:
         if self._station.controls.stopped:
             raise Refusal(STOP_SENTENCE)
         self._need_control(client)
+        if self._station.unfit:
+            raise Refusal(self._station.unfit)
         if self._station.autonomy.whereabouts.pose is None:
             raise Refusal("The robot does not know yet where it is; place it on the map.")
+
+    def _check_idle(self) -> None:
+        engine = self._station.autonomy.engine
+        if engine.active:
+            raise Refusal(f"A task is {engine.status.state.lower()} already; stop it first.")
 
     def _check_battery(self) -> None:
         battery = self._station.autonomy.battery
@@ -236,6 +253,8 @@ class _Orders:
             self._check_place(f"Point {number}", point)
 
     def _check_place(self, name: str, place: Waypoint) -> None:
+        if not self._station.autonomy.has_map:
+            raise Refusal(NO_MAP)
         problem = self._station.autonomy.guide.planner.fault(name, place.x, place.y)
         if problem:
             raise Refusal(problem)

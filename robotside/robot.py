@@ -18,6 +18,10 @@ class Robot(Protocol):
     info: RobotInfo
     """Who it is and what it can do; does not change while it runs."""
 
+    @property
+    def trouble(self) -> str:
+        """Why it can be neither driven nor heard just now, as one sentence; empty when all is well."""
+
     def drive(self, twist: Twist) -> None:
         """Move with `twist` in `base_link` until the next `drive` or `stop`; already within the robot's limits."""
 
@@ -27,7 +31,8 @@ class Robot(Protocol):
     def read(self, now: float) -> Iterable[tuple[str, Msg]]:
         """Topic and message of everything measured up to `now` [s, robot clock] since the last call.
 
-        A simulation advances to `now`; the first call sets its origin and yields `/map`.
+        A simulation advances to `now`; the first call sets its origin and yields `/map`, if there is a map. What is
+        on `/events` is told to the operators as the robot side's own, numbered and stamped by it.
         """
 
     def want(self, topic: str, wanted: bool) -> None:

@@ -19,9 +19,13 @@ from bridge.server import BridgeServer
 from bridge.topics import TOPICS
 from robotside.autonomy import CAMERA
 from robotside.clock import RobotClock
+from robotside.goals import actions
 from robotside.http import site
 from robotside.orders import services
+from robotside.pictures import Pictures
+from robotside.reduce import reduce
 from robotside.station import Station
+from robotside.streams import Streams
 from robotside.visit import Visit
 from robotside.watch import jpeg_size
 
@@ -82,6 +86,7 @@ class Serving:
         self.station = station
         """What is served."""
         self._clock, self._wall, self._wanted = clock, wall, wanted
+        self._pictures = Pictures()
         offered = list(services(station))
         self.server = BridgeServer(
             services=offered,
@@ -90,9 +95,13 @@ class Serving:
             on_gone=station.gone,
             on_demand=lambda topic, wanted: station.demand.set(topic, "clients", wanted),
             cameras=station.info.cameras,
+            shrink=self._pictures.shrink,
+            reduce=reduce,
+            actions=actions(station),
         )
         kinds = {service.name: service.type for service in offered}
-        self._site = site(station, lambda: addresses.bridge, kinds)
+        streams = Streams(station.bus, station.demand, self._pictures)
+        self._site = site(station, lambda: addresses.bridge, kinds, streams)
         self._frames = 0
         self._patience = math.inf
 
@@ -120,6 +129,7 @@ class Serving:
         finally:
             self.station.robot.stop()
             await self.server.close()
+            await self._pictures.close()
             web_socket.close()
 
     def end(self) -> None:

@@ -19,22 +19,23 @@ from bridge.msgs import Msg
 from bridge.msgs.diagnostic_msgs import DiagnosticArray, DiagnosticStatus
 from bridge.msgs.geometry_msgs import PoseStamped, PoseWithCovarianceStamped, Twist
 from bridge.msgs.nav_msgs import OccupancyGrid
-from bridge.msgs.pilothouse_msgs import ControlStatus, IntruderArray, Mission, Waypoint
+from bridge.msgs.pilothouse_msgs import ControlStatus, Event, IntruderArray, Mission, Waypoint
 from bridge.msgs.std_msgs import Header, Time
 from robotside.autonomy import LOW_BELOW, Autonomy
 from robotside.bus import Bus
 from robotside.controls import STOP_SENTENCE, Controls, Operator
 from robotside.demand import Demand
 from robotside.events import Events
-from robotside.grid import Grid
 from robotside.guarded import Guarded
 from robotside.pose2 import Pose2
 from robotside.robot import Robot
 from robotside.store import Left, Store
 
-__all__ = ["Station"]
+__all__ = ["NO_MAP", "Station"]
 
 log = logging.getLogger(__name__)
+
+NO_MAP = "There is no map of where the robot is: it can be driven by hand only."
 
 REMARK_PERIOD = 3.0
 """Bad drive commands of a client, and faults of the program, are told at most this often [s]."""
@@ -57,7 +58,7 @@ class Station:
         boot: str,
         name: str = "",
     ) -> None:
-        """`now` is the robot's clock at the start [s]; ValueError when the robot gives no map with its first messages."""
+        """`now` is the robot's clock at the start [s]."""
         self.clock, self.now = clock, now
         self.info = msgspec.structs.replace(robot.info, name=name or robot.info.name)
         self.bus = Bus()
@@ -71,14 +72,15 @@ class Station:
         self._next_remark: dict[str, float] = {}
         self._next_diagnostics = now
         self._next_fault = -math.inf
+        self._trouble = ""
         first = list(robot.read(now))
-        grid = next((msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None)
-        if grid is None:
-            raise ValueError(f"Robot {self.info.name} gave no map with its first messages.")
+        chart = next(
+            (msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None
+        )
         self.bus.publish("/robot/info", self.info)
         self.autonomy = Autonomy(
             self.robot,
-            Grid.from_msg(grid),
+            chart,
             bus=self.bus,
             events=self.events,
             demand=self.demand,
@@ -104,6 +106,7 @@ class Station:
             self.robot.stop()
         self.controls.lapse(self.clock())
         self._pass_on(self.robot.read(now))
+        self._mind_trouble()
         self._mind(lambda: self.autonomy.check(now))
         self.show_control()
         if now >= self._next_diagnostics:
@@ -169,6 +172,11 @@ class Station:
         self.bus.publish("/control/status", msgspec.structs.replace(fresh, stamp=Time.at(self.clock())))
 
     @property
+    def unfit(self) -> str:
+        """Why the robot can do nothing by itself whatever is asked, as one sentence; empty when it can."""
+        return self.robot.trouble or ("" if self.autonomy.has_map else NO_MAP)
+
+    @property
     def at_rest(self) -> bool:
         """The wheels stand still, as measured."""
         return self._control.at_rest
@@ -210,8 +218,22 @@ class Station:
 
     def _pass_on(self, messages: Iterable[tuple[str, Msg]]) -> None:
         for topic, msg in messages:
+            if isinstance(msg, Event):
+                self.events.say(msg.kind, msg.text, msg.level)
+                continue
             self.bus.publish(topic, msg)
             self._mind(partial(self.autonomy.take, topic, msg, self.now))
+
+    def _mind_trouble(self) -> None:
+        """Hold everything while the robot cannot be reached; on its return nothing moves until somebody says so."""
+        trouble = self.robot.trouble
+        if bool(trouble) != bool(self._trouble):
+            said = trouble or "The robot can be reached again; it stands still."
+            self.events.say("robot", said, "alarm" if trouble else "ok")
+        self._trouble = trouble
+        if trouble:
+            self.controls.hold()
+            self.autonomy.engine.pause(f"Paused: {trouble[0].lower()}{trouble[1:]}", "alarm")
 
     def _mind(self, think: Callable[[], None]) -> None:
         """Let the robot's mind do something; a fault in it ends the task at rest, and driving by hand goes on."""
@@ -229,6 +251,9 @@ class Station:
 
     def _drive(self, client: Operator, twist: Twist, stamp: float | None) -> None:
         engine = self.autonomy.engine
+        if self.robot.trouble:
+            self._remark(client, self.robot.trouble)
+            return
         ruling = self.controls.drive(client, twist, self.clock(), stamp=stamp, auto=engine.running)
         if ruling.twist is None:
             self._remark(client, ruling.said)
@@ -240,6 +265,7 @@ class Station:
         problem = self.controls.objection(client)
         if not all(map(math.isfinite, pose)):
             problem = "The pose to place the robot at is not all numbers."
+        problem = problem or self.unfit
         problem = problem or self.autonomy.guide.planner.off_map("The place", pose.x, pose.y)
         if problem:
             self.events.say("command", problem, "warn")
@@ -251,6 +277,7 @@ class Station:
 
     def _go_to(self, client: Operator, pose: Pose2) -> None:
         problem = STOP_SENTENCE if self.controls.stopped else self.controls.acquire(client, self.clock())
+        problem = problem or self.unfit
         problem = problem or self.autonomy.guide.planner.fault("The goal", pose.x, pose.y)
         if not problem and self.autonomy.whereabouts.pose is None:
             problem = "The robot does not know yet where it is; place it on the map."

@@ -107,8 +107,11 @@ class Whereabouts:
         return self._localiser.fit if self._localiser else math.nan
 
     def take_map(self, grid: Grid) -> None:
-        """Begin anew on `grid`."""
+        """Localise on `grid` from now on: from the pose that it has, if any."""
+        known = self.pose
         self._localiser = Localiser(grid)
+        if known is not None:
+            self._localiser.place(known, spread=0.3, turn=0.2)
 
     def take_fix(self, fix: NavSatFix) -> None:
         """Remember a position by satellite for the first guess."""

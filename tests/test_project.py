@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import pydoc
 import re
 import subprocess
@@ -70,6 +71,8 @@ KNOWN = known_names()
 
 def exists(quoted: str) -> bool:
     """What a recipe quotes, a path (NAME stands for any), a dotted name or a plain one, is there."""
+    if quoted.startswith("python -m "):
+        return pydoc.locate(quoted.split()[2]) is not None
     path = quoted.removeprefix("python ")
     if "/" in path:
         return any(ROOT.glob(path.replace("NAME", "*").rstrip("/")))
@@ -90,7 +93,14 @@ def test_everything_that_a_recipe_names_exists(title, quoted):
 
 
 @pytest.mark.parametrize(
-    "wrong", ["robotside/gateways/NAME.py", "sim.robot.ROBOTZ", "blackbord", "Guide.nope"]
+    "wrong",
+    [
+        "python -m bridge.nothing x",
+        "robotside/gateways/NAME.py",
+        "sim.robot.ROBOTZ",
+        "blackbord",
+        "Guide.nope",
+    ],
 )
 def test_a_name_that_a_recipe_must_not_use_is_noticed(wrong):
     assert not exists(wrong)
@@ -106,6 +116,15 @@ def test_every_extra_is_pinned():
 def test_the_pins_name_no_registry():
     lines = (ROOT / "constraints.txt").read_text().splitlines()
     assert all(line.startswith("#") or re.fullmatch(r"[\w.-]+==[\w.]+", line) for line in lines)
+
+
+def test_the_javascript_library_and_all_that_it_needs_are_pinned_and_name_no_registry():
+    wanted = json.loads((ROOT / "tests/clients/package.json").read_text())["dependencies"]
+    assert "roslib" in wanted
+    assert all(re.fullmatch(r"\d+\.\d+\.\d+", version) for version in wanted.values())
+    found = json.loads((ROOT / "tests/clients/node_modules/.package-lock.json").read_text())["packages"]
+    installed = {path.removeprefix("node_modules/"): entry["version"] for path, entry in found.items()}
+    assert installed == wanted
 
 
 def test_no_file_is_over_500_lines_and_no_function_over_40():
@@ -135,10 +154,10 @@ def test_each_verb_of_the_makefile_says_what_it_does():
 
 def test_set_up_is_not_done_twice(tmp_path):
     """With the stamp of a finished set-up in place the script ends at once and says nothing."""
-    (tmp_path / "scripts").mkdir()
-    for name in ("pyproject.toml", "constraints.txt", "scripts/setup.sh"):
+    files = ["pyproject.toml", "constraints.txt", "scripts/setup.sh", "tests/clients/package.json"]
+    for name in files:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_bytes((ROOT / name).read_bytes())
-    files = ["pyproject.toml", "constraints.txt", "scripts/setup.sh"]
     content = b"".join((ROOT / name).read_bytes() for name in files)
     stamp = subprocess.run(["cksum"], input=content, capture_output=True, check=True).stdout
     (tmp_path / ".venv").mkdir()
@@ -165,7 +184,13 @@ NAMED_OTHERWISE = {
     "skimage": "scikit-image",
     "pybullet_data": "pybullet",
 }
-WHO_INSTALLS = {"app": "handheld", "widgets": "handheld", "robotside": "robot", "sim": "sim"}
+WHO_INSTALLS = {
+    "app": "handheld",
+    "widgets": "handheld",
+    "robotside": "robot",
+    "sim": "sim",
+    "bridge/generate": "dev",
+}
 
 
 @pytest.mark.parametrize("folder", ["bridge", *WHO_INSTALLS])
@@ -179,6 +204,7 @@ def test_every_import_is_installed_by_the_folders_own_extra(folder):
         for path in (ROOT / folder).rglob("*.py")
         for module in imports(path)
         if path.name != "__main__.py" or folder != "robotside"
+        if "generate" not in path.parts or folder != "bridge"
     }
     foreign = (
         wanted

@@ -14,6 +14,7 @@ CATALOGUE: dict[str, str] = {
     "Battery": "widgets.battery",
     "Compass": "widgets.compass",
     "EventLog": "widgets.event_log",
+    "FieldView": "widgets.field_view",
     "GeoMap": "widgets.geo_map",
     "GridMap": "widgets.grid_map",
     "HeadingTape": "widgets.heading_tape",

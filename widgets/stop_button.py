@@ -12,7 +12,7 @@ from typing import Any
 from kivy.clock import Clock
 from kivy.lang import Builder
 from kivy.metrics import sp
-from kivy.properties import AliasProperty, NumericProperty, OptionProperty
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty
 from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.widget import Widget
 
@@ -23,6 +23,8 @@ __all__ = ["PHASES", "StopButton"]
 
 HOLD = 1.0
 """How long the finger must stay to release a latched STOP [s]."""
+LONG_HOLD = 3.0
+"""The same while a STOP held here alone is not confirmed [s]: who presses it again and stays on it wants it to stop."""
 
 LEAST = 12.5
 """Smallest type that a sentence is written in [sp]."""
@@ -34,6 +36,8 @@ PHASES = {
     "no_answer": ("STOP", "no answer, sending again", "signal_disconnected"),
 }
 """Phase to its word, its sentence and its icon."""
+LOCAL = {"sent": "zero speed is sent", "no_answer": "not confirmed · hold 3 s to release"}
+"""Sentences of a STOP that this handheld alone holds, where they are others."""
 
 Builder.load_string("""
 <StopButton>:
@@ -52,7 +56,7 @@ Builder.load_string("""
             size: self.width - dp(6), self.height - dp(6)
             radius: [theme.radius * 1.3 - dp(3)]
         Color:
-            rgba: theme.stop[:3] + [.4 if root.held else 0]
+            rgba: (theme.stop if root.phase == 'stopped' else theme.shade)[:3] + [.4 if root.held else 0]
         SmoothRoundedRectangle:
             pos: self.pos
             size: max(self.width * root.held, theme.radius * 2.6), self.height
@@ -112,15 +116,23 @@ class StopButton(Control, AnchorLayout):
 
     phase = OptionProperty("ready", options=list(PHASES))
     """`ready`; `sent`, not confirmed; `stopped`, confirmed and latched; `no_answer`, sent and not confirmed in time."""
+    local = BooleanProperty(False)
+    """The robot has no STOP of its own: a hold releases it even while it is not confirmed."""
     held = NumericProperty(0.0)
     """How much of the hold that releases is over, 0 to 1."""
     pressed = NumericProperty(0)
     """Fingers on it."""
 
-    def _of_phase(index: int) -> AliasProperty:  # noqa: N805
-        return AliasProperty(lambda self: PHASES[self.phase][index], bind=["phase"], cache=True)
+    def _sentence(self) -> str:
+        usual = PHASES[self.phase][1]
+        return LOCAL.get(self.phase, usual) if self.local else usual
 
-    sentence, icon = _of_phase(1), _of_phase(2)
+    sentence = AliasProperty(_sentence, bind=["phase", "local"], cache=True)
+
+    def _icon(self) -> str:
+        return PHASES[self.phase][2]
+
+    icon = AliasProperty(_icon, bind=["phase"], cache=True)
 
     def _word(self) -> str:
         return spaced(PHASES[self.phase][0])
@@ -163,7 +175,7 @@ class StopButton(Control, AnchorLayout):
         self.held = 0.0
 
     def _hold(self, elapsed: float) -> None:
-        self.held = min(1.0, self.held + elapsed / HOLD)
+        self.held = min(1.0, self.held + elapsed / (HOLD if self.phase == "stopped" else LONG_HOLD))
         if self.held >= 1.0 - 1e-9:
             self.rest()
             self.dispatch("on_release_stop")
@@ -176,14 +188,15 @@ class StopButton(Control, AnchorLayout):
         """It was held long enough: the operator wants to drive again."""
 
     def on_touch_down(self, touch: Any) -> bool:
-        """Command at once; when stopped already, begin to count the hold."""
+        """Command at once; when stopped already, or held here alone without an answer, begin to count the hold."""
         if not self.collide_point(*touch.pos):
             return False
         touch.grab(self)
         self.pressed += 1
-        if self.phase == "stopped":
+        unanswered = self.local and self.phase == "no_answer"
+        if self.phase == "stopped" or unanswered:
             self._holding()
-        else:
+        if self.phase != "stopped":
             self.dispatch("on_command")
         return True
 
@@ -213,6 +226,9 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "phone no answer": make("112dp", "172dp", phase="no_answer"),
         "small sent": make("160dp", "64dp", phase="sent"),
         "small": make("160dp", "64dp"),
+        "local sent": make("329dp", "76dp", phase="sent", local=True),
+        "local no answer": make("329dp", "76dp", phase="no_answer", local=True),
+        "phone local no answer": make("112dp", "172dp", phase="no_answer", local=True),
         "small stopped": make("160dp", "64dp", phase="stopped"),
         "being released": _being_released,
     }

@@ -57,15 +57,17 @@ class Video(Drawing):
 
     accepts: ClassVar = (Detection2DArray,)
     drawn_from: ClassVar = (
-        "frame_size", "fit", "boxes", "rate", "latency", "age", "show_chip", "corner", "insets",
+        "frame_size", "taken_size", "fit", "boxes", "rate", "latency", "age", "show_chip", "corner", "insets",
     )  # fmt: skip
 
     frame_size = ListProperty([0, 0])
     """Width and height of the picture [pixel]; 0 before the first."""
     fit = OptionProperty("cover", options=("cover", "contain"))
     """Fill the frame and cut the picture, or show all of it."""
+    taken_size = ListProperty([0, 0])
+    """Width and height of the picture as it was taken [pixel]; more than `frame_size` where it was made smaller on its way."""
     boxes = ListProperty()
-    """What was recognised: (label, score, left, top, width, height), from the picture's top left corner [pixel]."""
+    """What was recognised: (label, score, left, top, width, height), from the top left corner of the picture as taken [pixel]."""
     rate = NumericProperty(math.nan)
     """Frames a second [Hz]; NaN when not known."""
     latency = NumericProperty(math.nan)
@@ -114,9 +116,16 @@ class Video(Drawing):
         self.bind(corner=self.setter("veil_radius"))
         self.veil_radius = self.corner
 
-    def show_frame(self, width: int, height: int, rgba: bytes | bytearray | memoryview | np.ndarray) -> None:
+    def show_frame(
+        self,
+        width: int,
+        height: int,
+        rgba: bytes | bytearray | memoryview | np.ndarray,
+        taken: tuple[int, int] = (0, 0),
+    ) -> None:
         """Show a decoded picture, top row first, four bytes to a pixel, as a worker thread has made it.
 
+        `taken` is its size before it was made smaller on its way, in which boxes are told; 0 when nobody says.
         ValueError when `rgba` is not as long as `width` and `height` say.
         """
         if len(rgba) != width * height * 4:
@@ -128,6 +137,7 @@ class Video(Drawing):
             self._picture.texture = self._plain.texture = self._texture
             self._picture.tex_coords = WHOLE
             self.frame_size = [width, height]
+        self.taken_size = list(taken) if all(taken) else [width, height]
         self._texture.blit_buffer(rgba, colorfmt="rgba", bufferfmt="ubyte")
         self.canvas.ask_update()
 
@@ -136,9 +146,9 @@ class Video(Drawing):
         self.boxes = [_box(detection) for detection in msg.detections]
 
     def place_on_glass(self, x: float, y: float) -> tuple[float, float]:
-        """Where a pixel of the picture, counted from its top left corner, is on the glass [px]."""
+        """Where a pixel of the picture as taken, counted from its top left corner, is on the glass [px]."""
         wide, high = self.picture_size
-        columns, rows = self.frame_size
+        columns, rows = self.taken_size
         left, top = self.center_x - wide / 2, self.center_y + high / 2
         return left + x * wide / columns, top - y * high / rows
 

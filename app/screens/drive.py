@@ -18,6 +18,8 @@ from app.camera import Picture
 from app.dashboard import Dashboard
 from app.feeds import Post
 from app.layout import Instrument, Layout, LayoutError
+from app.link import OFFER
+from app.offer import POSE
 from app.screens.placing import put
 from app.session import Session
 from bridge.msgs.geometry_msgs import Twist
@@ -30,6 +32,8 @@ __all__ = ["DriveScreen"]
 
 SPEED, YAW_RATE = 0.5, 1.0
 """Greatest speeds of the stick until the robot tells its own [m/s, rad/s]."""
+LONGEST_NAME = 14
+"""Letters of a topic's name on an instrument."""
 FIRST = 0.6
 """Share of the robot's greatest speed that the slider begins with."""
 
@@ -77,6 +81,8 @@ class DriveScreen(FloatLayout):
         self.speed = SpeedCard()
         self.actions = GridLayout(cols=1, spacing="10dp")
         self.places: dict[str, list[Widget]] = {}
+        self._titled: list[tuple[Any, Instrument]] = []
+        self._places_told: list[tuple[Readout, Instrument]] = []
         self._place("video", self.video)
         self._build_instruments(layout)
         self._build_controls()
@@ -109,6 +115,8 @@ class DriveScreen(FloatLayout):
                 font_size="21sp",
             )
             widget.size_hint_x = 1
+            if one.topic == POSE:
+                self._places_told.append((widget, one))
         else:
             wanted = topic(one.topic).type
             if wanted not in kind.accepts:
@@ -118,6 +126,8 @@ class DriveScreen(FloatLayout):
                 )
             offered = {"card": True, "title": one.title}
             widget = kind(**{name: value for name, value in offered.items() if hasattr(kind, name) and value})
+            if one.title and hasattr(kind, "title"):
+                self._titled.append((widget, one))
         self.dashboard.bind(widget, one.topic)
         return widget
 
@@ -178,10 +188,13 @@ class DriveScreen(FloatLayout):
         self.dashboard.deliver(channel, post.value)
         if channel == "/robot/info":
             self._take_limits()
+        elif channel == OFFER:
+            self._name_sources()
 
     def enter(self) -> None:
         """Come onto the glass."""
         self._take_limits()
+        self._name_sources()
         self.dashboard.enter()
         self.tick()
 
@@ -201,7 +214,7 @@ class DriveScreen(FloatLayout):
         self.stick.state = "live" if session.may_drive else "disabled"
         mine = session.connected and session.control != "other"
         held = session.stop_phase == "stopped"
-        self.ids.home.disabled = held or not mine
+        self.ids.home.disabled = held or not mine or not session.offers("/task/go_home")
         status = session.feeds.latest("/task/status")
         paused = status is not None and status.state == "PAUSED"
         pause = self.ids.pause
@@ -212,8 +225,18 @@ class DriveScreen(FloatLayout):
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
         """A decoded camera frame; `rate` [Hz] and `latency` [s] are said on it, NaN for unknown."""
-        self.video.show_frame(picture.width, picture.height, picture.rgba)
+        self.video.show_frame(picture.width, picture.height, picture.rgba, picture.taken)
         self.video.rate, self.video.latency = rate, latency
+
+    def _name_sources(self) -> None:
+        """An instrument that shows a topic of another name than the usual one says which."""
+        offer = self.session.offer
+        for widget, one in self._titled:
+            source = offer.source(one.topic) if offer is not None else None
+            widget.title = f"{one.title} · {_brief(source)}" if source and source != one.topic else one.title
+        for readout, one in self._places_told:
+            by_wheels = offer is not None and offer.pose_by_odometry
+            readout.name = one.title.replace("Map", "Odom") if by_wheels else one.title
 
     # what the fingers do
 
@@ -244,3 +267,8 @@ class DriveScreen(FloatLayout):
         info, share = self.session.info, self.speed.maximum_speed / (self.session.info.max_speed or SPEED)
         self.stick.max_speed = self.speed.maximum_speed
         self.stick.max_yaw_rate = (info.max_yaw_rate or YAW_RATE) * (0.5 + 0.5 * min(1.0, share))
+
+
+def _brief(name: str) -> str:
+    """The end of a topic's name, as much as an instrument has room for."""
+    return name if len(name) <= LONGEST_NAME else f"…{name[1 - LONGEST_NAME :]}"

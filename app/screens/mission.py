@@ -359,12 +359,16 @@ class MissionScreen(FloatLayout):
         self.panel.tick()
         self.ids.undo.disabled = not self.session.mission.can_undo
         self.ids.redo.disabled = not self.session.mission.can_redo
-        self.ids.place_here.disabled = not self.session.connected
+        self.ids.place_here.disabled = not self.session.connected or not self._can_place()
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
         """A decoded camera frame; `rate` [Hz] and `latency` [s] are said on it, NaN for unknown."""
-        self.video.show_frame(picture.width, picture.height, picture.rgba)
+        self.video.show_frame(picture.width, picture.height, picture.rgba, picture.taken)
         self.video.rate, self.video.latency = rate, latency
+
+    def _can_place(self) -> bool:
+        offer = self.session.offer
+        return offer is None or offer.ours or not offer.rosapi or "/initialpose" in offer.topics
 
     # what the map shows
 
@@ -410,7 +414,7 @@ class MissionScreen(FloatLayout):
         bar, index = self.selection, int(self.map.selected)
         wanted: list[Widget] = []
         if self.mode == "place_robot":
-            bar.text = HINTS["place_robot"]
+            bar.text = HINTS["place_robot"] if self._can_place() else "It takes no /initialpose."
             wanted = [self.ids.place_cancel, self.ids.place_here]
         elif self.mode == "points" and 0 <= index < len(self.map.waypoints):
             bar.text = f"Point {index + 1} of {len(self.map.waypoints)}"

@@ -30,6 +30,9 @@ STATES = {
     "stored": ("Stored on the robot.", "ok"),
 }
 """State of the draft to its sentence and the role of its colour."""
+NO_TASKS = "It offers no tasks."
+NO_MISSIONS = "It stores no missions."
+NEITHER = "It stores no missions and offers no tasks."
 
 Builder.load_string("""
 <MissionPanel>:
@@ -311,10 +314,16 @@ class MissionPanel(BoxLayout):
         session = self._session
         self._reorder()
         mine = session.connected and session.control != "other"
-        self.tasks.state = "live" if mine else "disabled"
+        tasks, missions = session.offers("/task/start"), session.offers("/mission/set")
+        self.tasks.state = "live" if mine and tasks else "disabled"
+        if not tasks:
+            self.tasks.reason = NO_TASKS
         self.tasks.ready = bool(session.mission.draft.points)
         self.tasks.held = session.stop_phase == "stopped"
-        self._send.may_send = int(mine and session.mission.state == "draft")
+        self._send.may_send = int(mine and missions and session.mission.state == "draft")
+        if not missions:
+            self._send.note = NO_MISSIONS if tasks else NEITHER
+            self._send.role, self._send.icon = "muted", "block"
         state = session.feeds.state("/task/status")
         for figure in (self.next, self.lap, self.left):
             figure.state = state

@@ -17,7 +17,7 @@ from app import arrange
 from app.commands import Outcome
 from app.dashboard import Dashboard
 from app.feeds import Post
-from app.link import EVENT, OUTCOME
+from app.link import EVENT, OFFER, OUTCOME
 from app.screens.connect import THEMES
 from app.screens.placing import put
 from app.session import Session
@@ -40,10 +40,13 @@ CONTROLS = {
     "mine": ("person", "accent", "you have control", "you"),
     "free": ("lock_open", "text", "take control", "free"),
     "unknown": ("help", "muted", "control unknown", "unknown"),
+    "none": ("sports_esports", "muted", "no control to take", "no control"),
 }
 """Who has control to icon, role, words of the chip, and its words where there is little room."""
 BAR = ("back", "name", "mode", "battery", "link", "satellites", "gap", "control")
 """What the top bar holds, from left to right; a narrow one only the first five."""
+RAIL = ("drive", "mission", "topics", "control_nav", "record", "theme")
+"""Buttons of the navigation; elsewhere than on a phone the third from the end is in the bar."""
 Builder.load_string("""
 <Shell>:
     canvas.before:
@@ -181,12 +184,17 @@ class Shell(FloatLayout):
             self.ids[name] = self.ids[name].__self__
         self._said = ""
         self._banner = Banner(level="danger")
-        self._banner.bind(height=self._place_notices)
+        self._stop_banner = Banner(level="warn")
+        for banner in (self._banner, self._stop_banner):
+            banner.bind(height=self._place_notices)
+        self.ids.notices.bind(height=self._place_notices)
+        self._greeted = ""
         self._build_rail()
         self._dashboard = Dashboard(self.session.feeds)
         self._dashboard.bind(self.ids.battery, "/battery_state")
         self._dashboard.enter()
         self.session.listeners.append(self._hear)
+        self._greet()
         self.bind(size=self._arrange, pos=self._arrange)
         theme.bind(target=self._arrange)
         self._arrange()
@@ -206,6 +214,7 @@ class Shell(FloatLayout):
         entries: list[tuple[str, str, str, Callable[[], object]]] = [
             ("drive", "sports_esports", "Drive", lambda: self.app.show("drive")),
             ("mission", "map", "Mission", lambda: self.app.show("mission")),
+            ("topics", "data_object", "Topics", lambda: self.app.show("topics")),
             ("control_nav", "person", "Control", self.toggle_control),
             ("record", "fiber_manual_record", "Record", self.app.toggle_recording),
             ("theme", "light_mode", "Sunlight", self.app.next_theme),
@@ -272,24 +281,25 @@ class Shell(FloatLayout):
 
     def _arrange_rail(self, rect: arrange.Rect, dp: float) -> None:
         nav, tall = self.ids.nav, self.form == "tall"
-        buttons = [self.ids[name] for name in ("drive", "mission", "control_nav", "record", "theme")]
+        buttons = [self.ids[name] for name in RAIL]
         if not tall:
             buttons.remove(self.ids.control_nav)
         nav.clear_widgets()
-        step = rect.width / len(buttons) if tall else 72 * dp
+        step = rect.width / len(buttons) if tall else min(72 * dp, (rect.height - 24 * dp) / len(buttons))
+        high = min(64 * dp, step)
         for index, button in enumerate(buttons):
             nav.add_widget(button)
             button.framed = not tall
-            button.size = (min(step, 82 * dp), rect.height) if tall else (rect.width - 12 * dp, 64 * dp)
+            button.size = (min(step, 82 * dp), rect.height) if tall else (rect.width - 12 * dp, high)
             button.pos_hint = {}
             if tall:
                 button.pos = (rect.x + step * index + (step - button.width) / 2, rect.y)
             else:
-                low = index >= 2
+                low = index >= 3
                 y = (
                     rect.y + 12 * dp + (len(buttons) - 1 - index) * step
                     if low
-                    else rect.top - 12 * dp - 64 * dp - index * step
+                    else rect.top - 12 * dp - high - index * step
                 )
                 button.pos = (rect.x + 6 * dp, y)
 
@@ -308,10 +318,20 @@ class Shell(FloatLayout):
             screen.hear(channel, post)
         if channel == OUTCOME:
             self._show_outcome(post.value)
+        elif channel == OFFER:
+            self._greet()
         elif channel == EVENT:
             self.unsay(post.value.kind)
             if post.value.level == "alarm":
                 self.app.alarm(post.value)
+
+    def _greet(self) -> None:
+        """Say once what is missing on a robot that is not ours."""
+        offer = self.session.offer
+        if offer is not None and offer.sentence != self._greeted:
+            self._greeted = offer.sentence
+            if offer.sentence:
+                self.say(offer.sentence, "info", about="offer")
 
     def replay(self, post: Post) -> None:
         """An event that came before this frame was there."""
@@ -350,7 +370,8 @@ class Shell(FloatLayout):
         if self.stop.phase == "stopped" != self.session.stop_phase:
             for kind in ("stop", "task"):
                 self.unsay(kind)
-        self.stop.phase = self.session.stop_phase
+        self.stop.local, self.stop.phase = self.session.foreign, self.session.stop_phase
+        self._tick_stop()
         self._show_rail()
         for name, screen in self.screens.items():
             if name == self.screen:
@@ -371,9 +392,28 @@ class Shell(FloatLayout):
         if self._banner.parent is None:
             notices.add_widget(self._banner, index=len(notices.children))
 
+    def _tick_stop(self) -> None:
+        """What is known of a STOP that this handheld alone holds, for as long as it holds it."""
+        session, banner = self.session, self._stop_banner
+        text = session.local_stop.sentence(session.link.drive_topic is not None) if session.foreign else ""
+        banner.text = text or banner.text
+        banner.level = "ok" if session.stop_phase == "stopped" else "warn"
+        if text and banner.parent is None:
+            self.unsay("offer")
+            self.ids.notices.add_widget(banner)
+        elif not text and banner.parent is not None:
+            self.ids.notices.remove_widget(banner)
+
     def _tick_mode(self) -> None:
         self.robot_name = self.session.name
         status: ControlStatus | None = self.session.feeds.latest("/control/status")
+        if self.session.foreign and self.session.connected:
+            held = self.session.local_stop.latched
+            self.mode_text, (self.mode_icon, self.mode_role) = (
+                ("STOP" if held else "MANUAL"),
+                MODES["STOPPED" if held else "MANUAL"],
+            )
+            return
         if status is None or not self.session.connected:
             self.mode_text = "no link" if not self.session.connected else "—"
             self.mode_icon, self.mode_role = "signal_disconnected", "muted"
@@ -412,7 +452,12 @@ class Shell(FloatLayout):
     # what is asked
 
     def toggle_control(self) -> None:
-        """Take control, or give it up when it is ours."""
+        """Take control, or give it up when it is ours; a robot without any says so."""
+        if self.session.control == "none":
+            self.say(
+                "This robot knows no control: whoever pushes a stick drives it.", "info", about="control"
+            )
+            return
         if self.session.control == "mine":
             self.rest()
             self.session.release_control()
@@ -421,10 +466,15 @@ class Shell(FloatLayout):
 
     def _stop(self, *_: object) -> None:
         self.rest()
-        self.session.link.stop()
+        self.session.stop()
 
     def _release_stop(self, *_: object) -> None:
-        self.session.command("stop_release")
+        self.session.release_stop()
+
+    def back(self) -> bool:
+        """Back within the screen that is on the glass; False when it has nowhere to go back to."""
+        step = getattr(self.screens.get(self.screen), "back", None)
+        return bool(step is not None and step())
 
     def rest(self) -> None:
         """Every control of every screen lets go."""

@@ -1,15 +1,24 @@
-"""The messages of the socket, as typed immutable records, and the table of all of them by ROS name."""
+"""The messages of the socket, as typed immutable records, and the table of all of them by ROS name.
+
+The packages are made of ROS text by `python -m bridge.generate`; `additions.py`, `arrays.py`, `base.py` and
+`builtin_interfaces.py` are written by hand.
+"""
 
 from __future__ import annotations
 
 from bridge.msgs import (
+    action_msgs,
+    builtin_interfaces,
     diagnostic_msgs,
     geometry_msgs,
     nav_msgs,
     pilothouse_msgs,
+    rosapi_msgs,
     sensor_msgs,
     std_msgs,
+    std_srvs,
     tf2_msgs,
+    unique_identifier_msgs,
     vision_msgs,
 )
 from bridge.msgs.base import Msg
@@ -17,13 +26,18 @@ from bridge.msgs.base import Msg
 __all__ = ["TYPES", "Msg", "ros1_name"]
 
 _PACKAGES = (
+    builtin_interfaces,
     std_msgs,
     geometry_msgs,
     sensor_msgs,
     nav_msgs,
     diagnostic_msgs,
+    std_srvs,
     tf2_msgs,
     vision_msgs,
+    unique_identifier_msgs,
+    action_msgs,
+    rosapi_msgs,
     pilothouse_msgs,
 )
 
@@ -33,9 +47,9 @@ TYPES: dict[str, type[Msg]] = {
     for cls in vars(package).values()
     if isinstance(cls, type) and issubclass(cls, Msg) and cls.MSGTYPE
 }
-"""Every known message class by its ROS 1 name."""
+"""Every known message class by its ROS 1 name; services by their halves, actions by their thirds."""
 
 
 def ros1_name(name: str) -> str:
     """The ROS 1 form of a type name: `sensor_msgs/msg/Imu` and `sensor_msgs/Imu` both give `sensor_msgs/Imu`."""
-    return name.replace("/msg/", "/").replace("/srv/", "/")
+    return name.replace("/msg/", "/").replace("/srv/", "/").replace("/action/", "/")

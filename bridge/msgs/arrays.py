@@ -2,7 +2,7 @@
 
 ROS `float32[]` and `int8[]` fields hold hundreds of numbers; a list of Python floats costs ten times
 the memory and loses the width. In JSON they travel as plain lists in which `null` stands for a number
-that JSON cannot say (NaN, infinity); in CBOR as RFC 8746 little-endian typed arrays.
+that JSON cannot say (NaN, infinity); in CBOR as RFC 8746 little-endian typed arrays. `uint8[]` is `bytes`.
 """
 
 from __future__ import annotations
@@ -11,7 +11,18 @@ from array import array
 from collections.abc import Iterable
 from typing import Any, Self
 
-__all__ = ["ARRAYS", "Float32Array", "Float64Array", "Int8Array"]
+__all__ = [
+    "ARRAYS",
+    "Float32Array",
+    "Float64Array",
+    "Int8Array",
+    "Int16Array",
+    "Int32Array",
+    "Int64Array",
+    "UInt16Array",
+    "UInt32Array",
+    "UInt64Array",
+]
 
 _NAN = float("nan")
 
@@ -50,5 +61,51 @@ class Int8Array(_Typed):
     code = "b"
 
 
-ARRAYS: dict[int, type[_Typed]] = {85: Float32Array, 86: Float64Array, 72: Int8Array}
+class Int16Array(_Typed):
+    """ROS `int16[]`."""
+
+    code = "h"
+
+
+class Int32Array(_Typed):
+    """ROS `int32[]`."""
+
+    code = "i"
+
+
+class Int64Array(_Typed):
+    """ROS `int64[]`."""
+
+    code = "q"
+
+
+class UInt16Array(_Typed):
+    """ROS `uint16[]`."""
+
+    code = "H"
+
+
+class UInt32Array(_Typed):
+    """ROS `uint32[]`."""
+
+    code = "I"
+
+
+class UInt64Array(_Typed):
+    """ROS `uint64[]`."""
+
+    code = "Q"
+
+
+ARRAYS: dict[int, type[_Typed]] = {
+    69: UInt16Array,
+    70: UInt32Array,
+    71: UInt64Array,
+    72: Int8Array,
+    77: Int16Array,
+    78: Int32Array,
+    79: Int64Array,
+    85: Float32Array,
+    86: Float64Array,
+}
 """RFC 8746 tag of the little-endian typed array for each class."""

@@ -6,6 +6,7 @@ import math
 
 import msgspec
 
+from bridge.msgs.arrays import Float64Array
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, Quaternion, Twist, TwistWithCovariance
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import JointState
@@ -87,8 +88,8 @@ class WheelOdometry:
         return JointState(
             Header(Time.at(stamp), "base_link"),
             ["wheel_left_joint", "wheel_right_joint"],
-            list(self._angles),
-            list(self._speeds),
+            Float64Array(self._angles),
+            Float64Array(self._speeds),
         )
 
     def _covariance(self) -> list[float]:

@@ -97,6 +97,31 @@ def test_a_twist_that_is_not_allowed_is_forgotten(hand: Hand) -> None:
     assert hand.pass_time(0.3) == []
 
 
+def test_a_latched_slot_sends_rest_ten_times_a_second_whatever_is_wanted(hand: Hand) -> None:
+    hand.slot.want(AHEAD)
+    hand.pass_time(0.2)
+    hand.slot.latch(True)
+    assert hand.slot.due() == ZERO, "at once"
+    for alive in (True, False):  # a glass that hangs does not end it
+        hand.slot.want(AHEAD)
+        sent = hand.pass_time(3.0, alive=alive)
+        assert set(sent) == {ZERO}
+        assert 27 <= len(sent) <= 32
+    hand.slot.drop()
+    assert hand.slot.latched, "a lost link does not release it"
+
+
+def test_a_released_slot_waits_for_a_new_push(hand: Hand) -> None:
+    hand.slot.latch(True)
+    hand.slot.want(AHEAD)
+    hand.pass_time(0.5)
+    hand.slot.latch(False)
+    assert AHEAD not in hand.pass_time(1.0)
+    assert hand.pass_time(1.0) == []
+    hand.slot.want(AHEAD)
+    assert hand.pass_time(0.1)[0] == AHEAD
+
+
 def test_nothing_is_sent_before_the_stick_was_touched(hand: Hand) -> None:
     assert hand.pass_time(1.0) == []
 
@@ -299,6 +324,19 @@ def test_the_robots_own_status_confirms_stop() -> None:
 
     run(robot, what)
     assert robot.phases == ["sent", "no_reply", "accepted"]
+
+
+def test_a_stop_that_the_robot_has_no_service_for_is_given_up_without_a_word() -> None:
+    async def run() -> tuple[list[str], bool]:
+        robot = Robot(NotConnected("cut"))
+        commands = robot.commands()
+        asking = asyncio.create_task(commands.stop())
+        await asyncio.sleep(0.35)
+        commands.void_stop()
+        await asyncio.wait_for(asking, 1.0)
+        return [outcome.phase for outcome in robot.reports], commands.stopping
+
+    assert virtual.run(run()) == (["sent"], False)
 
 
 def test_stop_is_never_too_old() -> None:

@@ -192,6 +192,8 @@ def test_a_program_on_roslibpy_finds_what_it_expects(robot):
         check=False,
     )
     assert run.returncode == 0, run.stderr
-    expected = "Patrol-1 True True True nav_msgs/Odometry pilothouse_msgs/Command ['/pilothouse']"
+    expected = (
+        "Patrol-1 True True True nav_msgs/Odometry pilothouse_msgs/Command ['/pilothouse', '/client_1']"
+    )
     assert run.stdout.strip() == expected
     assert robot.heard.get(timeout=PATIENCE)[2] == Twist.planar(0.25, 0.0)

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import base64
-import json
-from contextlib import asynccontextmanager
 
-import cbor2
 import pytest
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
@@ -21,38 +18,8 @@ from bridge.msgs.pilothouse_msgs import CommandResponse, ControlStatus, Event, R
 from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header
 from bridge.server import BridgeServer
-from tests.bridge.wires import PATIENCE, Clock, Record, server, service, url
-
-
-class Peer:
-    """A foreign client: says JSON, hears JSON."""
-
-    def __init__(self, ws):
-        self.ws = ws
-
-    async def say(self, **op):
-        await self.ws.send(json.dumps(op))
-
-    async def hear(self):
-        async with asyncio.timeout(PATIENCE):
-            raw = await self.ws.recv()
-        return cbor2.loads(raw) if isinstance(raw, bytes) else json.loads(raw)
-
-    async def call(self, name, **more):
-        await self.say(op="call_service", service=name, **more)
-        return await self.hear()
-
-    async def settled(self):
-        """Everything said so far was heard, and nothing came back before this answer."""
-        answer = await self.call("/rosapi/nodes", id="settled")
-        assert answer["id"] == "settled", answer
-
-
-@asynccontextmanager
-async def peer(made, path="", **options):
-    options = {"compression": None, "proxy": None, "close_timeout": 0.1} | options
-    async with connect(url(made) + path, **options) as ws:
-        yield Peer(ws)
+from tests.bridge.peers import peer
+from tests.bridge.wires import Clock, Record, server, service, url
 
 
 async def test_a_subscriber_gets_what_is_published_from_then_on():
@@ -143,7 +110,10 @@ async def test_a_published_command_arrives_typed_with_its_session_and_stamp():
         {"op": "subscribe", "topic": "/nowhere"},
         {"op": "subscribe", "topic": "/odom", "type": "sensor_msgs/Imu"},
         {"op": "advertise", "topic": "/cmd_vel", "type": "std_msgs/String"},
-        {"op": "advertise_service", "service": "/mine", "type": "x"},
+        {"op": "advertise_service", "service": "/stop", "type": "std_srvs/Trigger"},
+        {"op": "advertise_action", "action": "/task", "type": "x/Y", "id": []},
+        {"op": "advertise", "topic": "/odom", "type": "nav_msgs/Odometry"},
+        {"op": "cancel_action_goal", "action": "/task", "id": "g"},
         {"op": "status", "level": "error", "msg": ""},
         {"op": "dance"},
         {"topic": "/odom"},

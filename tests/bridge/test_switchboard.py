@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from bridge.errors import BridgeError
+from bridge.errors import BridgeError, ProtocolError
+from bridge.lanes import Lane
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import Event, RobotInfo
-from bridge.switchboard import CAMERA_TOPIC, Switchboard
+from bridge.msgs.std_msgs import String
+from bridge.protocol import Subscribed
+from bridge.switchboard import CAMERA_TOPIC, MOST_TOPICS, Switchboard
 from bridge.topics import TOPICS
 
 
@@ -15,11 +18,15 @@ class Ear:
     def __init__(self):
         self.heard = []
 
-    def deliver(self, entry, message):
-        self.heard.append((entry.name, message.msg))
+    def deliver(self, stream, message):
+        self.heard.append((stream.topic, message.msg))
 
     def offer(self, frame):
         self.heard.append(frame)
+
+
+def want(board, ear, topic, type="", **wishes):
+    board.subscribe(ear, topic, Subscribed(topic, **wishes), type)
 
 
 @pytest.fixture
@@ -34,8 +41,8 @@ def board(demands):
 
 def test_a_message_reaches_who_subscribed_and_nobody_else(board):
     wants, other = Ear(), Ear()
-    board.subscribe(wants, "/odom")
-    board.subscribe(other, "/scan")
+    want(board, wants, "/odom")
+    want(board, other, "/scan")
     board.publish("/odom", Odometry())
     assert (wants.heard, other.heard) == ([("/odom", Odometry())], [])
 
@@ -44,7 +51,7 @@ def test_a_latched_topic_is_told_at_once_and_with_its_last_message_only(board):
     board.publish("/robot/info", RobotInfo(name="old"))
     board.publish("/robot/info", RobotInfo(name="new"))
     late = Ear()
-    board.subscribe(late, "/robot/info")
+    want(board, late, "/robot/info")
     assert [msg.name for _, msg in late.heard] == ["new"]
 
 
@@ -52,14 +59,14 @@ def test_a_latched_topic_is_told_at_once_and_with_its_last_message_only(board):
 def test_streams_and_events_are_not_kept_for_later(board, topic, msg):
     board.publish(topic, msg)
     late = Ear()
-    board.subscribe(late, topic)
+    want(board, late, topic)
     assert late.heard == []
 
 
 def test_demand_is_told_for_the_first_who_comes_and_the_last_who_leaves(board, demands):
     first, second = Ear(), Ear()
     for ear in (first, second):
-        board.subscribe(ear, "/odom")
+        want(board, ear, "/odom")
     for ear in (first, second, second):
         board.unsubscribe(ear, "/odom")
     assert demands == [("/odom", True), ("/odom", False)]
@@ -68,7 +75,7 @@ def test_demand_is_told_for_the_first_who_comes_and_the_last_who_leaves(board, d
 def test_watching_a_camera_counts_as_wanting_its_pictures(board, demands):
     watcher, subscriber = Ear(), Ear()
     board.watch(watcher, "front")
-    board.subscribe(subscriber, CAMERA_TOPIC)
+    want(board, subscriber, CAMERA_TOPIC)
     board.unwatch(watcher, "front")
     assert demands == [(CAMERA_TOPIC, True)]
     board.unsubscribe(subscriber, CAMERA_TOPIC)
@@ -86,3 +93,76 @@ def test_a_frame_reaches_who_watches_that_camera(board):
 def test_a_topic_outside_the_table_is_refused(board):
     with pytest.raises(BridgeError, match="There is no topic /nowhere in the table"):
         board.publish("/nowhere", Odometry())
+
+
+def test_clients_make_topics_and_they_vanish_with_the_last_who_needs_them(board, demands):
+    talker, ear = object(), Ear()
+    channel = board.advertise(talker, "/chatter", "std_msgs/msg/String")
+    want(board, ear, "/chatter")
+    board.pass_on(channel, String("hello"), talker, latch=False)
+    assert ear.heard == [("/chatter", String("hello"))]
+    board.unadvertise(talker, "/chatter")
+    assert board.channels["/chatter"].type == "std_msgs/String"
+    board.unsubscribe(ear, "/chatter")
+    assert "/chatter" not in board.channels
+    assert demands == []
+
+
+def test_a_subscriber_may_come_before_the_publisher(board):
+    ear = Ear()
+    want(board, ear, "/chatter", "std_msgs/String")
+    channel = board.advertise(None, "/chatter", "std_msgs/String")
+    board.pass_on(channel, String("hello"), None, latch=False)
+    assert ear.heard == [("/chatter", String("hello"))]
+
+
+def test_each_publishers_latched_message_is_told_and_forgotten_with_it(board):
+    for talker in ("a", "b"):
+        channel = board.advertise(talker, "/chatter", "std_msgs/String")
+        for text in ("old", talker):
+            board.pass_on(channel, String(text), talker, latch=True)
+    board.unadvertise("a", "/chatter")
+    late = Ear()
+    want(board, late, "/chatter")
+    assert late.heard == [("/chatter", String("b"))]
+
+
+def test_a_topic_needs_a_type(board):
+    with pytest.raises(ProtocolError, match="no topic /chatter here, and to make one its type must be told"):
+        want(board, Ear(), "/chatter")
+
+
+def test_a_topic_has_one_type(board):
+    board.advertise("a", "/chatter", "std_msgs/String")
+    with pytest.raises(ProtocolError, match="/chatter is std_msgs/String, not std_msgs/Bool"):
+        board.check("/chatter", "std_msgs/Bool")
+    board.check("/chatter", "std_msgs/msg/String")
+    board.check("/chatter", "*")
+    board.check("/chatter", None)
+
+
+def test_there_is_an_end_to_the_topics_of_clients(board):
+    for number in range(MOST_TOPICS):
+        board.advertise("a", f"/n{number}", "std_msgs/String")
+    with pytest.raises(ProtocolError, match="/more is one too many"):
+        board.advertise("a", "/more", "std_msgs/String")
+
+
+@pytest.mark.parametrize(
+    ("topic", "type", "lane", "keep"),
+    [
+        ("/odom", "", Lane.TELEMETRY, 1),
+        ("/events", "", Lane.EVENT, 0),
+        ("/robot/info", "", Lane.EVENT, 0),
+        ("/map", "", Lane.BULK, 1),
+        (CAMERA_TOPIC, "", Lane.BULK, 1),
+        ("/chatter", "std_msgs/String", Lane.TELEMETRY, 100),
+        ("/other/imu", "sensor_msgs/Imu", Lane.TELEMETRY, 1),
+        ("/other/picture", "sensor_msgs/Image", Lane.BULK, 1),
+        ("/strange", "my_msgs/Own", Lane.TELEMETRY, 100),
+    ],
+)
+def test_every_topic_has_its_lane(board, topic, type, lane, keep):
+    want(board, Ear(), topic, type)
+    channel = board.channels[topic]
+    assert (channel.lane, channel.keep) == (lane, keep)

@@ -25,6 +25,29 @@ class Clock:
         return self.time
 
 
+class FakeNetwork:
+    """A machine whose address and sleep the test decides."""
+
+    def __init__(self) -> None:
+        self.address: str | None = "192.168.1.20"
+        """From which it reaches everybody."""
+        self.kept = True
+        """It still has the address of a connection that was opened before."""
+        self.sleep = 0.0
+        """[s]"""
+        self.asked: list[tuple[str, int]] = []
+
+    def source(self, address: tuple[str, int]) -> str | None:
+        self.asked.append(address)
+        return self.address
+
+    def has(self, local: str) -> bool:
+        return self.kept
+
+    def slept(self) -> float:
+        return self.sleep
+
+
 class Record(list[Any]):
     """Keeps what it is called with and wakes who waits for it."""
 

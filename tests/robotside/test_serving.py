@@ -207,7 +207,22 @@ def test_a_state_directory_that_cannot_be_made_is_one_sentence_and_lets_go_of_th
             "serve --config robot.toml",
             "Settings files are not read yet, so 'robot.toml' would have no effect.",
         ),
-        ("serve --robot rover", "There is no robot 'rover'; simulated ones are written as sim:patrol."),
+        (
+            "serve --robot rover",
+            "There is no robot 'rover'; simulated ones are written as sim:patrol, others as ros:ws://192.168.1.7:9090.",
+        ),
+        (
+            "serve --robot ros:http://here",
+            "The address must be like ws://192.168.1.7:9090, not 'http://here'.",
+        ),
+        (
+            "serve --robot ros:",
+            "There is no robot 'ros:'; simulated ones are written as sim:patrol, others as ros:ws://192.168.1.7:9090.",
+        ),
+        (
+            "serve --robot ros:ws://here:9 --speed 2",
+            "A real robot moves in real time: --speed must be 1, not 2.",
+        ),
         ("serve --robot sim:rover", "There is no simulated robot 'rover'; there is patrol."),
         (
             "serve --port nine",

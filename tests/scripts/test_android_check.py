@@ -37,6 +37,24 @@ def test_a_file_of_the_handheld_that_would_be_left_behind_is_told(spec, tmp_path
         check.check_files(tmp_path, spec)
 
 
+def test_what_only_makes_the_messages_stays_at_home(spec, tmp_path):
+    names = (
+        "main.py",
+        "app/a.py",
+        "widgets/a.py",
+        "bridge/a.py",
+        "bridge/generate/a.py",
+        "bridge/definitions/a.txt",
+    )
+    for name in names:
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("")
+    assert {path.as_posix() for path in check.check_files(tmp_path, spec)} == set(names[:4])
+    spec["source.exclude_dirs"] = spec["source.exclude_dirs"].replace("bridge/generate, ", "")
+    with pytest.raises(check.Failed, match=r"carry bridge/generate/a\.py, which only a desktop needs"):
+        check.check_files(tmp_path, spec)
+
+
 def test_hidden_files_and_files_without_a_suffix_stay_out(spec, tmp_path):
     for name in ("main.py", ".secret", "LICENSE", "Makefile", "app/data.csv"):
         (tmp_path / name).parent.mkdir(exist_ok=True)

@@ -75,6 +75,27 @@ def test_the_finger_that_stopped_does_not_release(stage, stop):
     assert stop.heard == ["stop"]
 
 
+def test_a_stop_held_here_alone_can_be_released_unconfirmed_but_not_by_a_frightened_press(stage, stop):
+    stop.local, stop.phase = True, "no_answer"
+    finger = stage.touch(150, 40)
+    finger.touch_down()
+    stage.run_for(2.5)
+    assert stop.heard == ["stop"]
+    stage.run_for(0.7)
+    assert stop.heard == ["stop", "release"]
+    finger.touch_up()
+
+
+def test_a_stop_that_the_robot_owes_an_answer_to_is_not_released(stage, stop):
+    for local, phase in ((False, "no_answer"), (True, "sent"), (True, "ready")):
+        stop.local, stop.phase = local, phase
+        finger = stage.touch(150, 40)
+        finger.touch_down()
+        stage.run_for(4.0)
+        finger.touch_up()
+    assert stop.heard == ["stop"] * 3
+
+
 def test_rest_forgets_the_hold(stage, stop):
     stop.phase = "stopped"
     stage.touch(150, 40).touch_down()

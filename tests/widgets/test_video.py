@@ -53,6 +53,13 @@ def test_a_covering_picture_is_cut_at_the_sides(video):
     assert video.place_on_glass(0, 0)[0] < video.x
 
 
+def test_boxes_stay_in_their_places_when_the_picture_was_made_smaller_on_its_way(video):
+    video.show_frame(64, 48, FRAME)
+    before = video.place_on_glass(27, 14)
+    video.show_frame(32, 24, bytes(32 * 24 * 4), (64, 48))
+    assert video.place_on_glass(27, 14) == pytest.approx(before)
+
+
 def test_a_contained_picture_is_whole(video):
     video.fit = "contain"
     video.show_frame(64, 48, FRAME)

@@ -1,0 +1,90 @@
+"""STOP of a robot that has none of its own: zero speed is sent for as long as it is latched here, and odometry is the witness.
+
+Nothing here is sent; the link does that. This says what is known of it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from bridge.msgs.nav_msgs import Odometry
+
+__all__ = ["LocalStop"]
+
+STILL, UNTURNED = 0.02, 0.03
+"""A robot slower than this rests [m/s, rad/s]: odometry of real wheels trembles."""
+RESTS = 0.3
+"""So long its odometry must say so [s]."""
+BELIEVED = 1.0
+"""Odometry older than this says nothing of now [s]."""
+DOUBT = 1.0
+"""A STOP that odometry has not confirmed after this is unanswered [s]."""
+
+
+class LocalStop:
+    """What the operator may be told of a STOP that this handheld alone holds."""
+
+    def __init__(self, now: Callable[[], float]) -> None:
+        """`now` is our clock [s]."""
+        self._now = now
+        self._pressed_at = math.nan
+        self._heard_at = self._rests_since = math.nan
+        self._first_at = math.nan
+
+    @property
+    def latched(self) -> bool:
+        """It was pressed and not released."""
+        return not math.isnan(self._pressed_at)
+
+    def press(self) -> None:
+        """STOP was pressed; again while it is latched changes nothing."""
+        if not self.latched:
+            self._pressed_at, self._first_at = self._now(), math.nan
+
+    def release(self) -> None:
+        """It was held long enough."""
+        self._pressed_at = math.nan
+
+    def hear(self, odometry: Odometry, received: float) -> None:
+        """Odometry came at `received` [s], our clock. A speed that is not finite confirms nothing."""
+        linear, angular = odometry.twist.twist.linear, odometry.twist.twist.angular
+        speed = math.hypot(linear.x, linear.y, linear.z)
+        turning = math.hypot(angular.x, angular.y, angular.z)
+        self._heard_at = received
+        if math.isnan(self._first_at) and self.latched and received >= self._pressed_at:
+            self._first_at = received
+        if not (speed < STILL and turning < UNTURNED):
+            self._rests_since = math.nan
+        elif math.isnan(self._rests_since):
+            self._rests_since = received
+
+    @property
+    def _confirmed(self) -> bool:
+        """Odometry that came since the press, and is young, says that it rests."""
+        if math.isnan(self._rests_since) or math.isnan(self._first_at):
+            return False
+        rested = self._heard_at - max(self._rests_since, self._first_at)
+        return rested >= RESTS and self._now() - self._heard_at < BELIEVED
+
+    @property
+    def phase(self) -> str:
+        """As of a STOP button: `ready`, `sent`, `stopped` (odometry says at rest) or `no_answer`."""
+        if not self.latched:
+            return "ready"
+        if self._confirmed:
+            return "stopped"
+        return "sent" if self._now() - self._pressed_at < DOUBT else "no_answer"
+
+    def sentence(self, drives: bool) -> str:
+        """What is the case, for the operator; empty while it is not latched. `drives`: there is a topic to send on."""
+        if not self.latched:
+            return ""
+        if not drives:
+            return "This robot has no STOP of its own and no topic to drive it by: it cannot be stopped from here."
+        what = "This robot has no STOP of its own: zero speed is being sent."
+        if self._confirmed:
+            return f"{what} Its odometry says that it rests."
+        if not self._now() - self._heard_at < BELIEVED:
+            return f"{what} It tells no odometry, so nothing confirms that it rests."
+        return f"{what} Its odometry does not yet say that it rests."

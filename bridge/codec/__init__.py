@@ -1,0 +1,26 @@
+"""Messages to JSON and CBOR and back.
+
+JSON has no NaN and no infinity: both travel as `null`, which comes back as NaN. `uint8[]` travels as base64.
+In CBOR numbers keep their value, `uint8[]` is a byte string and number arrays are RFC 8746 typed arrays.
+
+Both shapes of ROS's times are understood. What is sent has those of ROS 1 (`secs`, `nsecs`), which servers of either
+kind take, and those of ROS 2 (`sec`, `nanosec`) where the receiver is known to want them.
+"""
+
+from __future__ import annotations
+
+from bridge.codec.binary import from_cbor, to_cbor
+from bridge.codec.reader import from_builtins, shown, to_builtins
+from bridge.codec.selection import select
+from bridge.codec.text import from_json, to_json
+
+__all__ = [
+    "from_builtins",
+    "from_cbor",
+    "from_json",
+    "select",
+    "shown",
+    "to_builtins",
+    "to_cbor",
+    "to_json",
+]

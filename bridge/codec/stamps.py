@@ -1,0 +1,67 @@
+"""Times as ROS 2 names them: `sec` and `nanosec` instead of ROS 1's `secs` and `nsecs`."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import msgspec
+
+from bridge.codec.fields import Field, fields_of, is_time
+from bridge.msgs import Msg
+
+__all__ = ["named_for_ros2", "renamer"]
+
+_NAMES = (("secs", "sec"), ("nsecs", "nanosec"))
+Renamer = Callable[[dict[str, Any]], None]
+"""Changes the names in a message's dict, in place."""
+
+
+def named_for_ros2(text: bytes, cls: type[Msg]) -> bytes:
+    """A `cls` as JSON text, its times named as in ROS 2."""
+    rename = renamer(cls)
+    if rename is None:
+        return text
+    if not _ambiguous(cls):
+        # A quote within a text is escaped, so that these bytes can be nothing but a key.
+        return text.replace(b'"secs":', b'"sec":').replace(b'"nsecs":', b'"nanosec":')
+    obj = msgspec.json.decode(text)
+    rename(obj)
+    return msgspec.json.encode(obj)
+
+
+@functools.lru_cache(maxsize=1024)
+def renamer(cls: type[Msg]) -> Renamer | None:
+    """What renames the times in a `cls` that was made a dict; None when it holds none."""
+    if is_time(cls):
+        return _rename_time
+    works = [
+        (field.key, field.array, found)
+        for field in fields_of(cls)
+        if field.type and (found := renamer(field.type))
+    ]
+    return functools.partial(_rename_fields, works) if works else None
+
+
+def _rename_time(obj: dict[str, Any]) -> None:
+    for old, new in _NAMES:
+        obj[new] = obj.pop(old)
+
+
+def _rename_fields(works: list[tuple[str, bool, Renamer]], obj: dict[str, Any]) -> None:
+    for key, array, rename in works:
+        for each in obj[key] if array else (obj[key],):
+            rename(each)
+
+
+@functools.lru_cache(maxsize=1024)
+def _ambiguous(cls: type[Msg]) -> bool:
+    """Something in a `cls` that is no time has a field of such a name, too."""
+    if is_time(cls):
+        return False
+    return any(_clashes(field) for field in fields_of(cls))
+
+
+def _clashes(field: Field) -> bool:
+    return field.key in ("secs", "nsecs") or (field.type is not None and _ambiguous(field.type))

@@ -1,0 +1,69 @@
+"""Messages to JSON text and back."""
+
+from __future__ import annotations
+
+import functools
+import typing
+from array import array
+from typing import Any, TypeVar
+
+import msgspec
+
+from bridge.codec.reader import from_builtins
+from bridge.codec.stamps import named_for_ros2
+from bridge.errors import ProtocolError
+from bridge.msgs import Msg
+
+__all__ = ["from_json", "to_json"]
+
+M = TypeVar("M", bound=Msg)
+
+
+def to_json(msg: Msg, ros2: bool = False) -> bytes:
+    """`msg` as JSON text in UTF-8; NaN and infinities become `null`. ProtocolError for what JSON cannot say.
+
+    With `ros2` times have ROS 2's names.
+    """
+    try:
+        text = _ENCODER.encode(msg)
+    except (UnicodeEncodeError, TypeError) as error:
+        raise ProtocolError(f"{msg.MSGTYPE} cannot be sent: {error}.") from error
+    return named_for_ros2(text, type(msg)) if ros2 else text
+
+
+def from_json(raw: bytes | str | msgspec.Raw, type: type[M]) -> M:
+    """The message in JSON text; missing fields take their defaults, `null` numbers become NaN.
+
+    ProtocolError names the field, its value and what is allowed.
+    """
+    try:
+        return typing.cast(M, _decoder(type).decode(raw))
+    except (msgspec.MsgspecError, OverflowError, UnicodeError, RecursionError):
+        return from_builtins(_loads(raw, type), type)
+
+
+def _enc_hook(obj: object) -> object:
+    if isinstance(obj, array):
+        return obj.tolist()
+    raise TypeError(f"{obj!r} has no JSON form")
+
+
+def _dec_hook(type: type[Any], obj: object) -> object:
+    if not isinstance(obj, list):
+        raise TypeError("not a list")
+    return type(obj)
+
+
+_ENCODER = msgspec.json.Encoder(enc_hook=_enc_hook)
+
+
+@functools.lru_cache(maxsize=1024)
+def _decoder(type: type[Msg]) -> msgspec.json.Decoder[Any]:
+    return msgspec.json.Decoder(type, dec_hook=_dec_hook)
+
+
+def _loads(raw: bytes | str | msgspec.Raw, type: type[Msg]) -> Any:
+    try:
+        return msgspec.json.decode(raw)
+    except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
+        raise ProtocolError(f"{type.MSGTYPE} is not JSON: {error}.") from error

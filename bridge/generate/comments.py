@@ -1,0 +1,73 @@
+"""The comments of a ROS text, which its parser passes over, by the name of the field or constant they belong to."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+
+__all__ = ["Comments", "read_comments", "without_comment"]
+
+_NAME = re.compile(r"\s*[\w/]+(?:<=\d+)?(?:\[[<=\d]*\])?\s+(\w+)")
+_UNQUOTED_TEXT = re.compile(r"\s*w?string\s+\w+\s*=\s*[^\s'\"]")
+
+
+@dataclass(slots=True)
+class Comments:
+    """What the comments of one part say."""
+
+    part: str = ""
+    """Of the whole: what stands first, apart from the first field by an empty line, and what follows the last."""
+    of: dict[str, str] = field(default_factory=dict)
+    """Of each field and constant by its name: what stands right above it, then what stands behind it."""
+
+
+def read_comments(text: str) -> Comments:
+    """The comments of one part's `text`.
+
+    A comment behind a field goes on in the indented comment lines below it. A comment that an empty line parts from the
+    next field is about the whole when it comes first, and about the next field otherwise.
+    """
+    found = Comments()
+    above: list[str] = []
+    last = ""
+    for line in text.splitlines():
+        code, comment = without_comment(line)
+        named = _NAME.match(code)
+        if named:
+            last = named[1]
+            found.of[last] = _joined([*above, *([comment] if comment is not None else [])])
+            above = []
+        elif comment is None:
+            if above and not found.of and not found.part:
+                found.part, above = _joined(above), []
+            last = ""
+        elif last and line[:1].isspace() and not above:
+            found.of[last] = _joined([found.of[last], comment])
+        else:
+            above.append(comment)
+            last = ""
+    if above:
+        found.part = _joined([found.part, *above])
+    return found
+
+
+def without_comment(line: str) -> tuple[str, str | None]:
+    """`line` before its `#` and what follows that; None without one. A `#` within quotes is none.
+
+    Neither is one in an unquoted text constant, which goes to the end of its line.
+    """
+    if _UNQUOTED_TEXT.match(line):
+        return line, None
+    quote = ""
+    for index, letter in enumerate(line):
+        if quote:
+            quote = "" if letter == quote and line[index - 1] != "\\" else quote
+        elif letter == "#":
+            return line[:index], line[index + 1 :].removeprefix(" ").rstrip()
+        elif letter in "'\"":
+            quote = letter
+    return line, None
+
+
+def _joined(lines: list[str]) -> str:
+    return "\n".join(lines).strip("\n")

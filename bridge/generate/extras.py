@@ -1,0 +1,58 @@
+"""What our own classes have beside their ROS text: methods, names that are no ROS constants, defaults, ancestry.
+
+None of it changes what travels. Types that are not named here are made by their text alone.
+"""
+
+from __future__ import annotations
+
+__all__ = ["ALSO", "BASES", "DEFAULTS", "EXTENDS"]
+
+BASES = {
+    "geometry_msgs/Quaternion": "Quaternion",
+    "geometry_msgs/Twist": "Twist",
+}
+"""Classes with methods, by the name of their base class in `bridge.msgs.additions`."""
+
+EXTENDS = {
+    "pilothouse_msgs/StartTaskRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/StartTaskResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/RunTaskGoal": "pilothouse_msgs/StartTaskRequest",
+    "pilothouse_msgs/RunTaskFeedback": "pilothouse_msgs/TaskProgress",
+    "pilothouse_msgs/SetMissionRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/SetMissionResponse": "pilothouse_msgs/CommandResponse",
+}
+"""Classes that begin with all fields of another one, whose subclass they are."""
+
+ALSO: dict[str, dict[str, tuple[str, ...]]] = {
+    "std_msgs": {"bridge.msgs.builtin_interfaces": ("Duration", "Time")},
+    "geometry_msgs": {"bridge.msgs.additions": ("zeros36",)},
+    "pilothouse_msgs": {"bridge.msgs.additions": ("LONGEST_DWELL", "MOST_LAPS", "MOTIONS")},
+}
+"""Names that a package has from elsewhere."""
+
+DEFAULTS = {
+    "pilothouse_msgs/RobotInfo": dict.fromkeys(("latitude", "longitude", "camera_fov"), "math.nan"),
+    "pilothouse_msgs/Waypoint": {"yaw": "math.nan"},
+    "pilothouse_msgs/TaskProgress": dict.fromkeys(("progress", "distance_to_next", "time_left"), "math.nan"),
+    "pilothouse_msgs/Event": {"position": "Point(math.nan, math.nan, math.nan)"},
+    "pilothouse_msgs/Bumper": {"bearing": "math.nan"},
+    "pilothouse_msgs/CommandRequest": {"stamp": "math.nan"},
+    "pilothouse_msgs/StartTaskRequest": {"stamp": "math.nan"},
+    "pilothouse_msgs/SetMissionRequest": {"stamp": "math.nan"},
+    "pilothouse_msgs/RunTaskGoal": {"stamp": "math.nan"},
+    "pilothouse_msgs/RunTaskFeedback": dict.fromkeys(
+        ("progress", "distance_to_next", "time_left"), "math.nan"
+    ),
+    "sensor_msgs/BatteryState": {
+        **dict.fromkeys(
+            ("voltage", "temperature", "current", "charge", "capacity", "design_capacity", "percentage"),
+            "math.nan",
+        ),
+        "present": "True",
+    },
+    "sensor_msgs/CompressedImage": {"format": '"jpeg"'},
+    "sensor_msgs/NavSatFix": dict.fromkeys(("latitude", "longitude", "altitude"), "math.nan"),
+    "sensor_msgs/NavSatStatus": {"service": "1"},
+    "sensor_msgs/Range": {"range": "math.nan"},
+}
+"""What a field is when nobody says, as Python, where ROS's zero would be taken for a measurement."""

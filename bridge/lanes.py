@@ -1,0 +1,152 @@
+"""What waits to be sent to one client, so that a slow one costs memory for a few messages a topic and no more."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Callable
+from enum import IntEnum
+
+from bridge.outgoing import Form, Outgoing
+from bridge.protocol import Subscribed
+
+__all__ = ["MOST_BYTES", "MOST_FRAMES", "Lane", "Lanes", "Stream"]
+
+MOST_FRAMES = 256
+"""Frames that may wait in order in one lane; a client for whom more wait does not read."""
+MOST_BYTES = 8_388_608
+"""Bytes that may wait in order in one lane."""
+LONGEST = {2: 100, 3: 100, 4: 4}
+"""How many messages of one topic may wait at most, whatever its `queue_length`, by lane."""
+PATIENCE = 8
+"""After so many samples one message of the bulk lane goes out before the next."""
+
+
+class Lane(IntEnum):
+    """What goes first when not everything can go."""
+
+    CONTROL = 0
+    """Answers about STOP and control."""
+    REPLY = 1
+    """Other answers, calls and goals to carry out, remarks."""
+    EVENT = 2
+    """What happens once or is latched: must arrive, and in order."""
+    TELEMETRY = 3
+    """Samples; the newest counts."""
+    BULK = 4
+    """Maps and pictures; the newest counts, and they are large."""
+
+
+class Stream:
+    """One client's delivery of one topic."""
+
+    __slots__ = ("due", "form", "gone", "heavy", "lane", "ordered", "period", "topic", "waiting")
+
+    def __init__(self, topic: str, lane: Lane, wanted: Subscribed, keep: int = 1) -> None:
+        """`keep` is how many messages may wait when the client does not say; 0 all, in the lane's own order."""
+        self.topic = topic
+        self.lane = lane
+        self.due = -math.inf
+        """When the next message may go out [s], the loop's clock."""
+        self.gone = False
+        """Nothing more is to be sent."""
+        self.waiting: deque[Outgoing] = deque()
+        self.want(wanted, keep)
+
+    def want(self, wanted: Subscribed, keep: int = 1) -> None:
+        """What the client wants from now on."""
+        self.form = Form.of(wanted)
+        self.period = wanted.period
+        """Shortest time between two messages [s]."""
+        self.ordered = keep == 0 and wanted.period == 0 and wanted.queue == 0
+        """Every message goes out, in order with those of other topics."""
+        reduction = wanted.reduction
+        self.heavy = reduction is not None and self.lane is Lane.BULK
+        """Making less of a message takes long."""
+        length = min(wanted.queue or max(1, keep), LONGEST[self.lane])
+        self.waiting = deque(self.waiting, maxlen=length)
+
+
+class Lanes:
+    """Queues for what must arrive in order, and for each topic a few places, where the newest wins."""
+
+    def __init__(self) -> None:
+        self._frames: tuple[deque[bytes], ...] = tuple(deque() for _ in Lane)
+        self._bytes = [0] * len(Lane)
+        self._streams: tuple[dict[Stream, None], ...] = tuple({} for _ in Lane)
+        self._passed = 0
+        self.held = False
+        """The next message is due and too large for what room there was when last asked."""
+
+    def put(self, lane: Lane, frame: bytes) -> bool:
+        """Queue a frame that must not be lost; False when too many wait in this lane already."""
+        frames = self._frames[lane]
+        if len(frames) >= MOST_FRAMES or (frames and self._bytes[lane] + len(frame) > MOST_BYTES):
+            return False
+        frames.append(frame)
+        self._bytes[lane] += len(frame)
+        return True
+
+    def offer(self, stream: Stream, message: Outgoing) -> None:
+        """Have a message wait; when its topic has no place left, the oldest is forgotten."""
+        stream.waiting.append(message)
+        self._streams[stream.lane][stream] = None
+
+    def forget(self, stream: Stream) -> None:
+        """Nothing of this topic is wanted any more."""
+        stream.gone = True
+        stream.waiting.clear()
+        self._streams[stream.lane].pop(stream, None)
+
+    def blocked(self, lane: Lane) -> bool:
+        """Whether frames wait in this lane, behind which others must stand."""
+        return bool(self._frames[lane])
+
+    def take(self, now: float, fits: Callable[[int], bool] = lambda _: True) -> bytes | None:
+        """The next frame to send at `now` [s]; None when nothing is due, or the next is `held`.
+
+        `fits` tells whether there is room for so many bytes. ProtocolError when the next cannot be encoded.
+        """
+        self.held = False
+        for lane in (Lane.CONTROL, Lane.REPLY, Lane.EVENT):
+            frames = self._frames[lane]
+            if frames:
+                if not fits(len(frames[0])):
+                    self.held = True
+                    return None
+                self._bytes[lane] -= len(frames[0])
+                return frames.popleft()
+        order = (Lane.EVENT, Lane.TELEMETRY, Lane.BULK)
+        if self._passed >= PATIENCE:
+            order = (Lane.EVENT, Lane.BULK, Lane.TELEMETRY)
+        for lane in order:
+            stream = next((stream for stream in self._streams[lane] if stream.due <= now), None)
+            if stream is not None:
+                return self._next(stream, now, fits)
+        return None
+
+    def delay(self, now: float) -> float | None:
+        """Seconds until something is due; None when nothing waits."""
+        if any(self._frames):
+            return 0.0
+        dues = [stream.due for streams in self._streams for stream in streams]
+        return max(0.0, min(dues) - now) if dues else None
+
+    def _next(self, stream: Stream, now: float, fits: Callable[[int], bool]) -> bytes | None:
+        try:
+            frame = stream.waiting[0].frame(stream.form)
+            self.held = not fits(len(frame))
+        finally:
+            if not self.held:
+                self._sent(stream, now)
+        return None if self.held else frame
+
+    def _sent(self, stream: Stream, now: float) -> None:
+        stream.waiting.popleft()
+        streams = self._streams[stream.lane]
+        del streams[stream]
+        if stream.waiting:
+            streams[stream] = None
+        stream.due = now + stream.period
+        passed = stream.lane is Lane.TELEMETRY and bool(self._streams[Lane.BULK])
+        self._passed = self._passed + 1 if passed else 0

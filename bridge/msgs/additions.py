@@ -1,0 +1,87 @@
+"""What message classes have that no ROS text can say: methods, in base classes without fields, and other names.
+
+`bridge/generate/extras.py` says which class is made with which of these.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Self
+
+from bridge.msgs.base import Msg
+
+if TYPE_CHECKING:
+    from bridge.msgs.geometry_msgs import Vector3
+
+__all__ = ["LONGEST_DWELL", "MOST_LAPS", "MOTIONS", "Quaternion", "Twist", "zeros36"]
+
+MOTIONS = ("loop", "random", "intermittent")
+"""In what order and with which pauses a mission's points are visited."""
+LONGEST_DWELL = 600.0
+"""Longest stay at a point in intermittent motion [s]."""
+MOST_LAPS = 999
+
+
+def zeros36() -> list[float]:
+    """An empty 6 x 6 covariance, row by row."""
+    return [0.0] * 36
+
+
+class Quaternion(Msg, frozen=True, gc=False):
+    """A quaternion's angles."""
+
+    if TYPE_CHECKING:
+        x: float
+        y: float
+        z: float
+        w: float
+
+    @property
+    def roll(self) -> float:
+        """Rotation about x [rad], -pi to pi."""
+        x, y, z, w = self.x, self.y, self.z, self.w
+        return math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+
+    @property
+    def pitch(self) -> float:
+        """Rotation about y [rad], -pi/2 to pi/2; positive is nose down (REP-103)."""
+        return math.asin(max(-1.0, min(1.0, 2 * (self.w * self.y - self.z * self.x))))
+
+    @property
+    def yaw(self) -> float:
+        """Rotation about z [rad], -pi to pi; 0 is east, anticlockwise."""
+        x, y, z, w = self.x, self.y, self.z, self.w
+        return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+    @classmethod
+    def from_yaw(cls, yaw: float) -> Self:
+        """The level orientation that points to `yaw` [rad]."""
+        return cls(0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
+
+    @classmethod
+    def from_rpy(cls, roll: float, pitch: float, yaw: float) -> Self:
+        """The orientation after turning by roll, pitch and yaw [rad] about fixed x, y and z."""
+        cr, sr = math.cos(roll / 2), math.sin(roll / 2)
+        cp, sp = math.cos(pitch / 2), math.sin(pitch / 2)
+        cy, sy = math.cos(yaw / 2), math.sin(yaw / 2)
+        return cls(
+            sr * cp * cy - cr * sp * sy,
+            cr * sp * cy + sr * cp * sy,
+            cr * cp * sy - sr * sp * cy,
+            cr * cp * cy + sr * sp * sy,
+        )
+
+
+class Twist(Msg, frozen=True, gc=False):
+    """A twist of a ground robot."""
+
+    if TYPE_CHECKING:
+        linear: Vector3
+        angular: Vector3
+
+    @classmethod
+    def planar(cls, forward: float, turn: float) -> Self:
+        """A ground robot's twist: `forward` [m/s] along x and `turn` [rad/s] about z."""
+        from bridge.msgs.geometry_msgs import Vector3
+
+        return cls(Vector3(forward), Vector3(0.0, 0.0, turn))

@@ -1,0 +1,171 @@
+"""Messages on their way out: encoded and put into WebSocket frames once for all who want them in the same form."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import msgspec
+from msgspec import Raw
+
+from bridge.codec import select, to_cbor, to_json
+from bridge.errors import ProtocolError
+from bridge.msgs import Msg
+from bridge.msgs.std_msgs import Time
+from bridge.protocol import Op, Reduction, Subscribed, encode, split, to_png
+from bridge.rosbytes import serialize
+
+__all__ = ["Form", "Outgoing", "Reduce", "binary_frame", "ping_frame", "said", "text_frame"]
+
+Reduce = Callable[[Msg, Reduction], Msg]
+"""Makes less of a message; itself where nothing can be made less. Does not look at `Reduction.fields`."""
+
+_TEXT, _BINARY, _PING = 0x81, 0x82, 0x89
+_numbers = itertools.count(1)
+
+
+class Form(NamedTuple):
+    """In what form a message goes out: all that decides over its bytes."""
+
+    name: str
+    """The topic as the client wrote it."""
+    compression: str = "none"
+    """One of `bridge.protocol.COMPRESSIONS`."""
+    fragment_size: int | None = None
+    """Longest text frame [characters]; None for no end."""
+    reduction: Reduction | None = None
+    """How much of it goes out; None for all."""
+    ros2: bool = False
+    """Times are named as in ROS 2."""
+
+    @classmethod
+    def of(cls, wanted: Subscribed) -> Form:
+        """What a client asked for."""
+        return cls(wanted.name, wanted.compression, wanted.fragment_size, wanted.reduction, wanted.ros2)
+
+
+def text_frame(text: bytes) -> bytes:
+    """`text` as one text message of a server."""
+    return _head(_TEXT, len(text)) + text
+
+
+def binary_frame(data: bytes) -> bytes:
+    """`data` as one binary message of a server."""
+    return _head(_BINARY, len(data)) + data
+
+
+def ping_frame(content: bytes) -> bytes:
+    """A server's ping with up to 125 bytes in it."""
+    return _head(_PING, len(content)) + content
+
+
+def said(op: Op, size: int | None = None) -> bytes:
+    """An operation as frames of at most `size` characters of it each; ProtocolError when it cannot be encoded."""
+    return _cut(encode(op), size)
+
+
+class Outgoing:
+    """One published message; encoded when first needed and once per form, however many clients want it."""
+
+    __slots__ = ("_bodies", "_frames", "_lesser", "_now", "_reduce", "msg", "topic")
+
+    def __init__(
+        self,
+        topic: str,
+        msg: Msg | Raw,
+        reduce: Reduce | None = None,
+        now: Callable[[], float] = float,
+    ) -> None:
+        """`msg` as Raw is JSON text of a type that is not known; it can be passed on, but not as `cbor-raw`.
+
+        `now` is the operators' clock [s].
+        """
+        self.topic = topic
+        self.msg = msg
+        self._reduce = reduce
+        self._now = now
+        self._frames: dict[Form, bytes] = {}
+        self._bodies: dict[tuple[Reduction | None, bool], bytes] | None = None
+        self._lesser: dict[Reduction, Msg | Raw] | None = None
+
+    def frame(self, form: Form) -> bytes:
+        """The message in WebSocket frames; ProtocolError when it cannot be encoded."""
+        frame = self._frames.get(form)
+        if frame is None:
+            frame = self._frames[form] = self._encode(form)
+        return frame
+
+    def lesser(self, reduction: Reduction | None) -> Msg | Raw:
+        """As much of the message as is wanted; ProtocolError when it has no such fields."""
+        if reduction is None or isinstance(self.msg, Raw):
+            return self.msg
+        if self._lesser is None:
+            self._lesser = {}
+        found = self._lesser.get(reduction)
+        if found is None:
+            found = self.msg if self._reduce is None else self._reduce(self.msg, reduction)
+            if reduction.fields is not None:
+                found = select(found, reduction.fields)
+            self._lesser[reduction] = found
+        return found
+
+    def _encode(self, form: Form) -> bytes:
+        if form.compression == "cbor":
+            return self._cbor(form, _plain(self.lesser(form.reduction)))
+        if form.compression == "cbor-raw":
+            return self._cbor(form, self._bytes_of_ros(form))
+        body = self._body(form)
+        if form.compression == "png":
+            return _cut(encode(to_png(b"".join((_beginning(form.name), body, b"}")))), form.fragment_size)
+        beginning = _beginning(form.name)
+        if form.fragment_size is not None:
+            return _cut(b"".join((beginning, body, b"}")), form.fragment_size)
+        return b"".join((_head(_TEXT, len(beginning) + len(body) + 1), beginning, body, b"}"))
+
+    def _body(self, form: Form) -> bytes:
+        key = (form.reduction, form.ros2)
+        if self._bodies is None:
+            self._bodies = {}
+        body = self._bodies.get(key)
+        if body is None:
+            msg = self.lesser(form.reduction)
+            body = self._bodies[key] = bytes(msg) if isinstance(msg, Raw) else to_json(msg, form.ros2)
+        return body
+
+    def _cbor(self, form: Form, msg: object) -> bytes:
+        return binary_frame(to_cbor({"op": "publish", "topic": form.name, "msg": msg}, form.ros2))
+
+    def _bytes_of_ros(self, form: Form) -> dict[str, Any]:
+        msg = self.lesser(form.reduction)
+        if isinstance(msg, Raw):
+            raise ProtocolError(
+                f"The type of {form.name} is not known here, so it cannot be sent as cbor-raw."
+            )
+        now = Time.at(self._now())
+        return {"secs": now.secs, "nsecs": now.nsecs, "bytes": serialize(msg, cdr=form.ros2)}
+
+
+def _plain(msg: Msg | Raw) -> object:
+    return msgspec.json.decode(msg) if isinstance(msg, Raw) else msg
+
+
+@functools.lru_cache(maxsize=1024)
+def _beginning(name: str) -> bytes:
+    return b'{"op":"publish","topic":' + msgspec.json.encode(name) + b',"msg":'
+
+
+def _cut(text: bytes, size: int | None) -> bytes:
+    if size is None:
+        return text_frame(text)
+    return b"".join(text_frame(each) for each in split(text, size, f"fragment:{next(_numbers)}"))
+
+
+def _head(kind: int, length: int) -> bytes:
+    """The head of a frame that is not masked, as RFC 6455, 5.2 has it."""
+    if length < 126:
+        return bytes((kind, length))
+    if length < 65536:
+        return bytes((kind, 126)) + length.to_bytes(2, "big")
+    return bytes((kind, 127)) + length.to_bytes(8, "big")

@@ -1,0 +1,100 @@
+"""From frames to operations: text, text in a binary frame, CBOR, several at once, in fragments, in a picture."""
+
+from __future__ import annotations
+
+from bridge.errors import ProtocolError
+from bridge.protocol.fragments import Fragments
+from bridge.protocol.names import wrong
+from bridge.protocol.ops import BinaryPublish, Fragment, Op, Png
+from bridge.protocol.png import pixels
+from bridge.protocol.wire import parse, parse_binary, parse_each
+
+__all__ = ["Arrival", "Arrivals"]
+
+Arrival = Op | BinaryPublish | ProtocolError
+"""An operation, or what was wrong with one."""
+_PACKED = {Fragment, Png}
+
+
+class Arrivals:
+    """What comes over one connection. Bounded: by bytes in each frame, in all unfinished fragments, in a picture."""
+
+    def __init__(self, limit_bytes: int, *, most: int = 4, lifetime: float = 10.0) -> None:
+        """`most` texts may be unfinished at a time, each for `lifetime` [s] after its last fragment."""
+        self._limit = limit_bytes
+        self._lost: list[ProtocolError] = []
+        self._fragments = Fragments(limit_bytes, most, lifetime, given_up=self._lost.append)
+
+    @property
+    def held(self) -> int:
+        """What waits for its other fragments [byte]."""
+        return self._fragments.held
+
+    def take(self, frame: str | bytes, now: float) -> list[Arrival]:
+        """What is in a frame that came at `now` [s], in its order. Fragments and pictures give what they held, once whole."""
+        if len(frame) > self._limit:
+            return [ProtocolError(f"A frame may have at most {self._limit} bytes, not {len(frame)}.")]
+        if isinstance(frame, bytes) and frame[:1] > b"\x7f":  # a CBOR map begins so, JSON text never does
+            return [_binary(frame)]
+        try:
+            op = parse(frame)
+        except ProtocolError:
+            found = parse_each(frame)
+        else:
+            if type(op) not in _PACKED:
+                return [op]
+            found = [op]
+        return _Unpacking(self._limit, self._fragments, self._lost, now).unpacked(found)
+
+    def expire(self, now: float) -> list[ProtocolError]:
+        """What is given up at `now` [s] because the rest did not come. `take` tells it with the next fragment anyway."""
+        self._fragments.expire(now)
+        lost, self._lost[:] = list(self._lost), []
+        return lost
+
+
+class _Unpacking:
+    """One frame being unpacked. A picture may stand in fragments, and nothing else within another."""
+
+    def __init__(self, limit: int, fragments: Fragments, lost: list[ProtocolError], now: float) -> None:
+        self._limit = limit
+        self._left = limit
+        self._fragments = fragments
+        self._lost = lost
+        self._now = now
+
+    def unpacked(self, found: list[Op | ProtocolError], within: type[Op] | None = None) -> list[Arrival]:
+        arrivals: list[Arrival] = []
+        for each in found:
+            try:
+                if isinstance(each, Fragment):
+                    arrivals += self._fragment(each, within)
+                elif isinstance(each, Png):
+                    arrivals += self._picture(each, within)
+                else:
+                    arrivals.append(each)
+            except ProtocolError as error:
+                arrivals.append(error)
+            arrivals += self._lost
+            self._lost.clear()
+        return arrivals
+
+    def _fragment(self, op: Fragment, within: type[Op] | None) -> list[Arrival]:
+        if within is not None:
+            raise wrong(op, "A fragment cannot stand in a fragment or a png.")
+        text = self._fragments.add(op, self._now)
+        return [] if text is None else self.unpacked(parse_each(text), Fragment)
+
+    def _picture(self, op: Png, within: type[Op] | None) -> list[Arrival]:
+        if within is Png:
+            raise wrong(op, "A png cannot stand in a png.")
+        text = pixels(op, self._left)
+        self._left -= len(text)
+        return self.unpacked(parse_each(text), Png)
+
+
+def _binary(frame: bytes) -> BinaryPublish | ProtocolError:
+    try:
+        return parse_binary(frame)
+    except ProtocolError as error:
+        return error

@@ -1,0 +1,292 @@
+"""What a client remembers about its server, without I/O."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+import msgspec
+from msgspec import UNSET, Raw
+
+from bridge.codec import shown
+from bridge.msgs import Msg
+from bridge.protocol.arrivals import Arrival, Arrivals
+from bridge.protocol.names import absolute, checked_id, ros2_name, service_and_id, wrong
+from bridge.protocol.ops import (
+    ActionFeedback,
+    ActionResult,
+    Advertise,
+    AdvertiseAction,
+    AdvertiseService,
+    CallService,
+    CancelActionGoal,
+    Id,
+    Op,
+    SendActionGoal,
+    ServiceResponse,
+    SetLevel,
+    Subscribe,
+    Unadvertise,
+    UnadvertiseAction,
+    UnadvertiseService,
+    Unsubscribe,
+)
+from bridge.protocol.pending import Answer, Calls, Feedback, Goals, Result
+
+__all__ = ["ClientSession", "Given", "Provided", "Served", "Subscription"]
+
+AnyOp = TypeVar("AnyOp", bound=Op)
+LARGEST = 32 * 1024 * 1024
+"""The largest frame, and the most that may wait in fragments [byte]."""
+MOST_CALLS = 1000
+"""So many calls may wait for their answer."""
+MOST_GOALS = 1000
+"""So many goals may be under way, and as many be given to us."""
+
+
+@dataclass(frozen=True, slots=True)
+class Subscription:
+    """One subscription of a client, remembered over reconnects."""
+
+    op: Subscribe
+    type: type[Msg]
+    callback: Callable[[Any, float], object]
+    """Takes the message and when it was received [s], the client's clock."""
+
+
+@dataclass(frozen=True, slots=True)
+class Served:
+    """One service that a client answers, remembered over reconnects."""
+
+    op: AdvertiseService
+    call: Callable[[CallService], object]
+    """Takes the call; the answer goes out with its `id` and `service`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Provided:
+    """One action that a client carries goals out of, remembered over reconnects."""
+
+    op: AdvertiseAction
+    start: Callable[[SendActionGoal], object]
+    """Takes the goal; what becomes of it goes out with its `id` and `action`."""
+    cancel: Callable[[Id], object]
+    """Takes the id of a goal that is taken back, or whose sender can no longer be told."""
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """A goal that the server gave to a client."""
+
+    op: SendActionGoal
+    provided: Provided
+
+
+class ClientSession:
+    """What a client remembers.
+
+    Its subscriptions and what it advertises for ever, its calls and goals until answered or until the connection is lost.
+    """
+
+    def __init__(self, *, limit_bytes: int = LARGEST) -> None:
+        """`limit_bytes` bounds a frame, what waits in fragments, and what is unpacked of one frame [byte]."""
+        self.subscriptions: dict[str, dict[Id, Subscription]] = {}
+        """By topic and id."""
+        self.advertised: dict[str, Advertise] = {}
+        """By topic."""
+        self.services: dict[str, Served] = {}
+        """By absolute name."""
+        self.actions: dict[str, Provided] = {}
+        """By absolute name."""
+        self.given: dict[Id, Given] = {}
+        """Goals to carry out, by the id that the server gave them."""
+        self.level: str | None = None
+        """Which remarks the server is asked for on a new connection; None for not asking."""
+        self.ros2 = False
+        """The server's types are spelled `pkg/msg/Type`; what is given out to be sent is spelled so then."""
+        self.calls = Calls("call", MOST_CALLS)
+        """Calls until answered."""
+        self.goals = Goals("goal", MOST_GOALS)
+        """Goals of ours until the server says what became of them."""
+        self._limit = limit_bytes
+        self._arrivals = Arrivals(limit_bytes)
+        self._numbers = itertools.count(1)
+
+    def receive(self, frame: str | bytes, now: float) -> list[Arrival]:
+        """The operations in a frame that came at `now` [s], any clock that only goes forward; never raises.
+
+        What is wrong stands among them as a ProtocolError. Fragments and pictures are unpacked.
+        """
+        return self._arrivals.take(frame, now)
+
+    def subscribe(
+        self, op: Subscribe, type: type[Msg], callback: Callable[[Any, float], object]
+    ) -> tuple[Subscribe, Unsubscribe]:
+        """Remember a subscription; gives what to send now and what to send at its end."""
+        named = msgspec.structs.replace(op, id=f"subscribe:{op.topic}:{next(self._numbers)}")
+        self.subscriptions.setdefault(op.topic, {})[named.id] = Subscription(named, type, callback)
+        return self._spelled(named), Unsubscribe(topic=op.topic, id=named.id)
+
+    def unsubscribe(self, op: Unsubscribe) -> bool:
+        """Forget a subscription; False when it was forgotten before."""
+        of_topic = self.subscriptions.get(op.topic, {})
+        known = of_topic.pop(op.id, None) is not None
+        if not of_topic:
+            self.subscriptions.pop(op.topic, None)
+        return known
+
+    def subscribers(self, topic: str) -> list[Subscription]:
+        """Who wants a message on `topic`."""
+        return list(self.subscriptions.get(topic, {}).values())
+
+    def advertise(self, topic: str, type: type[Msg], *, latch: bool = False) -> Advertise:
+        """Remember that this client publishes on `topic`; gives what to send now."""
+        op = Advertise(topic=topic, type=type.MSGTYPE, latch=latch, id=f"advertise:{topic}")
+        self.advertised[topic] = op
+        return self._spelled(op)
+
+    def unadvertise(self, topic: str) -> Unadvertise | None:
+        """Forget that this client publishes on `topic`; gives what to send, None when it never did."""
+        op = self.advertised.pop(topic, None)
+        return None if op is None else Unadvertise(topic=topic, id=op.id)
+
+    def call(self, service: str, args: bytes, answer: Answer, *, timeout: float | None = None) -> CallService:
+        """Remember a call; gives what to send now. ProtocolError when too many wait for their answer.
+
+        `answer` is called once at most, with None when the connection is lost first. `timeout` is how long the server may
+        wait for whoever answers [s].
+        """
+        return self.calls.ask(CallService(service=service, args=Raw(args), timeout=timeout), answer)
+
+    def answered(self, op: ServiceResponse) -> bool:
+        """Pass an answer to whoever waits for it; False when nobody does."""
+        return self.calls.answered(op)
+
+    def serve(self, service: str, type: str, call: Callable[[CallService], object]) -> AdvertiseService:
+        """Remember that this client answers calls of `service`, of ROS type `type`; gives what to send now."""
+        op = AdvertiseService(service=service, type=type)
+        self.services[absolute(service)] = Served(op, call)
+        return self._spelled(op)
+
+    def stop_serving(self, service: str) -> UnadvertiseService | None:
+        """Forget that this client answers calls of `service`; gives what to send, None when it never did."""
+        served = self.services.pop(absolute(service), None)
+        return None if served is None else UnadvertiseService(service=served.op.service)
+
+    def called(self, op: CallService) -> None:
+        """Pass a call of the server to whoever answers it. ProtocolError when nobody does."""
+        served = self.services.get(service_and_id(op)[0])
+        if served is None:
+            raise wrong(op, f"This client has no service {shown(op.service)}.")
+        served.call(op)
+
+    def goal(
+        self, action: str, type: str, args: bytes, feedback: Feedback | None, result: Result
+    ) -> SendActionGoal:
+        """Remember a goal for the server; gives what to send now. ProtocolError when too many are under way.
+
+        `feedback` is called as often as the server says how far it is, None for not asking; `result` once at most, with
+        None when the connection is lost first.
+        """
+        op = SendActionGoal(action=action, action_type=type, args=Raw(args))
+        return self._spelled(self.goals.send(op, feedback, result))
+
+    def cancel(self, id: Id) -> CancelActionGoal | None:
+        """What to send to take a goal back; its result is still to come. None when it is not under way."""
+        return self.goals.cancel(id)
+
+    def fed_back(self, op: ActionFeedback) -> bool:
+        """Pass on how far a goal is; False when nobody wants to know."""
+        return self.goals.fed_back(op)
+
+    def finished(self, op: ActionResult) -> bool:
+        """Pass on what became of a goal; False when nobody waits for it."""
+        return self.goals.finished(op)
+
+    def provide(
+        self,
+        action: str,
+        type: str,
+        start: Callable[[SendActionGoal], object],
+        cancel: Callable[[Id], object],
+    ) -> AdvertiseAction:
+        """Remember that this client carries goals of `action` out, of ROS type `type`; gives what to send now."""
+        op = AdvertiseAction(action=action, type=type)
+        self.actions[absolute(action)] = Provided(op, start, cancel)
+        return self._spelled(op)
+
+    def stop_providing(self, action: str) -> UnadvertiseAction | None:
+        """Take no more goals of `action`; gives what to send, None when it never did. Those given are carried on."""
+        provided = self.actions.pop(absolute(action), None)
+        return None if provided is None else UnadvertiseAction(action=provided.op.action)
+
+    def goal_given(self, op: SendActionGoal) -> None:
+        """Pass a goal of the server to whoever carries it out.
+
+        ProtocolError when nobody does, when one of that id is under way already, or when there are too many.
+        """
+        provided = self.actions.get(absolute(op.action))
+        if provided is None:
+            raise wrong(op, f"This client has no action {shown(op.action)}.")
+        id = checked_id(op)
+        if id in self.given:
+            raise wrong(op, f"A goal with the id {shown(None if id is UNSET else id)} is under way already.")
+        if len(self.given) >= MOST_GOALS:
+            raise wrong(op, f"At most {MOST_GOALS} goals may be under way.")
+        self.given[id] = Given(op, provided)
+        provided.start(op)
+
+    def goal_cancelled(self, op: CancelActionGoal) -> bool:
+        """Tell who carries the goal out that it is taken back; False when it is not under way."""
+        given = self.given.get(op.id)
+        if given is not None:
+            given.provided.cancel(op.id)
+        return given is not None
+
+    def goal_ended(self, id: Id) -> bool:
+        """A goal that was given is over; False when it was before."""
+        return self.given.pop(id, None) is not None
+
+    def lose(self) -> None:
+        """The connection is gone, and with it all answers, unfinished fragments, and whoever gave goals."""
+        self._arrivals = Arrivals(self._limit)
+        given, self.given = self.given, {}
+        with contextlib.ExitStack() as stack:
+            for each in reversed(given.values()):
+                stack.callback(each.provided.cancel, each.op.id)
+            stack.callback(self.goals.lose)
+            stack.callback(self.calls.lose)
+
+    def opening(self) -> Iterator[Op]:
+        """Everything to say on a new connection."""
+        if self.level is not None:
+            yield SetLevel(level=self.level)
+        for advertised in list(self.advertised.values()):
+            yield self._spelled(advertised)
+        for served in list(self.services.values()):
+            yield self._spelled(served.op)
+        for provided in list(self.actions.values()):
+            yield self._spelled(provided.op)
+        for of_topic in list(self.subscriptions.values()):
+            for subscription in list(of_topic.values()):
+                yield self._spelled(subscription.op)
+
+    def _spelled(self, op: AnyOp) -> AnyOp:
+        """The operation with its type as the server spells types."""
+        if not self.ros2:
+            return op
+        if isinstance(op, SendActionGoal):
+            return msgspec.structs.replace(op, action_type=ros2_name(op.action_type, "action"))
+        kind = (
+            "srv"
+            if isinstance(op, AdvertiseService)
+            else "action"
+            if isinstance(op, AdvertiseAction)
+            else "msg"
+        )
+        if isinstance(op, (Subscribe, Advertise, AdvertiseService, AdvertiseAction)) and op.type:
+            return msgspec.structs.replace(op, type=ros2_name(op.type, kind))
+        return op

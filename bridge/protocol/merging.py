@@ -1,0 +1,125 @@
+"""Several subscriptions of one client to one topic as the one delivery that they get."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from msgspec import UNSET
+
+from bridge.codec import shown
+from bridge.compat import Compat
+from bridge.protocol.names import LONGEST_NAME, spells_ros2, wrong
+from bridge.protocol.ops import COMPRESSIONS, Op, Reduction, Subscribe
+
+__all__ = ["Subscribed", "checked_size", "merged", "wish"]
+
+MOST_FIELDS = 100
+"""So many paths may stand in `Reduction.fields`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Subscribed:
+    """What one client wants of one topic, all its subscriptions taken together. Hashable."""
+
+    name: str
+    """The topic as the client wrote it."""
+    period: float = 0.0
+    """Shortest time between two messages [s]."""
+    queue: int = 0
+    """How many messages may wait; 0 as many as the server sees fit."""
+    compression: str = "none"
+    """One of `COMPRESSIONS`."""
+    fragment_size: int | None = None
+    """Longest text frame [characters]; None for no end. Binary frames are never cut."""
+    reduction: Reduction | None = None
+    """How much of each message it wants; None for all."""
+    ros2: bool = False
+    """It spells types as `pkg/msg/Type` and wants times as `sec` and `nanosec`."""
+
+
+def wish(op: Subscribe, compat: Compat, ros2: bool = False) -> Subscribed:
+    """What one subscription asks for. `ros2` is how the client spells types when `op` names none.
+
+    ProtocolError, naming the field, its value and what is allowed, when it cannot be had.
+    """
+    compression = op.compression or "none"
+    if compression not in COMPRESSIONS:
+        if not compat.unknown_compression_as_none:
+            raise wrong(
+                op, f"compression must be one of {', '.join(COMPRESSIONS)}, not {shown(compression)}."
+            )
+        compression = "none"
+    if op.reduce is not None:
+        _check_reduction(op, op.reduce)
+    named = op.type not in (None, "", "*")
+    return Subscribed(
+        name=op.topic,
+        period=_number(op, "throttle_rate", op.throttle_rate) / 1000,
+        queue=int(_number(op, "queue_length", op.queue_length)),
+        compression=compression,
+        fragment_size=checked_size(op),
+        reduction=op.reduce,
+        ros2=spells_ros2(op.type) if named else ros2,
+    )
+
+
+def merged(first: Subscribed, second: Subscribed, compat: Compat) -> Subscribed:
+    """What both ask for as one delivery, under the name of the first.
+
+    The faster rate, the smaller fragments, the later in `COMPRESSIONS`; the same reduction stays, with different ones
+    everything is sent. For the queue see `Compat.shortest_queue`.
+    """
+    sizes = [size for size in (first.fragment_size, second.fragment_size) if size is not None]
+    queues = (first.queue, second.queue)
+    longest = 0 if 0 in queues else max(queues)
+    return Subscribed(
+        name=first.name,
+        period=min(first.period, second.period),
+        queue=min(queues) if compat.shortest_queue else longest,
+        compression=max(first.compression, second.compression, key=COMPRESSIONS.index),
+        fragment_size=min(sizes, default=None),
+        reduction=first.reduction if first.reduction == second.reduction else None,
+        ros2=first.ros2 or second.ros2,
+    )
+
+
+def checked_size(op: Op) -> int | None:
+    """The `fragment_size` in an operation; None where it has none. ProtocolError when nothing can be cut so."""
+    size = op.fragment_size
+    if size is UNSET or size is None:
+        return None
+    if 1 <= size < math.inf:
+        return int(size)
+    raise wrong(op, f"fragment_size must be at least 1 or null, not {shown(size)}.")
+
+
+def _number(op: Subscribe, field: str, value: float | None) -> float:
+    """A number from 0; what is below counts as 0, as it does for the servers in use."""
+    if value is None or value <= 0:
+        return 0
+    if value <= 2**53:
+        return value
+    raise wrong(op, f"{field} must be at most {2**53}, not {shown(value)}.")
+
+
+def _check_reduction(op: Subscribe, wanted: Reduction) -> None:
+    for name, value, least, most in (
+        ("beams", wanted.beams, 1, 2**31),
+        ("width", wanted.width, 1, 2**31),
+        ("quality", wanted.quality, 1, 95),
+    ):
+        if value is not None and not least <= value <= most:
+            raise wrong(
+                op, f"reduce.{name} must be a whole number from {least} to {most}, not {shown(value)}."
+            )
+    if wanted.resolution is not None and not 0 < wanted.resolution < math.inf:
+        raise wrong(op, f"reduce.resolution must be above 0, not {shown(wanted.resolution)}.")
+    fields = wanted.fields
+    if fields is None:
+        return
+    if len(fields) > MOST_FIELDS:
+        raise wrong(op, f"reduce.fields may name at most {MOST_FIELDS} fields, not {len(fields)}.")
+    for path in fields:
+        if not 0 < len(path) <= LONGEST_NAME:
+            raise wrong(op, f"reduce.fields: a path has 1 to {LONGEST_NAME} characters, not {len(path)}.")

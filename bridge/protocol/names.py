@@ -1,0 +1,82 @@
+"""Names on the wire: topics, services, types, and the ids of interactions."""
+
+from __future__ import annotations
+
+import re
+
+from msgspec import UNSET
+
+from bridge.errors import ProtocolError
+from bridge.protocol.ops import CallService, Id, Op
+
+__all__ = [
+    "LONGEST_ID",
+    "LONGEST_NAME",
+    "absolute",
+    "checked_id",
+    "checked_name",
+    "plain_id",
+    "ros2_name",
+    "service_and_id",
+    "spells_ros2",
+    "wrong",
+]
+
+LONGEST_NAME = 256
+"""[characters]"""
+LONGEST_ID = 1024
+"""[characters]"""
+_ROS2 = re.compile(r"^[^/]+/(?:msg|srv|action)/[^/]+$")
+
+
+def absolute(name: str) -> str:
+    """A topic's, service's or action's name with its leading slash, as ROS resolves a relative one."""
+    return name if name.startswith("/") else f"/{name}"
+
+
+def checked_name(name: str, op: Op, field: str) -> str:
+    """`name` made absolute; ProtocolError when it is empty or too long to be remembered."""
+    if 0 < len(name) <= LONGEST_NAME:
+        return absolute(name)
+    raise wrong(op, f"{field} must have 1 to {LONGEST_NAME} characters, not {len(name)}.")
+
+
+def checked_id(op: Op) -> Id:
+    """The operation's id; ProtocolError when it is too long to be remembered."""
+    if not isinstance(op.id, str) or len(op.id) <= LONGEST_ID:
+        return op.id
+    raise wrong(op, f"id must have at most {LONGEST_ID} characters, not {len(op.id)}.")
+
+
+def plain_id(id: Id) -> str | float | None:
+    """The id as an error carries it: None where there is none, or one too long to repeat."""
+    if id is UNSET or (isinstance(id, str) and len(id) > LONGEST_ID):
+        return None
+    return id
+
+
+def service_and_id(op: CallService) -> tuple[str, Id]:
+    """The absolute name of what is called and the id to answer with.
+
+    Clients of old write the id behind the name, as in `/rosapi/topics#33`; it counts where there is no other.
+    """
+    name, mark, old_id = op.service.partition("#")
+    if mark and op.id in (None, UNSET):
+        return absolute(name), old_id
+    return absolute(name), op.id
+
+
+def spells_ros2(type: str | None) -> bool:
+    """Whether a type is named as in ROS 2: `sensor_msgs/msg/Imu`, not `sensor_msgs/Imu`."""
+    return type is not None and _ROS2.match(type) is not None
+
+
+def ros2_name(type: str, kind: str = "msg") -> str:
+    """The ROS 2 form of a type's name; `kind` is `msg`, `srv` or `action`. Anything but `pkg/Type` stays as it is."""
+    package, _, name = type.partition("/")
+    return f"{package}/{kind}/{name}" if package and name and "/" not in name else type
+
+
+def wrong(op: Op, sentence: str) -> ProtocolError:
+    """The error that `sentence` tells about `op`, with the operation's name and id."""
+    return ProtocolError(sentence, op=str(op.__struct_config__.tag), id=plain_id(op.id))

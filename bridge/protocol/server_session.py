@@ -1,0 +1,321 @@
+"""What a server remembers about one client, without I/O."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+
+import msgspec
+from msgspec import UNSET, Raw
+
+from bridge.codec import shown
+from bridge.compat import Compat
+from bridge.errors import ProtocolError
+from bridge.protocol.arrivals import Arrival, Arrivals
+from bridge.protocol.merging import Subscribed, checked_size, merged, wish
+from bridge.protocol.names import absolute, checked_id, checked_name, spells_ros2, wrong
+from bridge.protocol.ops import (
+    LEVELS,
+    MISSING,
+    ActionFeedback,
+    ActionResult,
+    Advertise,
+    AdvertiseAction,
+    AdvertiseService,
+    CallService,
+    CancelActionGoal,
+    Id,
+    Op,
+    Publish,
+    SendActionGoal,
+    ServiceResponse,
+    SetLevel,
+    Subscribe,
+    Unadvertise,
+    UnadvertiseAction,
+    UnadvertiseService,
+    Unsubscribe,
+)
+from bridge.protocol.pending import Answer, Calls, Feedback, Goals, Result
+
+__all__ = ["MOST_ADVERTISED", "MOST_CALLS", "MOST_GOALS", "MOST_SUBSCRIPTIONS", "ServerSession"]
+
+NAMELESS = (None, UNSET)
+_TYPED = (Subscribe, Advertise, AdvertiseService, AdvertiseAction)
+LARGEST = 32 * 1024 * 1024
+"""The largest frame, and the most that may wait in fragments [byte]."""
+MOST_SUBSCRIPTIONS = 1000
+"""Subscriptions of one client, each id counted."""
+MOST_ADVERTISED = 1000
+"""Topics, services and actions that one client may advertise together, each id of a topic counted."""
+MOST_CALLS = 1000
+"""Calls that one client may have before it unanswered."""
+MOST_GOALS = 100
+"""Goals that one client may have under way, and as many before it to carry out."""
+
+
+class ServerSession:
+    """What a server remembers about one client: what it wants, what it offers, what is asked of it."""
+
+    def __init__(self, compat: Compat | None = None, *, limit_bytes: int = LARGEST) -> None:
+        """`limit_bytes` bounds a frame, what waits in fragments, and what is unpacked of one frame [byte]."""
+        self.compat = compat or Compat()
+        self.subscriptions: dict[str, Subscribed] = {}
+        """By the topic's absolute name."""
+        self.advertised: dict[str, dict[Id, Advertise]] = {}
+        """Topics it publishes on: the advertisements by id, by the topic's absolute name."""
+        self.services: dict[str, AdvertiseService] = {}
+        """Services that it answers, by absolute name."""
+        self.actions: dict[str, AdvertiseAction] = {}
+        """Actions that it carries out, by absolute name."""
+        self.goals: dict[Id, SendActionGoal] = {}
+        """Goals of this client that others carry out, by its own ids."""
+        self.level = "none"
+        """The least remark that the client wants: one of `LEVELS`."""
+        self.fragment_size: int | None = None
+        """Longest text frame [characters] for everything sent to it; None for no end."""
+        self.ros2 = False
+        """It has spelled a type as `pkg/msg/Type`, so it wants times as `sec` and `nanosec` where it names no type."""
+        self._arrivals = Arrivals(limit_bytes)
+        self._asked: dict[str, dict[Id, Subscribed]] = {}
+        self._subscriptions = 0
+        self._calls = Calls("service_request", MOST_CALLS)
+        self._goals = Goals("action_goal", MOST_GOALS)
+
+    def receive(self, frame: str | bytes, now: float) -> list[Arrival]:
+        """The operations in a frame that came at `now` [s], any clock that only goes forward; never raises.
+
+        What is wrong stands among them as a ProtocolError that names op and id where they can be read. Fragments and
+        pictures are unpacked; `fragment_size` and the spelling of types are remembered.
+        """
+        return [self._noted(arrival) for arrival in self._arrivals.take(frame, now)]
+
+    def note(self, op: Op) -> None:
+        """Remember what any operation may say beside its own matter; `receive` does it."""
+        if op.fragment_size is not UNSET:
+            size = checked_size(op)
+            if self.compat.sticky_fragment_size and size != self.fragment_size:
+                self.fragment_size = size
+                for topic in self.subscriptions:
+                    self._merge(topic)
+        if not self.ros2 and isinstance(op, SendActionGoal):
+            self.ros2 = spells_ros2(op.action_type)
+        elif not self.ros2 and isinstance(op, _TYPED):
+            self.ros2 = spells_ros2(op.type)
+
+    def answer_size(self, op: Op) -> int | None:
+        """Longest text frame [characters] of what answers `op`; None for no end."""
+        return self.fragment_size if self.compat.sticky_fragment_size else checked_size(op)
+
+    def subscribe(self, op: Subscribe) -> str:
+        """Take a subscription in; gives the topic's absolute name. The same id again replaces the first.
+
+        ProtocolError when it asks for what cannot be had, or is one too many.
+        """
+        topic = checked_name(op.topic, op, "topic")
+        id = checked_id(op)
+        asked = self._asked.get(topic, {})
+        if id not in asked and self._subscriptions >= MOST_SUBSCRIPTIONS:
+            raise wrong(op, f"A client may have at most {MOST_SUBSCRIPTIONS} subscriptions.")
+        wanted = wish(op, self.compat, self.ros2)
+        again = id in asked
+        self._asked.setdefault(topic, {})[id] = wanted
+        self._subscriptions += not again
+        if again or not asked:
+            self._merge(topic)
+        else:
+            self.subscriptions[topic] = self._cut(merged(self.subscriptions[topic], wanted, self.compat))
+        return topic
+
+    def unsubscribe(self, op: Unsubscribe) -> str:
+        """Take a subscription out; gives the topic's absolute name. An unknown one is no error."""
+        topic = absolute(op.topic)
+        asked = self._asked.get(topic, {})
+        before = len(asked)
+        if op.id in NAMELESS:
+            asked.clear()
+        asked.pop(op.id, None)
+        self._subscriptions -= before - len(asked)
+        self._merge(topic)
+        return topic
+
+    def advertise(self, op: Advertise) -> str:
+        """The client is going to publish; gives the topic's absolute name. ProtocolError when it is one too many."""
+        topic = checked_name(op.topic, op, "topic")
+        id = checked_id(op)
+        if id not in self.advertised.get(topic, {}):
+            self._check_room(op)
+        self.advertised.setdefault(topic, {})[id] = op
+        return topic
+
+    def unadvertise(self, op: Unadvertise) -> str:
+        """The client no longer publishes; gives the topic's absolute name. An unknown one is no error."""
+        topic = absolute(op.topic)
+        advertised = self.advertised.get(topic, {})
+        advertised.pop(op.id, None)
+        if op.id in NAMELESS or not advertised:
+            self.advertised.pop(topic, None)
+        return topic
+
+    def latches(self, topic: str) -> bool:
+        """Whether the client said that the last message on `topic`, an absolute name, is for later subscribers too."""
+        return any(op.latch for op in self.advertised.get(topic, {}).values())
+
+    def advertise_service(self, op: AdvertiseService) -> str:
+        """The client answers calls; gives the service's absolute name. ProtocolError when it is one too many."""
+        service = checked_name(op.service, op, "service")
+        if service not in self.services:
+            self._check_room(op)
+        self.services[service] = op
+        return service
+
+    def unadvertise_service(self, op: UnadvertiseService) -> str:
+        """The client no longer answers; gives the service's absolute name. Who waits for an answer is told None."""
+        service = absolute(op.service)
+        if self.services.pop(service, None) is not None:
+            self._calls.lose(service)
+        return service
+
+    def ask(self, op: CallService, answer: Answer) -> CallService:
+        """Have the client answer a call of one of its services; gives what to send it.
+
+        `answer` is called once: with the client's response as `compat` has it, or with None when it is gone before.
+        ProtocolError when too many calls wait before it.
+        """
+        service = absolute(op.service)
+        return self._calls.ask(CallService(service=service, args=op.args), answer)
+
+    def answered(self, op: ServiceResponse) -> bool:
+        """The client's answer, passed on to whoever asked; False when nobody waits for it any more."""
+        if op.values is MISSING and not (op.result and self.compat.missing_values_as_defaults):
+            reason = f"{absolute(op.service)} {'answered' if op.result else 'refused'} without saying more."
+            op = msgspec.structs.replace(op, values=Raw(msgspec.json.encode(reason)), result=False)
+        elif not op.result and self.compat.refusal_as_success and bytes(op.values).lstrip().startswith(b"{"):
+            op = msgspec.structs.replace(op, result=True)
+        return self._calls.answered(op)
+
+    def forget_call(self, id: Id) -> bool:
+        """Whoever made the call with this id, as `ask` gave it, waits no longer; False when nobody did."""
+        return self._calls.forget(id)
+
+    def advertise_action(self, op: AdvertiseAction) -> str:
+        """The client carries goals out; gives the action's absolute name. ProtocolError when it is one too many."""
+        action = checked_name(op.action, op, "action")
+        if action not in self.actions:
+            self._check_room(op)
+        self.actions[action] = op
+        return action
+
+    def unadvertise_action(self, op: UnadvertiseAction) -> str:
+        """The client takes no more goals; gives the action's absolute name. Whose goal is under way is told None."""
+        action = absolute(op.action)
+        if self.actions.pop(action, None) is not None:
+            self._goals.lose(action)
+        return action
+
+    def hand_goal(self, op: SendActionGoal, feedback: Feedback | None, result: Result) -> SendActionGoal:
+        """Have the client carry a goal out; gives what to send it. ProtocolError when it has too many.
+
+        `feedback` is called as often as the client says how far it is, `result` once: with None when it is gone before.
+        """
+        action = absolute(op.action)
+        handed = SendActionGoal(action=action, action_type=op.action_type, args=op.args)
+        return self._goals.send(handed, feedback, result)
+
+    def cancel_handed(self, id: Id) -> CancelActionGoal | None:
+        """What to send the client to take a goal back, by the id that `hand_goal` gave; None when it is over."""
+        return self._goals.cancel(id)
+
+    def fed_back(self, op: ActionFeedback) -> bool:
+        """The client says how far it is, passed on to who asked; False when nobody wants to know."""
+        return self._goals.fed_back(op)
+
+    def finished(self, op: ActionResult) -> bool:
+        """The client says what became of a goal, passed on to whose it was; False when nobody waits for it."""
+        return self._goals.finished(op)
+
+    def forget_goal(self, id: Id) -> bool:
+        """Whose goal this is, by the id that `hand_goal` gave, waits no longer; False when nobody did."""
+        return self._goals.forget(id)
+
+    def begin_goal(self, op: SendActionGoal) -> None:
+        """The client has a goal under way. ProtocolError when it has one of that id already, or too many."""
+        id = checked_id(op)
+        checked_name(op.action, op, "action")
+        if id in self.goals:
+            raise wrong(op, f"A goal with the id {shown(None if id is UNSET else id)} is under way already.")
+        if len(self.goals) >= MOST_GOALS:
+            raise wrong(op, f"A client may have at most {MOST_GOALS} goals under way.")
+        self.goals[id] = op
+
+    def goal_to_cancel(self, op: CancelActionGoal) -> SendActionGoal:
+        """The client's goal that it takes back. ProtocolError when it has none of that id with that action."""
+        goal = self.goals.get(op.id)
+        if goal is None or absolute(goal.action) != absolute(op.action):
+            raise wrong(op, f"No goal of {shown(op.action)} with this id is under way.")
+        return goal
+
+    def end_goal(self, id: Id) -> SendActionGoal | None:
+        """The client's goal is over; None when it had none of that id."""
+        return self.goals.pop(id, None)
+
+    def set_level(self, op: SetLevel) -> None:
+        """The client wants remarks from this level on; ProtocolError when there is no such level."""
+        if op.level not in LEVELS:
+            raise wrong(op, f"level must be one of {', '.join(LEVELS)}, not {shown(op.level)}.")
+        self.level = op.level
+
+    def wants(self, level: str) -> bool:
+        """Whether a remark of this level is to be sent."""
+        return self.level != "none" and LEVELS.index(level) >= LEVELS.index(self.level)
+
+    def lose(self) -> list[SendActionGoal]:
+        """The client is gone: forget all, tell None to whoever waits for it; gives the goals that it leaves behind."""
+        goals = list(self.goals.values())
+        for forgotten in (
+            self.subscriptions,
+            self._asked,
+            self.advertised,
+            self.services,
+            self.actions,
+            self.goals,
+        ):
+            forgotten.clear()
+        self._subscriptions = 0
+        try:
+            self._calls.lose()
+        finally:
+            self._goals.lose()
+        return goals
+
+    def _noted(self, arrival: Arrival) -> Arrival:
+        if type(arrival) is Publish and arrival.fragment_size is UNSET:
+            return arrival  # most that comes is such, and has nothing beside its own matter
+        if isinstance(arrival, Op):
+            try:
+                self.note(arrival)
+            except ProtocolError as error:
+                return error
+        return arrival
+
+    def _check_room(self, op: Op) -> None:
+        topics = sum(len(ids) for ids in self.advertised.values())
+        if topics + len(self.services) + len(self.actions) >= MOST_ADVERTISED:
+            raise wrong(op, f"A client may advertise at most {MOST_ADVERTISED} topics, services and actions.")
+
+    def _merge(self, topic: str) -> None:
+        asked = self._asked.get(topic)
+        if not asked:
+            self._asked.pop(topic, None)
+            self.subscriptions.pop(topic, None)
+            return
+        wanted = functools.reduce(lambda one, other: merged(one, other, self.compat), asked.values())
+        self.subscriptions[topic] = self._cut(wanted)
+
+    def _cut(self, wanted: Subscribed) -> Subscribed:
+        if not self.compat.sticky_fragment_size:
+            return wanted
+        size = self.fragment_size
+        if size is not None and wanted.fragment_size is not None:
+            size = min(size, wanted.fragment_size)
+        return dataclasses.replace(wanted, fragment_size=size)

@@ -1,0 +1,134 @@
+"""How good and how frequent the pictures for one watcher may be, judged by how long their acknowledgement takes.
+
+The acknowledgement of a picture takes the way there and back (`base`), the time that its bytes take on the link, and
+the time that it waits behind others. Only the last two can be mended from here, so `base` is taken off: it is the
+least latency of late, and it is believed only once pictures of the coarsest level went through, whose bytes hardly
+count. What is left decides the pause before the next picture (the link is kept about four fifths busy, so that
+nothing queues) and the level: coarser at once when a picture takes too long, finer after a while in which the finer
+one would have fitted, and the more reluctantly the more often that was a mistake.
+
+Pure: every call is told the time [s] of one and the same clock.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from typing import NamedTuple
+
+__all__ = ["COARSEST", "LEVELS", "Quality"]
+
+LEVELS = 4
+"""Level 0 is the picture as it was taken; each next one is a fraction of the size of the one before."""
+COARSEST = LEVELS - 1
+
+SLOW = 0.12
+"""A picture that takes longer than this beyond the way there and back is too large for the link [s]."""
+FITS = 0.07
+"""The finer picture is tried when it would take less than this [s]."""
+LONGEST_PAUSE = 0.5
+"""Between two pictures on the slowest link [s]: two a second."""
+BUSY = 0.8
+"""Part of the link's time that pictures may take."""
+PATIENCE = (2.0, 60.0)
+"""How long all has to go well before a finer level is tried: at first, and at most after failures [s]."""
+UNDER_WAY = (2, 8)
+"""Pictures that may be unacknowledged at a time: on a short way, and on the longest."""
+PERIOD = 1 / 15
+"""Between two pictures of a camera, about [s]: how many are under way on a long way follows from it."""
+
+
+class _Sent(NamedTuple):
+    seq: int
+    bytes: int
+    level: int
+    at: float
+
+
+class Quality:
+    """The judge for one watcher; starts with the best pictures."""
+
+    def __init__(self, coarsest: int = COARSEST) -> None:
+        """`coarsest` is the highest level that can be made; 0 where there is but the original."""
+        self._coarsest = coarsest
+        self.level = 0
+        """Of the next picture, 0 to the coarsest."""
+        self.pause = 0.0
+        """Least time between two pictures now [s]."""
+        self.base = 0.0
+        """The way there and back [s]; 0 until it is known."""
+        self._under_way: deque[_Sent] = deque()
+        self._sizes = [math.nan] * LEVELS
+        self._last = -math.inf
+        self._bases: deque[float] = deque(maxlen=64)
+        self._good_since = math.inf
+        self._patience = PATIENCE[0]
+        self._climbed = -math.inf
+
+    def delay(self, now: float) -> float | None:
+        """How long to wait before the next picture [s]; 0 at once, None until one is acknowledged."""
+        if len(self._under_way) >= self._most(now):
+            return None
+        return max(0.0, self._last + self.pause - now)
+
+    def sent(self, seq: int, size: int, level: int, now: float) -> None:
+        """Picture number `seq` of `size` bytes was handed to the socket at `level`."""
+        self._under_way.append(_Sent(seq, size, level, now))
+        self._sizes[level] = size
+        self._last = now
+
+    def acknowledged(self, seq: int, now: float) -> bool:
+        """The watcher has picture `seq` and all before it; False, and nothing changes, when it is not under way."""
+        if all(sent.seq != seq for sent in self._under_way):
+            return False
+        while True:
+            sent = self._under_way.popleft()
+            if sent.seq == seq:
+                break
+        self._judge(sent, now - sent.at, now)
+        return True
+
+    def _most(self, now: float) -> int:
+        fewest, most = UNDER_WAY
+        if self._under_way and now - self._under_way[0].at > self.base + SLOW:
+            return fewest
+        return max(fewest, min(most, 1 + math.ceil(self.base / PERIOD)))
+
+    def _judge(self, sent: _Sent, latency: float, now: float) -> None:
+        if sent.level == COARSEST:
+            self._bases.append(latency)
+            self.base = min(self._bases)
+        else:
+            self.base = min(self.base, latency)
+        excess = latency - self.base
+        wanted = min(LONGEST_PAUSE, excess / BUSY)
+        self.pause = wanted if wanted > self.pause else (self.pause + wanted) / 2
+        if sent.level != self.level:
+            return  # says nothing about the level that is sent now
+        if excess > SLOW:
+            self._coarser(now)
+        elif self._finer_would_take(excess) < FITS:
+            self._finer(now)
+        else:
+            self._good_since = math.inf
+
+    def _finer_would_take(self, excess: float) -> float:
+        """Beyond the way there and back [s]; by the sizes that were seen, or three times the bytes."""
+        ratio = self._sizes[self.level - 1] / self._sizes[self.level] if self.level else 1.0
+        return excess * (ratio if ratio >= 1.0 else 3.0)
+
+    def _coarser(self, now: float) -> None:
+        self._good_since = math.inf
+        if self.level == self._coarsest:
+            return
+        if now - self._climbed < 2.0 * self._patience:
+            self._patience = min(PATIENCE[1], 2.0 * self._patience)
+        else:
+            self._patience = PATIENCE[0]
+        self.level += 1
+
+    def _finer(self, now: float) -> None:
+        self._good_since = min(self._good_since, now)
+        if self.level and now - self._good_since >= self._patience:
+            self.level -= 1
+            self._climbed, self._good_since = now, math.inf

@@ -1,0 +1,78 @@
+"""How this machine reaches another one: from which of its addresses, and whether it slept meanwhile."""
+
+from __future__ import annotations
+
+import socket
+import time
+from typing import Protocol
+
+__all__ = ["Changes", "Network", "System"]
+
+ANYWHERE = ("192.0.2.1", 9)
+"""An address for documentation (RFC 5737): stands for the rest of the world. Nothing is sent to it."""
+_SLEPT = 2.0
+"""A clock that jumped by more than this tells of a sleep [s]."""
+
+
+class Network(Protocol):
+    """What a link has to know about the machine that it is on."""
+
+    def source(self, address: tuple[str, int]) -> str | None:
+        """The address of this machine from which packets to `address` would leave now; None without a way there."""
+
+    def has(self, local: str) -> bool:
+        """`local` is an address of this machine."""
+
+    def slept(self) -> float:
+        """How long this machine has slept [s], from any beginning; sleeping alone makes it more."""
+
+
+class System:
+    """The network of the machine that this runs on."""
+
+    def source(self, address: tuple[str, int]) -> str | None:
+        """As in `Network`; asks the system's routes and sends nothing."""
+        family = socket.AF_INET6 if ":" in address[0] else socket.AF_INET
+        try:
+            with socket.socket(family, socket.SOCK_DGRAM) as sock:
+                sock.connect(address)
+                return str(sock.getsockname()[0])
+        except OSError:
+            return None
+
+    def has(self, local: str) -> bool:
+        """As in `Network`; True too where that cannot be found out."""
+        family = socket.AF_INET6 if ":" in local else socket.AF_INET
+        if local.startswith("fe80:"):  # belongs to an interface, which an address alone does not tell
+            return True
+        try:
+            with socket.socket(family, socket.SOCK_DGRAM) as sock:
+                sock.bind((local, 0))
+        except OSError:
+            return False
+        return True
+
+    def slept(self) -> float:
+        """As in `Network`; where the system does not count sleep, its calendar against a clock that stands still in it."""
+        if hasattr(time, "CLOCK_BOOTTIME"):
+            return time.clock_gettime(time.CLOCK_BOOTTIME) - time.clock_gettime(time.CLOCK_MONOTONIC)
+        return time.time() - time.monotonic()
+
+
+class Changes:
+    """Notices that the way to an address changed, or that the machine slept, since it was last looked at."""
+
+    def __init__(self, network: Network, address: tuple[str, int] | None) -> None:
+        """`address` is where to, numeric; None where it is not known."""
+        self._network = network
+        self._address = ANYWHERE if address is None else address
+        self._source = network.source(self._address)
+        self._slept = network.slept()
+
+    def seen(self) -> bool:
+        """There is a way that was not there when it was last looked at, or the machine slept since."""
+        source, slept = self._network.source(self._address), self._network.slept()
+        moved = source != self._source and source is not None
+        woke = slept - self._slept > _SLEPT
+        self._source, self._slept = source, slept
+        return moved or woke

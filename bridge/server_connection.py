@@ -1,0 +1,149 @@
+"""A WebSocket of the server whose messages are heard at once, in the step of the loop in which they come.
+
+Reading by tasks costs a switch of tasks a message. Here a complete message goes straight to whoever hears the
+connection, and frames that are the same for many are written as they are. Closing, answers to pings, limits and broken
+frames stay the library's own work.
+"""
+
+from __future__ import annotations
+
+import logging
+from typing import Protocol
+
+from websockets.asyncio.server import ServerConnection
+from websockets.exceptions import ConnectionClosedOK
+from websockets.frames import CloseCode, Frame, Opcode
+from websockets.protocol import Event, State
+
+from bridge.outlet import Round
+
+__all__ = ["Ears", "HeardConnection"]
+
+log = logging.getLogger(__name__)
+
+MOST_PIECES = 1000
+"""Frames that one message may come in."""
+_DATA = (Opcode.TEXT, Opcode.BINARY, Opcode.CONT)
+
+
+class Ears(Protocol):
+    """Hears a connection."""
+
+    def hear(self, message: str | bytes) -> None:
+        """A message came; bytes hold the UTF-8 of a text or a binary message."""
+
+    def answered(self, content: bytes) -> None:
+        """A pong came."""
+
+    def pump(self) -> None:
+        """Everything written so far left this process."""
+
+
+class HeardConnection(ServerConnection):
+    """One WebSocket; works as any other until it is heard."""
+
+    round: Round | None = None
+    """Where what is written in one step of the loop is gathered; set by the server."""
+    _ears: Ears | None = None
+    _direct = False
+    _kind = Opcode.TEXT
+    _pieces: list[bytes]
+
+    @property
+    def open(self) -> bool:
+        """Whether frames may still be written."""
+        return self.protocol.state is State.OPEN
+
+    def write(self, frames: bytes) -> None:
+        """Write whole frames of this side; returns at once."""
+        self.transport.write(frames)
+
+    def cut(self) -> None:
+        """Break the connection at once."""
+        self.transport.abort()
+
+    async def heard_by(self, ears: Ears) -> None:
+        """Have `ears` hear everything until the connection ends; ConnectionClosed when it ends badly."""
+        self.transport.set_write_buffer_limits(high=0)
+        self._ears = ears
+        try:
+            while not self._take_over():
+                message = await self.recv()
+                self._tell(ears, message)
+        except ConnectionClosedOK:
+            return
+        await self.wait_closed()
+        if self.close_code not in (CloseCode.NORMAL_CLOSURE, CloseCode.GOING_AWAY):
+            raise self.close_exc
+
+    def data_received(self, data: bytes) -> None:
+        """Take what came from the network, and let what it causes leave together."""
+        round = self.round
+        if round is None or round.held:
+            super().data_received(data)
+            return
+        round.held = True
+        try:
+            super().data_received(data)
+        finally:
+            round.held = False
+            round.flush()
+
+    def resume_writing(self) -> None:
+        """Everything written so far left this process."""
+        super().resume_writing()
+        if self._ears is not None:
+            self._ears.pump()
+
+    def process_event(self, event: Event) -> None:
+        """Take one frame."""
+        ears = self._ears
+        if ears is None or not isinstance(event, Frame):
+            super().process_event(event)
+        elif event.opcode is Opcode.PONG:
+            ears.answered(bytes(event.data))
+        elif not self._direct or event.opcode not in _DATA:
+            super().process_event(event)
+        elif event.opcode is not Opcode.CONT and event.fin:
+            self._complete(ears, event.opcode, bytes(event.data))
+        else:
+            self._piece(ears, event)
+
+    def _take_over(self) -> bool:
+        """Whether from now on messages are heard as they come: nothing waits in the library's queue."""
+        # a message in several frames of which some went there ends there
+        self._direct = not self.recv_messages.frames and self.protocol.current_size is None
+        return self._direct
+
+    def _piece(self, ears: Ears, frame: Frame) -> None:
+        """One frame of a message in several; the library bounds them all together."""
+        if frame.opcode is not Opcode.CONT:
+            self._kind, self._pieces = frame.opcode, []
+        self._pieces.append(bytes(frame.data))
+        if len(self._pieces) > MOST_PIECES:
+            self._give_up(CloseCode.POLICY_VIOLATION, f"a message in over {MOST_PIECES} frames")
+        elif frame.fin:
+            pieces, self._pieces = self._pieces, []
+            self._complete(ears, self._kind, b"".join(pieces))
+
+    def _complete(self, ears: Ears, kind: Opcode, data: bytes) -> None:
+        if kind is Opcode.TEXT and not data.isascii():
+            try:
+                data.decode()
+            except UnicodeDecodeError as error:
+                self._give_up(CloseCode.INVALID_DATA, f"{error.reason} at position {error.start}")
+                return
+        self._tell(ears, data)
+
+    def _tell(self, ears: Ears, message: str | bytes) -> None:
+        if self.protocol.state is not State.OPEN:
+            return
+        try:
+            ears.hear(message)
+        except Exception:
+            log.exception("A message of %d bytes was not understood", len(message))
+
+    def _give_up(self, code: CloseCode, reason: str) -> None:
+        if self.protocol.state is State.OPEN:
+            self.protocol.fail(code, reason)
+            self.send_data()

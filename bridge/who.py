@@ -1,0 +1,66 @@
+"""Who is there and what for: the robot and its clients as nodes, for `rosapi`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from bridge.exchange import Exchange, Party
+from bridge.offer import Action, Service, Session
+from bridge.rosapi import NODE, Graph, Node
+from bridge.switchboard import Switchboard
+
+__all__ = ["Who"]
+
+
+class Who:
+    """Looks at what a server has at the moment."""
+
+    def __init__(
+        self,
+        switchboard: Switchboard,
+        services: Mapping[str, Service],
+        actions: Mapping[str, Action],
+        exchange: Exchange,
+        clients: Mapping[Session, Party],
+    ) -> None:
+        """All are looked at again for every answer."""
+        self._switchboard = switchboard
+        self._services = services
+        self._actions = actions
+        self._exchange = exchange
+        self._clients = clients
+
+    def graph(self) -> Graph:
+        """How `rosapi` asks."""
+        return Graph(self._topics, self._service_types, self._action_types, self._nodes)
+
+    def _topics(self) -> dict[str, str]:
+        return {channel.name: channel.type for channel in self._switchboard.channels.values()}
+
+    def _service_types(self) -> dict[str, str]:
+        own = {name: service.type for name, service in self._services.items()}
+        offered = self._exchange.services.items()
+        return own | {name: party.remembered.services[name].type for name, party in offered}
+
+    def _action_types(self) -> dict[str, str]:
+        own = {name: action.type for name, action in self._actions.items()}
+        offered = self._exchange.actions.items()
+        return own | {name: party.remembered.actions[name].type for name, party in offered}
+
+    def _nodes(self) -> dict[str, Node]:
+        topics = self._switchboard.topics.values()
+        robot = Node(
+            [topic.name for topic in topics if topic.to == "handheld"],
+            [topic.name for topic in topics if topic.to == "robot"],
+            list(self._services),
+            list(self._actions),
+        )
+        return {NODE: robot} | {
+            f"/client_{session.id}": Node(
+                list(party.remembered.advertised),
+                list(party.remembered.subscriptions),
+                list(party.remembered.services),
+                list(party.remembered.actions),
+            )
+            for session, party in self._clients.items()
+        }

@@ -1,0 +1,156 @@
+"""The line to a robot that is not ours: a bridge client in a thread of its own."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+import math
+from collections.abc import Callable
+from typing import Protocol
+
+from bridge.address import host_and_port
+from bridge.client import BridgeClient, LinkState, Phase
+from bridge.errors import BridgeError, NotConnected
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import Twist, TwistStamped
+from bridge.msgs.std_msgs import Header, Time
+from bridge.network import NetworkThread
+from robotside.autonomy import CAMERA
+from robotside.foreign_topics import Found, match, usual
+
+__all__ = ["ForeignLink", "Listener"]
+
+log = logging.getLogger(__name__)
+
+ASKING = 3.0
+"""How long the robot may take to tell its topics [s]."""
+
+_BINARY = {"/scan", "/map", CAMERA}
+"""Worth to be sent as CBOR."""
+
+
+class _Topics(Msg, frozen=True, gc=False):
+    """What `/rosapi/topics` answers."""
+
+    topics: list[str] = []
+    types: list[str] = []
+
+
+class Listener(Protocol):
+    """Whom a link tells; called in the link's thread."""
+
+    def found(self, found: Found) -> None:
+        """The robot is reached, stands still, and offers this."""
+
+    def lost(self, sentence: str) -> None:
+        """The robot is not reached, for this reason."""
+
+    def heard(self, topic: str, msg: Msg) -> None:
+        """A message came on what is `topic` with us."""
+
+
+class ForeignLink:
+    """Connects, and again whenever the connection is lost; what it is told while there is none is dropped."""
+
+    def __init__(self, url: str, listener: Listener) -> None:
+        """`url` is `ws://HOST:PORT`; BadAddress when that is none."""
+        host_and_port(url)
+        self._listener = listener
+        self._client = BridgeClient(url, on_state=self._become)
+        self._found: Found | None = None
+        self._leave: dict[str, Callable[[], None]] = {}
+        self._wanted: set[str] = set()
+        self._asking: asyncio.Task[None] | None = None
+        self._network = NetworkThread(f"link to {url}")
+        self._network.start(self._client.run())
+
+    def robot_time(self) -> float:
+        """The foreign robot's clock now [s], as it tells it; NaN while it is not known."""
+        return self._client.robot_time()
+
+    def drive(self, twist: Twist) -> None:
+        """Send a drive command at once, or never."""
+        self._network.call(self._drive, twist, self._client.robot_time())
+
+    def want(self, topic: str, wanted: bool) -> None:
+        """Have the messages of an on-demand topic sent from now on, or no longer."""
+        self._network.call(self._want, topic, wanted)
+
+    def close(self) -> None:
+        """Bring the robot to rest if it is reached, and end the link and its thread; again does nothing."""
+        with contextlib.suppress(NotConnected):
+            self._network.start(self._end()).result()
+        self._network.close()
+
+    async def _end(self) -> None:
+        self._drive(Twist(), self._client.robot_time())
+        await asyncio.sleep(0)
+        if self._asking is not None:
+            self._asking.cancel()
+        await self._client.close()
+
+    def _become(self, state: LinkState) -> None:
+        if state.phase is Phase.CONNECTED:
+            # first of all, and again when it is known on which topic: whatever it did when the link was lost
+            self._drive(Twist(), self._client.robot_time())
+            self._asking = asyncio.create_task(self._ask())
+        elif state.phase in (Phase.WAITING, Phase.CLOSED):
+            if self._asking is not None:
+                self._asking.cancel()
+            self._listener.lost(state.sentence)
+
+    async def _ask(self) -> None:
+        found = await self._offer()
+        if self._found is not None and self._found.command != found.command:
+            self._drive(Twist(), self._client.robot_time())
+        before, self._found = self._found, found
+        if before is None or (before.command, before.stamped) != (found.command, found.stamped):
+            self._client.advertise(found.command, TwistStamped if found.stamped else Twist)
+        self._drive(Twist(), self._client.robot_time())
+        for topic in {*self._leave, *found.topics}:
+            if before is None or before.topics.get(topic) != found.topics.get(topic):
+                self._unsubscribe(topic)
+                self._subscribe(topic)
+        self._listener.found(found)
+
+    async def _offer(self) -> Found:
+        try:
+            told = await self._client.call("/rosapi/topics", None, _Topics, timeout=ASKING)
+        except BridgeError as error:
+            log.info("%s does not tell its topics: %s", self._client.place, error)
+            return usual()
+        return match(dict(zip(told.topics, told.types, strict=False)))
+
+    def _subscribe(self, topic: str) -> None:
+        if self._found is None or topic not in self._found.topics or topic in self._leave:
+            return
+        if topic == CAMERA and topic not in self._wanted:
+            return
+        name, kind = self._found.topics[topic]
+        compression = "cbor" if topic in _BINARY else "none"
+        self._leave[topic] = self._client.subscribe(
+            name, kind, lambda msg, _: self._listener.heard(topic, msg), compression=compression
+        )
+
+    def _unsubscribe(self, topic: str) -> None:
+        leave = self._leave.pop(topic, None)
+        if leave is not None:
+            leave()
+
+    def _want(self, topic: str, wanted: bool) -> None:
+        if wanted:
+            self._wanted.add(topic)
+            self._subscribe(topic)
+        else:
+            self._wanted.discard(topic)
+            self._unsubscribe(topic)
+
+    def _drive(self, twist: Twist, stamp: float) -> None:
+        if self._found is None:
+            return
+        known = math.isfinite(stamp)
+        msg: Msg = twist
+        if self._found.stamped:
+            msg = TwistStamped(Header(Time.at(stamp) if known else Time(), "base_link"), twist)
+        self._client.publish(self._found.command, msg, stamp=stamp if known else None)

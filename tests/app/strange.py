@@ -1,0 +1,64 @@
+"""A robot that is not ours, on a server that is not ours, for tests that are no coroutines."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from bridge.network import NetworkThread
+from tests.bridge.foreign_robot import ForeignRobot
+from tests.bridge.foreign_server import ForeignServer
+
+__all__ = ["Strange", "strange_robot"]
+
+
+class Strange:
+    """The server in a thread of its own, and the robot behind it."""
+
+    def __init__(self, network: NetworkThread, server: ForeignServer) -> None:
+        self._network, self._server = network, server
+
+    @property
+    def url(self) -> str:
+        return f"ws://127.0.0.1:{self._server.port}"
+
+    @property
+    def robot(self) -> ForeignRobot:
+        return self._server.robot
+
+    def operations(self, kind: str) -> list[dict[str, object]]:
+        """What clients that are connected now have asked for with operation `kind`, oldest first."""
+        return [op for peer in list(self._server.peers) for op in list(peer.heard) if op.get("op") == kind]
+
+    def listened(self) -> set[str]:
+        """Topics that somebody subscribes to."""
+        return {name for peer in list(self._server.peers) for name in list(peer.wishes)}
+
+    def withhold(self, *services: str) -> None:
+        """Have no longer these services of rosapi; none at all without names."""
+        for name in services or tuple(self._server.rosapi.asked):
+            del self._server.rosapi.asked[name]
+
+    def cut(self) -> None:
+        """Break every connection; whoever connects again is served."""
+
+        def abort() -> None:
+            for peer in list(self._server.peers):
+                peer.ws.transport.abort()
+
+        self._network.call(abort)
+
+
+@contextmanager
+def strange_robot(ros: int = 1) -> Iterator[Strange]:
+    """Serves with the manners of ROS 1 or 2 until the end of the block."""
+    logging.getLogger("websockets.server").setLevel(logging.WARNING)  # Kivy logs every byte otherwise
+    network = NetworkThread("strange robot")
+    server = ForeignServer(ros)
+    try:
+        network.start(server.start()).result(5)
+        yield Strange(network, server)
+    finally:
+        network.start(server.close()).result(5)
+        network.close()

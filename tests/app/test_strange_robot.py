@@ -1,0 +1,188 @@
+"""The link and the session on a robot that is not ours: heard by type, driven by its own topic, stopped by zero speed."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.offer import CAMERA
+from app.topics import Topics
+from bridge.msgs.geometry_msgs import Twist
+from tests.app.strange import Strange, strange_robot
+from tests.app.test_link import AHEAD, Operator
+
+
+@pytest.fixture(params=[1, 2], ids=["ROS 1", "ROS 2"])
+def strange(request: pytest.FixtureRequest) -> Iterator[Strange]:
+    with strange_robot(request.param) as robot:
+        yield robot
+
+
+@pytest.fixture
+def operator(strange: Strange, tmp_path: Path) -> Iterator[Operator]:
+    operator = Operator(strange.url, tmp_path, wants_control=True)
+    operator.until(lambda: operator.session.foreign and operator.session.connected)
+    yield operator
+    operator.close()
+
+
+def drives(operator: Operator, strange: Strange) -> None:
+    operator.until(lambda: operator.session.may_drive)
+    operator.link.drive(AHEAD)
+    operator.until(lambda: strange.robot.speed > 0.2)
+
+
+def holds(operator: Operator, seconds: float, each: Callable[[], Any] = lambda: None) -> None:
+    end = time.monotonic() + seconds
+    operator.until(lambda: each() or time.monotonic() > end)
+
+
+def told(strange: Strange) -> list[dict[str, Any]]:
+    return [op for op in strange.operations("publish") if op["topic"] == "/cmd_vel"]
+
+
+def test_what_it_has_is_heard_and_nothing_else_is_asked_for(operator: Operator, strange: Strange) -> None:
+    for name in ("/odom", "/imu/data", "/scan", "/battery_state", "/pose"):
+        operator.until(lambda name=name: operator.session.feeds.latest(name) is not None)
+    assert strange.listened() == {"/odom", "/imu/data", "/scan", "/battery_state"}
+    assert operator.session.camera(None) == ""
+    called = {op["service"] for op in strange.operations("call_service")}
+    assert not {name for name in called if not str(name).startswith("/rosapi/")}
+
+
+def test_pictures_come_by_the_topic_of_their_type(
+    operator: Operator, strange: Strange, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seen: list[bytes] = []
+    monkeypatch.setattr(operator.link, "_on_picture", lambda frame, _: seen.append(frame.jpeg))
+    operator.link.watch(operator.session.camera(None))
+    operator.until(lambda: seen)
+    assert seen[0].startswith(b"\xff\xd8")
+    assert operator.session.offer.source(CAMERA) in strange.listened()
+    operator.link.watch(None)
+    operator.until(lambda: operator.session.offer.source(CAMERA) not in strange.listened())
+
+
+def test_there_is_no_control_to_take_and_none_is_asked_for(operator: Operator) -> None:
+    assert operator.session.control == "none"
+    holds(operator, 0.3)
+    assert operator.session.outcomes == {}
+
+
+def test_it_drives_and_rests_when_let_go(operator: Operator, strange: Strange) -> None:
+    drives(operator, strange)
+    operator.link.drive(Twist())
+    operator.until(lambda: strange.robot.speed == 0.0)
+
+
+def test_stop_sends_zero_again_and_again_until_it_is_released(operator: Operator, strange: Strange) -> None:
+    drives(operator, strange)
+    operator.session.stop()
+    assert operator.session.stop_phase == "sent"
+    operator.until(lambda: operator.session.stop_phase == "stopped")
+    assert strange.robot.speed == 0.0
+    before = len(told(strange))
+    holds(operator, 1.0, lambda: operator.link.drive(AHEAD))
+    sent = told(strange)[before:]
+    assert 7 <= len(sent) <= 13
+    assert all(op["msg"]["linear"]["x"] == 0.0 for op in sent)
+    assert not operator.session.may_drive
+    operator.session.release_stop()
+    assert operator.session.stop_phase == "ready"
+    holds(operator, 0.4)
+    quiet = len(told(strange))
+    holds(operator, 0.4)
+    assert len(told(strange)) == quiet
+    drives(operator, strange)
+
+
+def test_stop_outlives_a_cut_connection(operator: Operator, strange: Strange) -> None:
+    operator.session.stop()
+    operator.until(lambda: operator.session.stop_phase == "stopped")
+    strange.cut()
+    operator.until(lambda: not operator.session.connected)
+    operator.until(lambda: operator.session.connected)
+    operator.until(lambda: len(told(strange)) > 3)
+    operator.until(lambda: operator.session.stop_phase == "stopped")
+
+
+def test_a_robot_that_does_not_obey_is_not_said_to_be_stopped(operator: Operator, strange: Strange) -> None:
+    drives(operator, strange)
+    strange.robot.command = lambda _: None  # type: ignore[method-assign]
+    strange.robot.step = lambda _: None  # type: ignore[method-assign]
+    operator.session.stop()
+    operator.until(lambda: operator.session.stop_phase == "no_answer")
+    assert "does not yet say that it rests" in operator.session.local_stop.sentence(drives=True)
+
+
+def test_a_topic_of_a_type_that_nobody_knew_is_learned_and_let_go(
+    operator: Operator, strange: Strange
+) -> None:
+    topics = Topics(operator.session)
+    operator.session.listeners.append(topics.hear)
+    topics.open("/gripper")
+    assert topics.notice == "Learning acme_msgs/Gripper …"
+    operator.until(lambda: topics.message is not None)
+    assert topics.kind.__struct_fields__[:3] == ("header", "mode", "fingers")
+    assert [finger.name for finger in topics.message.fingers] == ["left", "right"]
+    assert "/gripper" in strange.listened()
+    operator.until(lambda: topics.rate > 2.0)
+    assert (topics.state, topics.notice) == ("live", "")
+    topics.close()
+    operator.until(lambda: "/gripper" not in strange.listened())
+
+
+def test_a_type_that_cannot_be_learned_is_said(operator: Operator) -> None:
+    topics = Topics(operator.session)
+    operator.session.listeners.append(topics.hear)
+    offer = operator.session.offer
+    object.__setattr__(offer, "topics", {**offer.topics, "/odd": "odd_msgs/Odd"})
+    topics.open("/odd")
+    operator.until(lambda: topics.problem)
+    assert topics.problem.startswith("odd_msgs/Odd cannot be shown: this app does not know it")
+    assert topics.message is None
+    topics.open("/scan")
+    operator.until(lambda: topics.message is not None)
+    assert topics.problem == ""
+
+
+@pytest.fixture
+def bare(tmp_path: Path) -> Iterator[Callable[..., tuple[Operator, Strange]]]:
+    """Connects to a robot of ROS 1 that lacks some of rosapi's services."""
+    with strange_robot() as robot:
+        made: list[Operator] = []
+
+        def connect(*withheld: str) -> tuple[Operator, Strange]:
+            robot.withhold(*withheld)
+            made.append(Operator(robot.url, tmp_path, wants_control=True))
+            made[0].until(lambda: made[0].session.foreign and made[0].session.connected)
+            return made[0], robot
+
+        yield connect
+        for operator in made:
+            operator.close()
+
+
+def test_a_robot_without_a_clock_is_driven_without_stamps(
+    bare: Callable[..., tuple[Operator, Strange]],
+) -> None:
+    operator, strange = bare("get_time")
+    drives(operator, strange)
+    holds(operator, 0.3)
+    assert all("stamp" not in op for op in told(strange))
+
+
+def test_a_robot_without_rosapi_is_tried_by_the_usual_names(
+    bare: Callable[..., tuple[Operator, Strange]],
+) -> None:
+    operator, strange = bare()
+    assert not operator.session.offer.rosapi
+    operator.until(lambda: operator.session.feeds.latest("/odom") is not None)
+    drives(operator, strange)
+    operator.session.stop()
+    operator.until(lambda: operator.session.stop_phase == "stopped")
+    assert Topics(operator.session).sentence == "This robot does not tell its topics: it runs no rosapi."

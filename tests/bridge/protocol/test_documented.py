@@ -1,0 +1,46 @@
+"""docs/bridge.md tells of the protocol what the code does."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from bridge.compat import Compat
+from bridge.protocol import OPS, Op, Reduction
+
+TEXT = (Path(__file__).parents[3] / "docs" / "bridge.md").read_text()
+TABLE = TEXT.split("<!-- operations:")[1].split("<!-- end of operations -->")[0]
+ROWS = {
+    cells[1].strip(" `"): cells[3]
+    for line in TABLE.splitlines()
+    if (cells := line.split("|"))[1:2] and "`" in cells[1]
+}
+COMMON = {field.name for field in msgspec.structs.fields(Op)}
+
+
+def test_every_operation_is_told_of():
+    assert set(ROWS) == {tag(op) for op in OPS}
+
+
+def tag(op):
+    return op.__struct_config__.tag
+
+
+@pytest.mark.parametrize("op", OPS, ids=tag)
+def test_its_fields_are_told_and_which_of_them_may_be_left_out(op):
+    told = {name: bracket == "(" for bracket, name in re.findall(r"(\(?)`(\w+)`", ROWS[tag(op)])}
+    fields = {f.name: not f.required for f in msgspec.structs.fields(op) if f.name not in COMMON}
+    assert told == fields
+
+
+@pytest.mark.parametrize(
+    "name",
+    [field.name for field in dataclasses.fields(Compat)]
+    + [f.name for f in msgspec.structs.fields(Reduction)],
+)
+def test_every_switch_and_every_reduction_has_its_row(name):
+    assert re.search(rf"^\| [^|]*`{name}`", TEXT, re.MULTILINE)

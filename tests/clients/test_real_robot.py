@@ -1,0 +1,65 @@
+"""The simulated patrol robot, started as anybody would start it, and programs on roslibpy and roslib."""
+
+from __future__ import annotations
+
+import asyncio
+import re
+import sys
+from contextlib import asynccontextmanager
+from pathlib import Path
+
+from tests.clients.peers import START, both
+
+ROOT = Path(__file__).parents[2]
+VELOCITY = {"name": "/cmd_vel", "type": "geometry_msgs/Twist"}
+STOP = {"name": "/stop", "type": "std_srvs/Trigger"}
+RELEASE = {"name": "/stop/release", "type": "std_srvs/Trigger"}
+
+
+@asynccontextmanager
+async def patrol_robot(state):
+    """The robot's own process; gives the port of its bridge."""
+    command = "-m robotside serve --robot sim:patrol --port 0 --http-port 0 --name Patrol-7 --state"
+    pipe = asyncio.subprocess.PIPE
+    process = await asyncio.create_subprocess_exec(
+        sys.executable, *command.split(), str(state), stdout=pipe, cwd=ROOT
+    )
+    try:
+        async with asyncio.timeout(START):
+            ready = (await process.stdout.readline()).decode()
+        yield int(re.search(r"bridge=\S*?:(\d+)", ready).group(1))
+    finally:
+        process.terminate()
+        await process.wait()
+
+
+async def drive_until(script, python, moved):
+    """Push until the odometry that the other program hears fits."""
+    seen = 0
+    async with asyncio.timeout(START):
+        while True:
+            await script.do("publish", **VELOCITY, msg={"linear": {"x": 0.4}})
+            seen += 1
+            if moved((await python.message("/odom", seen))["twist"]["twist"]["linear"]["x"]):
+                return
+
+
+async def test_it_is_seen_driven_and_stopped_by_both(tmp_path):
+    async with patrol_robot(tmp_path) as port, both(port) as (python, script):
+        await python.do("subscribe", name="/robot/info", type="pilothouse_msgs/RobotInfo")
+        assert (await python.message("/robot/info"))["name"] == "Patrol-7"
+
+        for topic, kind in (("/scan", "sensor_msgs/LaserScan"), ("/odom", "nav_msgs/Odometry")):
+            await script.do("subscribe", name=topic, type=kind, compression="cbor")
+        assert (await script.message("/scan"))["ranges"]["array"] == "Float32Array"
+        assert (await script.message("/odom"))["pose"]["covariance"]["array"] == "Float64Array"
+        picture = {"name": "/camera/image/compressed", "type": "sensor_msgs/CompressedImage"}
+        await script.do("subscribe", **picture, compression="cbor")
+        assert (await script.message(picture["name"]))["data"]["values"][:2] == [0xFF, 0xD8]
+
+        await python.do("subscribe", name="/odom", type="nav_msgs/Odometry")
+        await drive_until(script, python, lambda speed: speed > 0.1)
+        assert (await python.do("call", **STOP))["values"]["success"]
+        python.events.clear()
+        await drive_until(script, python, lambda speed: abs(speed) < 0.01)
+        assert (await script.do("call", **RELEASE))["values"]["success"]

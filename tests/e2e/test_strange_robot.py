@@ -1,0 +1,84 @@
+"""The app on a robot and a server that are not ours: watched, driven by finger, stopped, and read field by field."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.app.strange import Strange, strange_robot
+from tests.e2e.handheld import Handheld, handheld
+
+
+@pytest.fixture(params=[1, 2], ids=["ROS 1", "ROS 2"])
+def strange(request: pytest.FixtureRequest) -> Iterator[Strange]:
+    with strange_robot(request.param) as robot:
+        yield robot
+
+
+@pytest.fixture
+def glass(strange: Strange, tmp_path: Path) -> Iterator[Handheld]:
+    with handheld(tmp_path, url=strange.url, discover=False, screen="drive") as glass:
+        glass.until(lambda: glass.app.shell is not None, "the robot's screens")
+        yield glass
+
+
+def press_and_hold(glass: Handheld, stop: Any) -> None:
+    finger = glass.hand.down(stop.to_window(*stop.center))
+    glass.until(lambda: stop.phase == "ready", "the release after a hold", 5.0)
+    glass.hand.up(finger)
+
+
+def test_instruments_live_it_is_driven_and_stop_brings_it_to_rest(glass: Handheld, strange: Strange) -> None:
+    drive = glass.app.screens["drive"]
+    for kind in ("LaserScanView", "ArtificialHorizon", "HeadingTape", "Video"):
+        glass.until(lambda kind=kind: glass.one(kind).state == "live", f"a live {kind}")
+    glass.until(lambda: any("no Pilothouse services" in words for words in glass.words()), "what is missing")
+    glass.until(lambda: drive.stick.state == "live", "a stick to push")
+    finger = glass.push(drive.stick, 0.0, 1.0)
+    glass.until(lambda: strange.robot.speed > 0.1, "the robot to drive")
+    before = strange.robot.x
+    glass.until(lambda: strange.robot.x > before + 0.05, "the robot to get on")
+    stop = glass.one("StopButton")
+    glass.play(glass.hand.tap(stop.to_window(*stop.center)))
+    glass.until(lambda: stop.phase == "stopped", "STOPPED, by its odometry", 4.0)
+    assert strange.robot.speed == 0.0
+    assert any("zero speed is being sent. Its odometry says that it rests." in w for w in glass.words())
+    assert drive.stick.state == "disabled"
+    heard = strange.robot.heard
+    glass.until(lambda: strange.robot.heard >= heard + 5, "zero speed, again and again", 2.0)
+    glass.hand.up(finger)
+    press_and_hold(glass, stop)
+    glass.until(lambda: drive.stick.state == "live", "a stick to push")
+    assert strange.robot.speed == 0.0, "a release moves nothing"
+    glass.hand.up(glass.push(drive.stick, 0.0, 1.0))
+
+
+def test_the_fields_of_a_type_that_nobody_knew_are_on_the_glass(glass: Handheld, strange: Strange) -> None:
+    glass.tap("Topics", "NavButton")
+    glass.tap("/gripper")
+    glass.until(lambda: glass.app.screens["topics"].view.lines, "the fields")
+    glass.until(
+        lambda: (
+            {"fingers", "limits", "raw", "acme_msgs/Finger[]", "−3 to 512   (−3  512)"} <= set(glass.words())
+        ),
+        "every field",
+    )
+    glass.tap("[1]", "FieldRow")
+    glass.until(lambda: {"force", "1.5000", "opening"} <= set(glass.words()), "what was folded")
+    assert "/gripper" in strange.listened()
+    glass.tap("Drive", "NavButton")
+    glass.until(lambda: "/gripper" not in strange.listened(), "its subscription to end")
+
+
+def test_what_it_does_not_offer_is_said_and_never_asked_for(glass: Handheld, strange: Strange) -> None:
+    glass.tap("Mission", "NavButton")
+    glass.until(lambda: "It stores no missions and offers no tasks." in glass.words(), "what is missing")
+    panel = glass.app.screens["mission"].panel
+    assert (panel.tasks.state, panel.ids.send.disabled) == ("disabled", True)
+    glass.tap("no control")
+    glass.until(lambda: any("knows no control" in words for words in glass.words()), "why")
+    called = {str(op["service"]) for op in strange.operations("call_service")}
+    assert {name for name in called if not name.startswith("/rosapi/")} == set()

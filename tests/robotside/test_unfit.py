@@ -1,0 +1,171 @@
+"""A robot without a map, or one that cannot be reached: what still works, and what is said about the rest."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from bridge.msgs import Msg
+from bridge.msgs.arrays import Int8Array
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Pose,
+    PoseStamped,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Twist,
+)
+from bridge.msgs.nav_msgs import OccupancyGrid
+from bridge.msgs.pilothouse_msgs import CommandRequest, Event, SetMissionRequest, StartTaskRequest
+from robotside.station import NO_MAP
+from tests.fakes import FakeRobot
+from tests.robotside.scene import SQUARE, Scene
+
+LOST = "The robot cannot be reached: the connection was cut."
+
+
+class Talking(FakeRobot):
+    """Has messages beside what it measures."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.more: list[tuple[str, Msg]] = []
+
+    def read(self, now: float) -> Iterator[tuple[str, Msg]]:
+        yield from super().read(now)
+        more, self.more = self.more, []
+        yield from more
+
+
+@pytest.fixture
+def lost_map(tmp_path: Path) -> Iterator[Scene]:
+    robot = Talking()
+    robot.silent.add("/map")
+    scene = Scene(robot, tmp_path)
+    scene.run(1.0)
+    yield scene
+    scene.station.close()
+
+
+def test_without_a_map_it_drives_by_hand_and_says_why_it_does_nothing_else(lost_map: Scene) -> None:
+    lost_map.drive(Twist.planar(0.3, 0.0))
+    assert lost_map.robot.twist == Twist.planar(0.3, 0.0)
+    mission = SetMissionRequest(mission=msgspec.structs.replace(lost_map.station.mission, waypoints=SQUARE))
+    assert lost_map.refused("/mission/set", mission) == NO_MAP
+    assert lost_map.refused("/task/start", StartTaskRequest()) == NO_MAP
+    lost_map.station.hear(lost_map.anna, "/goal_pose", PoseStamped(pose=Pose(Point(1.0, 0.0))), None)
+    placed = PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(1.0, 0.0))))
+    lost_map.station.hear(lost_map.anna, "/initialpose", placed, None)
+    assert lost_map.events("command") == [NO_MAP, NO_MAP]
+    assert lost_map.of("/pose") == []
+
+
+def test_a_map_that_comes_later_is_taken(lost_map: Scene) -> None:
+    assert isinstance(lost_map.robot, Talking)
+    lost_map.robot.more = [("/map", lost_map.robot.map())]
+    lost_map.run(4.0)
+    assert lost_map.events("localisation")[0] == "There is a map now."
+    lost_map.set(*SQUARE)
+    lost_map.start()
+    assert lost_map.task.state == "RUNNING"
+
+
+def test_another_map_counts_when_the_task_is_over_and_the_position_stays(lost_map: Scene) -> None:
+    robot = lost_map.robot
+    assert isinstance(robot, Talking)
+    robot.more = [("/map", robot.map())]
+    lost_map.run(4.0)
+    lost_map.set(*SQUARE)
+    lost_map.start()
+    planner = lost_map.station.autonomy.guide.planner
+    robot.more = [("/map", robot.map(0.05))]
+    lost_map.run(1.0)
+    assert lost_map.station.autonomy.guide.planner is planner
+    lost_map.ask("/task/cancel")
+    lost_map.run(1.0)
+    assert lost_map.station.autonomy.guide.planner is not planner
+    pose = lost_map.station.autonomy.whereabouts.pose
+    assert pose is not None
+    assert pose.distance(robot.pose[0], robot.pose[1]) < 0.1
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"width": 7}, "The map is of no use: it says 7 x 140 cells and has 30800."),
+        ({"resolution": 0.0}, "The map is of no use: its cells are 0.0 m wide."),
+        ({"width": 0, "height": 0}, "The map is of no use: it says 0 x 0 cells and has 30800."),
+    ],
+)
+def test_a_map_of_no_use_is_said_and_left_out(lost_map: Scene, change: dict[str, object], said: str) -> None:
+    robot = lost_map.robot
+    assert isinstance(robot, Talking)
+    good = robot.map()
+    robot.more = [
+        ("/map", OccupancyGrid(good.header, msgspec.structs.replace(good.info, **change), good.data))
+    ]
+    lost_map.run(1.0)
+    assert lost_map.events("localisation") == [said]
+    assert not lost_map.station.autonomy.has_map
+
+
+def test_a_map_without_cells_is_of_no_use(lost_map: Scene) -> None:
+    assert isinstance(lost_map.robot, Talking)
+    lost_map.robot.more = [("/map", OccupancyGrid(data=Int8Array()))]
+    lost_map.run(1.0)
+    assert not lost_map.station.autonomy.has_map
+
+
+def test_what_a_robot_says_is_told_as_the_robot_sides_own(tmp_path: Path) -> None:
+    robot = Talking()
+    scene = Scene(robot, tmp_path)
+    robot.more = [
+        ("/events", Event(id=99, boot="its own", level="warn", kind="robot", text="There is no laser."))
+    ]
+    scene.run(0.1)
+    (event,) = [msg for msg in scene.of("/events") if isinstance(msg, Event) and msg.kind == "robot"]
+    assert (event.text, event.level, event.boot) == ("There is no laser.", "warn", "b1")
+    assert event.id != 99
+    scene.station.close()
+
+
+def test_while_the_robot_cannot_be_reached_nothing_is_commanded_and_the_reason_is_said(scene: Scene) -> None:
+    scene.robot.trouble = LOST
+    scene.run(0.1)
+    before = len(scene.robot.commands)
+    scene.drive(Twist.planar(0.3, 0.0))
+    assert len(scene.robot.commands) == before
+    assert scene.events("robot") == [LOST]
+    assert scene.events("command") == [LOST]
+    scene.set(SQUARE[0])
+    assert scene.refused("/task/start", StartTaskRequest()) == LOST
+    scene.robot.trouble = ""
+    scene.run(0.1)
+    assert scene.events("robot")[-1] == "The robot can be reached again; it stands still."
+
+
+def test_a_task_is_held_when_the_link_is_lost_and_goes_on_only_when_somebody_says_so(scene: Scene) -> None:
+    scene.set(*SQUARE)
+    scene.start()
+    scene.run(2.0)
+    scene.robot.trouble = LOST
+    scene.run(1.0)
+    assert (scene.task.state, scene.task.reason) == ("PAUSED", f"Paused: t{LOST[1:]}")
+    assert scene.refused("/task/resume") == LOST
+    scene.robot.trouble = ""
+    there = scene.robot.pose
+    scene.run(2.0)
+    assert (scene.task.state, scene.robot.pose) == ("PAUSED", there)
+    assert scene.ask("/task/resume", CommandRequest()).success
+    scene.run(2.0)
+    assert scene.robot.pose != there
+
+
+def test_a_drive_command_in_force_ends_with_the_link(scene: Scene) -> None:
+    scene.drive(Twist.planar(0.3, 0.0))
+    scene.robot.trouble = LOST
+    scene.run(0.05)
+    assert not scene.station.controls.driving

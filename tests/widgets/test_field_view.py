@@ -1,0 +1,166 @@
+"""The tree on the glass: what it shows, what a finger folds, and how little a large message costs."""
+
+from __future__ import annotations
+
+import math
+from typing import ClassVar
+
+import pytest
+
+import widgets.fields
+from bridge.msgs import Msg
+from bridge.msgs.sensor_msgs import Imu
+from bridge.msgs.std_msgs import String
+from widgets.field_samples import battery, cells, diagnostics, imu, scan
+from widgets.field_view import FieldView
+from widgets.theme import theme
+
+
+class Texts(Msg, frozen=True, gc=False):
+    MSGTYPE: ClassVar[str] = "x/Texts"
+    lines: list[str] = []
+
+
+class Nothing(Msg, frozen=True, gc=False):
+    MSGTYPE: ClassVar[str] = "x/Nothing"
+
+
+@pytest.fixture
+def view(stage):
+    return stage.show(FieldView(state="live"), size=(388, 500))
+
+
+def shown(view):
+    return sorted((row for row in view._pool if row.parent), key=lambda row: -row.top)
+
+
+def figures(view):
+    return {row.name: row.value for row in shown(view)}
+
+
+def test_before_the_first_message_it_says_so_or_shows_dashes(stage, view):
+    assert (view.notice, shown(view)) == ("Nothing has come yet.", [])
+    view.type = type(battery())
+    stage.frames(2)
+    assert view.notice == ""
+    assert figures(view)["voltage"] == "—"
+
+
+def test_a_message_is_shown_field_by_field_with_its_types(stage, view):
+    view.show(cells())
+    stage.frames(2)
+    assert [(row.name, row.type, row.value) for row in shown(view)] == [
+        ("cycles", "uint32", "18 204"),
+        ("leak_rate", "float64", "—"),
+        ("balanced", "bool", "true"),
+        ("voltages", "float32[]", "4 values"),
+        ("log", "uint8[]", "45.1 kB"),
+    ]
+
+
+def test_another_type_may_follow(stage, view):
+    view.show(cells())
+    view.show(String("hello"))
+    stage.run_for(0.2)
+    assert figures(view) == {"data": "hello"}
+    view.show(Nothing())
+    stage.run_for(0.2)
+    assert view.notice == "This message has no fields."
+
+
+def test_a_tap_folds_and_another_unfolds(stage, view):
+    view.show(imu())
+    stage.frames(2)
+    row = next(row for row in shown(view) if row.name == "orientation")
+    assert [one.name for one in shown(view)][2:6] == ["x", "y", "z", "w"]
+    for folded in (True, False):
+        stage.tap(*row.to_window(*row.center))
+        stage.run_for(0.2)
+        row = next(row for row in shown(view) if row.name == "orientation")
+        assert row.open is not folded
+        assert ([one.name for one in shown(view)][2] == "x") is not folded
+
+
+def test_what_is_folded_stays_so_with_the_next_message(stage, view):
+    view.show(imu())
+    stage.frames(2)
+    view.fold(("orientation",))
+    view.show(Imu())
+    stage.run_for(0.2)
+    assert [row.name for row in shown(view)][2] == "orientation_covariance"
+
+
+def test_a_finger_on_a_value_folds_nothing(stage, view):
+    view.show(imu())
+    stage.frames(2)
+    row = next(row for row in shown(view) if row.name == "w")
+    stage.tap(*row.to_window(*row.center))
+    stage.run_for(0.2)
+    assert dict(view.folds) == {}
+
+
+def test_what_can_be_folded_is_as_high_as_a_finger_needs(stage, view):
+    view.show(imu())
+    for gloves in (False, True):
+        theme.gloves = gloves
+        stage.run_for(0.2)
+        assert all(row.height >= theme.target for row in shown(view) if row.foldable)
+    theme.gloves = False
+
+
+def test_only_what_is_in_sight_has_widgets(stage, view):
+    view.show(Texts(lines=[f"line {index}" for index in range(50)]))
+    stage.frames(2)
+    assert view.length > 1500
+    assert len(view.ids.sheet.children) < 20
+    view.ids.scroll.scroll_y = 0
+    stage.frames(2)
+    assert shown(view)[-1].value == "line 49"
+    assert len(view.ids.sheet.children) < 20
+
+
+def test_fifty_messages_a_second_are_written_ten_times(stage, view, monkeypatch):
+    view.show(scan())
+    stage.run_for(0.5)
+    written = []
+    tree = widgets.field_view.rows
+    monkeypatch.setattr(widgets.field_view, "rows", lambda *args: written.append(1) or tree(*args))
+    for _ in range(50):
+        view.show(scan())
+        stage.frames(1, 0.02)
+    assert len(written) <= 10
+    stage.run_for(0.2)
+    assert view.message.ranges[100] == pytest.approx(figures_of(view))
+
+
+def figures_of(view):
+    row = next(row for row in view.lines if row.name == "ranges")
+    return row.value[100]
+
+
+def test_showing_a_message_only_assigns(view):
+    before = list(view.lines)
+    view.show(diagnostics())
+    assert view.lines == before
+
+
+def test_an_age_follows_the_robots_clock(stage, view):
+    view.show(imu())
+    view.now = 1763719271.12 + 2.0
+    stage.run_for(0.2)
+    assert figures(view)["header"].endswith("· 2.0 s ago")
+    view.now = math.nan
+    view.show(imu())
+    stage.run_for(0.2)
+    assert "ago" not in figures(view)["header"]
+
+
+@pytest.mark.parametrize("width", [280, 388, 900])
+def test_nothing_leaves_the_row(stage, view, width):
+    view.width = width
+    for message in (imu(), scan(), diagnostics(), cells()):
+        view.show(message)
+        stage.run_for(0.2)
+        for row in shown(view):
+            right = row.name_x + row.name_width + (row.type_width and row.type_width + 9)
+            assert right <= row.right - 12 - row.value_width + 1, row.name

@@ -1,0 +1,143 @@
+"""A message in words: rows of a tree, figures, arrays in short."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import ClassVar
+
+import pytest
+
+from bridge.msgs import Msg
+from bridge.msgs.arrays import Float32Array
+from bridge.msgs.geometry_msgs import Twist, Vector3
+from bridge.msgs.std_msgs import Duration, Header, Time
+from widgets.field_samples import battery, cells, diagnostics, imu, scan
+from widgets.fields import ARRAY, BRANCH, LEAF, MORE, clock, describe, number, rows, size_text
+
+
+class Notes(Msg, frozen=True, gc=False):
+    MSGTYPE: ClassVar[str] = "x/Notes"
+    texts: list[str] = []
+    flags: list[bool] = []
+    left: Duration = Duration()
+
+
+def texts(message, now=math.nan, folds=None):
+    return {".".join(map(str, row.path)): describe(row, now) for row in rows(message, folds or {})}
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        (math.nan, "—"),
+        (math.inf, "inf"),
+        (-math.inf, "−inf"),
+        (0.0, "0.0000"),
+        (-0.0, "0.0000"),
+        (-9.80665, "−9.8066"),
+        (1e-9, "1.000e−09"),
+        (123456789.0, "1.235e+08"),
+        (7, "7"),
+        (-18204, "−18 204"),
+        (True, "true"),
+    ],
+)
+def test_a_number_has_always_as_many_decimals(value, words):
+    assert number(value) == words
+
+
+def test_figures_of_one_size_have_one_width():
+    assert len({len(number(value)) for value in (0.1, 9.99996e-1, 7.123456, 3.0)}) == 1
+
+
+@pytest.mark.parametrize(("count", "words"), [(0, "0 B"), (45_100, "45.1 kB"), (2_500_000, "2.5 MB")])
+def test_bytes_are_told_by_their_number(count, words):
+    assert size_text(count) == words
+
+
+def test_a_time_is_told_by_the_clock_and_by_its_age():
+    stamp = 1763719271.12
+    told = time.strftime("%H:%M:%S", time.localtime(stamp)) + ".120"
+    assert clock(stamp) == told
+    assert clock(stamp, stamp + 0.08) == f"{told} · 0.1 s ago"
+    assert clock(stamp, stamp - 3.0) == f"{told} · 3.0 s ahead"
+    assert clock(stamp, stamp + 1e6) == told, "another clock's time has no age"
+
+
+def test_a_simulation_begins_at_midnight_and_an_unset_stamp_is_a_dash():
+    assert clock(3725.5) == "01:02:05.500"
+    assert clock(0.0) == clock(math.nan) == "—"
+
+
+def test_the_rows_of_a_small_message_are_unfolded_but_its_header():
+    found = rows(imu(), {})
+    assert [row.name for row in found if row.depth == 0][:2] == ["header", "orientation"]
+    assert not next(row for row in found if row.name == "header").open
+    assert [row.name for row in found if row.depth == 1][:4] == ["x", "y", "z", "w"]
+
+
+def test_folds_are_obeyed():
+    twist = Twist(linear=Vector3(0.5, 0.0, -0.25))
+    opened = [row.path for row in rows(twist, {("linear",): False})]
+    assert ("linear", "x") not in opened
+    assert ("angular", "x") in opened
+    assert texts(twist, folds={("linear",): False})["linear"] == ("0.50  0.00  −0.25", "")
+
+
+def test_parts_of_a_list_are_rows_and_folded_they_say_their_first_text():
+    told = texts(diagnostics())
+    assert told["status"] == ("3", "")
+    assert [told[f"status.{index}"][0] for index in range(3)] == ["Battery", "Laser", "Motors"]
+    assert "status.0.name" not in told
+    opened = texts(diagnostics(), folds={("status", 0): True, ("status", 0, "values"): True})
+    assert opened["status.0.message"] == ("", "24.1 V, all cells within 20 mV of each other")
+    assert opened["status.0.values.0"] == ("Voltage · 24.1", "")
+
+
+def test_a_list_without_end_has_bounded_rows():
+    notes = Notes(texts=[str(index) for index in range(5000)])
+    found = rows(notes, {("texts",): True})
+    assert len(found) < 60
+    more = next(row for row in found if row.kind == MORE)
+    assert more.name == "and 4950 more"
+    assert describe(more) == ("", "")
+
+
+def test_an_array_says_how_many_the_least_the_greatest_and_the_first():
+    told = texts(scan())
+    assert told["ranges"] == ("360 values", "1.00 to 3.00   (inf  inf  inf  inf  inf  inf …)")
+    assert told["intensities"] == ("empty", "")
+    unknown = texts(type(cells())(voltages=Float32Array([math.nan] * 2)))
+    assert unknown["voltages"] == ("2 values", "—  —")
+
+
+def test_truths_are_counted():
+    assert texts(Notes(flags=[True, False, True]))["flags"] == ("3 values", "2 true")
+
+
+def test_bytes_unknown_numbers_and_durations_have_words():
+    told = texts(cells())
+    assert told["log"] == ("45.1 kB", "")
+    assert told["leak_rate"] == ("—", "")
+    assert told["cycles"] == ("18 204", "")
+    assert texts(Notes(left=Duration(-2, 500_000_000)))["left"] == ("−1.500 s", "")
+
+
+def test_the_type_is_the_one_that_the_class_tells_or_none():
+    assert [row.type for row in rows(cells(), {})] == ["uint32", "float64", "bool", "float32[]", "uint8[]"]
+    assert {row.type for row in rows(Notes(), {})} == {""}
+
+
+def test_a_header_in_short_is_its_time():
+    header = next(row for row in rows(battery(), {}) if row.name == "header")
+    assert describe(header)[0] == clock(1763719271.12)
+    assert header.kind == BRANCH
+    stamp = rows(Header(Time(5)), {})[0]
+    assert (stamp.kind, describe(stamp)[0]) == (LEAF, "00:00:05.000")
+
+
+def test_a_long_text_has_a_line_of_its_own():
+    row = rows(Header(frame_id="a frame whose name is very long\nand broken"), {})[1]
+    assert row.kind == ARRAY
+    assert describe(row) == ("", "a frame whose name is very long and broken")

@@ -1,0 +1,281 @@
+"""What the fields of a message look like in words: rows of a tree, figures, summaries of arrays. No Kivy."""
+
+from __future__ import annotations
+
+import math
+import time
+from array import array
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from bridge.msgs import Msg
+from bridge.msgs.std_msgs import Duration, Time
+
+__all__ = [
+    "ARRAY",
+    "BRANCH",
+    "DASH",
+    "LEAF",
+    "MORE",
+    "Row",
+    "clock",
+    "describe",
+    "number",
+    "rows",
+    "size_text",
+]
+
+Path = tuple[str | int, ...]
+"""Way to a field from the message: names of fields, and numbers for what is in a list."""
+
+LEAF, ARRAY, BRANCH, MORE = "leaf", "array", "branch", "more"
+"""Kinds of rows: a value, an array or a long text on two lines, something to fold, and what a list holds beyond the bound."""
+DASH, MINUS = "—", "−"
+MOST_ITEMS = 50
+"""So many parts of a list have rows of their own."""
+FEW = 40
+"""A message of at most so many rows is shown unfolded."""
+FIRST = 6
+"""Values of an array that are written out."""
+ROOMY = 22
+"""A text of more letters has a line of its own."""
+LONGEST = 400
+"""Letters of a text that are shown."""
+DECIMALS = 4
+SMALL, LARGE = 0.5 * 10**-DECIMALS, 1e7
+"""Between these a number is written plainly, beyond them with an exponent."""
+EPOCH = 1e8
+"""A time below this [s] counts from the start of a simulation, not from 1970."""
+RECENT = 86400.0
+"""An age is told up to this [s]; beyond it the clocks are different ones."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One line of the tree."""
+
+    kind: str
+    """`LEAF`, `ARRAY`, `BRANCH` or `MORE`."""
+    path: Path
+    depth: int
+    name: str
+    type: str
+    """The field's ROS type as in `float64[36]`; empty where the message does not say."""
+    value: Any
+    open: bool = False
+    """Of a branch: what is in it follows."""
+
+
+@lru_cache(maxsize=512)
+def _table(kind: type[Msg]) -> tuple[tuple[str, str], ...]:
+    """Name and ROS type of each field of a message class."""
+    names: tuple[str, ...] = kind.__struct_fields__
+    types: tuple[str, ...] = getattr(kind, "ROSTYPES", ())
+    if len(types) != len(names):
+        types = ("",) * len(names)
+    return tuple(zip(names, types, strict=True))
+
+
+def rows(message: Msg, folds: Mapping[Path, bool]) -> list[Row]:
+    """The message as lines from top to bottom. `folds` says of branches whether they are open; others decide themselves.
+
+    Of a list the first 50 parts have rows, so that no message makes the tree endless.
+    """
+    few = _count(message, FEW) <= FEW
+    return list(_fields(message, (), 0, folds, few))
+
+
+def _fields(msg: Msg, path: Path, depth: int, folds: Mapping[Path, bool], few: bool) -> Iterator[Row]:
+    for name, kind in _table(type(msg)):
+        yield from _row(getattr(msg, name), (*path, name), depth, (name, kind), folds, few)
+
+
+def _row(
+    value: Any, path: Path, depth: int, label: tuple[str, str], folds: Mapping[Path, bool], few: bool
+) -> Iterator[Row]:
+    name, kind = label
+    parts = _is_parts(value)
+    if not parts and (not isinstance(value, Msg) or _is_time(value)):
+        yield Row(ARRAY if _needs_line(value) else LEAF, path, depth, name, kind, value)
+        return
+    usual = few and not _is_header(value) if not parts else depth == 0
+    opened = folds.get(path, usual)
+    yield Row(BRANCH, path, depth, name, kind, value, opened)
+    if not opened:
+        return
+    if not parts:
+        yield from _fields(value, path, depth + 1, folds, few)
+        return
+    inner = kind.partition("[")[0]
+    for index, part in enumerate(value[:MOST_ITEMS]):
+        yield from _row(part, (*path, index), depth + 1, (f"[{index}]", inner), folds, few=False)
+    if len(value) > MOST_ITEMS:
+        yield Row(MORE, (*path, -1), depth + 1, f"and {len(value) - MOST_ITEMS} more", "", None)
+
+
+def _count(msg: Msg, most: int) -> int:
+    """How many rows a message has unfolded; stops counting beyond `most`."""
+    count = 0
+    for name, _ in _table(type(msg)):
+        value = getattr(msg, name)
+        count += 1
+        if isinstance(value, Msg) and not _is_time(value):
+            count += _count(value, most - count)
+        elif _is_parts(value):
+            count += len(value)
+        if count > most:
+            break
+    return count
+
+
+def _is_time(value: object) -> bool:
+    """A time or a duration."""
+    return isinstance(value, Time)
+
+
+def _is_header(value: object) -> bool:
+    """A header, of whatever class: a learned type may bring its own."""
+    return isinstance(value, Msg) and value.MSGTYPE == "std_msgs/Header"
+
+
+def _is_parts(value: object) -> bool:
+    """A list whose parts are messages or texts, so that each has a row of its own."""
+    return isinstance(value, list | tuple) and bool(value) and isinstance(value[0], Msg | str)
+
+
+def _needs_line(value: object) -> bool:
+    if isinstance(value, str):
+        return len(value) > ROOMY
+    return isinstance(value, list | tuple | array | np.ndarray) and len(value) > 0
+
+
+# a value in words
+
+
+def number(value: float) -> str:
+    """A number of always as many decimals, a dash for NaN; whole numbers in groups of three from 10 000 on."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        text = f"{value:,}".replace(",", " ") if abs(value) >= 10_000 else str(value)
+    elif math.isnan(value):
+        return DASH
+    elif math.isinf(value):
+        text = "inf" if value > 0 else "-inf"
+    elif value and not SMALL <= abs(value) < LARGE:
+        text = f"{value:.3e}"
+    else:
+        text = f"{value:.{DECIMALS}f}"
+        text = text if value else text.lstrip("-")
+    return text.replace("-", MINUS)
+
+
+def size_text(count: int) -> str:
+    """So many bytes, as in `45.1 kB`."""
+    if count < 1000:
+        return f"{count} B"
+    return f"{count / 1000:.1f} kB" if count < 1_000_000 else f"{count / 1_000_000:.1f} MB"
+
+
+def clock(stamp: float, now: float = math.nan) -> str:
+    """A time [s] as `14:02:11.120` by this device's zone, and how long ago that is where `now` [s] is known.
+
+    A dash for 0, which is a stamp that nobody set.
+    """
+    if not stamp or not math.isfinite(stamp):
+        return DASH
+    whole, thousandths = divmod(round(stamp * 1000), 1000)
+    if whole < EPOCH:
+        hours, rest = divmod(whole, 3600)
+        text = f"{hours:02d}:{rest // 60:02d}:{rest % 60:02d}"
+    else:
+        text = time.strftime("%H:%M:%S", time.localtime(whole))
+    text = f"{text}.{thousandths:03d}"
+    age = now - stamp
+    if not abs(age) < RECENT:
+        return text
+    return f"{text} · {abs(age):.1f} s {'ago' if age >= -0.05 else 'ahead'}"
+
+
+def describe(row: Row, now: float = math.nan) -> tuple[str, str]:
+    """The value of a row, and its second line; `now` is the robot's clock [s], NaN while it is not known."""
+    value = row.value
+    if row.kind == MORE:
+        return "", ""
+    if row.kind == BRANCH:
+        return _summary(value, now, opened=row.open), ""
+    if isinstance(value, str):
+        return ("", _one_line(value)) if row.kind == ARRAY else (value or "empty", "")
+    if row.kind == ARRAY:
+        return _array(value)
+    return _plain(value, now), ""
+
+
+def _plain(value: Any, now: float) -> str:
+    """A value that is neither array nor message."""
+    if value is None:
+        return DASH
+    if isinstance(value, int | float):
+        return number(value)
+    if isinstance(value, bytes | bytearray | memoryview):
+        return size_text(len(value))
+    if isinstance(value, Msg):
+        return _moment(value, now)
+    return str(value) if isinstance(value, str) else "empty"
+
+
+def _moment(value: Any, now: float) -> str:
+    """A time as the clock's, a duration in seconds."""
+    seconds = value.secs + value.nsecs * 1e-9
+    return f"{seconds:.3f} s".replace("-", MINUS) if isinstance(value, Duration) else clock(seconds, now)
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text[:LONGEST].split())
+
+
+def _summary(value: Any, now: float, *, opened: bool) -> str:
+    """What stands beside the name of something that can be folded."""
+    if isinstance(value, list | tuple):
+        return str(len(value))
+    if opened:
+        return ""
+    if _is_header(value):
+        return _moment(value.stamp, now)
+    parts = [getattr(value, name) for name, _ in _table(type(value))]
+    if 0 < len(parts) <= 3 and all(isinstance(part, float) for part in parts):
+        return "  ".join(f"{part:.2f}".replace("-", MINUS) if math.isfinite(part) else DASH for part in parts)
+    texts = [part for part in parts if isinstance(part, str) and part]
+    whole = len(texts) == len(parts) <= 2
+    return _one_line(" · ".join(texts if whole else texts[:1]))
+
+
+def _array(value: Any) -> tuple[str, str]:
+    """How many numbers; then the least, the greatest and the first few."""
+    with np.errstate(invalid="ignore"):
+        numbers = np.asarray(value)
+    if numbers.dtype == bool:
+        return f"{len(numbers)} values", f"{int(numbers.sum())} true"
+    if numbers.dtype.kind not in "iuf":
+        return f"{len(value)} values", ""
+    finite = numbers[np.isfinite(numbers)] if numbers.dtype.kind == "f" else numbers
+    first = "  ".join(_short(one) for one in numbers[:FIRST].tolist())
+    if len(numbers) > FIRST:
+        first += " …"
+    if not len(finite):
+        return f"{len(numbers)} values", first
+    span = f"{_short(finite.min().item())} to {_short(finite.max().item())}"
+    return f"{len(numbers)} values", f"{span}   ({first})"
+
+
+def _short(value: float) -> str:
+    """A number among many: fewer decimals."""
+    if isinstance(value, float) and math.isfinite(value) and (not value or 0.005 <= abs(value) < LARGE):
+        return f"{value:.2f}".replace("-", MINUS)
+    if isinstance(value, float) and math.isfinite(value):
+        return f"{value:.0e}".replace("-", MINUS)
+    return number(value)
