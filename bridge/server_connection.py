@@ -46,6 +46,7 @@ class HeardConnection(ServerConnection):
     """Where what is written in one step of the loop is gathered; set by the server."""
     _ears: Ears | None = None
     _direct = False
+    _deaf = False
     _kind = Opcode.TEXT
     _pieces: list[bytes]
 
@@ -59,7 +60,8 @@ class HeardConnection(ServerConnection):
         self.transport.write(frames)
 
     def cut(self) -> None:
-        """Break the connection at once."""
+        """Break the connection at once; nothing that came is heard any more."""
+        self._deaf = True
         self.transport.abort()
 
     async def heard_by(self, ears: Ears) -> None:
@@ -136,7 +138,8 @@ class HeardConnection(ServerConnection):
         self._tell(ears, data)
 
     def _tell(self, ears: Ears, message: str | bytes) -> None:
-        if self.protocol.state is not State.OPEN:
+        # a goodbye that came in the same breath as this message has closed the protocol already; it was still sent before
+        if self._deaf:
             return
         try:
             ears.hear(message)
@@ -144,6 +147,7 @@ class HeardConnection(ServerConnection):
             log.exception("A message of %d bytes was not understood", len(message))
 
     def _give_up(self, code: CloseCode, reason: str) -> None:
+        self._deaf = True
         if self.protocol.state is State.OPEN:
             self.protocol.fail(code, reason)
             self.send_data()

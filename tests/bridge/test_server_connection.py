@@ -103,6 +103,17 @@ async def test_a_client_may_ping_and_close_as_ever():
         assert robot.sessions == set()
 
 
+async def test_what_was_said_in_the_same_breath_as_goodbye_is_still_heard():
+    heard = Record()
+    async with server(on_message=heard) as robot, peer(robot) as foreign:
+        await foreign.settled()
+        rest = Frame(Opcode.TEXT, speed(0.0).encode()).serialize(mask=True)
+        goodbye = Frame(Opcode.CLOSE, struct.pack("!H", 1000)).serialize(mask=True)
+        foreign.ws.transport.write(rest + goodbye)
+        await heard.reach(1)
+        assert [msg.linear.x for _, _, msg, _ in heard] == [0.0]
+
+
 async def test_a_vanished_clients_session_is_over_before_what_it_left_is_tidied_up():
     order = Record()
     async with (
