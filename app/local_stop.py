@@ -82,7 +82,7 @@ class LocalStop:
             return ""
         if not drives:
             return "This robot has no STOP of its own and no topic to drive it by: it cannot be stopped from here."
-        what = "This robot has no STOP of its own: zero speed is being sent."
+        what = "This robot has no STOP of its own: zero speed is sent from here for as long as the link stands."
         if self._confirmed:
             return f"{what} Its odometry says that it rests."
         if not self._now() - self._heard_at < BELIEVED:

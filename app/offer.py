@@ -94,8 +94,8 @@ class Offer:
             return ""
         if not self.rosapi:
             return "This robot does not tell what it offers (it runs no rosapi): the usual names are tried."
-        told = "This robot has no Pilothouse services: it is watched and driven by its own topics."
-        return f"{told} Its place is the one by its wheels." if self.pose_by_odometry else told
+        told = "This robot has no Pilothouse services: no missions, no tasks, and STOP sends it zero speed."
+        return f"{told} Its place is reckoned by its wheels." if self.pose_by_odometry else told
 
 
 NOTHING = Offer({}, frozenset(), rosapi=False)

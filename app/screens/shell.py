@@ -40,9 +40,11 @@ CONTROLS = {
     "mine": ("person", "accent", "you have control", "you"),
     "free": ("lock_open", "text", "take control", "free"),
     "unknown": ("help", "muted", "control unknown", "unknown"),
-    "none": ("sports_esports", "muted", "no control to take", "no control"),
+    "none": ("lock_open", "muted", "anyone may drive", "anyone"),
 }
 """Who has control to icon, role, words of the chip, and its words where there is little room."""
+BRIEF, LONG = 4.0, 10.0
+"""How long a sentence stays over the screen, and one that is said once of a robot [s]."""
 BAR = ("back", "name", "mode", "battery", "link", "satellites", "gap", "control")
 """What the top bar holds, from left to right; a narrow one only the first five."""
 RAIL = ("drive", "mission", "topics", "control_nav", "record", "theme")
@@ -331,7 +333,7 @@ class Shell(FloatLayout):
         if offer is not None and offer.sentence != self._greeted:
             self._greeted = offer.sentence
             if offer.sentence:
-                self.say(offer.sentence, "info", about="offer")
+                self.say(offer.sentence, "info", about="offer", stay=LONG)
 
     def replay(self, post: Post) -> None:
         """An event that came before this frame was there."""
@@ -345,11 +347,11 @@ class Shell(FloatLayout):
         elif outcome.phase == "accepted":
             self.unsay(outcome.name)
 
-    def say(self, text: str, level: str = "info", about: str = "") -> None:
-        """One sentence over the screen, for a few seconds; `about` is the command or the kind of event it tells of."""
+    def say(self, text: str, level: str = "info", about: str = "", stay: float = BRIEF) -> None:
+        """One sentence over the screen for `stay` [s]; `about` is the command or the kind of event it tells of."""
         self.unsay(self._said)
         self._said = about
-        self.ids.notices.add_widget(Toast(text=text, level=level))
+        self.ids.notices.add_widget(Toast(text=text, level=level, stay=stay))
         self._place_notices()
 
     def unsay(self, about: str) -> None:

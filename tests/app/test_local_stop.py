@@ -61,7 +61,8 @@ def test_one_that_goes_on_has_not_answered_and_is_said_to(watch: Watch) -> None:
     watch.drive(0.3, 1.2)
     assert watch.stop.phase == "no_answer"
     assert watch.stop.sentence(drives=True) == (
-        "This robot has no STOP of its own: zero speed is being sent. Its odometry does not yet say that it rests."
+        "This robot has no STOP of its own: zero speed is sent from here for as long as the link stands."
+        " Its odometry does not yet say that it rests."
     )
 
 

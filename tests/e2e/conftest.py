@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import pytest
 
 from examples.demo.robot import RobotProcess
 from examples.demo.witness import Witness
-from tests.e2e.handheld import Cable
+
+if TYPE_CHECKING:
+    from tests.e2e.handheld import Cable
 
 
 @pytest.fixture(scope="module")
@@ -28,6 +31,8 @@ def witness(robot: RobotProcess) -> Iterator[Witness]:
 
 @pytest.fixture
 def cable(robot: RobotProcess) -> Iterator[Cable]:
+    from tests.e2e.handheld import Cable  # Kivy: not before tests/conftest.py has prepared it
+
     cable = Cable(int(robot.url.rsplit(":", 1)[1]))
     yield cable
     cable.close()
