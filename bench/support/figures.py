@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
-__all__ = ["Figure", "Outcome", "Samples", "percentile"]
+__all__ = ["Figure", "Outcome", "Samples", "Stated", "percentile"]
 
 Verdict = Literal["reached", "MISSED", ""]
 
@@ -27,6 +27,16 @@ def percentile(values: Iterable[float], share: float) -> float:
 
 
 @dataclass(frozen=True, slots=True)
+class Stated:
+    """What another program reached in somebody's earlier measurement: said beside ours, not measured in this run."""
+
+    of: str
+    """The program, and where the value is from."""
+    value: float
+    """In the figure's unit."""
+
+
+@dataclass(frozen=True, slots=True)
 class Figure:
     """One number that a bench measures."""
 
@@ -39,6 +49,8 @@ class Figure:
     better: Literal["less", "more"] = "less"
     against: str = ""
     """What the peer's value is of; empty where there is no peer."""
+    stated: Stated | None = None
+    """A value for comparison that is not of this run; None where there is none."""
 
     def verdict(self, value: float) -> Verdict:
         """Whether `value` reaches the target; empty without a target. NaN reaches nothing."""
@@ -91,6 +103,14 @@ class Outcome:
     @property
     def ratio(self) -> float:
         """How many times better than the peer, median by median: above 1 is better. NaN without a peer."""
-        ours, peer = self.ours.median, self.peer.median
-        above, below = (peer, ours) if self.figure.better == "less" else (ours, peer)
+        return self._better_than(self.peer.median)
+
+    @property
+    def stated_ratio(self) -> float:
+        """How many times better than what was stated of another program; NaN where nothing was."""
+        return math.nan if self.figure.stated is None else self._better_than(self.figure.stated.value)
+
+    def _better_than(self, other: float) -> float:
+        ours = self.ours.median
+        above, below = (other, ours) if self.figure.better == "less" else (ours, other)
         return above / below if below else math.nan

@@ -14,6 +14,7 @@ from bench.support.harness import Result
 __all__ = ["as_json", "document", "number", "table", "write"]
 
 HEAD = ("figure", "value", "range", "target", "", "against", "its value", "better by")
+STATED = ("stated, not of this run", "better by")
 DASH = "–"
 
 
@@ -39,8 +40,16 @@ def row(outcome: Outcome) -> tuple[str, ...]:
         outcome.verdict,
         figure.against or DASH,
         f"{number(peer.median)} {figure.unit}" if peer.values else DASH,
-        DASH if math.isnan(outcome.ratio) else f"{number(outcome.ratio)}×",
+        _times(outcome.ratio),
     )
+
+
+def stated(outcome: Outcome) -> tuple[str, ...]:
+    """What a line says of another program that was not measured in this run."""
+    told = outcome.figure.stated
+    if told is None:
+        return DASH, DASH
+    return f"{told.of}: {number(told.value)} {outcome.figure.unit}", _times(outcome.stated_ratio)
 
 
 def columns(rows: Sequence[Sequence[str]]) -> str:
@@ -64,7 +73,11 @@ def quiet(result: Result) -> str:
 
 def table(result: Result) -> str:
     """The figures of one bench for the terminal."""
-    return f"{result.name}\n{columns([HEAD, *map(row, result.outcomes)])}\n{quiet(result)}\n"
+    rows = [HEAD, *map(row, result.outcomes)]
+    if any(outcome.figure.stated for outcome in result.outcomes):
+        more = [STATED, *map(stated, result.outcomes)]
+        rows = [(*one, *other) for one, other in zip(rows, more, strict=True)]
+    return f"{result.name}\n{columns(rows)}\n{quiet(result)}\n"
 
 
 def as_json(result: Result) -> dict[str, Any]:
@@ -88,8 +101,13 @@ def document(results: Iterable[dict[str, Any]], conditions: str) -> str:
     """`docs/performance.md`: every figure with the value reached, from what `as_json` gave."""
     parts = [OPENING.format(conditions=conditions)]
     for result in results:
+        figures = result["figures"]
         lines = ["figure", "reached", "target", "", "against", "better by"]
-        rows = [lines, ["---"] * len(lines), *(_cells(figure) for figure in result["figures"])]
+        cells = [_cells(figure) for figure in figures]
+        if any(figure.get("stated") for figure in figures):
+            lines += STATED
+            cells = [[*one, *_stated_cells(figure)] for one, figure in zip(cells, figures, strict=True)]
+        rows = [lines, ["---"] * len(lines), *cells]
         body = "\n".join(f"| {' | '.join(cells)} |" for cells in rows)
         slow = max(result["noise"]["slowness"], default=math.nan)
         load = max(result["noise"]["load"], default=math.nan)
@@ -105,7 +123,8 @@ OPENING = """# Performance
 Every figure that was promised, the value reached, and what it was measured against. `make bench` measures them again;
 `python -m bench --doc` writes this page from `out/bench/`. A value is the median of the repeats, with the least
 and the greatest in brackets; ours and the other way take turns, so that a busy minute of the machine hits both.
-*Better by* says how many times.
+*Better by* says how many times. What is *stated* is another program's value from an earlier measurement on another machine,
+where that program could not be run beside ours.
 
 Measured on {conditions}.
 """
@@ -117,9 +136,20 @@ def _cells(figure: dict[str, Any]) -> list[str]:
     sign = "≤" if figure["better"] == "less" else "≥"
     target = DASH if figure["target"] is None else f"{sign} {number(figure['target'])} {unit}"
     against = f"{figure['against']}: {_shown(peer['median'])} {unit}" if peer["values"] else DASH
-    better = DASH if figure["ratio"] is None else f"{number(figure['ratio'])}×"
+    better = _times(figure["ratio"])
     verdict = "**missed**" if figure["verdict"] == "MISSED" else figure["verdict"]
     return [figure["meaning"], value, target, verdict, against, better]
+
+
+def _stated_cells(figure: dict[str, Any]) -> list[str]:
+    told = figure.get("stated")
+    if told is None:
+        return [DASH, DASH]
+    return [f"{told['of']}: {number(told['value'])} {figure['unit']}", _times(told["ratio"])]
+
+
+def _times(ratio: float | None) -> str:
+    return DASH if ratio is None or math.isnan(ratio) else f"{number(ratio)}×"
 
 
 def _shown(value: float | None) -> str:
@@ -139,6 +169,12 @@ def _figure(outcome: Outcome) -> dict[str, Any]:
         "against": figure.against,
         "peer": _samples(outcome.peer),
         "ratio": _finite(outcome.ratio),
+        "stated": figure.stated
+        and {
+            "of": figure.stated.of,
+            "value": figure.stated.value,
+            "ratio": _finite(outcome.stated_ratio),
+        },
     }
 
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bench.support.figures import Figure, Outcome, Samples, percentile
+from bench.support.figures import Figure, Outcome, Samples, Stated, percentile
 
 finite = st.floats(-1e6, 1e6)
 
@@ -75,3 +75,15 @@ def test_without_a_peer_there_is_no_ratio():
 
 def test_against_nothing_there_is_no_ratio():
     assert math.isnan(Outcome(Figure("x", "s", ""), Samples((0.0,)), Samples((8.0,))).ratio)
+
+
+@pytest.mark.parametrize(("better", "ratio"), [("less", 5.0), ("more", 0.2)])
+def test_what_was_stated_of_another_program_is_compared_as_a_peer_is(better, ratio):
+    figure = Figure("x", "s", "", better=better, stated=Stated("another", 10.0))
+    outcome = Outcome(figure, Samples((1.0, 2.0, 3.0)))
+    assert outcome.stated_ratio == ratio
+    assert math.isnan(outcome.ratio)
+
+
+def test_where_nothing_was_stated_there_is_no_ratio_to_it():
+    assert math.isnan(Outcome(Figure("x", "s", ""), Samples((1.0,)), Samples((8.0,))).stated_ratio)

@@ -7,7 +7,7 @@ import math
 
 import pytest
 
-from bench.support.figures import Figure, Outcome, Samples
+from bench.support.figures import Figure, Outcome, Samples, Stated
 from bench.support.harness import Result
 from bench.support.noise import Noise
 from bench.support.report import as_json, document, number, table, write
@@ -86,3 +86,33 @@ def test_the_page_shows_what_was_reached_and_under_which_conditions():
     )
     assert "| how fast | 12.3 × (12.3…12.3) | – |  | – | – |" in page
     assert "up to 1.80 times its best; load 3.00" in page
+
+
+def with_stated():
+    relayed = Figure("relay", "µs", "relayed", target=20.0, stated=Stated("the real server", 310.0))
+    outcomes = [Outcome(relayed, Samples((10.0,))), Outcome(SPEED, Samples((12.345,)))]
+    return Result("part", "How.", outcomes, Noise(slowness=[1.0], waiting=[0.0], load=[3.0]))
+
+
+def test_what_was_only_stated_stands_apart_from_what_was_measured():
+    _, head, relay, speed, _ = table(with_stated()).rstrip("\n").split("\n")
+    place = head.index("stated, not of this run")
+    assert relay[place:] == "the real server: 310 µs  31.0×"
+    assert relay[:place].split()[-3:] == ["–", "–", "–"]
+    assert speed[place:].split() == ["–", "–"]
+    assert "stated" not in table(result())
+
+
+def test_the_page_has_a_column_for_what_was_stated_where_something_was():
+    page = document([json.loads(json.dumps(as_json(with_stated())))], "a machine")
+    assert "| better by | stated, not of this run | better by |" in page
+    assert "| reached | – | – | the real server: 310 µs | 31.0× |" in page
+    assert "| how fast | 12.3 × (12.3…12.3) | – |  | – | – | – | – |" in page
+
+
+def test_the_page_can_be_written_from_results_of_before_there_was_anything_stated():
+    old = json.loads(json.dumps(as_json(result())))
+    for figure in old["figures"]:
+        del figure["stated"]
+    page = document([old], "a machine")
+    assert "the old way: 6.00 ms | 5.00× |\n" in page

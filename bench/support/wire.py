@@ -1,0 +1,122 @@
+"""A link that carries little, or nothing for a while: a TCP proxy with hardly any buffers."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import math
+import select
+import socket
+from collections.abc import AsyncIterator, Coroutine
+from typing import Any
+
+__all__ = ["Wire", "wire"]
+
+BUFFER = 4096
+"""What the kernel may keep on either side of the wire in each direction [byte]; it doubles that itself."""
+PIECE = 1024
+"""As much goes over the wire at a time [byte]."""
+
+
+class Wire:
+    """Passes on what comes to `port`, `rate` bytes a second in each direction of each connection."""
+
+    def __init__(self, to: int, rate: float = math.inf) -> None:
+        self.port = 0
+        self._to = to
+        self._rate = rate
+        self._listening: socket.socket | None = None
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._sockets: set[socket.socket] = set()
+        self._thawed = asyncio.Event()
+
+    def open(self) -> None:
+        """Take connections."""
+        made = self._bare()
+        made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        made.bind(("127.0.0.1", self.port))
+        made.listen()
+        self.port = made.getsockname()[1]
+        self._listening = made
+        self._thawed.set()
+        self._begin(self._accept(made))
+
+    def freeze(self) -> None:
+        """Nothing passes any more and nobody is told, as beyond the reach of a radio."""
+        self._thawed.clear()
+
+    def thaw(self) -> None:
+        """What still waits with those who have not given up passes, late."""
+        self._thawed.set()
+
+    async def cut(self) -> None:
+        """Break every connection and take none until opened again."""
+        for task in self._tasks:
+            task.cancel()
+        await asyncio.gather(*self._tasks, return_exceptions=True)
+        self._tasks.clear()
+        for each in (*self._sockets, self._listening):
+            if each is not None:
+                each.close()
+        self._sockets.clear()
+        self._listening = None
+
+    async def _accept(self, listening: socket.socket) -> None:
+        loop = asyncio.get_running_loop()
+        while True:
+            await self._thawed.wait()
+            near, _ = await loop.sock_accept(listening)
+            near.setblocking(False)
+            near.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            far = self._bare()
+            await loop.sock_connect(far, ("127.0.0.1", self._to))
+            self._sockets |= {near, far}
+            self._begin(self._pass(near, far))
+            self._begin(self._pass(far, near))
+
+    async def _pass(self, source: socket.socket, sink: socket.socket) -> None:
+        loop = asyncio.get_running_loop()
+        free = loop.time()
+        try:
+            while data := await loop.sock_recv(source, PIECE):
+                await self._thawed.wait()
+                if _given_up(source):
+                    break
+                free = max(free, loop.time()) + len(data) / self._rate
+                await asyncio.sleep(free - loop.time())
+                await loop.sock_sendall(sink, data)
+        except OSError:
+            pass
+        finally:
+            with contextlib.suppress(OSError):
+                sink.shutdown(socket.SHUT_RDWR)
+
+    def _bare(self) -> socket.socket:
+        made = socket.socket()
+        made.setblocking(False)
+        made.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        if math.isfinite(self._rate):
+            made.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, BUFFER)
+            made.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, BUFFER)
+        return made
+
+    def _begin(self, work: Coroutine[Any, Any, None]) -> None:
+        self._tasks.add(asyncio.create_task(work))
+
+
+def _given_up(source: socket.socket) -> bool:
+    """Who sent has thrown away what was not delivered: over a real link it would not arrive either."""
+    poll = select.poll()
+    poll.register(source, select.POLLERR | select.POLLHUP)
+    return bool(poll.poll(0))
+
+
+@contextlib.asynccontextmanager
+async def wire(to: int, rate: float = math.inf) -> AsyncIterator[Wire]:
+    """One that is open; cut at the end."""
+    made = Wire(to, rate)
+    made.open()
+    try:
+        yield made
+    finally:
+        await made.cut()
