@@ -26,10 +26,10 @@ def host_and_port(url: str) -> tuple[str, int]:
     """The two in `ws://HOST:PORT/...`, port 80 (wss: 443) when it names none; BadAddress when it is none."""
     try:
         parts = urlsplit(url)
-        port = parts.port or (443 if parts.scheme == "wss" else 80)
+        port = (443 if parts.scheme == "wss" else 80) if parts.port is None else parts.port
     except ValueError as error:
         raise BadAddress(f"The address must be like ws://192.168.1.7:9090, not {url!r} ({error}).") from error
-    if parts.scheme not in ("ws", "wss") or not parts.hostname:
+    if parts.scheme not in ("ws", "wss") or not parts.hostname or not port:
         raise BadAddress(f"The address must be like ws://192.168.1.7:9090, not {url!r}.")
     return parts.hostname, port
 

@@ -15,7 +15,7 @@ import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from bridge.address import BadAddress
+from bridge.address import BadAddress, host_and_port
 from bridge.errors import BridgeError
 from robotside.clock import RobotClock
 from robotside.foreign import ForeignRobot
@@ -25,6 +25,8 @@ from robotside.station import Station
 from robotside.store import Store
 
 __all__ = ["main"]
+
+_HERE = ("127.0.0.1", "localhost", "::1")
 
 
 class UserMistake(Exception):
@@ -150,7 +152,7 @@ def _store(directory: Path) -> Store:
 def _robot(options: argparse.Namespace) -> Robot:
     port, _, model = options.robot.partition(":")
     if port == "ros" and model:
-        return _foreign(model, options.speed)
+        return _foreign(model, options)
     if port != "sim" or not model:
         said = "simulated ones are written as sim:patrol, others as ros:ws://192.168.1.7:9090"
         raise UserMistake(f"There is no robot {options.robot!r}; {said}.")
@@ -164,15 +166,17 @@ def _robot(options: argparse.Namespace) -> Robot:
         raise UserMistake(str(problem)) from problem
 
 
-def _foreign(url: str, speed: float) -> Robot:
-    if speed != 1.0:
-        raise UserMistake(f"A real robot moves in real time: --speed must be 1, not {speed:g}.")
+def _foreign(url: str, options: argparse.Namespace) -> Robot:
+    if options.speed != 1.0:
+        raise UserMistake(f"A real robot moves in real time: --speed must be 1, not {options.speed:g}.")
     try:
+        if host_and_port(url) in {(host, options.port) for host in (*_HERE, options.host)}:
+            raise UserMistake(f"The robot at {url} would be this program itself; --port names another port.")
         robot = ForeignRobot(url)
     except BadAddress as problem:
         raise UserMistake(str(problem)) from problem
     if robot.trouble:
-        print(f"robotside: {robot.trouble} It is taken when it comes.", file=sys.stderr, flush=True)
+        print(f"robotside: {robot.trouble} It is served all the same.", file=sys.stderr, flush=True)
     return robot
 
 

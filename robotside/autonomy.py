@@ -42,6 +42,9 @@ LOW_BELOW = 0.15
 SILENCE = 0.6
 """Odometry or laser silent for this long means that the robot must not drive by itself [s]."""
 
+UNMEASURED = 2.0
+"""Without odometry for this long nobody knows whether the wheels stand still [s]."""
+
 
 class Autonomy:
     """The robot's own mind; fed with its messages, it drives when there is a task."""
@@ -99,16 +102,29 @@ class Autonomy:
         if topic in self._take:
             self._take[topic](msg)
 
+    def silence(self, now: float) -> str:
+        """Which of the senses that it needs is silent, as `the laser has been silent for 0.6 s`; empty when none is."""
+        for sense, heard in self._heard.items():
+            if not now - heard <= SILENCE:
+                since = (
+                    f"has been silent for {SILENCE} s" if heard > -math.inf else "has not said anything yet"
+                )
+                return f"the {sense} {since}"
+        return ""
+
+    def measured(self, now: float) -> bool:
+        """How fast it goes is known: its odometry came lately."""
+        return now - self._heard["odometry"] <= UNMEASURED
+
     def check(self, now: float) -> None:
         """Halt the running task when it has become blind, and take a new map between two tasks; call it often."""
         if self._coming is not None and not self.engine.active:
             self._take_map(self._coming)
         if not self.engine.running:
             return
-        for sense, heard in self._heard.items():
-            if now - heard > SILENCE:
-                self.engine.pause(f"Paused: the {sense} has been silent for {SILENCE} s.", "alarm")
-                return
+        silence = self.silence(now)
+        if silence:
+            self.engine.pause(f"Paused: {silence}.", "alarm")
 
     def _takers(self) -> dict[str, Callable[[Any], None]]:
         """What is done with each topic's messages."""
@@ -166,6 +182,8 @@ class Autonomy:
         self.guide.take_map(grid)
 
     def _odom(self, msg: Odometry) -> None:
+        if not math.isfinite(sum(Pose2.from_msg(msg.pose.pose))):
+            return  # as good as none: one pose that is no number would spoil all later ones
         self._heard["odometry"] = self._now
         self.whereabouts.take_odom(msg)
         pose = self.whereabouts.pose

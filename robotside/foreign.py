@@ -11,13 +11,16 @@ from urllib.parse import urlsplit
 
 import msgspec
 
+from bridge.address import host_and_port
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Event, RobotInfo
+from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.std_msgs import Time
 from robotside.autonomy import CAMERA
 from robotside.foreign_link import ForeignLink, Listener
 from robotside.foreign_topics import Found
+from robotside.words import plain
 
 __all__ = ["ForeignRobot", "Link"]
 
@@ -32,6 +35,9 @@ RESTS = 10
 
 OLDEST = 1.0
 """A message that claims to be older than this when it comes was stamped by another clock [s]."""
+
+JPEG = b"\xff\xd8"
+"""How a JPEG file begins."""
 
 SUPPOSED = RobotInfo(kind="wheels", model="ros", max_speed=0.5, max_yaw_rate=1.0, radius=0.3)
 """What is supposed of a robot that does not tell: slow enough for most."""
@@ -69,20 +75,27 @@ class ForeignRobot:
         self._said: deque[tuple[str, str]] = deque(maxlen=32)
         self._found: Found | None = None
         self._remarks: tuple[str, ...] = ()
+        self._refused = False
         self._stamps: dict[str, float] = {}
         self._twist: Twist | None = None
         self._rests, self._due = 0, -math.inf
-        place = urlsplit(url).netloc
-        self.trouble = f"The robot cannot be reached: nobody has answered yet at {place}."
-        """Why it can be neither driven nor heard, as one sentence; empty when all is well."""
+        host_and_port(url)
+        place = urlsplit(url).netloc.rpartition("@")[2]  # a password is nobody's business
+        self._unreached = f"The robot cannot be reached: nobody has answered yet at {place}."
+        self._held = ""
         self._told = False
         self._link = connect(url, self)
         self._wait(patience)
         self.info = self._introduced(place)
         """Who it is, as it tells itself by the time that the waiting is over."""
 
+    @property
+    def trouble(self) -> str:
+        """Why it cannot be driven, as one sentence: not reached, or in others' hands; empty when all is well."""
+        return self._unreached or self._held
+
     def drive(self, twist: Twist) -> None:
-        """Move with `twist` until the next `drive` or `stop`; dropped while the robot is not reached."""
+        """Move with `twist` until the next `drive` or `stop`; dropped while there is `trouble`."""
         with self._lock:
             if self.trouble:
                 return
@@ -119,8 +132,8 @@ class ForeignRobot:
     def found(self, found: Found) -> None:
         """The link: the robot is reached, stands still, and offers this."""
         with self._lock:
-            self._twist, self._rests = None, RESTS
-            self._found, self.trouble, self._told = found, "", True
+            self._twist, self._rests = None, 0 if self._held else RESTS
+            self._found, self._unreached, self._told = found, "", True
             if tuple(found.remarks) != self._remarks:
                 self._remarks = tuple(found.remarks)
                 self._said.extend(("warn", remark) for remark in found.remarks)
@@ -130,17 +143,37 @@ class ForeignRobot:
         """The link: the robot is not reached, for this reason."""
         with self._lock:
             self._twist, self._rests = None, 0
-            self.trouble = f"The robot cannot be reached: {sentence[:1].lower()}{sentence[1:]}"
+            self._held = ""
+            self._unreached = f"The robot cannot be reached: {sentence[:1].lower()}{sentence[1:]}"
             self._told = True
             self._newest = {topic: msg for topic, msg in self._newest.items() if topic == "/map"}
             self._lock.notify_all()
 
     def heard(self, topic: str, msg: Msg) -> None:
         """The link: a message came."""
+        if isinstance(msg, CompressedImage) and not msg.data.startswith(JPEG):
+            self._refuse(msg)
+            return
         with self._lock:
             self._newest.pop(topic, None)
             self._newest[topic] = msg
             self._lock.notify_all()
+
+    def held(self, sentence: str) -> None:
+        """The link: the robot obeys others, for this reason; empty when it obeys us."""
+        with self._lock:
+            if sentence:
+                self._twist, self._rests = None, 0
+            self._held = sentence
+
+    def _refuse(self, image: CompressedImage) -> None:
+        """Say once that such pictures cannot be shown."""
+        kind = plain(image.format, 20) or "of no known kind"
+        said = f"The camera's pictures are {kind}, not JPEG: they are left out."
+        with self._lock:
+            if not self._refused:
+                self._said.append(("warn", said))
+            self._refused = True
 
     def _wait(self, patience: float) -> None:
         """Until it is known whether anybody is there, and then for what such a robot sends once."""

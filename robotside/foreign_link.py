@@ -6,6 +6,8 @@ import asyncio
 import contextlib
 import logging
 import math
+import platform
+import secrets
 from collections.abc import Callable
 from typing import Protocol
 
@@ -14,10 +16,11 @@ from bridge.client import BridgeClient, LinkState, Phase
 from bridge.errors import BridgeError, NotConnected
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
+from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, ControlStatus
 from bridge.msgs.std_msgs import Header, Time
 from bridge.network import NetworkThread
 from robotside.autonomy import CAMERA
-from robotside.foreign_topics import Found, match, usual
+from robotside.foreign_topics import CONTROL, Found, match, usual
 
 __all__ = ["ForeignLink", "Listener"]
 
@@ -49,6 +52,9 @@ class Listener(Protocol):
     def heard(self, topic: str, msg: Msg) -> None:
         """A message came on what is `topic` with us."""
 
+    def held(self, sentence: str) -> None:
+        """The robot is reached and obeys others, for this reason; empty when it obeys us."""
+
 
 class ForeignLink:
     """Connects, and again whenever the connection is lost; what it is told while there is none is dropped."""
@@ -62,6 +68,9 @@ class ForeignLink:
         self._leave: dict[str, Callable[[], None]] = {}
         self._wanted: set[str] = set()
         self._asking: asyncio.Task[None] | None = None
+        self._ordering: asyncio.Task[None] | None = None
+        self._busy = False
+        self._id = f"robotside-{secrets.token_hex(4)}"
         self._network = NetworkThread(f"link to {url}")
         self._network.start(self._client.run())
 
@@ -86,8 +95,9 @@ class ForeignLink:
     async def _end(self) -> None:
         self._drive(Twist(), self._client.robot_time())
         await asyncio.sleep(0)
-        if self._asking is not None:
-            self._asking.cancel()
+        for work in (self._asking, self._ordering):
+            if work is not None:
+                work.cancel()
         await self._client.close()
 
     def _become(self, state: LinkState) -> None:
@@ -96,12 +106,15 @@ class ForeignLink:
             self._drive(Twist(), self._client.robot_time())
             self._asking = asyncio.create_task(self._ask())
         elif state.phase in (Phase.WAITING, Phase.CLOSED):
+            self._busy = False
             if self._asking is not None:
                 self._asking.cancel()
             self._listener.lost(state.sentence)
 
     async def _ask(self) -> None:
         found = await self._offer()
+        if CONTROL in found.topics:
+            await self._order("/control/acquire")
         if self._found is not None and self._found.command != found.command:
             self._drive(Twist(), self._client.robot_time())
         before, self._found = self._found, found
@@ -122,6 +135,28 @@ class ForeignLink:
             return usual()
         return match(dict(zip(told.topics, told.types, strict=False)))
 
+    def _begin(self, service: str) -> None:
+        if self._ordering is None or self._ordering.done():
+            self._ordering = asyncio.create_task(self._order(service))
+
+    async def _order(self, service: str) -> None:
+        """Ask something of a robot side of ours, by our name; whether it may be is told on `CONTROL`."""
+        asked = CommandRequest(client_id=self._id, client_name=f"the robot side on {platform.node()}")
+        with contextlib.suppress(BridgeError):
+            await self._client.call(service, asked, CommandResponse, timeout=ASKING)
+
+    def _hear(self, topic: str, msg: Msg) -> None:
+        if isinstance(msg, ControlStatus):
+            others = msg.driver_id not in ("", self._id)
+            self._busy = msg.mode == "AUTO" and not others
+            self._listener.held(_holder(msg, others))
+            if msg.stopped and msg.driver_id == self._id:
+                self._begin(
+                    "/control/release"
+                )  # only who has control may release STOP, and that is done there
+        else:
+            self._listener.heard(topic, msg)
+
     def _subscribe(self, topic: str) -> None:
         if self._found is None or topic not in self._found.topics or topic in self._leave:
             return
@@ -130,7 +165,7 @@ class ForeignLink:
         name, kind = self._found.topics[topic]
         compression = "cbor" if topic in _BINARY else "none"
         self._leave[topic] = self._client.subscribe(
-            name, kind, lambda msg, _: self._listener.heard(topic, msg), compression=compression
+            name, kind, lambda msg, _: self._hear(topic, msg), compression=compression
         )
 
     def _unsubscribe(self, topic: str) -> None:
@@ -149,8 +184,22 @@ class ForeignLink:
     def _drive(self, twist: Twist, stamp: float) -> None:
         if self._found is None:
             return
+        if self._busy and twist == Twist():
+            # to a robot on a task of its own no speed is a stick that nobody touches
+            self._begin("/task/pause")
         known = math.isfinite(stamp)
         msg: Msg = twist
         if self._found.stamped:
             msg = TwistStamped(Header(Time.at(stamp) if known else Time(), "base_link"), twist)
         self._client.publish(self._found.command, msg, stamp=stamp if known else None)
+
+
+def _holder(told: ControlStatus, others: bool) -> str:
+    """Why the robot does not obey us, as one sentence; empty when it does."""
+    if told.stopped:
+        return f"The robot's own STOP is pressed, by {told.stopped_by}: release it there."
+    if others:
+        return f"The robot is driven by {told.driver}: ask there, or wait until it is released."
+    if told.mode == "AUTO":
+        return "The robot is on a task of its own: pause it there, or press STOP."
+    return ""

@@ -8,11 +8,14 @@ from dataclasses import dataclass
 from bridge.msgs import Msg, ros1_name
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
-from bridge.msgs.pilothouse_msgs import RobotInfo
+from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
 from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, Imu, JointState, LaserScan, NavSatFix
 from robotside.autonomy import CAMERA
 
-__all__ = ["Found", "match", "usual"]
+__all__ = ["CONTROL", "Found", "match", "usual"]
+
+CONTROL = "/control/status"
+"""Where a robot side of ours tells who drives the robot."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,7 @@ _PARTS = (
     _Part("/fix", NavSatFix, ("/fix", "/gps/fix")),
     _Part("/joint_states", JointState, ("/joint_states",)),
     _Part("/robot/info", RobotInfo, ("/robot/info",)),
+    _Part(CONTROL, ControlStatus, (CONTROL,)),
 )
 
 _COMMAND = "/cmd_vel"

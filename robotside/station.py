@@ -172,9 +172,15 @@ class Station:
         self.bus.publish("/control/status", msgspec.structs.replace(fresh, stamp=Time.at(self.clock())))
 
     @property
+    def lost(self) -> str:
+        """Why the robot cannot be placed on a map, as one sentence; empty when it can."""
+        return self.robot.trouble or ("" if self.autonomy.has_map else NO_MAP)
+
+    @property
     def unfit(self) -> str:
         """Why the robot can do nothing by itself whatever is asked, as one sentence; empty when it can."""
-        return self.robot.trouble or ("" if self.autonomy.has_map else NO_MAP)
+        silence = self.autonomy.silence(self.now)
+        return self.lost or (silence and f"It can be driven by hand only: {silence}.")
 
     @property
     def at_rest(self) -> bool:
@@ -228,7 +234,7 @@ class Station:
         """Hold everything while the robot cannot be reached; on its return nothing moves until somebody says so."""
         trouble = self.robot.trouble
         if bool(trouble) != bool(self._trouble):
-            said = trouble or "The robot can be reached again; it stands still."
+            said = trouble or "The robot can be driven again; it stands still."
             self.events.say("robot", said, "alarm" if trouble else "ok")
         self._trouble = trouble
         if trouble:
@@ -265,7 +271,7 @@ class Station:
         problem = self.controls.objection(client)
         if not all(map(math.isfinite, pose)):
             problem = "The pose to place the robot at is not all numbers."
-        problem = problem or self.unfit
+        problem = problem or self.lost
         problem = problem or self.autonomy.guide.planner.off_map("The place", pose.x, pose.y)
         if problem:
             self.events.say("command", problem, "warn")
@@ -313,6 +319,8 @@ class Station:
     def _at_rest(self) -> bool:
         factor = 3.0 if self._control.at_rest else 1.0
         where = self.autonomy.whereabouts
+        if not self.autonomy.measured(self.now):
+            return False
         return abs(where.speed) < AT_REST[0] * factor and abs(where.turn) < AT_REST[1] * factor
 
     def _diagnostics(self) -> DiagnosticArray:

@@ -1,4 +1,4 @@
-"""The small robot behind the server that is not ours: a disc on wheels in a square room, no map, no Pilothouse services."""
+"""The small robot behind the server that is not ours: a disc on wheels in a square room, no Pilothouse services."""
 
 from __future__ import annotations
 
@@ -31,6 +31,16 @@ def _picture(step: int) -> bytes:
     out = io.BytesIO()
     image.save(out, "JPEG", quality=70)
     return out.getvalue()
+
+
+def chart(cell: float = 0.1) -> dict[str, Any]:
+    """The room as a nav_msgs/OccupancyGrid with cells of `cell` [m]; it is where odometry begins."""
+    half = round(ROOM / cell)
+    edge = [100] * (2 * half + 2)
+    middle = [100, *[0] * (2 * half), 100]
+    origin = {"position": {"x": -ROOM - cell, "y": -ROOM - cell}, "orientation": {"w": 1.0}}
+    size = {"resolution": cell, "width": len(edge), "height": len(edge), "origin": origin}
+    return {"header": {"frame_id": "map"}, "info": size, "data": [*edge, *middle * (2 * half), *edge]}
 
 
 class ForeignRobot:

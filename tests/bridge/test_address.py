@@ -26,7 +26,7 @@ def test_an_address_is_taken_apart(url, found):
 
 
 @pytest.mark.parametrize(
-    "url", ["", "robot", "http://robot:9090", "ws://", "ws://robot:70000", "ws://[::1:9090"]
+    "url", ["", "robot", "http://robot:9090", "ws://", "ws://robot:70000", "ws://robot:0", "ws://[::1:9090"]
 )
 def test_what_is_no_address_is_told_how_one_looks(url):
     with pytest.raises(BadAddress, match="The address must be like ws://192.168.1.7:9090, not"):

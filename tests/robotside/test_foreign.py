@@ -15,7 +15,7 @@ from bridge.msgs.pilothouse_msgs import Event, RobotInfo
 from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header, Time
 from robotside.autonomy import CAMERA
-from robotside.foreign import REPEAT, RESTS, ForeignRobot
+from robotside.foreign import JPEG, REPEAT, RESTS, ForeignRobot
 from robotside.foreign_link import Listener
 from robotside.foreign_topics import Found
 
@@ -216,7 +216,53 @@ def test_stamps_of_a_topic_never_go_back() -> None:
 def test_the_camera_is_asked_for_on_demand_and_the_end_is_passed_on() -> None:
     robot, line = here(CAMERA)
     robot.want(CAMERA, True)
-    robot.heard(CAMERA, CompressedImage())
+    robot.heard(CAMERA, CompressedImage(data=JPEG))
     assert [topic for topic, _ in robot.read(50.0)] == [CAMERA]
     robot.close()
     assert (line.wanted, line.closed) == ([(CAMERA, True)], True)
+
+
+def test_pictures_that_are_no_jpeg_are_left_out_and_that_is_said_once() -> None:
+    robot, _ = here(CAMERA)
+    for _ in range(3):
+        robot.heard(CAMERA, CompressedImage(format="png", data=b"\x89PNG"))
+    said = "The camera's pictures are png, not JPEG: they are left out."
+    assert robot.read(50.0) == [("/events", Event(level="warn", kind="robot", text=said))]
+
+
+def test_a_robot_in_others_hands_is_not_driven_until_they_let_go() -> None:
+    robot, line = here()
+    robot.drive(SPEED)
+    robot.held("The robot is driven by Fred: ask there, or wait until it is released.")
+    line.sent.clear()
+    robot.drive(SPEED)
+    robot.read(20.0)
+    assert line.sent == []
+    assert robot.trouble == "The robot is driven by Fred: ask there, or wait until it is released."
+    robot.held("")
+    robot.drive(SPEED)
+    assert (robot.trouble, line.sent) == ("", [SPEED])
+
+
+def test_whose_hands_it_was_in_is_forgotten_with_the_link() -> None:
+    robot, _ = here()
+    robot.held("The robot is driven by Fred.")
+    robot.lost("The connection was cut.")
+    assert robot.trouble == "The robot cannot be reached: the connection was cut."
+    robot.found(found())
+    assert robot.trouble == ""
+
+
+def test_one_that_is_found_in_others_hands_is_left_alone() -> None:
+    robot, line = here()
+    robot.lost("The connection was cut.")
+    robot.held("The robot is on a task of its own.")
+    robot.found(found())
+    line.sent.clear()
+    robot.read(20.0)
+    assert line.sent == []
+
+
+def test_a_password_in_the_address_is_not_told() -> None:
+    robot = ForeignRobot("ws://me:secret@robot:9090", connect=Line(nobody))
+    assert robot.info.name == "Robot at robot:9090"

@@ -161,7 +161,7 @@ async def test_a_robot_side_drives_patrols_and_stops_through_another_and_rests_w
         assert (robot.info.name, robot.info.max_speed) == ("Rex", 0.7)
         engine = serves.station.autonomy.engine
         serves.station.autonomy.place(ORIGIN)
-        await until(lambda: serves.station.autonomy.whereabouts.sure)
+        await until(lambda: not serves.station.unfit)
 
         client.publish("/cmd_vel", SPEED)
         await until(lambda: SPEED in far.commands)

@@ -223,6 +223,14 @@ def test_a_state_directory_that_cannot_be_made_is_one_sentence_and_lets_go_of_th
             "serve --robot ros:ws://here:9 --speed 2",
             "A real robot moves in real time: --speed must be 1, not 2.",
         ),
+        (
+            "serve --robot ros:ws://localhost:9090",
+            "The robot at ws://localhost:9090 would be this program itself; --port names another port.",
+        ),
+        (
+            "serve --robot ros:ws://[::1:9",
+            "The address must be like ws://192.168.1.7:9090, not 'ws://[::1:9' (Invalid IPv6 URL).",
+        ),
         ("serve --robot sim:rover", "There is no simulated robot 'rover'; there is patrol."),
         (
             "serve --port nine",

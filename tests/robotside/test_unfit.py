@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -18,8 +19,9 @@ from bridge.msgs.geometry_msgs import (
     PoseWithCovarianceStamped,
     Twist,
 )
-from bridge.msgs.nav_msgs import OccupancyGrid
+from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
 from bridge.msgs.pilothouse_msgs import CommandRequest, Event, SetMissionRequest, StartTaskRequest
+from robotside.pose2 import ORIGIN
 from robotside.station import NO_MAP
 from tests.fakes import FakeRobot
 from tests.robotside.scene import SQUARE, Scene
@@ -144,7 +146,7 @@ def test_while_the_robot_cannot_be_reached_nothing_is_commanded_and_the_reason_i
     assert scene.refused("/task/start", StartTaskRequest()) == LOST
     scene.robot.trouble = ""
     scene.run(0.1)
-    assert scene.events("robot")[-1] == "The robot can be reached again; it stands still."
+    assert scene.events("robot")[-1] == "The robot can be driven again; it stands still."
 
 
 def test_a_task_is_held_when_the_link_is_lost_and_goes_on_only_when_somebody_says_so(scene: Scene) -> None:
@@ -169,3 +171,58 @@ def test_a_drive_command_in_force_ends_with_the_link(scene: Scene) -> None:
     scene.robot.trouble = LOST
     scene.run(0.05)
     assert not scene.station.controls.driving
+
+
+@pytest.mark.parametrize(("topic", "sense"), [("/odom", "odometry"), ("/scan", "laser")])
+def test_a_robot_that_never_says_how_it_moves_or_what_is_near_does_no_task(
+    tmp_path: Path, topic: str, sense: str
+) -> None:
+    robot = FakeRobot()
+    robot.silent.add(topic)
+    scene = Scene(robot, tmp_path)
+    scene.run(1.0)
+    scene.station.autonomy.place(ORIGIN)
+    scene.set(*SQUARE)
+    said = f"It can be driven by hand only: the {sense} has not said anything yet."
+    assert scene.refused("/task/start", StartTaskRequest()) == said
+    assert scene.refused("/task/go_home") == said
+    robot.silent.clear()
+    scene.run(4.0)
+    scene.start()
+    assert scene.task.state == "RUNNING"
+
+
+def test_a_task_that_became_blind_is_not_resumed_until_it_sees_again(scene: Scene) -> None:
+    scene.set(*SQUARE)
+    scene.start()
+    scene.robot.silent.add("/scan")
+    scene.run(1.0)
+    assert scene.task.reason == "Paused: the laser has been silent for 0.6 s."
+    assert "the laser has been silent" in scene.refused("/task/resume")
+    scene.robot.silent.clear()
+    scene.run(1.0)
+    assert scene.ask("/task/resume").message == "Resumed."
+
+
+def test_without_odometry_nobody_says_that_it_stands_still(scene: Scene) -> None:
+    assert scene.control.at_rest
+    scene.robot.silent.add("/odom")
+    scene.run(2.5)
+    assert not scene.control.at_rest
+    scene.robot.silent.clear()
+    scene.run(0.2)
+    assert scene.control.at_rest
+
+
+def test_odometry_that_is_no_number_counts_as_none_and_spoils_nothing(tmp_path: Path) -> None:
+    robot = Talking()
+    scene = Scene(robot, tmp_path)
+    scene.run(1.0)
+    scene.station.autonomy.place(ORIGIN)
+    scene.run(1.0)
+    odometer = scene.station.autonomy.whereabouts.odometer
+    nowhere = PoseWithCovariance(Pose(Point(math.nan, 0.0)))
+    robot.more = [("/odom", Odometry(pose=nowhere))]
+    scene.run(1.0)
+    assert scene.station.autonomy.whereabouts.odometer == odometer
+    assert scene.station.autonomy.whereabouts.sure

@@ -1,0 +1,112 @@
+"""The robot side in front of another robot side of ours, which has a STOP, drivers and tasks of its own."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+from typing import NamedTuple
+
+from bridge.client import BridgeClient
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Mission, StartTaskRequest, Waypoint
+from robotside.foreign import ForeignRobot
+from robotside.pose2 import ORIGIN
+from robotside.serving import Serving
+from tests.fakes import FakeRobot
+from tests.robotside.test_foreign_link import order, reached, served, until
+from tests.robotside.test_serving import connected
+
+SPEED = Twist.planar(0.3, 0.1)
+STOPPED = "The robot's own STOP is pressed, by Fred: release it there."
+DRIVEN = "The robot is driven by Fred: ask there, or wait until it is released."
+BUSY = "The robot is on a task of its own: pause it there, or press STOP."
+
+
+class Two(NamedTuple):
+    """A robot, the robot side behind, the one in front of it, and a client of each."""
+
+    robot: FakeRobot
+    behind: Serving
+    port: ForeignRobot
+    front: Serving
+    fred: BridgeClient
+    anna: BridgeClient
+
+
+@asynccontextmanager
+async def two(state: Path) -> AsyncIterator[Two]:
+    robot = FakeRobot()
+    async with (
+        served(state / "far", robot, "Rex") as behind,
+        connected(behind) as fred,
+        reached(behind.server.port) as port,
+        served(state / "near", port) as front,
+        connected(front) as anna,
+    ):
+        fred_is = CommandRequest(client_id="fred", client_name="Fred")
+        # whoever is in front has control, so that only the names are told here
+        await fred.call("/task/pause", fred_is, CommandResponse)
+        yield Two(robot, behind, port, front, fred, anna)
+
+
+def said(by: Serving) -> list[str]:
+    return [event.text for event in by.station.events.since(0, "")]
+
+
+async def test_the_one_in_front_drives_under_its_own_name_and_its_stop_brings_the_robot_to_rest(
+    tmp_path: Path,
+) -> None:
+    async with two(tmp_path) as it:
+        assert "the robot side on " in it.behind.station.controls.driver.name  # type: ignore[union-attr]
+        it.anna.publish("/cmd_vel", SPEED)
+        await until(lambda: SPEED in it.robot.commands)
+        assert await order(it.anna, "/stop") == "Stopped."
+        await until(lambda: it.robot.at_rest)
+        assert not it.behind.station.controls.stopped
+
+
+async def test_a_stop_pressed_behind_is_told_in_front_and_can_be_released_where_it_was_pressed(
+    tmp_path: Path,
+) -> None:
+    async with two(tmp_path) as it:
+        await order(it.fred, "/stop")
+        await until(lambda: it.port.trouble == STOPPED)
+        it.anna.publish("/cmd_vel", SPEED)
+        await until(lambda: STOPPED in said(it.front))
+        await until(lambda: it.behind.station.controls.driver is None)
+        assert await order(it.fred, "/stop/release") == "STOP is released."
+        await until(lambda: it.port.trouble == DRIVEN)
+        assert await order(it.fred, "/control/release") == "Control is free."
+        await until(lambda: it.port.trouble == "")
+        await until(lambda: "The robot can be driven again; it stands still." in said(it.front))
+        assert SPEED not in it.robot.commands
+        it.anna.publish("/cmd_vel", SPEED)
+        await until(lambda: SPEED in it.robot.commands)
+
+
+async def test_a_task_is_paused_while_somebody_else_has_the_robot(tmp_path: Path) -> None:
+    async with two(tmp_path) as it:
+        station = it.front.station
+        station.autonomy.place(ORIGIN)
+        await until(lambda: not station.unfit)
+        station.keep(Mission(waypoints=[Waypoint(4.0, 0.0)]))
+        await it.anna.call("/task/start", StartTaskRequest(), CommandResponse)
+        await until(lambda: it.robot.pose[0] > 0.1)
+        await order(it.fred, "/stop")
+        await until(lambda: station.autonomy.engine.paused)
+        assert station.autonomy.engine.status.reason == f"Paused: {STOPPED[0].lower()}{STOPPED[1:]}"
+        assert await order(it.anna, "/task/resume") == STOPPED
+
+
+async def test_stop_in_front_ends_what_the_robot_behind_does_by_itself(tmp_path: Path) -> None:
+    async with two(tmp_path) as it:
+        far = it.behind.station
+        far.autonomy.place(ORIGIN)
+        far.keep(Mission(waypoints=[Waypoint(4.0, 0.0)]))
+        far.controls.release(far.controls.driver.client)  # type: ignore[union-attr]
+        far.autonomy.start_patrol(far.mission, far.now)
+        far.show_control()
+        await until(lambda: it.port.trouble == BUSY)
+        await order(it.anna, "/stop")
+        await until(lambda: far.autonomy.engine.paused and it.robot.at_rest)
