@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 import msgspec
-from msgspec import Raw
+from msgspec import UNSET, Raw
 
 from bridge.address import BadAddress, LinkLost
 from bridge.asking import Asking
@@ -145,7 +145,7 @@ class BridgeClient(Asking, Reconnecting):
             throttle_rate=throttle_rate,
             queue_length=queue_length,
             compression=compression,
-            fragment_size=fragment_size,
+            fragment_size=UNSET if fragment_size is None else fragment_size,  # rosbridge_server refuses null
             reduce=reduce,
         )
         first, last = self._session.subscribe(wanted, type, callback)

@@ -151,7 +151,7 @@ class Peer:
             broadcast([self.ws], text)
             return
         id = next(self._numbers) if id is None else id
-        total = len(text) / size if self.server.ros == 1 else math.ceil(len(text) / size)
+        total = (len(text) - 1) / size + 1 if self.server.ros == 1 else math.ceil(len(text) / size)
         for number, start in enumerate(range(0, len(text), size)):
             piece = {
                 "op": "fragment",
@@ -206,6 +206,9 @@ class Peer:
 
     def _op_subscribe(self, op: dict[str, Any]) -> None:
         name = resolved(op["topic"])
+        for key in ("fragment_size", "throttle_rate", "queue_length"):
+            if not isinstance(op.get(key, 0), int):
+                raise Unfit(f"{key} is no int")
         known = self.server.topics.get(name)
         if known is None and not op.get("type"):
             raise Unfit(f"{name} has no type yet")
