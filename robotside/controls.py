@@ -95,6 +95,10 @@ class Controls:
         known_id, known_name = self._identity(client)
         self._names[client.id] = (client_id or known_id, name or known_name)
 
+    def knows(self, client: Operator) -> bool:
+        """`client` has introduced itself and is still connected."""
+        return client.id in self._names
+
     def name(self, client: Operator) -> str:
         """What to call `client`."""
         return self._identity(client)[1]

@@ -42,7 +42,7 @@ class _Goals:
         begun = self._begin(client, goal)
         if not begun.success:
             raise Refused(begun.message)
-        task_id = self._station.autonomy.engine.status.task_id
+        task_id, name = self._station.autonomy.engine.status.task_id, self._station.controls.name(client)
         end: asyncio.Future[TaskStatus] = asyncio.get_running_loop().create_future()
 
         def watch(_: str, msg: Msg) -> None:
@@ -55,20 +55,23 @@ class _Goals:
         try:
             return _result(await end)
         except asyncio.CancelledError:
-            self._take_back(client, task_id)
+            self._take_back(client, name, task_id)
             raise
         finally:
             for end_of in leave:
                 end_of()
 
-    def _take_back(self, client: Session, task_id: int) -> None:
-        """End the task, unless it is over or somebody else has taken it over; Refused with that one's name."""
+    def _take_back(self, client: Session, name: str, task_id: int) -> None:
+        """End the task of `client`, called `name`, unless it is over or somebody else has taken it over; Refused with that one's name."""
         problem = self._station.controls.objection(client)
         if problem:
             raise Refused(problem)
         engine = self._station.autonomy.engine
         if engine.active and engine.status.task_id == task_id:
-            engine.cancel(f"Canceled by {self._station.controls.name(client)}.")
+            there = self._station.controls.knows(client)
+            engine.cancel(
+                f"Canceled by {name}." if there else f"Canceled: {name}, who asked for it, is gone."
+            )
 
 
 def _over(status: TaskStatus, task_id: int) -> bool:

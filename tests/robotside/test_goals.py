@@ -153,7 +153,8 @@ async def test_a_goal_ends_with_its_client(tmp_path: Path) -> None:
         station.keep(Mission(waypoints=SQUARE))
         station.bus.subscribe("/task/status", lambda _, msg: over(msg.state))  # type: ignore[attr-defined]
         async with connected(serves) as client:
-            client.goal("/task/run", RunTaskGoal())
+            client.goal("/task/run", RunTaskGoal(client_name="script"))
             await over.until(lambda states: "RUNNING" in states)
         await over.until(lambda states: "CANCELED" in states)
+        assert station.autonomy.engine.status.reason == "Canceled: script, who asked for it, is gone."
         assert robot.at_rest
