@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import msgspec
 from msgspec import Raw
 
-from bridge.codec import select, to_cbor, to_json
+from bridge.codec import Unread, select, to_cbor, to_json
 from bridge.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.msgs.std_msgs import Time
@@ -69,25 +69,28 @@ def said(op: Op, size: int | None = None) -> bytes:
 class Outgoing:
     """One published message; encoded when first needed and once per form, however many clients want it."""
 
-    __slots__ = ("_bodies", "_frames", "_lesser", "_now", "_reduce", "msg", "topic")
+    __slots__ = ("_bodies", "_frames", "_lesser", "_msg", "_now", "_reduce", "topic")
 
     def __init__(
         self,
         topic: str,
-        msg: Msg | Raw,
+        msg: Msg | Raw | Unread,
         reduce: Reduce | None = None,
         now: Callable[[], float] = float,
     ) -> None:
-        """`msg` as Raw is JSON text of a type that is not known; it can be passed on, but not as `cbor-raw`.
+        """`msg` as Raw is JSON text of a type that is not known; it can be passed on, but not as `cbor-raw`. Unread it
+        is passed on as it is to all who want it as it is.
 
         `now` is the operators' clock [s].
         """
         self.topic = topic
-        self.msg = msg
+        self._msg = msg
         self._reduce = reduce
         self._now = now
         self._frames: dict[Form, bytes] = {}
         self._bodies: dict[tuple[Reduction | None, bool], bytes] | None = None
+        if type(msg) is Unread:
+            self._bodies = {(None, False): msg.text}
         self._lesser: dict[Reduction, Msg | Raw] | None = None
 
     def frame(self, form: Form) -> bytes:
@@ -97,15 +100,23 @@ class Outgoing:
             frame = self._frames[form] = self._encode(form)
         return frame
 
+    @property
+    def msg(self) -> Msg | Raw:
+        """All of it."""
+        if isinstance(self._msg, Unread):
+            self._msg = self._msg.read()
+        return self._msg
+
     def lesser(self, reduction: Reduction | None) -> Msg | Raw:
         """As much of the message as is wanted; ProtocolError when it has no such fields."""
-        if reduction is None or isinstance(self.msg, Raw):
-            return self.msg
+        msg = self.msg
+        if reduction is None or isinstance(msg, Raw):
+            return msg
         if self._lesser is None:
             self._lesser = {}
         found = self._lesser.get(reduction)
         if found is None:
-            found = self.msg if self._reduce is None else self._reduce(self.msg, reduction)
+            found = msg if self._reduce is None else self._reduce(msg, reduction)
             if reduction.fields is not None:
                 found = select(found, reduction.fields)
             self._lesser[reduction] = found

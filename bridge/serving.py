@@ -11,7 +11,7 @@ from typing import Any
 import msgspec
 from msgspec import UNSET, Raw
 
-from bridge.codec import from_builtins, from_json, shown, to_json
+from bridge.codec import Unread, from_builtins, from_json, shown, to_json, unread
 from bridge.compat import Compat
 from bridge.complaints import Complaints
 from bridge.errands import Errands
@@ -183,7 +183,8 @@ class Client:
     def _publish(self, op: Publish) -> None:
         channel = self._heard_on(op.topic)
         if channel.cls is not None:
-            self._published(channel, from_json(op.msg, channel.cls), op.stamp, latch=bool(op.latch))
+            msg = unread(op.msg, channel.cls) if channel.entry is None else None
+            self._published(channel, msg or from_json(op.msg, channel.cls), op.stamp, latch=bool(op.latch))
         elif bytes(op.msg)[:1] != b"{" or too_deep(bytes(op.msg)):
             raise ProtocolError(f"A message on {channel.name} must be an object, and not nested too deeply.")
         else:
@@ -206,7 +207,9 @@ class Client:
             raise ProtocolError(f"This robot does not listen to {shown(topic)}, it speaks there.")
         return channel
 
-    def _published(self, channel: Channel, msg: Msg | Raw, stamp: float | None, *, latch: bool) -> None:
+    def _published(
+        self, channel: Channel, msg: Msg | Raw | Unread, stamp: float | None, *, latch: bool
+    ) -> None:
         if channel.entry is not None:
             latch = False
             try:

@@ -7,6 +7,7 @@ from typing import Protocol
 
 from msgspec import Raw
 
+from bridge.codec import Unread
 from bridge.errors import BridgeError, ProtocolError
 from bridge.lanes import Lane, Stream
 from bridge.levels import Picture
@@ -121,7 +122,7 @@ class Switchboard:
             raise BridgeError(f"There is no topic {topic} in the table.")
         self.pass_on(self.channels[topic], msg, None, latch=entry.latched)
 
-    def pass_on(self, channel: Channel, msg: Msg | Raw, publisher: object, *, latch: bool) -> None:
+    def pass_on(self, channel: Channel, msg: Msg | Raw | Unread, publisher: object, *, latch: bool) -> None:
         """Pass a message of `publisher`, None is the robot, on to all who want it, and to later ones when latched."""
         if not channel.streams and not latch:
             return

@@ -13,8 +13,10 @@ from bridge.codec.binary import from_cbor, to_cbor
 from bridge.codec.reader import from_builtins, shown, to_builtins
 from bridge.codec.selection import select
 from bridge.codec.text import from_json, to_json
+from bridge.codec.unread import Unread, unread
 
 __all__ = [
+    "Unread",
     "from_builtins",
     "from_cbor",
     "from_json",
@@ -23,4 +25,5 @@ __all__ = [
     "to_builtins",
     "to_cbor",
     "to_json",
+    "unread",
 ]

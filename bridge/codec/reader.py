@@ -18,14 +18,15 @@ from bridge.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.msgs.arrays import ARRAYS
 
-__all__ = ["from_builtins", "shown", "to_builtins"]
+__all__ = ["WIDTHS", "from_builtins", "least_and_most", "shown", "to_builtins"]
 
 M = TypeVar("M", bound=Msg)
 Reader = Callable[[Any, str], Any]
 """Makes a field's value of what was decoded; the text is the field's path, for the error."""
 
 _TYPED = tuple(ARRAYS.values())
-_WIDTHS = {"b": 8, "B": 8, "h": 16, "H": 16, "i": 32, "I": 32, "q": 64, "Q": 64}
+WIDTHS = {"b": 8, "B": 8, "h": 16, "H": 16, "i": 32, "I": 32, "q": 64, "Q": 64}
+"""Bits of each whole number, by its code in `array.array`."""
 
 
 def to_builtins(msg: Msg) -> dict[str, Any]:
@@ -98,9 +99,14 @@ def _read_array(cls: type[Any], obj: Any, path: str) -> Any:
 def _held(code: str) -> str:
     if code in "fd":
         return "numbers"
-    bits = _WIDTHS[code]
-    least, most = (0, 2**bits - 1) if code.isupper() else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+    least, most = least_and_most(code)
     return f"whole numbers from {least} to {most}"
+
+
+def least_and_most(code: str) -> tuple[int, int]:
+    """What a whole number with this code of `array.array` may be; the code is one of `WIDTHS`."""
+    bits = WIDTHS[code]
+    return (0, 2**bits - 1) if code.isupper() else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
 
 
 def _within(read: Reader, told: list[msgspec.Meta]) -> Reader:

@@ -35,9 +35,12 @@ class _Typed(array):  # type: ignore[type-arg]
 
     def __new__(cls, values: Iterable[Any] | bytes = ()) -> Self:
         """Make one from numbers (None becomes NaN) or from little-endian bytes."""
-        if isinstance(values, list) and None in values:
-            values = [_NAN if value is None else value for value in values]
-        return super().__new__(cls, cls.code, values)
+        try:
+            return super().__new__(cls, cls.code, values)
+        except TypeError:  # looking for None first would cost as much as the rest
+            if not isinstance(values, list) or None not in values:
+                raise
+        return super().__new__(cls, cls.code, [_NAN if value is None else value for value in values])
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self.tobytes(),)

@@ -1,0 +1,94 @@
+"""Messages that are passed on as they came: checked like any other, and read only when somebody wants them otherwise."""
+
+from __future__ import annotations
+
+import functools
+import typing
+from typing import Any
+
+import msgspec
+
+from bridge.codec.fields import fields_of
+from bridge.codec.reader import WIDTHS, least_and_most
+from bridge.codec.text import from_json
+from bridge.msgs import Msg
+from bridge.msgs.arrays import ARRAYS
+
+__all__ = ["Unread", "unread"]
+
+_ARRAYS = tuple(ARRAYS.values())
+
+
+class Unread:
+    """JSON text of a whole message of a known type, in ROS 1's names."""
+
+    __slots__ = ("_type", "text")
+
+    def __init__(self, text: bytes, type: type[Msg]) -> None:
+        self.text = text
+        self._type = type
+
+    def read(self) -> Msg:
+        """The message."""
+        return from_json(self.text, self._type)
+
+
+def unread(raw: msgspec.Raw, type: type[Msg]) -> Unread | None:
+    """The text as it is, if it holds each field of `type`, each of its kind, and no other; None where it must be read.
+
+    What was left out, spelled as in ROS 2 or wrong is for `from_json`: it fills in, translates and tells.
+    """
+    decoder = _decoder(type)
+    if decoder is None:
+        return None
+    try:
+        decoder.decode(raw)
+    except (msgspec.MsgspecError, OverflowError, UnicodeError, RecursionError):
+        return None
+    return Unread(bytes(raw), type)
+
+
+@functools.lru_cache(maxsize=1024)
+def _decoder(type: type[Msg]) -> msgspec.json.Decoder[Any] | None:
+    """None for a type that cannot be checked so."""
+    try:
+        return msgspec.json.Decoder(_strict(type))
+    except (TypeError, ValueError):
+        return None
+
+
+@functools.lru_cache(maxsize=1024)
+def _strict(type: type[Msg]) -> Any:
+    """A record with the fields of `type`, all of them needed and no other allowed."""
+    fields = fields_of(type)
+    return msgspec.defstruct(
+        type.__name__,
+        [(field.name, _needed(field.hint)) for field in fields],
+        rename={field.name: field.key for field in fields},
+        forbid_unknown_fields=True,
+        frozen=True,
+        gc=False,
+    )
+
+
+def _needed(hint: Any) -> Any:
+    """What JSON must hold for a field of this type."""
+    if typing.get_origin(hint) is typing.Annotated:
+        inner, *told = typing.get_args(hint)
+        return typing.Annotated[(_needed(inner), *told)]
+    if hint is float:
+        return float | None
+    if typing.get_origin(hint) is list:
+        return list[_needed(typing.get_args(hint)[0])]  # type: ignore[misc]
+    if isinstance(hint, type) and issubclass(hint, Msg):
+        return _strict(hint)
+    if isinstance(hint, type) and issubclass(hint, _ARRAYS):
+        return list[_number(hint.code)]  # type: ignore[misc]
+    return hint
+
+
+def _number(code: str) -> Any:
+    if code not in WIDTHS:
+        return float | None
+    least, most = least_and_most(code)
+    return typing.Annotated[int, msgspec.Meta(ge=least, le=min(most, 2**63 - 1))]
