@@ -17,6 +17,9 @@ __all__ = ["Line", "Outlet", "Round"]
 
 log = logging.getLogger(__name__)
 
+_MOST_REFUSED = 100
+"""So many topics are logged of one client that cannot be sent."""
+
 
 class Line(Protocol):
     """What frames are written to."""
@@ -75,6 +78,7 @@ class Outlet:
         self._batch: list[bytes] = []
         self._timer: asyncio.TimerHandle | None = None
         self._closing = False
+        self._refused: set[str] = set()
         self.window = Window(self._clock())
         """What is under way."""
 
@@ -110,7 +114,7 @@ class Outlet:
         try:
             frame = message.frame(stream.form)
         except ProtocolError as error:
-            log.warning("%s is not sent: %s", message.topic, error)
+            self._refuse(message.topic, error)
             return
         if not window.fits(len(frame)):
             self._wait(stream, message)
@@ -144,6 +148,8 @@ class Outlet:
         """A pong came."""
         if self.window.pong(content, self._clock()):
             self.pump()
+            if not self._batch and not self._urgent:
+                self._round.add(self)  # for a ping: the window may have fallen below what is under way
 
     def pump(self) -> None:
         """Send of what waits as much as there is room for."""
@@ -192,7 +198,13 @@ class Outlet:
         try:
             self.send(stream.lane, message.frame(stream.form))
         except ProtocolError as error:
-            log.warning("%s is not sent: %s", message.topic, error)
+            self._refuse(message.topic, error)
+
+    def _refuse(self, topic: str, error: ProtocolError) -> None:
+        """Log once of each topic that it cannot be sent: the next message cannot either."""
+        if topic not in self._refused and len(self._refused) < _MOST_REFUSED:
+            self._refused.add(topic)
+            log.warning("%s is not sent to %s: %s", topic, self._name, error)
 
     def _gather(self, frames: list[bytes], frame: bytes) -> None:
         if not self._urgent and not self._batch:

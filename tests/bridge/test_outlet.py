@@ -12,7 +12,7 @@ from bridge.msgs.std_msgs import Float64, String
 from bridge.outgoing import Outgoing
 from bridge.outlet import Outlet, Round
 from bridge.protocol import Subscribed
-from bridge.window import DEAD, START
+from bridge.window import DEAD, PAUSE, START
 from tests.bridge.wires import Clock
 from tests.bridge.ws_frames import frames
 
@@ -247,6 +247,28 @@ async def test_a_connection_that_is_closing_and_does_not_end_is_cut(bench):
     assert cuts == []
     bench.outlet.beat()
     assert cuts == [1]
+
+
+async def test_what_no_longer_fits_when_the_window_falls_is_pinged_for(bench):
+    bench.outlet.send(Lane.REPLY, text_of(100))
+    bench.step()
+    bench.clock.time += 0.001
+    bench.answer()  # a quick way
+    bench.outlet.window.limit = 40_000
+    bench.clock.time += PAUSE
+    for length in (6000, 7000):
+        bench.outlet.send(Lane.REPLY, text_of(length))
+        bench.step()
+    bench.clock.time += 0.2
+    assert len(bench.line.unanswered) == 1
+    bench.outlet.answered(bench.line.unanswered.pop())
+    assert bench.outlet.window.limit < 7000 == bench.outlet.window.under_way - 4
+    bench.outlet.offer(stream(), number(1))
+    bench.step()
+    assert bench.line.unanswered
+    bench.line.writes.clear()
+    bench.answer()
+    assert bench.line.numbers == [1.0]
 
 
 async def test_what_does_not_fit_waits_until_the_way_is_nearly_empty_and_is_pinged_for(bench):
