@@ -1,5 +1,7 @@
 """`python -m bench.support.crowd URL`: plain WebSocket clients of a rosbridge server, in a process of their own.
 
+They read what they get by the standard library's json, or cbor2, and throw it away.
+
 Each line of JSON on the standard input is answered by one:
 
 - `{"do": "watch", "topic": T, "type": TYPE, "clients": N, "compression": C}`: N more clients subscribe; `{}` when they have asked;
@@ -21,6 +23,7 @@ import time
 from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from typing import Any
 
+import cbor2
 from websockets.asyncio.client import ClientConnection, connect
 
 from bench.support.rosbridge import flow
@@ -135,7 +138,8 @@ class Crowd:
 
     async def _read(self, ws: ClientConnection) -> None:
         while True:
-            await ws.recv(decode=False)
+            raw = await ws.recv()
+            (json.loads if isinstance(raw, str) else cbor2.loads)(raw)
             self.received += 1
             if self.received == self._goal:
                 self._reached.set()
