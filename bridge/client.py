@@ -84,7 +84,7 @@ class BridgeClient(Asking, Reconnecting):
         self.state = LinkState(Phase.CLOSED, "Not connected.", 0, 0.0)
         self._on_state = on_state
         self._network: Network = System() if network is None else network
-        self._providing = Providing(self._session, self._send)
+        self._providing = Providing(self._session, self._send, lambda: self.foreign)
         self._connection: Connection | None = None
         self._address: tuple[str, int] | None = None
         self._heart: Heartbeat | None = None

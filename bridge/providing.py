@@ -14,7 +14,7 @@ from msgspec import Raw
 from bridge.codec import to_json
 from bridge.errors import BridgeError, ProtocolError
 from bridge.goals import ABORTED, CANCELED, SUCCEEDED
-from bridge.msgs import Msg
+from bridge.msgs import TYPES, Msg
 from bridge.protocol import (
     ActionFeedback,
     ActionResult,
@@ -42,15 +42,20 @@ MOST_CALLS = 100
 class Providing:
     """The calls and goals that are under way. They end with the connection that they came over."""
 
-    def __init__(self, session: ClientSession, send: Callable[[Op], bool]) -> None:
-        """`send` gives an operation to the server."""
+    def __init__(
+        self, session: ClientSession, send: Callable[[Op], bool], foreign: Callable[[], bool]
+    ) -> None:
+        """`send` gives an operation to the server; `foreign` tells whether that is none of ours."""
         self._session = session
         self._send = send
+        self._foreign = foreign
+        self._types: dict[str, str] = {}
         self._calls: set[asyncio.Task[None]] = set()
         self._goals: dict[Id, asyncio.Task[None]] = {}
 
     def serve(self, service: str, type: str, request: type[Msg], call: Call) -> Op:
         """Answer calls of `service` from now on; gives what to send."""
+        self._types[service] = type
         return self._session.serve(service, type, lambda op: self._called(op, request, call))
 
     def provide(self, action: str, type: str, goal: type[Msg], run: Run) -> Op:
@@ -68,7 +73,7 @@ class Providing:
     def refuse(self, op: CallService | SendActionGoal, error: ProtocolError) -> None:
         """Tell the server that what it asked for cannot be done."""
         if isinstance(op, CallService):
-            self._answer(op, _sentence(error), ok=False)
+            self._decline(op, str(error))
         else:
             self._send(_result(op, _sentence(error), ABORTED, ok=False))
 
@@ -86,12 +91,21 @@ class Providing:
             answer = call(arguments(op.args, request))
             text = to_json(await answer if inspect.isawaitable(answer) else answer, self._session.ros2)
         except BridgeError as error:
-            self._answer(op, _sentence(error), ok=False)
+            self._decline(op, str(error))
         except Exception:
             log.exception("Answering %s failed", op.service)
-            self._answer(op, _sentence(f"{op.service} failed."), ok=False)
+            self._decline(op, f"{op.service} failed.")
         else:
             self._answer(op, text, ok=True)
+
+    def _decline(self, op: CallService, sentence: str) -> None:
+        """Say no. rosbridge_server drops values that are no object, and whoever called waits for ever."""
+        values: object = sentence
+        if self._foreign():
+            response = TYPES.get(f"{self._types.get(op.service)}Response")
+            says = response is not None and "message" in response.__struct_fields__
+            values = {"message": sentence} if says else {}
+        self._answer(op, msgspec.json.encode(values), ok=False)
 
     def _answer(self, op: CallService, values: bytes, *, ok: bool) -> None:
         self._send(ServiceResponse(id=op.id, service=op.service, values=Raw(values), result=ok))

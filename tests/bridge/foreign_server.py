@@ -244,7 +244,7 @@ class Peer:
         answer = self.server.calls.pop(op["id"], None)
         if answer is None:
             raise Unfit(f"no call {op['id']} waits")
-        if "values" in op:  # without, the caller waits for ever
+        if isinstance(op.get("values"), dict):  # without, the caller waits for ever
             answer(True, op["values"])
 
     def _op_advertise_service(self, op: dict[str, Any]) -> None:
@@ -286,6 +286,8 @@ class Peer:
             caller.say(op="action_feedback", id=wanted["id"], action=wanted["action"], values=op["values"])
 
     def _op_action_result(self, op: dict[str, Any]) -> None:
+        if not isinstance(op.get("values", {}), dict):
+            raise Unfit("values is no object")
         caller, wanted = self.server.goals.pop(op["id"])
         named = {"id": wanted["id"], "action": wanted["action"]}
         status = op.get("status", 4)

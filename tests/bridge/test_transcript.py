@@ -186,3 +186,8 @@ async def test_a_command_comes_back_from_the_robot_and_another_client_calls_our_
     assert found["driven"] == Twist.planar(0.25, -0.5)
     assert found["door asked"] == [True, False]
     assert found["door"] == ["open", "shut"]
+
+
+async def test_what_our_service_refuses_reaches_whoever_called_it():
+    found, _ = await replayed(recorded())
+    assert found["gate"] == "It is stuck."

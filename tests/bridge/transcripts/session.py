@@ -7,7 +7,7 @@ from collections.abc import Awaitable, Callable
 from typing import Any
 
 from bridge.client import BridgeClient
-from bridge.errors import BridgeError
+from bridge.errors import BridgeError, Refused
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
@@ -135,11 +135,19 @@ async def _door(client: BridgeClient, other: BridgeClient, found: Results) -> No
         asked.append(request.data)
         return Told(success=request.data, message="open" if request.data else "shut")
 
-    end = client.serve("/door", "std_srvs/SetBool", door, request=On)
+    def gate(request: On) -> Told:
+        raise Refused("It is stuck.")
+
+    ends = [
+        client.serve("/door", "std_srvs/SetBool", door, request=On),
+        client.serve("/gate", "std_srvs/SetBool", gate, request=On),
+    ]
     await _asked(client, "/beep")
     found["door"] = [await _asked(other, "/door", On(data=data)) for data in (True, False)]
     found["door asked"] = asked
-    end()
+    found["gate"] = await _asked(other, "/gate", On(data=True))
+    for end in ends:
+        end()
     await _asked(client, "/beep")
 
 
