@@ -75,7 +75,7 @@ class Providing:
         if isinstance(op, CallService):
             self._decline(op, str(error))
         else:
-            self._send(_result(op, _sentence(error), ABORTED, ok=False))
+            self._send(self._aborted(op, str(error)))
 
     def _called(self, op: CallService, request: type[Msg], call: Call) -> None:
         if len(self._calls) >= MOST_CALLS:
@@ -137,17 +137,18 @@ class Providing:
         except asyncio.CancelledError:
             outcome = _result(op, b"{}", CANCELED, ok=True)
         except BridgeError as error:
-            outcome = _result(op, _sentence(error), ABORTED, ok=False)
+            outcome = self._aborted(op, str(error))
         except Exception:
             log.exception("Carrying out %s failed", op.action)
-            outcome = _result(op, _sentence(f"{op.action} failed."), ABORTED, ok=False)
+            outcome = self._aborted(op, f"{op.action} failed.")
         if self._session.goal_ended(op.id):
             self._send(outcome)
+
+    def _aborted(self, op: SendActionGoal, sentence: str) -> ActionResult:
+        """Without the sentence for rosbridge_server, which drops values that are no object."""
+        values = b"{}" if self._foreign() else msgspec.json.encode(sentence)
+        return _result(op, values, ABORTED, ok=False)
 
 
 def _result(op: SendActionGoal, values: bytes, status: int, *, ok: bool) -> ActionResult:
     return ActionResult(id=op.id, action=op.action, values=Raw(values), status=status, result=ok)
-
-
-def _sentence(said: object) -> bytes:
-    return msgspec.json.encode(str(said))

@@ -419,3 +419,16 @@ async def test_an_action_on_ros_1_is_given_up_by_time():
         with pytest.raises((NoReply, Refused)):
             async with asyncio.timeout(PATIENCE):
                 await fibonacci(client, 5, Record()).result(timeout=0.1)
+
+
+async def test_a_goal_that_our_client_declines_is_over_for_whoever_gave_it():
+    async def decline(goal, tell):
+        raise Refused("It is too dark.")
+
+    async with linked(2) as (robot, client), link(f"ws://127.0.0.1:{robot.port}") as far:
+        other = await far.connected()
+        client.provide_action("/look", "example_interfaces/Fibonacci", decline, goal=FibonacciGoal)
+        await client.call("/beep", None, Told)
+        goal = other.goal("/look", FibonacciGoal(order=1), result=Numbers, feedback=Numbers)
+        with pytest.raises(Refused):
+            await goal.result(timeout=PATIENCE)
