@@ -10,11 +10,13 @@ from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from robotside.controls import AHEAD
 from robotside.words import number, plain
 
-__all__ = ["KEPT", "Commands", "Refusal"]
+__all__ = ["KEPT", "KEPT_FOR", "Commands", "Refusal"]
 
 KEPT = 256
 """Answers kept for commands that are sent again."""
 
+KEPT_FOR = 60.0
+"""So long is an answer kept [s]; an id that comes later is one that was counted anew."""
 
 LONGEST_ID = 64
 """Characters of a `command_id`; a longer one is refused, since two that are cut could look the same."""
@@ -32,7 +34,7 @@ class Commands:
 
     def __init__(self, now: Callable[[], float]) -> None:
         self._now = now
-        self._answers: OrderedDict[tuple[str, str], CommandResponse] = OrderedDict()
+        self._answers: OrderedDict[tuple[str, str, str], tuple[float, CommandResponse]] = OrderedDict()
 
     def run(
         self,
@@ -40,24 +42,27 @@ class Commands:
         request: CommandRequest,
         action: Callable[[], str],
         *,
+        sender: str = "",
         ageless: bool = False,
     ) -> CommandResponse:
         """Do `action` and answer with the sentence it returns, or with the refusal it raises.
 
-        A request with a known `command_id` gets its first answer again. `ageless` ones are done whenever and
-        however often they come: STOP is as right late as in time.
+        A request with a `command_id` that its `sender` has used on that service gets its first answer again. `ageless`
+        ones are done whenever and however often they come: STOP is as right late as in time.
         """
         if ageless:
             return _answer(action)
         if len(request.command_id) > LONGEST_ID:
             said = f"A command_id has at most {LONGEST_ID} characters, not {len(request.command_id)}."
             return CommandResponse(False, said)
-        key = (service, request.command_id)
-        if request.command_id and key in self._answers:
-            return self._answers[key]
+        key, now = (sender, service, request.command_id), self._now()
+        given, known = self._answers.get(key, (-math.inf, None))
+        if known is not None and abs(now - given) <= KEPT_FOR:
+            return known
         answer = self._untimely(request) or _answer(action)
         if request.command_id:
-            self._answers[key] = answer
+            self._answers[key] = now, answer
+            self._answers.move_to_end(key)
             while len(self._answers) > KEPT:
                 self._answers.popitem(last=False)
         return answer

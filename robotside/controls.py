@@ -12,13 +12,16 @@ from typing import Protocol
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from robotside.words import number, plain
 
-__all__ = ["AHEAD", "LAPSE", "STOP_SENTENCE", "VALID", "Controls", "Driver", "Operator", "Ruling"]
+__all__ = ["AHEAD", "LAPSE", "SILENT", "STOP_SENTENCE", "VALID", "Controls", "Driver", "Operator", "Ruling"]
 
 VALID = 0.3
 """How long a drive command counts [s]; without a newer one the robot stops."""
 
 LAPSE = 2.0
 """Control is free again when its driver was not heard for this long [s]."""
+
+SILENT = 1.0
+"""A driver who was not heard for this long may come back over another connection [s]; until then that is somebody else."""
 
 AHEAD = 1.0
 """A command from further in the future than this comes from a wrong clock [s]."""
@@ -103,33 +106,45 @@ class Controls:
         """What to call `client`."""
         return self._identity(client)[1]
 
+    def id(self, client: Operator) -> str:
+        """The `client_id` that `client` gave, or one for its connection."""
+        return self._identity(client)[0]
+
     def _identity(self, client: Operator) -> tuple[str, str]:
         return self._names.get(client.id, (client.id, f"a client at {client.address}"))
 
     def acquire(self, client: Operator, now: float) -> str:
         """Give control to `client` if it is free or its own; returns why not, empty when it has it now."""
         self.lapse(now)
+        problem = self.objection(client)
+        if problem:
+            return problem
         client_id, name = self._identity(client)
-        if self._driver and self._driver.client_id != client_id and self._driver.client.id != client.id:
-            return f"{self._driver.name} has control; ask there, or wait until it is released."
         self._driver = Driver(client_id, name, client)
         return ""
 
     def release(self, client: Operator) -> str:
         """Take control from `client`; returns why not, empty when it is free now."""
-        if self._driver is None:
-            return ""
-        if self._driver.client.id != client.id and self._driver.client_id != self._identity(client)[0]:
-            return f"{self._driver.name} has control; only its holder can release it."
+        problem = self.objection(client, "only its holder can release it")
+        if problem:
+            return problem
         self._driver = None
         return ""
 
-    def objection(self, client: Operator) -> str:
-        """Why `client` may not change what the robot will do; empty when it may."""
+    def objection(self, client: Operator, advice: str = "ask there, or wait until it is released") -> str:
+        """Why `client` may not change what the robot will do, with an `advice`; empty when it may.
+
+        One id may drive over one connection: another with the same counts as the same only when the first has been
+        silent, as one that was cut is.
+        """
         held = self._driver
-        if held is None or client.id == held.client.id or self._identity(client)[0] == held.client_id:
+        if held is None or client.id == held.client.id:
             return ""
-        return f"{held.name} has control; ask there, or wait until it is released."
+        if self.id(client) != held.client_id:
+            return f"{held.name} has control; {advice}."
+        if client.last_heard - held.client.last_heard > SILENT:
+            return ""
+        return f"{held.name} has control over another connection with the same client_id; {advice}."
 
     def lapse(self, now: float) -> str:
         """Free control whose driver fell silent; returns the driver's name when that happened, else empty."""

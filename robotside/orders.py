@@ -94,8 +94,11 @@ class _Orders:
         """A service that runs `action` as a command: once, and not when it is too old."""
 
         def call(client: Session, asked: CommandRequest) -> CommandResponse:
-            self._station.controls.introduce(client, asked.client_id, asked.client_name)
-            answer = self._commands.run(name, asked, lambda: action(client, asked), ageless=ageless)
+            controls = self._station.controls
+            controls.introduce(client, asked.client_id, asked.client_name)
+            answer = self._commands.run(
+                name, asked, lambda: action(client, asked), sender=controls.id(client), ageless=ageless
+            )
             self._station.show_control()
             return answer
 

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from bridge.msgs.pilothouse_msgs import CommandRequest
-from robotside.commands import KEPT, Commands, Refusal
+from robotside.commands import KEPT, KEPT_FOR, Commands, Refusal
 
 
 class Counter:
@@ -58,6 +58,21 @@ def test_the_same_id_on_another_service_is_another_command(commands: Commands, c
     commands.run("/x", request, counter.act)
     commands.run("/y", request, counter.act)
     assert counter.done == 2
+
+
+def test_the_same_id_of_another_sender_is_another_command(commands: Commands, counter: Counter) -> None:
+    request = CommandRequest(command_id="2")
+    for sender in ("anna", "bert", "anna"):
+        commands.run("/x", request, counter.act, sender=sender)
+    assert counter.done == 2
+
+
+def test_an_id_that_is_used_again_much_later_is_another_command(counter: Counter) -> None:
+    now = 100.0
+    commands, request = Commands(lambda: now), CommandRequest(command_id="1")
+    for now in (100.0, 100.0 + KEPT_FOR, 100.1 + KEPT_FOR):  # noqa: B007 - it is the clock
+        answer = commands.run("/x", request, counter.act)
+    assert answer.message == "Done 2."
 
 
 def test_commands_without_an_id_are_all_done(commands: Commands, counter: Counter) -> None:

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
-from robotside.controls import LAPSE, STOP_SENTENCE, VALID, Controls
+from robotside.controls import LAPSE, SILENT, STOP_SENTENCE, VALID, Controls
 from tests.fakes import FakeClient
 
 AHEAD = Twist.planar(0.3, 0.1)
@@ -85,15 +85,32 @@ def test_control_lapses_when_its_driver_falls_silent(
     assert controls.acquire(bert, 10.1 + LAPSE) == ""
 
 
-def test_the_same_client_takes_its_control_back_over_a_new_socket(
+def test_a_client_that_was_cut_takes_its_control_back_over_a_new_socket(
     controls: Controls, anna: FakeClient, bert: FakeClient
 ) -> None:
     controls.introduce(anna, "tablet-1", "Anna")
     controls.acquire(anna, 10.0)
     controls.introduce(bert, "tablet-1", "Anna")
-    assert controls.acquire(bert, 10.0) == ""
+    bert.last_heard = 10.1 + SILENT
+    assert controls.objection(bert) == ""
+    assert controls.acquire(bert, bert.last_heard) == ""
     assert not controls.gone(anna)
     assert controls.driver is not None
+
+
+def test_two_with_the_same_id_are_two_while_both_are_heard(
+    controls: Controls, anna: FakeClient, bert: FakeClient
+) -> None:
+    controls.introduce(anna, "tablet-1", "Anna")
+    controls.acquire(anna, 10.0)
+    controls.introduce(bert, "tablet-1", "Anna")
+    bert.last_heard = 10.0 + SILENT
+    said = "Anna has control over another connection with the same client_id"
+    assert controls.drive(bert, AHEAD, bert.last_heard).said.startswith(f"{said}; ask there")
+    assert controls.acquire(bert, bert.last_heard).startswith(said)
+    assert controls.objection(bert).startswith(said)
+    assert controls.release(bert) == f"{said}; only its holder can release it."
+    assert controls.drive(anna, AHEAD, bert.last_heard).twist == AHEAD
 
 
 def test_closing_the_socket_while_driving_stops_the_robot_and_frees_control(

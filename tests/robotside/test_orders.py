@@ -159,6 +159,14 @@ def test_the_same_command_twice_is_done_once(scene: Scene) -> None:
     assert "A task is running already" in scene.refused("/task/start", StartTaskRequest(command_id="c2"))
 
 
+def test_what_one_client_was_answered_is_no_answer_for_another(scene: Scene) -> None:
+    counted = CommandRequest(command_id="2", client_id="C")
+    assert scene.ask("/control/acquire", counted).message == "You have control."
+    scene.ask("/control/release", counted)
+    scene.ask("/control/acquire", CommandRequest(command_id="2", client_id="D"), scene.client("bert"))
+    assert scene.control.driver_id == "D"
+
+
 @pytest.mark.parametrize(("x", "shown"), [(12.0, "12.0"), (1e6, "1e+06"), (-1e308, "-1e+308")])
 def test_a_place_off_the_map_is_refused_with_what_the_map_holds(scene: Scene, x: float, shown: str) -> None:
     before = scene.station.autonomy.whereabouts.pose
