@@ -223,6 +223,7 @@ class Client:
     def _subscribe(self, op: Subscribe) -> None:
         topic, switchboard = absolute(op.topic), self._offer.switchboard
         switchboard.check(topic, op.type)
+        switchboard.check_fields(topic, op.reduce.fields if op.reduce else None)
         self.remembered.subscribe(op)
         try:
             switchboard.subscribe(self, topic, self.remembered.subscriptions[topic], op.type or "")

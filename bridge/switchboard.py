@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Protocol
 
 from msgspec import Raw
 
-from bridge.codec import Unread
+from bridge.codec import Unread, check_paths
 from bridge.errors import BridgeError, ProtocolError
 from bridge.lanes import Lane, Stream
 from bridge.levels import Picture
 from bridge.msgs import TYPES, Msg, ros1_name
 from bridge.outgoing import Outgoing, Reduce
 from bridge.protocol import Subscribed
+from bridge.protocol.merging import MOST_FIELDS
 from bridge.topics import Topic
 
 __all__ = ["CAMERA_TOPIC", "MOST_TOPICS", "Channel", "Listener", "Switchboard", "Watcher"]
@@ -183,6 +184,15 @@ class Switchboard:
         channel = self.channels.get(topic)
         if channel is not None and type and type != "*" and ros1_name(type) != channel.type:
             raise ProtocolError(f"{topic} is {channel.type}, not {type[:100]}.")
+
+    def check_fields(self, topic: str, paths: Sequence[str] | None) -> None:
+        """ProtocolError when `topic` is one of the robot's and has not the fields that `paths` name.
+
+        More than a subscription may name are not looked at.
+        """
+        entry = self.topics.get(topic)
+        if entry is not None and paths is not None and len(paths) <= MOST_FIELDS:
+            check_paths(entry.type, paths)
 
     def watch(self, watcher: Watcher, camera: str) -> None:
         """`watcher` wants the frames of `camera` from now on."""

@@ -15,12 +15,14 @@ from starlette.routing import Route
 from bridge.errors import BridgeError
 from bridge.topics import TOPICS
 from robotside.station import Station
-from robotside.streams import BadViewError, FullError, Streams, View, view_of
+from robotside.streams import MEDIA_TYPE, BadViewError, FullError, Streams, View, view_of
 
 __all__ = ["site"]
 
 PICTURE_PATIENCE = 2.0
 """How long to wait for a picture [s]."""
+
+_FRESH = {"Cache-Control": "no-store"}
 
 _PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{name}</title>
 <style>body{{font-family:sans-serif;max-width:60em;margin:2em auto;padding:0 1em}}
@@ -51,13 +53,19 @@ def site(
         return JSONResponse(_health(station))
 
     async def snapshot(request: Request) -> Response:
-        jpeg = await streams.picture(_view(request, station), PICTURE_PATIENCE)
+        view = _view(request, station)
+        if request.method == "HEAD":
+            return Response(headers=_FRESH, media_type="image/jpeg")
+        jpeg = await streams.picture(view, PICTURE_PATIENCE)
         if jpeg is None:
             raise HTTPException(503, f"No picture came within {PICTURE_PATIENCE:g} s.")
-        return Response(jpeg, media_type="image/jpeg", headers={"Cache-Control": "no-store"})
+        return Response(jpeg, media_type="image/jpeg", headers=_FRESH)
 
     async def stream(request: Request) -> Any:
-        return streams.viewer(_view(request, station))
+        view = _view(request, station)
+        if request.method == "HEAD":
+            return Response(headers=_FRESH | {"Content-Type": MEDIA_TYPE})
+        return streams.viewer(view)
 
     return Starlette(
         routes=[
@@ -95,8 +103,9 @@ def _view(request: Request, station: Station) -> View:
 
 
 async def _sentence(_: Request, problem: Exception) -> Response:
-    status, said = (problem.status_code, problem.detail) if isinstance(problem, HTTPException) else (500, "")
-    return PlainTextResponse(f"{said}\n", status)
+    if not isinstance(problem, HTTPException):
+        return PlainTextResponse("\n", 500)
+    return PlainTextResponse(f"{problem.detail}\n", problem.status_code, problem.headers)
 
 
 async def _full(_: Request, problem: Exception) -> Response:

@@ -21,7 +21,7 @@ from robotside.bus import Bus
 from robotside.demand import Demand
 from robotside.pictures import Pictures, Superseded
 
-__all__ = ["MOST", "PATIENCE", "BadViewError", "FullError", "Streams", "View", "view_of"]
+__all__ = ["MEDIA_TYPE", "MOST", "PATIENCE", "BadViewError", "FullError", "Streams", "View", "view_of"]
 
 MOST = 8
 """Who may look at streams at a time."""
@@ -30,6 +30,8 @@ PATIENCE = 10.0
 """A stream ends when no picture comes for this long [s]."""
 
 BOUNDARY = "picture"
+MEDIA_TYPE = f"multipart/x-mixed-replace; boundary={BOUNDARY}"
+"""Of a stream."""
 
 Send = Callable[[MutableMapping[str, Any]], Awaitable[None]]
 Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
@@ -163,8 +165,11 @@ class _Viewer:
         await send({"type": "http.response.body", "body": b"", "more_body": False})
 
     async def _show(self, send: Send) -> None:
-        kind = f"multipart/x-mixed-replace; boundary={BOUNDARY}".encode()
-        headers = [(b"content-type", kind), (b"cache-control", b"no-store"), (b"connection", b"close")]
+        headers = [
+            (b"content-type", MEDIA_TYPE.encode()),
+            (b"cache-control", b"no-store"),
+            (b"connection", b"close"),
+        ]
         await send({"type": "http.response.start", "status": 200, "headers": headers})
         # a browser shows a picture when it sees the boundary behind it
         await send({"type": "http.response.body", "body": f"--{BOUNDARY}\r\n".encode(), "more_body": True})

@@ -11,12 +11,13 @@ from __future__ import annotations
 
 from bridge.codec.binary import from_cbor, to_cbor
 from bridge.codec.reader import from_builtins, shown, to_builtins
-from bridge.codec.selection import select
+from bridge.codec.selection import check_paths, select
 from bridge.codec.text import from_json, to_json
 from bridge.codec.unread import Unread, unread
 
 __all__ = [
     "Unread",
+    "check_paths",
     "from_builtins",
     "from_cbor",
     "from_json",

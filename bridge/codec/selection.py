@@ -13,7 +13,7 @@ from bridge.codec.fields import Field, fields_of, is_time
 from bridge.errors import ProtocolError
 from bridge.msgs import Msg
 
-__all__ = ["select"]
+__all__ = ["check_paths", "select"]
 
 Pick = Callable[[Any], Any]
 """Makes the smaller message of the whole one."""
@@ -26,6 +26,11 @@ def select(msg: Msg, paths: Sequence[str]) -> Msg:
     beginning of another, the shorter one counts. ProtocolError for a path that leads nowhere; it says what there is.
     """
     return _picker(type(msg), tuple(paths))(msg)  # type: ignore[no-any-return]
+
+
+def check_paths(cls: type[Msg], paths: Sequence[str]) -> None:
+    """ProtocolError when `select` would raise it for every message of class `cls`."""
+    _picker(cls, tuple(paths))
 
 
 @functools.lru_cache(maxsize=256)

@@ -231,3 +231,16 @@ async def test_the_page_shows_the_camera(tmp_path: Path) -> None:
         page = (await web.get("/")).text
         assert '<img src="/stream/front.mjpeg' in page
         assert 'href="/snapshot/front.jpg"' in page
+
+
+@pytest.mark.parametrize("place", [STREAM, "/snapshot/front.jpg"])
+async def test_who_asks_only_for_the_head_or_with_another_word_leaves_the_camera_at_rest(
+    tmp_path: Path, place: str
+) -> None:
+    async with filming(tmp_path) as (robot, _, web):
+        head = await web.head(place)
+        assert (head.status_code, head.content, head.headers["cache-control"]) == (200, b"", "no-store")
+        assert (await web.head(f"{place}?width=1")).status_code == 422
+        other = await web.post(place)
+        assert (other.status_code, sorted(other.headers["allow"].split(", "))) == (405, ["GET", "HEAD"])
+        assert robot.wanted == {}
