@@ -40,6 +40,9 @@ NO_MAP = "There is no map of where the robot is: it can be driven by hand only."
 REMARK_PERIOD = 3.0
 """Bad drive commands of a client, and faults of the program, are told at most this often [s]."""
 
+NOTE_AGAIN = 1.0
+"""What could not be noted for a restart is tried again so often [s]."""
+
 AT_REST = (0.01, 0.03)
 """Measured speeds below which the wheels stand still [m/s, rad/s]; three times as much means that they do not."""
 
@@ -94,6 +97,7 @@ class Station:
         if problem:
             self.events.say("mission", problem, "warn")
         self._left = store.left()
+        self._unnoted, self._next_note = "", -math.inf
         self._ending = False
         self._take_up(self._left)
         self._pass_on(first)
@@ -213,14 +217,21 @@ class Station:
     def _note(self) -> None:
         """Note how it would be left, if that has changed; its own STOP at the end is not a person's."""
         left = Left(self.controls.stopped_by, self.autonomy.engine.title)
-        if left == self._left or self._ending:
+        if left == self._left or self._ending or self.now < self._next_note:
             return
-        self._left = left
         try:
             self._store.leave(left)
         except OSError as error:
+            self._next_note = self.now + NOTE_AGAIN
             said = f"A restart will not know of STOP and the task: {error.strerror}."
-            self.events.say("stop", said, "warn")
+            if said != self._unnoted:
+                self.events.say("stop", said, "warn")
+            self._unnoted = said
+            return
+        self._left, self._next_note = left, -math.inf
+        if self._unnoted:
+            self.events.say("stop", "A restart will know of STOP and the task again.", "ok")
+        self._unnoted = ""
 
     def _pass_on(self, messages: Iterable[tuple[str, Msg]]) -> None:
         for topic, msg in messages:

@@ -29,7 +29,7 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from bridge.topics import TOPICS
 from robotside.controls import STOP_SENTENCE
-from robotside.store import Store
+from robotside.store import Left, Store
 from tests.fakes import FakeRobot
 from tests.robotside.scene import SQUARE, Scene
 
@@ -247,6 +247,27 @@ def test_stop_is_obeyed_when_it_cannot_be_noted_and_that_is_said(
     assert scene.events("stop")[-1] == (
         "A restart will not know of STOP and the task: No space left on device."
     )
+
+
+def test_what_could_not_be_noted_is_noted_as_soon_as_it_can_be(
+    scene: Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    left, tried = Store.leave, []
+
+    def full(_: Store, left: Left) -> None:
+        tried.append(left)
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Store, "leave", full)
+    scene.ask("/stop", CommandRequest(client_name="Anna"))
+    scene.run(5.0)
+    assert 4 <= len(tried) <= 6
+    assert len([text for text in scene.events("stop") if "No space left" in text]) == 1
+    monkeypatch.setattr(Store, "leave", left)
+    scene.run(1.1)
+    assert Store(tmp_path).left().stopped_by == "Anna"
+    assert scene.events("stop")[-1] == "A restart will know of STOP and the task again."
+    assert len(tried) <= 6
 
 
 def test_a_map_with_a_damaged_mission_file_starts_empty_and_says_so(tmp_path: Path) -> None:
