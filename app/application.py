@@ -432,6 +432,7 @@ class PilothouseApp(App):
             self.settings,
             now=self._now,
             client_id=self.client_id,
+            client_name=self.client_name,
             wants_control=not watch,
         )
         self.connect.say(f"Connecting to {url} …", "info", self.leave)

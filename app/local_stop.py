@@ -82,9 +82,9 @@ class LocalStop:
             return ""
         if not drives:
             return "This robot has no STOP of its own and no topic to drive it by: it cannot be stopped from here."
-        what = "This robot has no STOP of its own: zero speed is sent from here for as long as the link stands."
+        what = "No STOP of its own: zero speed is sent while the link stands."
         if self._confirmed:
             return f"{what} Its odometry says that it rests."
         if not self._now() - self._heard_at < BELIEVED:
-            return f"{what} It tells no odometry, so nothing confirms that it rests."
+            return f"{what} No odometry confirms that it rests."
         return f"{what} Its odometry does not yet say that it rests."

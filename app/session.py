@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 from urllib.parse import urlsplit
+
+import msgspec
 
 from app.commands import Outcome
 from app.feeds import Feeds, Post
@@ -16,7 +19,7 @@ from app.offer import CAMERA, Offer
 from app.settings import Settings
 from bridge.client import LinkState, Phase
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
-from bridge.msgs.pilothouse_msgs import ControlStatus, Mission, RobotInfo, TaskStatus
+from bridge.msgs.pilothouse_msgs import ControlStatus, Event, Mission, RobotInfo, TaskStatus
 from bridge.msgs.std_msgs import Header, Time
 
 __all__ = ["Session"]
@@ -38,11 +41,15 @@ class Session:
         *,
         now: Callable[[], float],
         client_id: str,
+        client_name: str = "",
         wants_control: bool,
     ) -> None:
-        """`wants_control` takes control whenever it is free; without it the robot is only watched."""
+        """`wants_control` takes control whenever it is free; without it the robot is only watched.
+
+        `client_name` is what the robot calls this handheld in its sentences.
+        """
         self.link, self.feeds = link, feeds
-        self.client_id = client_id
+        self.client_id, self.client_name = client_id, client_name
         self.wants_control = wants_control
         self.mission = MissionEditor(on_change=self._mission_changed)
         self.outcomes: dict[str, Outcome] = {}
@@ -88,6 +95,11 @@ class Session:
     def foreign(self) -> bool:
         """The robot is known to have no Pilothouse services."""
         return self.offer is not None and not self.offer.ours
+
+    @property
+    def lacks_tasks(self) -> bool:
+        """The robot is known to store no missions and to offer no tasks."""
+        return not (self.offers("/task/start") or self.offers("/mission/set"))
 
     def offers(self, service: str) -> bool:
         """Whether the robot has that service, or has not yet said which ones it has."""
@@ -184,10 +196,24 @@ class Session:
             self._take_mission()
         elif channel == "/control/status":
             self._take_control()
+        elif channel == EVENT:
+            post = replace(post, value=self._addressed(post.value))
         if channel == EVENT and not self.listeners:
             self.early.append(post)
         for listener in list(self.listeners):
             listener(channel, post)
+
+    def _addressed(self, event: Event) -> Event:
+        """A robot tells everybody who has control by name; the one who has it is told so.
+
+        Not while another handheld of the same name has it, nor where control was never asked for.
+        """
+        named = bool(self.client_name) and event.text == f"{self.client_name} has control."
+        if event.kind != "control" or not named or not self.wants_control:
+            return event
+        status: ControlStatus | None = self.feeds.latest("/control/status")
+        namesake = self.control == "other" and status is not None and status.driver == self.client_name
+        return event if namesake else msgspec.structs.replace(event, text="You have control.")
 
     def resume(self, link: Link) -> None:
         """Go on over a new link to the same robot; what was entered and heard stays."""

@@ -214,7 +214,7 @@ class Topics:
         if self.problem:
             return self.problem
         if not self.opened:
-            return "Choose a topic to see its fields."
+            return ""
         if self.kind is None:
             return f"Learning {self.type} …"
         if self.message is None:

@@ -57,7 +57,7 @@ Builder.load_string("""
             rgba: theme.text if root.badge else (0, 0, 0, 0)
         Rectangle:
             pos: root.badge_text_pos
-            size: root.badge_texture.size
+            size: root.badge_size[0] - dp(16), root.badge_size[1] - dp(6)  # kv does not see a texture's size change
             texture: root.badge_texture
         Color:
             rgba: theme.danger if root.alarmed else (0, 0, 0, 0)

@@ -30,7 +30,7 @@ from kivy.uix.widget import Widget
 
 import widgets.labels  # noqa: F401 - its rules draw the rows
 from bridge.msgs import Msg
-from widgets.base import RobotWidget, text_texture
+from widgets.base import RobotWidget, age_text, text_texture
 from widgets.fields import ARRAY, BRANCH, DASH, LEAF, Path, Row, describe, rows
 from widgets.theme import theme
 
@@ -38,6 +38,8 @@ __all__ = ["FieldRow", "FieldView"]
 
 PERIOD = 0.1
 """Between two looks at the newest message [s]: figures that change faster cannot be read."""
+VEIL = {"stale": 0.3, "disabled": 0.5}
+"""How much of the tree is hidden in a state, 0 to 1."""
 NARROW = 560.0
 """A tree narrower than this leaves a little less room before each level [dp]."""
 
@@ -202,14 +204,14 @@ class FieldRow(ButtonBehavior, Widget):
     lead = AliasProperty(_lead, bind=["kind"], cache=True)
 
     def _widths(self) -> tuple[float, float, float]:
-        """Of name, type and value [px]: the value first, then the name, and the type has what is left."""
+        """Of name, type and value [px]: the value first, then the name; the type where there is room for all of it."""
         room = self.x + self.width - dp(12) - self.name_x
         value = min(_width(self.value, sp(15), bold=True), room * 0.7)
         name = _width(self.name, sp(15), bold=self.foldable)
         name = max(0.0, min(name, room - value - (dp(10) if value else 0)))
         spare = room - value - name - dp(19)
         kind = _width(self.type, sp(12.5))
-        return name, kind if kind <= spare else max(0.0, spare) if spare > dp(44) else 0.0, value
+        return name, kind if kind <= spare else 0.0, value
 
     widths = AliasProperty(_widths, bind=["width", "name_x", "value", "name", "type", "foldable"], cache=True)
 
@@ -262,10 +264,30 @@ class FieldView(RobotWidget, FloatLayout):
     """Between the tree and the outline of an alarm [px]."""
 
     def _strip(self) -> float:
-        return float(dp(24)) if self.state == "alarm" else 0.0
+        return float(dp(28)) if self.state == "alarm" or self.badge else 0.0
 
-    strip = AliasProperty(_strip, bind=["state"], cache=True)
-    """Room above the tree for the sign of an alarm [px], so that it hides nothing."""
+    strip = AliasProperty(_strip, bind=["state", "badge"], cache=True)
+    """Room above the tree for its age or the sign of an alarm [px], so that they hide nothing."""
+
+    aged = BooleanProperty(True)
+    """Says how old it is; False where somebody beside it does."""
+
+    def _badge(self) -> str:
+        return age_text(self.age) if self.aged and self.state == "stale" else ""
+
+    badge = AliasProperty(_badge, bind=["state", "age", "aged"], cache=True)
+
+    def _badge_pos(self) -> tuple[float, float]:
+        width, height = self.badge_size
+        return self.right - width - dp(6), self.top - dp(14) - height / 2
+
+    badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "pos", "size"], cache=True)
+
+    def _veil(self) -> list[float]:
+        return [*theme.surface[:3], VEIL.get(self.state, 0.0)]
+
+    veil = AliasProperty(_veil, bind=["state"])
+    """Thin: what is old is still to be read."""
 
     def _notice(self) -> str:
         if self.message is None:

@@ -50,6 +50,8 @@ SMALL, LARGE = 0.5 * 10**-DECIMALS, 1e7
 """Between these a number is written plainly, beyond them with an exponent."""
 EPOCH = 1e8
 """A time below this [s] counts from the start of a simulation, not from 1970."""
+UNSURE = 0.3
+"""The robot's clock is known to about this [s]: what is less ahead of it is from now."""
 RECENT = 86400.0
 """An age is told up to this [s]; beyond it the clocks are different ones."""
 
@@ -198,7 +200,7 @@ def clock(stamp: float, now: float = math.nan) -> str:
     age = now - stamp
     if not abs(age) < RECENT:
         return text
-    return f"{text} · {abs(age):.1f} s {'ago' if age >= -0.05 else 'ahead'}"
+    return f"{text} · {abs(age):.1f} s ahead" if age < -UNSURE else f"{text} · {max(0.0, age):.1f} s ago"
 
 
 def describe(row: Row, now: float = math.nan) -> tuple[str, str]:

@@ -21,7 +21,7 @@ from app.camera import Picture
 from app.commands import Outcome
 from app.dashboard import Dashboard
 from app.feeds import Post
-from app.link import EVENT, OUTCOME
+from app.link import EVENT, OFFER, OUTCOME
 from app.screens.panel import MissionPanel
 from app.screens.placing import put
 from app.session import Session
@@ -153,6 +153,7 @@ class MissionScreen(FloatLayout):
         self.add_widget(self.panel)
         self.panel.tasks.size_hint = (None, None)
         self.panel.tasks.bind(on_command=self._set_going)
+        self.panel.lacking.bind(on_choose=lambda _, screen: self.app.show(screen))
         ids.handle.bind(on_touch_down=self._pull)
         for button, icon, act in (
             ("earlier", "arrow_upward", lambda *_: self._reorder(-1)),
@@ -249,11 +250,12 @@ class MissionScreen(FloatLayout):
         tall = form == "tall"
         for name, widget in (
             ("side", self.ids.side),
-            ("modes", self.ids.modes),
             ("selection", self.selection),
         ):
             put(widget, places[name])
         put(self.map, places["map"])
+        whole = places["modes"]
+        put(self.ids.modes, Rect(whole.x, whole.y, whole.width * len(self.modes) / len(MODES), whole.height))
         self._float(self.video, places.get("video"))
         self.video.show_chip = form == "wide"
         self._float(self.compass, places.get("compass"))
@@ -272,8 +274,8 @@ class MissionScreen(FloatLayout):
     def _place_floats(self, places: dict[str, Rect]) -> None:
         """With the sheet up, what would lie on it is away; the map fits into what is left free."""
         area, up = places["map"], bool(self.sheet) and self._form == "tall"
-        self.ids.modes.opacity = 0 if up else 1
-        self.ids.modes.disabled = up
+        self.ids.modes.disabled = up or len(self.modes) < 2
+        self.ids.modes.opacity = 0 if self.ids.modes.disabled else 1
         top = area.top - places["modes"].y if self._form != "tall" else 0
         low = places["modes"].top - area.y if self._form == "tall" else 0
         left, video, bar = 0.0, places["video"], places["selection"]
@@ -286,17 +288,24 @@ class MissionScreen(FloatLayout):
         self.map.insets = [left, low, area.right - places["tools"].x, top]
 
     def _place_tasks(self, rect: Rect | None) -> None:
-        """On a phone the task's buttons stand beside STOP, elsewhere in the panel."""
-        tasks = self.panel.tasks
+        """On a phone the task's buttons, or what stands for them, are beside STOP; elsewhere in the panel."""
         self.panel.keep_tasks(rect is None)
+        beside = self.panel.beside_stop
+        for widget in (self.panel.tasks, self.panel.plain):
+            if widget.parent is self and (rect is None or widget is not beside):
+                self.remove_widget(widget)
         if rect is not None:
-            if tasks.parent is not self:
-                self.add_widget(tasks)
-            tasks.size_hint = (None, None)
-            tasks.width, tasks.pos = rect.width, (rect.x, rect.y)
+            if beside.parent is not self:
+                if beside.parent is not None:
+                    beside.parent.remove_widget(beside)
+                self.add_widget(beside)
+            beside.size_hint = (None, None)
+            beside.width, beside.pos = rect.width, (rect.x, rect.y)
 
     def _place_tools(self, rect: Rect, dp: float, tall: bool) -> None:
         names = ["centre", "layers", "undo", "redo"] if tall else list(self._tools)
+        if self.session.lacks_tasks:
+            names = [name for name in names if name not in ("undo", "redo")]
         if self.pictures() is None:
             names = ["fit" if name == "layers" else name for name in names if name != "layers" or tall]
         side = rect.width
@@ -337,9 +346,23 @@ class MissionScreen(FloatLayout):
             self.panel.events.show(post.value)
         elif channel == OUTCOME:
             self._show_outcome(post.value)
+        elif channel == OFFER:
+            self._take_offer()
+
+    def _take_offer(self) -> None:
+        """A finger on the map can do only what this robot takes."""
+        lacks = self.session.lacks_tasks
+        modes = [one for one in MODES if not lacks or one[0] == "view"]
+        if lacks and self._can_place():
+            modes.append(MODES[-1])
+        if modes != self.modes:
+            self.modes = modes
+            self.mode = "view"
+        self._rearrange()
 
     def enter(self) -> None:
         """Come onto the glass."""
+        self._take_offer()
         self.dashboard.enter()
         self._show_draft()
         self.tick()

@@ -13,6 +13,7 @@ from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
 from app.dashboard import Dashboard
+from app.screens.lacking import Figures, Lacking
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import TaskProgress, TaskStatus
 from widgets import EventLog, MotionSelector, Readout, TaskButtons
@@ -32,7 +33,6 @@ STATES = {
 """State of the draft to its sentence and the role of its colour."""
 NO_TASKS = "It offers no tasks."
 NO_MISSIONS = "It stores no missions."
-NEITHER = "It stores no missions and offers no tasks."
 
 Builder.load_string("""
 <MissionPanel>:
@@ -185,6 +185,8 @@ class MissionPanel(BoxLayout):
         self.next = Readout(name="Next point", unit="m", decimals=1)
         self.lap = Readout(name="Lap")
         self.left = Readout(name="Time left", kind="clock", unit="min")
+        self.lacking, self.plain = Lacking(), Figures(dashboard)
+        self._rest = Widget()
         self._fill = Widget(size_hint_y=None, height=0)
         self._above: list[Widget] = []
         self._shown: tuple[object, ...] = ()
@@ -219,8 +221,9 @@ class MissionPanel(BoxLayout):
         self.form = form
         tall, wide = form == "tall", form == "wide"
         self.figures.cols = 4 if tall else 2
-        self.figures.size_hint_y = 1 if wide else None
-        self.figures.height = "58dp" if tall else "96dp"
+        for figures in (self.figures, self.plain):
+            figures.size_hint_y = 1 if wide else None
+            figures.height = "58dp" if tall and figures is self.figures else "96dp"
         for figure in (self.speed, self.next, self.lap, self.left):
             figure.font_size = "26sp" if wide else "22sp"
         self.tasks.brief = self.motion.brief = not wide
@@ -233,6 +236,8 @@ class MissionPanel(BoxLayout):
 
     def _order(self) -> tuple[list[Widget], list[Widget]]:
         """What is in sight at rest, and what a phone has to be scrolled or its sheet drawn up for."""
+        if self._session.lacks_tasks:
+            return [self.lacking, *([self.plain] if self.form == "short" else []), self._rest], []
         if self.form == "wide":
             return [self._send, self.motion, self.tasks, self._progress, self.events], []
         first = [] if self.form == "tall" else [self.tasks]
@@ -250,10 +255,12 @@ class MissionPanel(BoxLayout):
         self._shown, self._above = (self.form, *above, *below), above
         column = self.ids.column
         column.clear_widgets()
-        if self.form == "wide" and self.figures.parent is not self.readouts:
-            self.readouts.add_widget(self.figures)
-        elif self.form != "wide" and self.figures.parent is self.readouts:
-            self.readouts.remove_widget(self.figures)
+        self.readouts.clear_widgets()
+        if self.form == "wide":
+            figures = self.plain if self._session.lacks_tasks else self.figures
+            if figures.parent is not None:
+                figures.parent.remove_widget(figures)
+            self.readouts.add_widget(figures)
         for widget in [*above, *([self._fill] if below else []), *below]:
             if widget.parent is not None:
                 widget.parent.remove_widget(widget)
@@ -269,6 +276,11 @@ class MissionPanel(BoxLayout):
         if not self._session.running:
             spare -= column.spacing + self.motion.choice_height
         self._fill.height = 0 if self.sheet_open else max(0, spare)
+
+    @property
+    def beside_stop(self) -> Widget:
+        """What a phone has beside STOP: the task's buttons, or the figures of a robot that has no tasks."""
+        return self.plain if self._session.lacks_tasks else self.tasks
 
     def keep_tasks(self, here: bool) -> None:
         """Have the task's buttons as wide as the panel, where they are in it."""
@@ -322,7 +334,7 @@ class MissionPanel(BoxLayout):
         self.tasks.held = session.stop_phase == "stopped"
         self._send.may_send = int(mine and missions and session.mission.state == "draft")
         if not missions:
-            self._send.note = NO_MISSIONS if tasks else NEITHER
+            self._send.note = NO_MISSIONS
             self._send.role, self._send.icon = "muted", "block"
         state = session.feeds.state("/task/status")
         for figure in (self.next, self.lap, self.left):

@@ -47,6 +47,13 @@ ICONS = {
 """Icon of a type; any other is a pair of braces."""
 
 Builder.load_string("""
+<Beside@Label>:
+    font_name: theme.font
+    font_size: sp(13.5)
+    disabled_color: self.color
+    size_hint: None, 1
+    width: self.texture_size[0] if self.text else 0
+
 <TopicRow>:
     padding: dp(14), 0, dp(12), 0
     spacing: dp(12)
@@ -78,46 +85,32 @@ Builder.load_string("""
         size_hint_y: None
         height: dp(44)
         pos_hint: {'center_y': .5}
-        Text:
-            text: root.name
-            bold: True
-            font_size: sp(16)
-            size_hint_y: 1
-            text_size: self.size
-            shorten: True
-            shorten_from: 'left'
-        Text:
-            text: root.type
-            role: 'muted'
-            font_size: sp(13.5)
-            size_hint_y: 1
-            text_size: self.size
-            shorten: True
-            shorten_from: 'left'
-    BoxLayout:
-        orientation: 'vertical'
-        size_hint: None, None
-        width: dp(92)
-        height: dp(44)
-        pos_hint: {'center_y': .5}
-        Text:
-            text: root.use
-            role: 'accent'
-            font_size: sp(13.5)
-            halign: 'right'
-            size_hint_y: 1
-            text_size: self.size
-            shorten: True
-            shorten_from: 'right'
-        Text:
-            text: root.pace
-            role: 'muted'
-            font_size: sp(13.5)
-            halign: 'right'
-            size_hint_y: 1
-            text_size: self.size
-            shorten: True
-            shorten_from: 'right'
+        BoxLayout:
+            spacing: dp(8) if root.use else 0
+            Text:
+                text: root.name
+                bold: True
+                font_size: sp(16)
+                size_hint_y: 1
+                text_size: self.size
+                shorten: True
+                shorten_from: 'left'
+            Beside:
+                text: root.use
+                color: theme.accent
+        BoxLayout:
+            spacing: dp(8) if root.pace else 0
+            Text:
+                text: root.type
+                role: 'muted'
+                font_size: sp(13.5)
+                size_hint_y: 1
+                text_size: self.size
+                shorten: True
+                shorten_from: 'left'
+            Beside:
+                text: root.pace
+                color: theme.muted
 
 <TopicList>:
     orientation: 'vertical'
@@ -226,6 +219,19 @@ Builder.load_string("""
             pos_hint: {'center_y': .5}
     FloatLayout:
         id: ground
+        Icon:
+            name: 'data_object'
+            role: 'muted'
+            font_size: sp(34)
+            center: ground.center_x, ground.center_y + dp(24)
+            opacity: 0 if root.name else 1
+        Text:
+            text: 'Choose a topic to see its fields.'
+            role: 'muted'
+            halign: 'center'
+            pos_hint: {'center_x': .5}
+            center_y: ground.center_y - dp(18)
+            opacity: 0 if root.name else 1
 
 <TopicsScreen>:
     Text:
@@ -310,7 +316,7 @@ class TopicsScreen(FloatLayout):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.topics = Topics(self.session)
-        self.list, self.detail, self.view = TopicList(), TopicDetail(), FieldView()
+        self.list, self.detail, self.view = TopicList(), TopicDetail(), FieldView(aged=False)
         self.detail.ids.ground.add_widget(self.view)
         self.view.pos_hint = {"x": 0, "y": 0}
         self.list.bind(on_search=self._search)

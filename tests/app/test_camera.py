@@ -56,3 +56,16 @@ def test_a_decoded_picture_keeps_its_stamp_and_when_it_came() -> None:
     assert (post.value.seq, post.value.stamp, post.value.width, post.value.height) == (7, 5.0, 64, 32)
     assert post.value.taken == (128, 64)
     assert posted.is_set()
+
+
+def test_a_picture_is_decoded_in_a_thread_of_its_own() -> None:
+    threads: list[threading.Thread] = []
+
+    def decode(data: bytes) -> tuple[int, int, bytes]:
+        threads.append(threading.current_thread())
+        return 1, 1, bytes(4)
+
+    camera = Camera(Mailbox(lambda: None), decode)
+    camera.show(Frame(1, 5.0, 1, 1, b""), 1.0)
+    camera.close()
+    assert [thread is not threading.current_thread() for thread in threads] == [True]

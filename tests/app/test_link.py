@@ -38,6 +38,7 @@ class Operator:
             self.settings,
             now=time.monotonic,
             client_id="me",
+            client_name="tablet",
             wants_control=wants_control,
         )
         self.said: list[tuple[str, Any]] = []

@@ -61,7 +61,7 @@ def test_one_that_goes_on_has_not_answered_and_is_said_to(watch: Watch) -> None:
     watch.drive(0.3, 1.2)
     assert watch.stop.phase == "no_answer"
     assert watch.stop.sentence(drives=True) == (
-        "This robot has no STOP of its own: zero speed is sent from here for as long as the link stands."
+        "No STOP of its own: zero speed is sent while the link stands."
         " Its odometry does not yet say that it rests."
     )
 
@@ -88,7 +88,7 @@ def test_odometry_that_falls_silent_is_not_believed(watch: Watch) -> None:
     watch.drive(0.0, 1.5)
     watch.time += 1.1
     assert watch.stop.phase == "no_answer"
-    assert "tells no odometry" in watch.stop.sentence(drives=True)
+    assert "No odometry confirms" in watch.stop.sentence(drives=True)
 
 
 def test_a_robot_without_a_topic_to_drive_it_by_cannot_be_stopped_and_that_is_said(watch: Watch) -> None:

@@ -11,6 +11,8 @@ import pytest
 
 from app.dashboard import Dashboard
 from app.feeds import Feeds, Post
+from app.link import EVENT
+from app.offer import Offer
 from app.session import Session
 from app.settings import Settings
 from bridge.client import LinkState, Phase
@@ -152,3 +154,60 @@ def test_with_stop_pressed_nothing_that_moves_can_be_asked_for(
     tell(session, "/control/status", ControlStatus(stopped=True, mode="STOPPED"))
     settle(stage, panel)
     assert panel.tasks.held
+
+
+@pytest.mark.parametrize(
+    ("text", "wants", "namesake", "said"),
+    [
+        ("tablet has control.", True, False, "You have control."),
+        ("Ben has control.", True, False, "Ben has control."),
+        ("tablet has control.", False, False, "tablet has control."),
+        ("tablet has control.", True, True, "tablet has control."),
+    ],
+)
+def test_who_has_control_is_told_so(
+    session: Session, text: str, wants: bool, namesake: bool, said: str
+) -> None:
+    session.client_name, session.wants_control = "tablet", wants
+    status = ControlStatus(driver="tablet", driver_id="other" if namesake else "me")
+    session.feeds.put("/control/status", Post(status, 100.0, 1))
+    heard: list[Any] = []
+    session.listeners.append(lambda _, post: heard.append(post.value.text))
+    tell(session, EVENT, Event(id=1, kind="control", text=text))
+    assert heard == [said]
+
+
+@pytest.mark.parametrize("form", ["wide", "short", "tall"])
+def test_a_robot_without_missions_and_tasks_is_offered_none(
+    stage: Stage, session: Session, form: str
+) -> None:
+    from app.screens.panel import MissionPanel
+
+    session.offer = Offer({"/odom": "nav_msgs/Odometry"}, frozenset())
+    panel: Any = MissionPanel(session, Dashboard(session.feeds))
+    chosen: list[str] = []
+    panel.lacking.bind(on_choose=lambda _, screen: chosen.append(screen))
+    panel.take_form(form)
+    stage.show(panel, SIZES.get(form, (316, 600)))
+    settle(stage, panel)
+    assert [one.parent for one in (panel.ids["send"].parent, panel.motion, panel.tasks)] == [None] * 3
+    assert seen(panel, panel.lacking)
+    assert panel.lacking.top > panel.center_y, "it begins at the top"
+    panel.lacking.ids.drive.dispatch("on_release")
+    assert chosen == ["drive"]
+    assert panel.beside_stop is panel.plain
+
+
+def test_a_robot_that_turns_out_to_have_tasks_is_offered_them(stage: Stage, session: Session) -> None:
+    from app.screens.panel import MissionPanel
+
+    session.offer = Offer({}, frozenset())
+    panel: Any = MissionPanel(session, Dashboard(session.feeds))
+    panel.take_form("wide")
+    stage.show(panel, (316, 600))
+    settle(stage, panel)
+    session.offer = Offer({}, frozenset({"/task/start", "/mission/set"}))
+    settle(stage, panel)
+    assert seen(panel, panel.ids["send"])
+    assert panel.lacking.parent is None
+    assert panel.figures.parent is panel.readouts

@@ -123,11 +123,7 @@ def test_a_topic_is_listened_to_from_opening_to_closing() -> None:
     assert math.isnan(robot.topics.rate)
     robot.topics.close()
     assert robot.asked[-1] == ("look away",)
-    assert (robot.topics.opened, robot.topics.message, robot.topics.notice) == (
-        "",
-        None,
-        "Choose a topic to see its fields.",
-    )
+    assert (robot.topics.opened, robot.topics.message, robot.topics.notice) == ("", None, "")
     with pytest.raises(KeyError):
         robot.topics.open("/nothing")
 

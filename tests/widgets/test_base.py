@@ -5,9 +5,12 @@ import math
 import weakref
 
 import pytest
+from kivy.graphics import Rectangle
+from kivy.metrics import sp
 
 from bridge.msgs.std_msgs import Float64
 from widgets.base import STATES, Control, RobotWidget, age_text, text_texture
+from widgets.theme import theme
 
 
 def test_a_new_widget_was_never_heard_and_a_new_control_is_live():
@@ -88,3 +91,13 @@ def test_the_theme_keeps_no_widget_alive():
     widget = weakref.ref(RobotWidget())
     gc.collect()
     assert widget() is None
+
+
+def test_an_age_that_comes_later_is_drawn_as_wide_as_it_is(stage):
+    widget = RobotWidget(state="live")
+    stage.show(widget, (200, 200))
+    widget.age, widget.state = 12.0, "stale"
+    stage.frames(2)
+    texture = text_texture("12 s old", sp(12), theme.font)
+    drawn = [one for one in widget.canvas.after.children if isinstance(one, Rectangle)]
+    assert tuple(texture.size) in [tuple(one.size) for one in drawn if one.texture is texture]
