@@ -98,6 +98,7 @@ async def test_its_ros_1_escapes_slashes_and_counts_fragments_in_floats_from_num
         {"op": "publish", "topic": "/cmd_vel", "msg": {"linear": {"x": None}}},
         {"op": "publish", "topic": "/cmd_vel", "msg": {"warp": 9}},
         {"op": "subscribe", "topic": "/nowhere"},
+        {"op": "subscribe", "topic": "/robot_description", "fragment_size": None},
         {"op": "advertise", "topic": "/cmd_vel", "type": "geometry_msgs/msg/Twist"},
         {"op": "advertise", "topic": "/info", "type": "pilothouse_msgs/RobotInfo"},
         {"op": "advertise_action", "action": "/dock", "type": "acme_msgs/Dock"},
@@ -140,6 +141,17 @@ async def test_a_clients_service_that_refuses_looks_like_success():
         )
         answer = json.loads(await peer.hear())
         assert (answer["id"], answer["result"], answer["values"]) == ("c", True, {"success": False})
+
+
+@BOTH
+async def test_a_clients_answer_that_is_a_sentence_is_dropped(ros):
+    async with stranger(ros) as (_, peer):
+        await peer.say(op="advertise_service", service="/mine", type="std_srvs/Trigger")
+        await peer.say(op="call_service", service="/mine", id="c")
+        asked = json.loads(await peer.hear())
+        no = {"values": "It is shut.", "result": False}
+        await peer.say(op="service_response", service="/mine", id=asked["id"], **no)
+        assert (await peer.call("/beep"))["values"]["message"] == "beep"
 
 
 @pytest.mark.parametrize(("ros", "expected"), [(1, False), (2, True)])
