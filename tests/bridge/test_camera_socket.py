@@ -1,15 +1,17 @@
-"""A watcher's connection, against a socket and a clock that only the test moves."""
+"""A watcher's connection, against a socket and a clock that only the test moves; and once over a slow wire."""
 
 from __future__ import annotations
 
 import asyncio
+import contextlib
 from contextlib import asynccontextmanager
 
 from bridge import frames
 from bridge.camera_socket import CameraSocket
 from bridge.levels import Levels
 from bridge.quality import COARSEST
-from tests.bridge.wires import Clock, Record
+from tests.bridge.peers import peer
+from tests.bridge.wires import Clock, Record, Wire, server, wire
 
 
 class Cable:
@@ -82,3 +84,39 @@ async def test_what_is_no_acknowledgement_changes_nothing():
         assert len(cable.sent) == 2
         await cable.said.put("ack 1")
         await cable.sent.reach(3)
+
+
+async def test_a_real_wire_that_is_too_slow_gets_smaller_pictures_and_none_pile_up(monkeypatch):
+    async def slowly(self, source, sink):
+        with contextlib.suppress(OSError):
+            while data := await source.read(2048):
+                await asyncio.sleep(len(data) * 8 / 1e6)
+                sink.write(data)
+                await sink.drain()
+        sink.close()
+
+    monkeypatch.setattr(Wire, "_pump", slowly)
+    shown = 0
+
+    async def show(robot):
+        nonlocal shown
+        while True:
+            shown += 1
+            robot.publish_frame("front", frames.pack(shown, 0.0, bytes(32_000), 8, 8))
+            await asyncio.sleep(1 / 15)
+
+    async with (
+        server(cameras=["front"], shrink=shrink) as robot,
+        wire(robot.port) as cable,
+        peer(cable, "/camera/front") as watcher,
+    ):
+        showing = asyncio.create_task(show(robot))
+        small = 0
+        async with asyncio.timeout(20):
+            while small < 10:
+                frame = frames.unpack(await watcher.ws.recv())
+                await watcher.ws.send(f"ack {frame.seq}")
+                small = small + 1 if len(frame.jpeg) < 16_001 else 0
+        assert shown - frame.seq < 8
+        showing.cancel()
+        await asyncio.gather(showing, return_exceptions=True)

@@ -30,6 +30,28 @@ async def test_a_field_that_is_not_there_is_logged_and_costs_nobody_the_connecti
     assert "has no field 'colour'" in caplog.text
 
 
+async def test_who_asks_for_a_field_that_is_not_there_is_told_at_once():
+    async with server() as robot, peer(robot) as foreign:
+        await foreign.say(op="set_level", level="error")
+        await foreign.say(op="subscribe", topic="/scan", id="7", reduce={"fields": ["colour"]})
+        told = await foreign.hear()
+        assert (told["op"], told["id"]) == ("status", "7")
+        assert "sensor_msgs/LaserScan has no field 'colour', only header" in told["msg"]
+
+
+async def test_what_can_never_be_sent_is_logged_once(caplog):
+    topic = {"topic": "/theirs", "type": "geometry_msgs/Twist"}
+    async with server() as robot, peer(robot) as foreign, peer(robot) as other:
+        await foreign.say(op="subscribe", **topic, reduce={"fields": ["colour"]})
+        await foreign.settled()
+        await other.say(op="advertise", **topic)
+        for _ in range(5):
+            await other.say(op="publish", topic="/theirs", msg={"linear": {"x": 1.0}})
+        await other.settled()
+        await foreign.settled()
+    assert caplog.text.count("has no field 'colour'") == 1
+
+
 async def test_the_robot_makes_less_of_a_scan():
     def fewer(msg, wanted):
         return LaserScan(ranges=msg.ranges[: wanted.beams])
