@@ -50,7 +50,11 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _options(argv: Sequence[str] | None) -> argparse.Namespace:
-    parser = _Parser(prog="python -m robotside", description="The robot's computer.")
+    words = list(sys.argv[1:] if argv is None else argv)
+    if words and words[0].startswith("-") and words[0] not in ("-h", "--help"):
+        words.insert(0, "serve")
+    about = "The robot's computer. Before options `serve` may be left out; `serve --help` tells them."
+    parser = _Parser(prog="python -m robotside", description=about)
     serve = parser.add_subparsers(dest="command", required=True).add_parser("serve", help="serve one robot")
     add = serve.add_argument
     add(
@@ -74,7 +78,7 @@ def _options(argv: Sequence[str] | None) -> argparse.Namespace:
     add("--state", type=Path, default=None, help="directory where the mission is kept")
     add("--name", default="", help="what people call the robot")
     add("--with-parent", action="store_true", help="end when the program that started it is gone")
-    options = parser.parse_args(argv)
+    options = parser.parse_args(words)
     _check(options)
     return options
 

@@ -231,6 +231,7 @@ def test_a_state_directory_that_cannot_be_made_is_one_sentence_and_lets_go_of_th
             "serve --robot ros:ws://[::1:9",
             "The address must be like ws://192.168.1.7:9090, not 'ws://[::1:9' (Invalid IPv6 URL).",
         ),
+        ("--robot sim:rover", "There is no simulated robot 'rover'; there is patrol."),
         ("serve --robot sim:rover", "There is no simulated robot 'rover'; there is patrol."),
         (
             "serve --port nine",
@@ -243,3 +244,13 @@ def test_a_mistake_on_the_command_line_is_one_sentence(
 ) -> None:
     assert main(arguments.split()) == 2
     assert capsys.readouterr().err == f"robotside: {said}\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "told"), [("--help", "`serve` may be left out"), ("serve --help", "--robot ROBOT")]
+)
+def test_help_is_given(capsys: pytest.CaptureFixture[str], words: str, told: str) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(words.split())
+    assert ended.value.code == 0
+    assert told in " ".join(capsys.readouterr().out.split())
