@@ -9,10 +9,10 @@ from bridge.msgs import Msg
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.diagnostic_msgs import DiagnosticArray, DiagnosticStatus, KeyValue
 from bridge.msgs.geometry_msgs import Quaternion, Vector3
-from bridge.msgs.sensor_msgs import BatteryState, Imu, LaserScan
+from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, Imu, LaserScan
 from bridge.msgs.std_msgs import Header, Time
 
-__all__ = ["battery", "cells", "diagnostics", "imu", "scan"]
+__all__ = ["battery", "cells", "diagnostics", "imu", "picture", "scan"]
 
 AT = Time(1763719271, 120_000_000)
 """When all of them were measured."""
@@ -76,3 +76,8 @@ def diagnostics() -> DiagnosticArray:
 def battery() -> BatteryState:
     """Mostly not known."""
     return BatteryState(Header(AT), percentage=0.87, voltage=24.13)
+
+
+def picture() -> CompressedImage:
+    """Bytes that nobody reads."""
+    return CompressedImage(Header(AT, "camera"), "jpeg", bytes(48_230))

@@ -381,7 +381,7 @@ class FieldView(RobotWidget, FloatLayout):
 
 def samples() -> dict[str, Callable[[], Widget]]:
     """Small and large messages, a type made at run time, every state."""
-    from widgets.field_samples import battery, cells, diagnostics, imu, scan
+    from widgets.field_samples import battery, cells, diagnostics, imu, picture, scan
 
     def make(message: Msg | None = None, size: tuple[str, str] = ("388dp", "560dp"), **kwargs: Any) -> Any:
         def build() -> Widget:
@@ -397,6 +397,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "scan": make(scan(), state="live"),
         "diagnostics": make(diagnostics(), state="live", folds={("status", 0): True}),
         "learned": make(cells(), ("388dp", "300dp"), state="live"),
+        "picture": make(picture(), ("388dp", "180dp"), state="live"),
         "wide": make(imu(), ("700dp", "420dp"), state="live"),
         "never": make(type=type(battery()), size=("388dp", "300dp")),
         "nothing known": make(size=("388dp", "120dp")),
