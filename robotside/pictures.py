@@ -6,7 +6,7 @@ import asyncio
 import io
 from collections import OrderedDict, deque
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from PIL import Image
 
@@ -22,7 +22,7 @@ QUALITY = 80
 """JPEG quality where nobody asks for one."""
 
 WAITING = 4
-"""Pictures that may wait for the worker; a further one takes the place of the oldest."""
+"""Pictures of those who watch that may wait for the worker; a further one takes the place of the oldest."""
 
 KEPT = 8
 """Pictures kept for others who want the same."""
@@ -35,14 +35,16 @@ class Superseded(BridgeError):
     """Newer pictures were wanted before this one could be made."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True, eq=False)
 class _Wish:
     """What somebody wants of one picture."""
 
     jpeg: bytes
     width: float | None
     quality: int
-    result: asyncio.Future[bytes] = field(compare=False)
+    result: asyncio.Future[bytes]
+    patient: bool = False
+    """Whoever wants it asks once and waits."""
 
 
 class Pictures:
@@ -60,22 +62,29 @@ class Pictures:
         return self.make(jpeg, part if part < 1.0 else None, quality)
 
     def make(
-        self, jpeg: bytes, width: float | None = None, quality: int | None = None
+        self,
+        jpeg: bytes,
+        width: float | None = None,
+        quality: int | None = None,
+        *,
+        patient: bool = False,
     ) -> asyncio.Future[bytes]:
         """`jpeg` with at most `width` columns [px], or that part of them when below 1, at `quality`, 1 to 95.
 
         Whoever wants the same of the same object shares it. Fails with BridgeError for what is no JPEG file, and with
-        Superseded when too much newer work came before it was begun.
+        Superseded when too much newer work came before it was begun, which a `patient` asker's is never.
         """
         key = (id(jpeg), width, QUALITY if quality is None else quality)
         wish = self._kept.get(key)
         if wish is None or wish.result.cancelled():
-            wish = _Wish(jpeg, width, key[2], asyncio.get_running_loop().create_future())
+            result = asyncio.get_running_loop().create_future()
+            wish = _Wish(jpeg, width, key[2], result, patient)
             wish.result.add_done_callback(_look)
             self._kept[key] = wish
             while len(self._kept) > KEPT:
                 self._kept.popitem(last=False)
             self._add(wish)
+        wish.patient = wish.patient or patient
         return asyncio.shield(wish.result)
 
     async def close(self) -> None:
@@ -88,11 +97,17 @@ class Pictures:
         self._worker.shutdown()
 
     def _add(self, wish: _Wish) -> None:
+        watched = [waiting for waiting in self._waiting if not waiting.patient]
+        if len(watched) >= WAITING and not wish.patient:
+            self._pass_over(watched[0])
         self._waiting.append(wish)
-        if len(self._waiting) > WAITING:
-            self._waiting.popleft().result.set_exception(Superseded("Newer pictures came first."))
         if self._busy is None:
             self._busy = asyncio.create_task(self._work())
+
+    def _pass_over(self, wish: _Wish) -> None:
+        self._waiting.remove(wish)
+        self._kept.pop((id(wish.jpeg), wish.width, wish.quality), None)
+        wish.result.set_exception(Superseded("Newer pictures came first."))
 
     async def _work(self) -> None:
         loop = asyncio.get_running_loop()

@@ -92,7 +92,7 @@ class Streams:
         with self.looking() as newest:
             try:
                 async with asyncio.timeout(patience):
-                    return await self.made(await newest.next(), view)
+                    return await self.made(await newest.next(), view, patient=True)
             except TimeoutError:
                 return None
 
@@ -114,11 +114,11 @@ class Streams:
             self._demand.set(CAMERA, asker, False)
             leave()
 
-    async def made(self, jpeg: bytes, view: View) -> bytes:
-        """`jpeg` as `view` wants it; fails as `Pictures.make` does."""
+    async def made(self, jpeg: bytes, view: View, *, patient: bool = False) -> bytes:
+        """`jpeg` as `view` wants it; fails as `Pictures.make` does, which `patient` is for."""
         if view.width is None and view.quality is None:
             return jpeg
-        return await self._pictures.make(jpeg, view.width, view.quality)
+        return await self._pictures.make(jpeg, view.width, view.quality, patient=patient)
 
 
 class _Newest:

@@ -8,13 +8,16 @@ import socket
 
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-__all__ = ["FAREWELL", "LONGEST", "MOST", "Visit"]
+__all__ = ["FAREWELL", "LONGEST", "MOST", "STUCK", "Visit"]
 
 MOST = 64
-"""Connections open at a time; one more is closed at once."""
+"""Connections open at a time; for one more the oldest that asks nothing is closed, else that one."""
 
 LONGEST = 30.0
 """How long a connection may stay, whatever it asks [s]; a stream as long as it is read."""
+
+STUCK = 10.0
+"""A stream of which nothing was read for this long, and at most twice as long, is ended [s]."""
 
 FAREWELL = 0.5
 """How long the answers under way may still take when the site ends [s]."""
@@ -26,41 +29,60 @@ _UNSENT = 49_152
 class Visit(H11Protocol):
     """HTTP on one connection; uvicorn's own limits begin only after the first request."""
 
-    _end: asyncio.TimerHandle | None = None
+    _looking: asyncio.TimerHandle | None = None
+    until = 0.0
+    """When its time is over, by the loop's clock [s]."""
     _left = 0
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Let it in if there is room."""
+        """Let it in if there is room or somebody asks nothing."""
         super().connection_made(transport)
+        self.until = self.loop.time() + LONGEST
         if len(self.connections) > MOST:
-            transport.abort()
-            return
-        _keep_little(transport)
-        self._end = self.loop.call_later(LONGEST, self._expire)
+            self._make_room()
+        if not transport.is_closing():
+            _keep_little(transport)
+            self._look_later()
+
+    def _make_room(self) -> None:
+        """Close the oldest connection that asks nothing, which slow ones and idle ones are; this one when there is none."""
+        others = [visit for visit in self.connections if visit is not self and isinstance(visit, Visit)]
+        idle = [visit for visit in others if not visit.asking and not visit.transport.is_closing()]
+        min(idle, key=lambda visit: visit.until, default=self).transport.abort()
 
     def shutdown(self) -> None:
         """The site ends: finish what is being answered, but not a stream and not one who does not read."""
         super().shutdown()
         self.loop.call_later(FAREWELL, self.transport.abort)
 
-    def _expire(self) -> None:
-        """Time is over, except for a stream whose viewer takes what it is sent."""
+    def _look_later(self) -> None:
+        left = self.until - self.loop.time()
+        self._looking = self.loop.call_later(
+            STUCK if self._streaming else min(STUCK, max(0.0, left)), self._look
+        )
+
+    def _look(self) -> None:
+        """End it when its time is over; a stream when its viewer takes nothing of what it is sent."""
         left = self.transport.get_write_buffer_size()
         stuck, self._left = left > 0 and left == self._left, left
-        if stuck or not self._streaming:
+        if stuck if self._streaming else self.loop.time() >= self.until:
             self.transport.abort()
             return
-        self._end = self.loop.call_later(LONGEST, self._expire)
+        self._look_later()
+
+    @property
+    def asking(self) -> bool:
+        """A request is being answered."""
+        return self.cycle is not None and not self.cycle.response_complete
 
     @property
     def _streaming(self) -> bool:
-        begun = self.cycle is not None and not self.cycle.response_complete
-        return begun and self.scope["path"].startswith("/stream/")
+        return self.asking and self.scope["path"].startswith("/stream/")
 
     def connection_lost(self, exc: Exception | None) -> None:
         """It is gone."""
-        if self._end:
-            self._end.cancel()
+        if self._looking:
+            self._looking.cancel()
         super().connection_lost(exc)
 
 

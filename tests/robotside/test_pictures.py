@@ -94,6 +94,21 @@ async def test_when_more_is_wanted_than_can_be_made_the_newest_are(
     assert made[4:] == [b"14", b"15", b"16", b"17"]
 
 
+async def test_who_asks_once_waits_however_much_is_wanted(
+    worker: Pictures, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    go = threading.Event()
+    monkeypatch.setattr(pictures, "smaller", lambda jpeg, width, quality: go.wait(5) and b"%d" % width)
+    wanted = [worker.make(PHOTO, width, patient=width < 20) for width in range(10, 28)]
+    passed_over = worker.make(PHOTO, 20, patient=True)
+    await asyncio.sleep(0)
+    go.set()
+    made = await asyncio.gather(*wanted, return_exceptions=True)
+    assert made[:10] == [b"%d" % width for width in range(10, 20)]
+    assert [type(one) for one in made[10:]] == [Superseded] * 4 + [bytes] * 4
+    assert await passed_over == b"20"
+
+
 async def test_who_no_longer_waits_takes_nothing_from_the_others(worker: Pictures) -> None:
     first, second = worker.make(PHOTO, 100), worker.make(PHOTO, 100)
     first.cancel()

@@ -120,7 +120,7 @@ async def test_a_rate_leaves_out_what_came_meanwhile(tmp_path: Path) -> None:
 async def test_a_viewer_who_does_not_read_is_cut_off_and_the_camera_rests(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(visit, "LONGEST", 0.2)
+    monkeypatch.setattr(visit, "STUCK", 0.2)
     async with filming(tmp_path) as (robot, serves, _):
         lazy = socket.socket()
         lazy.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
@@ -144,6 +144,7 @@ async def test_a_stream_that_is_read_outlasts_what_other_visits_may_take(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(visit, "LONGEST", 0.05)
+    monkeypatch.setattr(visit, "STUCK", 0.05)
     async with filming(tmp_path) as (_, serves, web), looking(web) as reader:
         for number in range(8):
             await asyncio.sleep(0.02)
@@ -213,6 +214,21 @@ async def test_a_snapshot_may_be_smaller(tmp_path: Path) -> None:
         await robot.until(True)
         shoot(serves, PHOTO)
         assert size((await asked).content) == (100, 75)
+        await robot.until(False)
+
+
+async def test_snapshots_of_many_sizes_at_once_are_all_given(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("robotside.http.PICTURE_PATIENCE", 10.0)
+    async with filming(tmp_path) as (robot, serves, web):
+        sizes = range(100, 340, 10)
+        asked = [asyncio.create_task(web.get(f"/snapshot/front.jpg?width={width}")) for width in sizes]
+        await robot.until(True)
+        while not all(each.done() for each in asked):
+            shoot(serves, PHOTO)
+            await asyncio.wait(asked, timeout=0.1)
+        assert [size((await each).content)[0] for each in asked] == [*sizes]
         await robot.until(False)
 
 

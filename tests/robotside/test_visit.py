@@ -11,6 +11,7 @@ import pytest
 from robotside import visit
 from tests.fakes import FakeRobot
 from tests.robotside.test_serving import serving
+from tests.robotside.test_streams import filming, looking
 
 
 async def end_of(reader: asyncio.StreamReader) -> bytes:
@@ -33,7 +34,7 @@ async def test_a_connection_that_does_not_end_is_ended(
         writer.close()
 
 
-async def test_one_connection_too_many_is_closed_and_room_is_made_again(
+async def test_for_one_connection_too_many_the_oldest_that_asks_nothing_is_closed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(visit, "MOST", 2)
@@ -41,16 +42,23 @@ async def test_one_connection_too_many_is_closed_and_room_is_made_again(
         serving(tmp_path, FakeRobot()) as serves,
         httpx.AsyncClient(base_url=serves.addresses.http) as web,
     ):
-        idle = [await asyncio.open_connection("127.0.0.1", serves.addresses.http_port) for _ in range(3)]
-        assert await end_of(idle[-1][0]) == b""
-        for _, writer in idle:
+        slow = [await asyncio.open_connection("127.0.0.1", serves.addresses.http_port) for _ in range(2)]
+        for _, writer in slow:
+            writer.write(b"GET / HT")
+        assert (await web.get("/healthz")).json()["ok"] is True
+        assert await end_of(slow[0][0]) == b""
+        slow[1][1].write(b"TP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n")
+        assert b"200 OK" in await end_of(slow[1][0])
+        for _, writer in slow:
             writer.close()
-            await writer.wait_closed()
-        async with asyncio.timeout(5):
-            while True:
-                try:
-                    answer = await web.get("/healthz")
-                    break
-                except httpx.TransportError:
-                    continue
-        assert answer.json()["ok"] is True
+
+
+async def test_one_connection_too_many_is_closed_while_all_others_are_answered(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(visit, "MOST", 1)
+    async with filming(tmp_path) as (robot, serves, web), looking(web):
+        await robot.until(True)
+        reader, writer = await asyncio.open_connection("127.0.0.1", serves.addresses.http_port)
+        assert await end_of(reader) == b""
+        writer.close()
