@@ -121,6 +121,7 @@ class BridgeServer:
         self._levels = Levels(shrink)
         self._numbers = itertools.count(1)
         self._open: set[ServerConnection] = set()
+        self._crowd: dict[HeardConnection, None] = {}
         self._server: Server | None = None
         self._round: Round | None = None
         self._tasks: set[asyncio.Task[None]] = set()
@@ -135,7 +136,7 @@ class BridgeServer:
                 port,
                 process_request=self._admit,
                 compression=None,
-                create_connection=HeardConnection,
+                create_connection=self._connection,  # type: ignore[arg-type] - it is only called
                 open_timeout=5,
                 ping_interval=5,
                 ping_timeout=10,
@@ -178,6 +179,11 @@ class BridgeServer:
     def publish_frame(self, camera: str, frame: bytes) -> None:
         """Send a packed camera frame to whoever watches `camera`; it replaces one that still waits."""
         self._switchboard.publish_frame(camera, self._levels.picture(frame))
+
+    def _connection(self, *args: Any, **options: Any) -> HeardConnection:
+        connection = HeardConnection(*args, **options)
+        connection.crowd = self._crowd
+        return connection
 
     def _admit(self, connection: ServerConnection, request: Request) -> Response | None:
         camera = _CAMERA_PATH.match(request.path)

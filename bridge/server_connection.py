@@ -7,6 +7,7 @@ frames stay the library's own work.
 
 from __future__ import annotations
 
+import asyncio
 import logging
 from typing import Protocol
 
@@ -21,6 +22,8 @@ __all__ = ["Ears", "HeardConnection"]
 
 log = logging.getLogger(__name__)
 
+MOST = 128
+"""Connections open at a time; for one more the oldest that has not shaken hands is closed, else that one."""
 MOST_PIECES = 1000
 """Frames that one message may come in."""
 _DATA = (Opcode.TEXT, Opcode.BINARY, Opcode.CONT)
@@ -44,6 +47,8 @@ class HeardConnection(ServerConnection):
 
     round: Round | None = None
     """Where what is written in one step of the loop is gathered; set by the server."""
+    crowd: dict[HeardConnection, None] | None = None
+    """All of one server, the oldest first; set by the server."""
     _ears: Ears | None = None
     _direct = False
     _deaf = False
@@ -77,6 +82,24 @@ class HeardConnection(ServerConnection):
         await self.wait_closed()
         if self.close_code not in (CloseCode.NORMAL_CLOSURE, CloseCode.GOING_AWAY):
             raise self.close_exc
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Let it in if there is room or somebody has not shaken hands."""
+        super().connection_made(transport)
+        if self.crowd is None:
+            return
+        self.crowd[self] = None
+        if len(self.crowd) > MOST:
+            strangers = (other for other in self.crowd if other.protocol.state is State.CONNECTING)
+            oldest = next(strangers, self)
+            del self.crowd[oldest]
+            oldest.transport.abort()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """It is gone."""
+        if self.crowd is not None:
+            self.crowd.pop(self, None)
+        super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
         """Take what came from the network, and let what it causes leave together."""

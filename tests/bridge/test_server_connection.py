@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import json
 import struct
 
 import pytest
-from websockets.exceptions import ConnectionClosedError
+from websockets.exceptions import ConnectionClosedError, InvalidMessage
 from websockets.frames import Frame, Opcode
 
+from bridge import server_connection
 from tests.bridge.peers import peer
 from tests.bridge.wires import PATIENCE, Record, server
 
@@ -125,6 +127,36 @@ async def test_a_vanished_clients_session_is_over_before_what_it_left_is_tidied_
         foreign.ws.transport.abort()
         await order.reach(3)
     assert order == [True, "gone", False]
+
+
+async def test_who_does_not_shake_hands_makes_room_for_others(monkeypatch):
+    monkeypatch.setattr(server_connection, "MOST", 3)
+    async with server() as robot, peer(robot) as first:
+        slow = [await asyncio.open_connection("127.0.0.1", robot.port) for _ in range(2)]
+        for _, writer in slow:
+            writer.write(b"GET / HTTP/1.1\r\nHost: x\r\nUpgr")
+        async with peer(robot) as second:
+            async with asyncio.timeout(PATIENCE):
+                with contextlib.suppress(ConnectionResetError):
+                    assert await slow[0][0].read() == b""
+            await first.settled()
+            await second.settled()
+            assert not slow[1][0].at_eof()
+        for _, writer in slow:
+            writer.close()
+
+
+async def test_one_client_too_many_is_cut_off_and_room_is_made_again(monkeypatch):
+    monkeypatch.setattr(server_connection, "MOST", 2)
+    async with server() as robot, peer(robot) as first:
+        async with peer(robot) as second:
+            with pytest.raises((OSError, InvalidMessage)):
+                async with peer(robot):
+                    pass
+            await first.settled()
+            await second.settled()
+        async with peer(robot) as third:
+            await third.settled()
 
 
 async def test_a_fault_in_the_server_costs_nobody_the_connection(caplog, monkeypatch):
