@@ -112,9 +112,10 @@ class Autonomy:
                 return f"the {sense} {since}"
         return ""
 
-    def measured(self, now: float) -> bool:
-        """How fast it goes is known: its odometry came lately."""
-        return now - self._heard["odometry"] <= UNMEASURED
+    def measured(self, now: float, since: float = -math.inf) -> bool:
+        """How fast it goes is known: its odometry came lately, and after `since` [s]."""
+        heard = self._heard["odometry"]
+        return now - heard <= UNMEASURED and heard > since
 
     def check(self, now: float) -> None:
         """Halt the running task when it has become blind, and take a new map between two tasks; call it often."""

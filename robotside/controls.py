@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
+from robotside.sticks import LET_GO, Sticks
 from robotside.words import number, plain
 
 __all__ = ["AHEAD", "LAPSE", "SILENT", "STOP_SENTENCE", "VALID", "Controls", "Driver", "Operator", "Ruling"]
@@ -71,6 +72,7 @@ class Controls:
         self._driver: Driver | None = None
         self._names: dict[str, tuple[str, str]] = {}
         self._last_stamp: dict[str, float] = {}
+        self._sticks = Sticks()
         self._driving_until: float | None = None
         self.stopped_by = ""
         """Who pressed STOP; empty when it is not pressed."""
@@ -157,6 +159,7 @@ class Controls:
         """Forget a client whose socket closed; True when it was driving, so that the robot must stop."""
         self._names.pop(client.id, None)
         self._last_stamp.pop(client.id, None)
+        self._sticks.forget(client.id)
         if self._driver is None or self._driver.client.id != client.id:
             return False
         self._driver = None
@@ -164,9 +167,9 @@ class Controls:
         return was_driving
 
     def stop(self, name: str) -> None:
-        """Latch STOP; from anyone, any time."""
+        """Latch STOP; from anyone, any time. A stick that is held meanwhile has to come to rest before it counts."""
         self.stopped_by = self.stopped_by or name
-        self._driving_until = None
+        self.halt()
 
     def release_stop(self) -> None:
         """Unlatch STOP; nothing moves by that alone."""
@@ -180,22 +183,32 @@ class Controls:
         *,
         stamp: float | None = None,
         auto: bool = False,
+        trouble: str = "",
     ) -> Ruling:
         """Judge a drive command that has just come; `stamp` is when it was given [s], None when nobody said.
 
-        While the robot drives itself (`auto`), a command of zero means a stick at rest and changes nothing.
+        While the robot drives itself (`auto`), a command of zero means a stick at rest and changes nothing. `trouble` says
+        why the robot cannot be driven at all, empty when it can. A stick that was pushed in vain, or for longer than a
+        moment without being obeyed, counts again once it was at rest.
         """
-        said = self._fault(client, twist, now, stamp)
-        zero = _zero(twist)
-        if not said and self.stopped:
-            said = "" if zero else STOP_SENTENCE
-        elif not said and not (auto and zero):
-            said = self.acquire(client, now)
+        said, moving = self._fault(client, twist, now, stamp), not _zero(twist)
+        given = now if stamp is None or math.isnan(stamp) else stamp
+        counts = not _finite(twist) or self._sticks.hear(client.id, moving, given, now)
+        if not said and (moving or not (auto or trouble or self.stopped)):
+            said = trouble or self._refusal(client, now, counts)
             if not said:
+                self._sticks.obey(client.id, now)
                 self._driving_until = now + VALID
                 return Ruling(self._limited(twist))
+            self._sticks.void(client.id)
         self.dropped += bool(said)
         return Ruling(None, said)
+
+    def _refusal(self, client: Operator, now: float, counts: bool) -> str:
+        """Why a sound command of `client` is not obeyed; empty when it is, and then it has control."""
+        if self.stopped:
+            return STOP_SENTENCE
+        return self.acquire(client, now) if counts else LET_GO
 
     def expired(self, now: float) -> bool:
         """True once when the last drive command has run out, so that the robot must stop."""
@@ -205,11 +218,16 @@ class Controls:
         return True
 
     def hold(self) -> None:
-        """End the drive command in force: the robot drives itself from now on, or was stopped otherwise."""
+        """End the drive command in force: the robot drives itself from now on."""
         self._driving_until = None
 
+    def halt(self) -> None:
+        """End the drive command in force: the robot was stopped otherwise, and no stick counts before it was at rest."""
+        self.hold()
+        self._sticks.void_all()
+
     def _fault(self, client: Operator, twist: Twist, now: float, stamp: float | None) -> str:
-        if not all(map(math.isfinite, _numbers(twist))):
+        if not _finite(twist):
             return "A drive command was dropped: its speeds are not all numbers."
         if stamp is None or math.isnan(stamp):
             return ""
@@ -235,6 +253,10 @@ class Controls:
 def _numbers(twist: Twist) -> tuple[float, ...]:
     v, w = twist.linear, twist.angular
     return v.x, v.y, v.z, w.x, w.y, w.z
+
+
+def _finite(twist: Twist) -> bool:
+    return all(map(math.isfinite, _numbers(twist)))
 
 
 def _zero(twist: Twist) -> bool:

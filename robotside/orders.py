@@ -105,8 +105,11 @@ class _Orders:
         return _service(name, kind, request, CommandResponse, call)
 
     def stop(self, client: Operator, _: CommandRequest) -> str:
-        """Latch STOP."""
+        """Latch STOP; it is not done while the robot cannot be reached, so that whoever pressed it goes on asking."""
         self._station.press_stop(self._station.controls.name(client))
+        doubt = self._station.stop_doubt
+        if doubt:
+            raise Refusal(f"STOP is pressed, but {doubt[0].lower()}{doubt[1:]}")
         return "Stopped."
 
     def release_stop(self, client: Operator, _: CommandRequest) -> str:

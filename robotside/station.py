@@ -76,6 +76,8 @@ class Station:
         self._next_diagnostics = now
         self._next_fault = -math.inf
         self._trouble = ""
+        self._turned = -math.inf
+        """When trouble began or ended last [s]: what was measured before says nothing of the time since."""
         first = list(robot.read(now))
         chart = next(
             (msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None
@@ -151,7 +153,7 @@ class Station:
         """Give control back; returns why not, empty when done. A robot driven by hand comes to rest."""
         problem = self.controls.release(client)
         if not problem and self.controls.driving:
-            self.controls.hold()
+            self.controls.halt()
             self.robot.stop()
         return problem
 
@@ -188,8 +190,13 @@ class Station:
 
     @property
     def at_rest(self) -> bool:
-        """The wheels stand still, as measured."""
-        return self._control.at_rest
+        """The wheels stand still, as measured lately; False while nobody knows."""
+        return self._at_rest()
+
+    @property
+    def stop_doubt(self) -> str:
+        """Why a STOP that is pressed may not have reached the robot, as one sentence; empty when it has."""
+        return "" if self.at_rest else self.robot.trouble
 
     def end(self) -> None:
         """Brake, end the task and obey nobody any more: the robot side is about to go."""
@@ -247,9 +254,10 @@ class Station:
         if bool(trouble) != bool(self._trouble):
             said = trouble or "The robot can be driven again; it stands still."
             self.events.say("robot", said, "alarm" if trouble else "ok")
+            self._turned = self.now
         self._trouble = trouble
         if trouble:
-            self.controls.hold()
+            self.controls.halt()
             self.autonomy.engine.pause(f"Paused: {trouble[0].lower()}{trouble[1:]}", "alarm")
 
     def _mind(self, think: Callable[[], None]) -> None:
@@ -268,10 +276,10 @@ class Station:
 
     def _drive(self, client: Operator, twist: Twist, stamp: float | None) -> None:
         engine = self.autonomy.engine
-        if self.robot.trouble:
-            self._remark(client, self.robot.trouble)
-            return
-        ruling = self.controls.drive(client, twist, self.clock(), stamp=stamp, auto=engine.running)
+        trouble = self.robot.trouble
+        ruling = self.controls.drive(
+            client, twist, self.clock(), stamp=stamp, auto=engine.running, trouble=trouble
+        )
         if ruling.twist is None:
             self._remark(client, ruling.said)
             return
@@ -330,8 +338,10 @@ class Station:
     def _at_rest(self) -> bool:
         factor = 3.0 if self._control.at_rest else 1.0
         where = self.autonomy.whereabouts
-        if not self.autonomy.measured(self.now):
+        if not self.autonomy.measured(self.now, since=self._turned):
             return False
+        if self.robot.trouble and not self._trouble:
+            return False  # it began just now
         return abs(where.speed) < AT_REST[0] * factor and abs(where.turn) < AT_REST[1] * factor
 
     def _diagnostics(self) -> DiagnosticArray:

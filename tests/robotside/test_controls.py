@@ -7,7 +7,8 @@ import math
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
-from robotside.controls import LAPSE, SILENT, STOP_SENTENCE, VALID, Controls
+from robotside.controls import LAPSE, SILENT, STOP_SENTENCE, VALID, Controls, Ruling
+from robotside.sticks import LET_GO
 from tests.fakes import FakeClient
 
 AHEAD = Twist.planar(0.3, 0.1)
@@ -188,7 +189,108 @@ def test_after_stop_nothing_drives_until_it_is_released(controls: Controls, anna
     assert controls.drive(anna, AHEAD, 10.1).said == STOP_SENTENCE
     assert not controls.expired(11.0)
     controls.release_stop()
-    assert controls.drive(anna, AHEAD, 10.2).twist == AHEAD
+    controls.drive(anna, REST, 10.2)
+    assert controls.drive(anna, AHEAD, 10.3).twist == AHEAD
+
+
+def held(
+    controls: Controls, client: FakeClient, start: float, until: float, lag: float = 0.0
+) -> list[Ruling]:
+    """A stick held from `start` on, twenty times a second; each command comes `lag` later [s]."""
+    moments = [start + number * 0.05 for number in range(round((until - start) / 0.05))]
+    return [controls.drive(client, AHEAD, moment + lag, stamp=moment) for moment in moments]
+
+
+def test_a_stick_held_from_rest_on_counts_from_its_first_command(
+    controls: Controls, anna: FakeClient
+) -> None:
+    assert all(ruling.twist == AHEAD for ruling in held(controls, anna, 10.0, 13.0, lag=0.2))
+
+
+def test_a_stick_held_while_the_robot_was_halted_counts_again_when_it_was_at_rest(
+    controls: Controls, anna: FakeClient
+) -> None:
+    held(controls, anna, 10.0, 11.0)
+    controls.halt()
+    after = held(controls, anna, 11.0, 15.0)
+    assert {(ruling.twist, ruling.said) for ruling in after} == {(None, LET_GO)}
+    assert not controls.driving
+    controls.drive(anna, REST, 15.0, stamp=15.0)
+    assert controls.drive(anna, AHEAD, 15.05, stamp=15.05).twist == AHEAD
+
+
+def test_a_stick_that_says_nothing_while_it_rests_counts_after_half_a_second(
+    controls: Controls, anna: FakeClient
+) -> None:
+    controls.drive(anna, AHEAD, 10.0)
+    controls.halt()
+    assert controls.drive(anna, AHEAD, 10.1).said == LET_GO
+    assert controls.drive(anna, AHEAD, 10.5).said == LET_GO
+    assert controls.drive(anna, AHEAD, 11.0).twist == AHEAD
+
+
+def test_a_stick_pushed_while_there_is_trouble_does_not_drive_off_when_it_ends(
+    controls: Controls, anna: FakeClient
+) -> None:
+    trouble = "The robot cannot be reached."
+    assert controls.drive(anna, AHEAD, 10.0, trouble=trouble).said == trouble
+    assert controls.drive(anna, AHEAD, 10.05).said == LET_GO
+    assert controls.drive(anna, REST, 10.1, trouble=trouble) == Ruling(None)
+    assert controls.drive(anna, AHEAD, 10.15).twist == AHEAD
+
+
+def test_a_stick_held_through_stop_does_not_drive_off_when_stop_is_released(
+    controls: Controls, anna: FakeClient
+) -> None:
+    held(controls, anna, 10.0, 11.0)
+    controls.stop("Bert")
+    held(controls, anna, 11.0, 12.0)
+    controls.release_stop()
+    assert {ruling.said for ruling in held(controls, anna, 12.0, 13.0)} == {LET_GO}
+
+
+def test_a_stick_held_while_another_has_control_does_not_drive_off_when_he_goes(
+    controls: Controls, anna: FakeClient, bert: FakeClient
+) -> None:
+    controls.drive(anna, AHEAD, 10.0)
+    held(controls, bert, 10.0, 11.0)
+    controls.gone(anna)
+    assert controls.drive(bert, AHEAD, 11.0, stamp=11.0).said == LET_GO
+    assert controls.driver is None
+
+
+def test_a_stick_held_through_an_outage_of_its_link_does_not_drive_off_after_it(
+    controls: Controls, anna: FakeClient
+) -> None:
+    held(controls, anna, 10.0, 11.0)
+    assert controls.expired(12.0)
+    held(controls, anna, 11.0, 11.2, lag=2.0)
+    late = [controls.drive(anna, AHEAD, 13.2, stamp=11.2 + number * 0.05) for number in range(40)]
+    assert {ruling.twist for ruling in late} == {None}
+    assert controls.drive(anna, AHEAD, 13.25, stamp=13.25).said == LET_GO
+
+
+def test_a_hiccup_of_the_link_costs_no_more_than_the_time_it_takes(
+    controls: Controls, anna: FakeClient
+) -> None:
+    held(controls, anna, 10.0, 11.0)
+    assert controls.expired(11.3)
+    held(controls, anna, 11.0, 11.2, lag=0.4)
+    assert controls.drive(anna, AHEAD, 11.6, stamp=11.5).twist == AHEAD
+
+
+def test_a_zero_that_was_overtaken_does_not_stand_for_rest(controls: Controls, anna: FakeClient) -> None:
+    controls.drive(anna, AHEAD, 10.0, stamp=10.0)
+    controls.halt()
+    controls.drive(anna, REST, 10.05, stamp=9.9)
+    assert controls.drive(anna, AHEAD, 10.1, stamp=10.1).said == LET_GO
+
+
+def test_who_went_leaves_no_stick_behind(controls: Controls, anna: FakeClient) -> None:
+    controls.drive(anna, AHEAD, 10.0)
+    controls.halt()
+    controls.gone(anna)
+    assert controls.drive(anna, AHEAD, 10.1).twist == AHEAD
 
 
 def test_a_stick_at_rest_is_not_scolded_while_stopped(controls: Controls, anna: FakeClient) -> None:

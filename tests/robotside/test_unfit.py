@@ -23,9 +23,11 @@ from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
 from bridge.msgs.pilothouse_msgs import CommandRequest, Event, SetMissionRequest, StartTaskRequest
 from robotside.pose2 import ORIGIN
 from robotside.station import NO_MAP
+from robotside.sticks import LET_GO
 from tests.fakes import FakeRobot
 from tests.robotside.scene import SQUARE, Scene
 
+AHEAD = Twist.planar(0.3, 0.0)
 LOST = "The robot cannot be reached: the connection was cut."
 
 
@@ -226,3 +228,70 @@ def test_odometry_that_is_no_number_counts_as_none_and_spoils_nothing(tmp_path: 
     scene.run(1.0)
     assert scene.station.autonomy.whereabouts.odometer == odometer
     assert scene.station.autonomy.whereabouts.sure
+
+
+@pytest.fixture
+def lost(scene: Scene) -> Scene:
+    """Cut off while it was driven, with the stick held."""
+    scene.drive(AHEAD)
+    scene.run(0.1)
+    scene.robot.trouble = LOST
+    scene.robot.silent |= {"/odom", "/scan"}
+    for _ in range(20):
+        scene.drive(AHEAD)
+        scene.run(0.05)
+    return scene
+
+
+def back(scene: Scene) -> None:
+    scene.robot.trouble = ""
+    scene.robot.silent.clear()
+
+
+def test_stop_on_a_robot_that_cannot_be_reached_is_pressed_and_not_done(lost: Scene) -> None:
+    assert lost.refused("/stop") == f"STOP is pressed, but t{LOST[1:]}"
+    assert (lost.control.stopped, lost.control.at_rest) == (True, False)
+    back(lost)
+    before = len(lost.robot.commands)
+    assert lost.ask("/stop").message == "Stopped."
+    assert lost.robot.commands[before:] == [None]
+    assert not lost.control.at_rest
+    lost.run(0.2)
+    assert lost.control.at_rest
+
+
+def test_a_robot_that_rested_when_it_was_lost_is_not_said_to_rest(scene: Scene) -> None:
+    scene.run(1.0)
+    assert scene.control.at_rest
+    scene.robot.trouble = LOST
+    assert not scene.station.at_rest
+    scene.robot.silent.add("/odom")
+    scene.run(0.05)
+    assert not scene.control.at_rest
+    scene.robot.trouble = ""
+    scene.run(0.1)
+    assert not scene.control.at_rest
+    back(scene)
+    scene.run(0.2)
+    assert scene.control.at_rest
+
+
+def test_a_robot_in_others_hands_that_tells_how_fast_it_is_may_be_said_to_rest(scene: Scene) -> None:
+    scene.run(1.0)
+    scene.robot.trouble = "The robot's own STOP is pressed, by Fred: release it there."
+    scene.run(0.2)
+    assert scene.control.at_rest
+    assert scene.ask("/stop").message == "Stopped."
+
+
+def test_a_stick_held_through_an_outage_moves_the_robot_only_when_it_was_let_go(lost: Scene) -> None:
+    back(lost)
+    before = len(lost.robot.commands)
+    for _ in range(60):
+        lost.run(0.05)
+        lost.drive(AHEAD)
+    assert not any(lost.robot.commands[before:])
+    assert lost.events("command")[-1] == LET_GO
+    lost.drive(Twist())
+    lost.drive(AHEAD)
+    assert lost.robot.twist == AHEAD
