@@ -93,7 +93,7 @@ Builder.load_string("""
         font_size: sp(12.5)
         color: theme.muted
         disabled_color: self.color
-        opacity: .85
+        opacity: .85 if root.type_width else 0
         shorten: True
         shorten_from: 'right'
         text_size: self.size

@@ -15,10 +15,11 @@ from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, Opt
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
-import widgets.labels  # noqa: F401 - its rules draw the value
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
-from widgets.base import RobotWidget, age_text
+from widgets.base import RobotWidget, age_text, text_texture
+from widgets.labels import spaced
+from widgets.theme import theme
 
 __all__ = ["Readout", "figure"]
 
@@ -126,10 +127,14 @@ class Readout(RobotWidget, BoxLayout):
 
     def _heading(self) -> str:
         old = age_text(self.age) if self.state == "stale" else ""
-        return f"{self.name} · {old}" if old else self.name
+        if not old:
+            return self.name
+        whole = f"{self.name} · {old}"
+        room = text_texture(spaced(whole), theme.size_label, theme.font).width <= self.width
+        return whole if room or self.fitted else old
 
-    heading = AliasProperty(_heading, bind=["name", "state", "age"], cache=True)
-    """The name, and how old the value is where that must be said."""
+    heading = AliasProperty(_heading, bind=["name", "state", "age", "fitted", "width"], cache=True)
+    """The name, and how old the value is where that must be said; the age alone where there is no room for both."""
 
     def _role(self) -> str:
         return {"live": "text", "alarm": "danger"}.get(self.state, "muted")

@@ -20,7 +20,7 @@ from kivy.properties import AliasProperty, BooleanProperty, ListProperty, Numeri
 from kivy.uix.widget import Widget
 
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
-from widgets.base import text_texture
+from widgets.base import fitting_size, text_texture
 from widgets.geometry import contain, cover
 from widgets.icons import icon
 from widgets.ink import Drawing, Ink, Word, Words, shader, tint
@@ -224,7 +224,9 @@ class Video(Drawing):
             yield Word("No picture yet", self.center_x, self.center_y - dp(16), sp(14), theme.muted)
         elif self.state == "stale":
             age = "" if math.isnan(self.age) else f" {self.age:.0f} s ago"
-            yield Word(f"Last picture{age}", self.center_x, self.center_y, sp(17), theme.text, bold=True)
+            words = f"Last picture{age}"
+            size = fitting_size([words], sp(17), self.width - dp(16), bold=True)
+            yield Word(words, self.center_x, self.center_y, size, theme.text, bold=True)
 
     def chip_text(self) -> str:
         """Size, rate and latency of the picture in words; what is not known is left out."""

@@ -164,3 +164,24 @@ def test_nothing_leaves_the_row(stage, view, width):
         for row in shown(view):
             right = row.name_x + row.name_width + (row.type_width and row.type_width + 9)
             assert right <= row.right - 12 - row.value_width + 1, row.name
+
+
+def test_its_age_stands_above_the_tree_and_what_is_old_can_be_read(stage, view):
+    view.show(battery())
+    view.age, view.state = 12.0, "stale"
+    stage.frames(2)
+    assert view.badge == "12 s old"
+    assert view.badge_pos[1] >= view.ids.scroll.top
+    assert view.veil[3] < 0.4
+    view.aged = False
+    assert (view.badge, view.strip) == ("", 0.0)
+
+
+def test_a_type_is_written_whole_or_not_at_all(stage, view):
+    view.now = 1763719271.2
+    view.show(imu())
+    view.width = 388
+    stage.frames(3)
+    header = next(row for row in shown(view) if row.name == "header")
+    assert header.type_width == 0.0
+    assert [label.opacity for label in header.children if getattr(label, "text", "") == header.type] == [0]

@@ -141,3 +141,8 @@ def test_a_long_text_has_a_line_of_its_own():
     row = rows(Header(frame_id="a frame whose name is very long\nand broken"), {})[1]
     assert row.kind == ARRAY
     assert describe(row) == ("", "a frame whose name is very long and broken")
+
+
+@pytest.mark.parametrize(("ahead", "words"), [(0.2, "0.0 s ago"), (0.6, "0.6 s ahead")])
+def test_what_is_hardly_ahead_of_a_clock_that_is_hardly_known_is_from_now(ahead: float, words: str) -> None:
+    assert clock(1763719271.0, 1763719271.0 - ahead).endswith(words)
