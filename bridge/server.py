@@ -136,7 +136,7 @@ class BridgeServer:
                 port,
                 process_request=self._admit,
                 compression=None,
-                create_connection=self._connection,  # type: ignore[arg-type] - it is only called
+                create_connection=self._connection,  # type: ignore[arg-type]  # it is only called
                 open_timeout=5,
                 ping_interval=5,
                 ping_timeout=10,

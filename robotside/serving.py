@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import asyncio
+import errno
+import logging
 import math
 import socket
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import uvicorn
 
@@ -31,7 +34,12 @@ from robotside.watch import jpeg_size
 
 __all__ = ["Addresses", "Serving"]
 
+log = logging.getLogger(__name__)
+
 _EVERYWHERE = ("0.0.0.0", "::", "")  # noqa: S104 - compared with, not bound to
+
+_SHORT = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
+"""How the system says that it has no more of something."""
 
 _TABLE = frozenset(entry.name for entry in TOPICS)
 
@@ -40,6 +48,9 @@ TICK = 1 / 60
 LOOK = 1.0
 """Real time between two questions whether it is still wanted [s]."""
 
+
+SHORTAGE = 60.0
+"""That no connection can be taken is said at most this often [s]."""
 
 BRAKING = 2.0
 """How long the robot may take to come to rest at the end [s]."""
@@ -114,6 +125,9 @@ class Serving:
             uvicorn.Config(self._site, http=Visit, log_level="warning", lifespan="off", access_log=False)
         )
         beacon = Beacon(self._hello)
+        loop = asyncio.get_running_loop()
+        before = loop.get_exception_handler()
+        loop.set_exception_handler(_Faults())
         try:
             await self.server.start(where.host, where.port)
             where.port = self.server.port
@@ -131,6 +145,7 @@ class Serving:
             await self.server.close()
             await self._pictures.close()
             web_socket.close()
+            loop.set_exception_handler(before)
 
     def end(self) -> None:
         """Have `run` come to its end."""
@@ -186,6 +201,23 @@ class _Web(uvicorn.Server):
     def capture_signals(self) -> Iterator[None]:
         """Leave the process's signals alone."""
         yield
+
+
+class _Faults:
+    """What goes wrong in the loop itself, in the log: that connections cannot be taken, seldom; all else as ever."""
+
+    def __init__(self) -> None:
+        self._next = -math.inf
+
+    def __call__(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+        """Log one of them."""
+        fault = context.get("exception")
+        # a listening socket tells a hundred times a second that there are no more file descriptors
+        if "socket" not in context or not isinstance(fault, OSError) or fault.errno not in _SHORT:
+            loop.default_exception_handler(context)
+        elif loop.time() >= self._next:
+            self._next = loop.time() + SHORTAGE
+            log.error("No further connection can be taken at the moment: %s.", fault.strerror)
 
 
 def _listen(host: str, port: int) -> socket.socket:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import errno
 import random
 import socket
 import time
@@ -86,6 +87,23 @@ async def test_one_that_is_no_longer_wanted_ends_by_itself(tmp_path: Path) -> No
         await serves.run(lambda _: None)
     assert next(answers, None) is None
     assert robot.at_rest
+
+
+async def test_a_system_that_takes_no_more_connections_is_logged_once(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    loop = asyncio.get_running_loop()
+    shortage = {"message": "accept", "exception": OSError(errno.EMFILE, "Too many open files")}
+    async with serving(tmp_path, FakeRobot()):
+        for _ in range(100):
+            loop.call_exception_handler({**shortage, "socket": None})
+        loop.call_exception_handler({"message": "Something else."})
+    said = [record.getMessage() for record in caplog.records if record.levelname == "ERROR"]
+    assert said == [
+        "No further connection can be taken at the moment: Too many open files.",
+        "Something else.",
+    ]
+    assert loop.get_exception_handler() is None
 
 
 @asynccontextmanager
