@@ -37,6 +37,11 @@ class Lane(IntEnum):
     """Maps and pictures; the newest counts, and they are large."""
 
 
+_WHOLE = (Lane.CONTROL, Lane.REPLY, Lane.EVENT)
+_USUAL = (Lane.EVENT, Lane.TELEMETRY, Lane.BULK)
+_BULK_FIRST = (Lane.EVENT, Lane.BULK, Lane.TELEMETRY)
+
+
 class Stream:
     """One client's delivery of one topic."""
 
@@ -77,6 +82,8 @@ class Lanes:
         self._passed = 0
         self.held = False
         """The next message is due and too large for what room there was when last asked."""
+        self.holding = Lane.CONTROL
+        """The lane of the message that is held, or was last."""
 
     def put(self, lane: Lane, frame: bytes) -> bool:
         """Queue a frame that must not be lost; False when too many wait in this lane already."""
@@ -108,21 +115,19 @@ class Lanes:
         `fits` tells whether there is room for so many bytes. ProtocolError when the next cannot be encoded.
         """
         self.held = False
-        for lane in (Lane.CONTROL, Lane.REPLY, Lane.EVENT):
+        for lane in _WHOLE:
             frames = self._frames[lane]
             if frames:
                 if not fits(len(frames[0])):
-                    self.held = True
+                    self.held, self.holding = True, lane
                     return None
                 self._bytes[lane] -= len(frames[0])
                 return frames.popleft()
-        order = (Lane.EVENT, Lane.TELEMETRY, Lane.BULK)
-        if self._passed >= PATIENCE:
-            order = (Lane.EVENT, Lane.BULK, Lane.TELEMETRY)
+        order = _USUAL if self._passed < PATIENCE else _BULK_FIRST
         for lane in order:
-            stream = next((stream for stream in self._streams[lane] if stream.due <= now), None)
-            if stream is not None:
-                return self._next(stream, now, fits)
+            for stream in self._streams[lane]:
+                if stream.due <= now:
+                    return self._next(stream, now, fits)
         return None
 
     def delay(self, now: float) -> float | None:
@@ -135,7 +140,7 @@ class Lanes:
     def _next(self, stream: Stream, now: float, fits: Callable[[int], bool]) -> bytes | None:
         try:
             frame = stream.waiting[0].frame(stream.form)
-            self.held = not fits(len(frame))
+            self.held, self.holding = not fits(len(frame)), stream.lane
         finally:
             if not self.held:
                 self._sent(stream, now)

@@ -146,7 +146,8 @@ class Outgoing:
         return body
 
     def _cbor(self, form: Form, msg: object) -> bytes:
-        return binary_frame(to_cbor({"op": "publish", "topic": form.name, "msg": msg}, form.ros2))
+        beginning, body = _binary_beginning(form.name), to_cbor(msg, form.ros2)
+        return b"".join((_head(_BINARY, len(beginning) + len(body)), beginning, body))
 
     def _bytes_of_ros(self, form: Form) -> dict[str, Any]:
         msg = self.lesser(form.reduction)
@@ -165,6 +166,12 @@ def _plain(msg: Msg | Raw) -> object:
 @functools.lru_cache(maxsize=1024)
 def _beginning(name: str) -> bytes:
     return b'{"op":"publish","topic":' + msgspec.json.encode(name) + b',"msg":'
+
+
+@functools.lru_cache(maxsize=1024)
+def _binary_beginning(name: str) -> bytes:
+    two = to_cbor({"op": "publish", "topic": name})
+    return bytes((two[0] + 1,)) + two[1:] + to_cbor("msg")  # a third pair follows, of which this is the key
 
 
 def _cut(text: bytes, size: int | None) -> bytes:

@@ -103,12 +103,14 @@ class Outlet:
         now, window = self._clock(), self.window
         if (
             stream.waiting
-            or now < stream.due
             or self._line.paused
             or window.sent - window.acknowledged >= window.limit
             or now >= window.late
-            or self._lanes.held
+            or (self._lanes.held and stream.lane >= self._lanes.holding)
         ):
+            self._lanes.offer(stream, message)  # what those before it wait for lets it go as well
+            return
+        if now < stream.due or self._lanes.held:
             self._wait(stream, message)
             return
         try:
@@ -156,7 +158,7 @@ class Outlet:
         now = self._clock()
         while not self._line.paused and self._lanes.blocked(Lane.CONTROL):
             self._gather(self._urgent, self._lanes.take(now) or b"")
-        while self._room():
+        while not self._line.paused and self.window.room(now):
             try:
                 frame = self._lanes.take(now, self.window.fits)
             except ProtocolError as error:
@@ -214,8 +216,10 @@ class Outlet:
 
     def _arm(self, now: float) -> None:
         """Come back when a throttled message is due; whatever waits for room comes with the room."""
+        if self._lanes.held or not self._room() or not self._line.open:
+            return
         delay = self._lanes.delay(now)
-        if delay is None or self._lanes.held or not self._room() or not self._line.open:
+        if delay is None:
             return
         if self._timer is not None:
             if self._timer.when() <= now + delay:

@@ -3,8 +3,8 @@
 `naive` is what is written in an afternoon: the standard library's json, encoded anew for each client, sent by
 `websockets.broadcast`. Prints `{"port": PORT}`; then each line of JSON on the standard input is answered by one:
 
-- `{"do": "publish", "topic": T, "count": N, "burst": B, "pause": S}`: publishes N messages, one in each step of the
-  loop, resting S seconds after every B; `{"cpu": SECONDS}` is the process's own time meanwhile, `settle` after it included;
+- `{"do": "publish", "topic": T, "count": N, "step": M}`: publishes N messages, M in each step of the loop;
+  `{"cpu": SECONDS}` is the process's own time meanwhile and shortly after;
 - `{"do": "flow", "rates": {T: HZ}}`: publishes so often from now on, nothing else any more;
 - `{"do": "cpu"}`: `{"cpu": SECONDS}` since the start, user and system;
 - `{"do": "commands"}`: `{"commands": [[ARRIVED, NUMBER]…]}`: when which `linear.x` came on /cmd_vel, `time.monotonic()`.
@@ -138,11 +138,12 @@ async def flow(publish: Callable[[str], None], topic: str, rate: float) -> None:
 
 async def burst(publish: Callable[[str], None], asked: Mapping[str, Any]) -> float:
     """The process's own time [s] that publishing takes."""
-    topic, size, pause = asked["topic"], asked["burst"], asked["pause"]
+    topic, step = asked["topic"], asked["step"]
     began = time.process_time()
-    for number in range(asked["count"]):
-        publish(topic)
-        await asyncio.sleep(0 if (number + 1) % size else pause)
+    for _ in range(asked["count"] // step):
+        for _ in range(step):
+            publish(topic)
+        await asyncio.sleep(0)
     await asyncio.sleep(SETTLE)
     return time.process_time() - began
 

@@ -49,16 +49,21 @@ def from_cbor(raw: bytes) -> Any:
 
 
 def _plain(obj: object, ros2: bool) -> object:
+    if isinstance(obj, Msg):
+        return _plain_message(obj, ros2)
     if isinstance(obj, dict):
         return {key: _plain(value, ros2) for key, value in obj.items()}
     if isinstance(obj, (list, tuple)):
         return [_plain(value, ros2) for value in obj]
-    found: Any = msgspec.to_builtins(obj, builtin_types=_BUILTIN, enc_hook=_tagged)
-    if isinstance(obj, Msg):
-        if pack := _packer(type(obj)):
-            pack(found)
-        if ros2 and (rename := renamer(type(obj))):
-            rename(found)
+    return msgspec.to_builtins(obj, builtin_types=_BUILTIN, enc_hook=_tagged)
+
+
+def _plain_message(msg: Msg, ros2: bool) -> dict[str, Any]:
+    found: dict[str, Any] = msgspec.to_builtins(msg, builtin_types=_BUILTIN, enc_hook=_tagged)
+    if pack := _packer(type(msg)):
+        pack(found)
+    if ros2 and (rename := renamer(type(msg))):
+        rename(found)
     return found
 
 
