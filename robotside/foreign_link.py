@@ -151,9 +151,8 @@ class ForeignLink:
             self._busy = msg.mode == "AUTO" and not others
             self._listener.held(_holder(msg, others))
             if msg.stopped and msg.driver_id == self._id:
-                self._begin(
-                    "/control/release"
-                )  # only who has control may release STOP, and that is done there
+                # only who has control may release STOP, and that is done where it was pressed
+                self._begin("/control/release")
         else:
             self._listener.heard(topic, msg)
 

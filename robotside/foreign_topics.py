@@ -68,8 +68,8 @@ class Found:
 
 
 def usual() -> Found:
-    """What is supposed of a robot that does not tell."""
-    topics = {part.ours: (part.names[0], part.type) for part in _PARTS}
+    """What is supposed of a robot that does not tell, which a robot side of ours always does."""
+    topics = {part.ours: (part.names[0], part.type) for part in _PARTS if part.ours != CONTROL}
     return Found(topics, remarks=(_NOT_TOLD,))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bridge.msgs.nav_msgs import Odometry
 from robotside.autonomy import CAMERA
-from robotside.foreign_topics import match, usual
+from robotside.foreign_topics import CONTROL, match, usual
 
 TURTLEBOT = {
     "/odom": "nav_msgs/Odometry",
@@ -75,3 +75,9 @@ def test_a_robot_that_does_not_tell_is_supposed_to_be_usual() -> None:
     found = usual()
     assert found.topics["/scan"][0] == "/scan"
     assert found.remarks == ("It does not tell its topics: the usual names are supposed.",)
+
+
+def test_who_drives_is_asked_only_of_a_robot_side_of_ours_that_tells_its_topics() -> None:
+    assert CONTROL in match({CONTROL: "pilothouse_msgs/ControlStatus"}).topics
+    assert CONTROL not in match({CONTROL: "std_msgs/String"}).topics
+    assert CONTROL not in usual().topics
