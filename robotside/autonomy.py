@@ -174,13 +174,18 @@ class Autonomy:
     def _take_map(self, msg: OccupancyGrid) -> None:
         self._coming, self._chart = None, msg
         problem = Grid.fault(msg)
+        if not problem:
+            try:
+                self._use(Grid.from_msg(msg))
+            except MemoryError:
+                problem = f"The map is of no use: {len(msg.data)} cells are too many for this computer."
         if problem:
             self._events.say("localisation", problem, "warn")
-            return
-        self.has_map = True
-        grid = Grid.from_msg(msg)
-        self.whereabouts.take_map(grid)
+
+    def _use(self, grid: Grid) -> None:
         self.guide.take_map(grid)
+        self.whereabouts.take_map(grid)
+        self.has_map = True
 
     def _odom(self, msg: Odometry) -> None:
         if not math.isfinite(sum(Pose2.from_msg(msg.pose.pose))):

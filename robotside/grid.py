@@ -12,11 +12,19 @@ from scipy import ndimage
 
 from bridge.msgs.nav_msgs import OccupancyGrid
 from robotside.pose2 import Points
+from robotside.words import number
 
 __all__ = ["OCCUPIED", "Grid"]
 
 OCCUPIED = 50
 """Cells of at least this value count as occupied, of 0 to 100."""
+
+
+EDGES = (0.001, 10.0)
+"""Least and greatest width of a cell of any use [m]: a finer map of a place is one of nothing."""
+
+FARTHEST = 1e8
+"""How far a map's corner may be from its frame's origin [m]."""
 
 
 @dataclass(frozen=True)
@@ -48,14 +56,18 @@ class Grid:
     @staticmethod
     def fault(msg: OccupancyGrid) -> str:
         """Why the map message is of no use, as one sentence; empty when it is."""
-        info, turned = msg.info, msg.info.origin.orientation
-        if not (math.isfinite(info.resolution) and info.resolution > 0):
-            return f"The map is of no use: its cells are {info.resolution} m wide."
+        info, turned, corner = msg.info, msg.info.origin.orientation, msg.info.origin.position
+        if not EDGES[0] <= info.resolution <= EDGES[1]:
+            allowed = f"{EDGES[0]} to {EDGES[1]:g} m are allowed"
+            return f"The map is of no use: its cells are {info.resolution:.4g} m wide; {allowed}."
+        if not all(abs(place) <= FARTHEST for place in (corner.x, corner.y)):
+            where = f"({number(corner.x)}, {number(corner.y)})"
+            return f"The map is of no use: it begins at {where}, which is over {FARTHEST:.0e} m away."
         if not 4 <= info.width * info.height == len(msg.data) or min(info.width, info.height) < 2:
             return (
                 f"The map is of no use: it says {info.width} x {info.height} cells and has {len(msg.data)}."
             )
-        if abs(turned.yaw) > 1e-3:
+        if not abs(turned.yaw) <= 1e-3:  # NaN too
             return f"The map is of no use: it is turned by {turned.yaw:.3f} rad against its own frame."
         return ""
 

@@ -100,7 +100,21 @@ def test_another_map_counts_when_the_task_is_over_and_the_position_stays(lost_ma
     ("change", "said"),
     [
         ({"width": 7}, "The map is of no use: it says 7 x 140 cells and has 30800."),
-        ({"resolution": 0.0}, "The map is of no use: its cells are 0.0 m wide."),
+        *(
+            (
+                {"resolution": edge},
+                f"The map is of no use: its cells are {edge:.4g} m wide; 0.001 to 10 m are allowed.",
+            )
+            for edge in (0.0, 1e-9, 1e300, math.nan, math.inf, -0.1)
+        ),
+        (
+            {"origin": Pose(Point(1e300, 0.0))},
+            "The map is of no use: it begins at (1e+300, 0.0), which is over 1e+08 m away.",
+        ),
+        (
+            {"origin": Pose(Point(0.0, math.nan))},
+            "The map is of no use: it begins at (0.0, nan), which is over 1e+08 m away.",
+        ),
         ({"width": 0, "height": 0}, "The map is of no use: it says 0 x 0 cells and has 30800."),
     ],
 )
@@ -114,6 +128,35 @@ def test_a_map_of_no_use_is_said_and_left_out(lost_map: Scene, change: dict[str,
     lost_map.run(1.0)
     assert lost_map.events("localisation") == [said]
     assert not lost_map.station.autonomy.has_map
+
+
+def test_a_robot_whose_first_map_is_of_no_use_is_driven_by_hand(tmp_path: Path) -> None:
+    robot = FakeRobot()
+    good = robot.map()
+    endless = OccupancyGrid(good.header, msgspec.structs.replace(good.info, resolution=1e-9), good.data)
+    robot.map = lambda resolution=0.1: endless  # type: ignore[method-assign]
+    scene = Scene(robot, tmp_path)
+    (said,) = (event.text for event in scene.station.events.since(0, "b1"))
+    assert said.startswith("The map is of no use: its cells are 1e-09 m wide")
+    scene.drive(AHEAD)
+    assert robot.commands[-1] == AHEAD
+    assert scene.station.unfit == NO_MAP
+    scene.station.close()
+
+
+def test_a_map_that_does_not_fit_into_the_memory_is_left_out(
+    lost_map: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def too_large(*_: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr("robotside.guide.Planner", too_large)
+    assert isinstance(lost_map.robot, Talking)
+    lost_map.robot.more = [("/map", lost_map.robot.map())]
+    lost_map.run(1.0)
+    said = "The map is of no use: 30800 cells are too many for this computer."
+    assert lost_map.events("localisation")[-1] == said
+    assert lost_map.station.unfit == NO_MAP
 
 
 def test_a_map_without_cells_is_of_no_use(lost_map: Scene) -> None:
