@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import msgspec
 import numpy as np
@@ -12,7 +13,7 @@ from bridge.errors import BridgeError
 from bridge.msgs import Msg
 from bridge.msgs.arrays import Float32Array, Int8Array
 from bridge.msgs.nav_msgs import OccupancyGrid
-from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
+from bridge.msgs.sensor_msgs import CompressedImage, Image, LaserScan
 from bridge.protocol import Reduction
 from robotside.pictures import QUALITY, smaller
 
@@ -20,6 +21,11 @@ __all__ = ["reduce"]
 
 _ABOUT = 1e-3
 """Part by which a map's cell may be smaller than was asked: 0.1 m is not written exactly."""
+
+_COLOURS = {"mono": 1, "rgb": 3, "bgr": 3, "rgba": 4, "bgra": 4}
+_NAMED = re.compile(rf"({'|'.join(_COLOURS)})(8|16)")
+_COUNTED = re.compile(r"(8|16|32|64)[USF]C([1-4])")
+"""Encodings of a picture that is not compressed, as ROS names them: by colours or by channels, with their bits."""
 
 
 def reduce(msg: Msg, wanted: Reduction) -> Msg:
@@ -32,6 +38,8 @@ def reduce(msg: Msg, wanted: Reduction) -> Msg:
         return _fewer_beams(msg, wanted.beams)
     if isinstance(msg, CompressedImage) and (wanted.width is not None or wanted.quality is not None):
         return _smaller_picture(msg, wanted)
+    if isinstance(msg, Image) and wanted.width is not None:
+        return _fewer_pixels(msg, max(1, wanted.width))
     if isinstance(msg, OccupancyGrid) and wanted.resolution is not None:
         return _coarser_map(msg, wanted.resolution)
     return msg
@@ -81,6 +89,35 @@ def _smaller_picture(image: CompressedImage, wanted: Reduction) -> CompressedIma
     except BridgeError:
         return image
     return msgspec.structs.replace(image, data=data) if len(data) < len(image.data) else image
+
+
+def _fewer_pixels(image: Image, columns: int) -> Image:
+    """Some of the pixels as they are: between two depths there may be nothing."""
+    size, length = _pixel(image.encoding), image.step * image.height
+    whole = 0 < image.width * size <= image.step and 0 < length <= len(image.data)
+    if not whole or columns >= image.width:
+        return image
+    rows = max(1, round(image.height * columns / image.width))
+    lines = np.frombuffer(image.data, np.uint8, length).reshape(image.height, image.step)
+    pixels = lines[:, : image.width * size].reshape(image.height, image.width, size)
+    kept = pixels[np.ix_(_spread(rows, image.height), _spread(columns, image.width))]
+    return msgspec.structs.replace(
+        image, height=rows, width=columns, step=columns * size, data=kept.tobytes()
+    )
+
+
+def _spread(count: int, among: int) -> NDArray[np.intp]:
+    """`count` of the first `among` numbers, evenly."""
+    return np.asarray((2 * np.arange(count) + 1) * among // (2 * count), dtype=np.intp)
+
+
+def _pixel(encoding: str) -> int:
+    """Bytes of one pixel; 0 where pixels do not stand alone or the encoding is not known."""
+    if named := _NAMED.fullmatch(encoding):
+        return _COLOURS[named[1]] * int(named[2]) // 8
+    if counted := _COUNTED.fullmatch(encoding):
+        return int(counted[1]) * int(counted[2]) // 8
+    return 0
 
 
 def _coarser_map(grid: OccupancyGrid, resolution: float) -> OccupancyGrid:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from bridge.msgs.arrays import Float32Array, Int8Array
 from bridge.msgs.geometry_msgs import Point, Pose
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
-from bridge.msgs.sensor_msgs import CompressedImage, Imu, LaserScan
+from bridge.msgs.sensor_msgs import CompressedImage, Image, Imu, LaserScan
 from bridge.msgs.std_msgs import Header, Time
 from bridge.protocol import Reduction
 from robotside.reduce import reduce
@@ -130,3 +130,39 @@ def test_what_is_asked_of_another_kind_of_message_changes_nothing() -> None:
     imu, full = Imu(), scan(1, 2, 3)
     assert reduce(imu, Reduction(beams=1, width=1, quality=1, resolution=1.0)) is imu
     assert reduce(full, Reduction(width=1, resolution=1.0)) is full
+
+
+def picture(encoding: str, width: int, height: int, size: int, spare: int = 0) -> Image:
+    """Each byte of a pixel says where it is: 16 times its row, plus its column."""
+    pixel = [bytes([16 * y + x]) * size for y in range(height) for x in range(width)]
+    lines = [b"".join(pixel[y * width : (y + 1) * width]) + bytes(spare) for y in range(height)]
+    return Image(HEADER, height, width, encoding, False, width * size + spare, b"".join(lines))
+
+
+@pytest.mark.parametrize(
+    ("encoding", "size"), [("mono8", 1), ("bgr8", 3), ("rgba8", 4), ("mono16", 2), ("32FC1", 4), ("16UC3", 6)]
+)
+def test_a_picture_that_is_not_compressed_keeps_some_of_its_pixels(encoding: str, size: int) -> None:
+    less = reduce(picture(encoding, 8, 4, size, spare=5), Reduction(width=4))
+    assert isinstance(less, Image)
+    assert (less.width, less.height, less.step, less.encoding) == (4, 2, 4 * size, encoding)
+    assert less.data == b"".join(
+        bytes([place]) * size for place in (0x11, 0x13, 0x15, 0x17, 0x31, 0x33, 0x35, 0x37)
+    )
+    assert less.header == HEADER
+
+
+@pytest.mark.parametrize(
+    ("image", "width"),
+    [
+        (picture("mono8", 8, 4, 1), 8),
+        (picture("mono8", 8, 4, 1), 100),
+        (picture("bayer_rggb8", 8, 4, 1), 4),
+        (picture("bgr8", 8, 4, 1), 4),
+        (Image(HEADER, 4, 8, "mono8", False, 8, bytes(31)), 4),
+        (Image(HEADER, 0, 8, "mono8", False, 8, b""), 4),
+        (Image(HEADER, 0, 0, "mono8", False, 0, b""), 4),
+    ],
+)
+def test_a_picture_that_has_no_pixels_to_spare_stays_as_it_is(image: Image, width: int) -> None:
+    assert reduce(image, Reduction(width=width)) is image
