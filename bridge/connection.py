@@ -82,9 +82,7 @@ class Connection:
         """What comes, text and binary alike as bytes, until the connection ends, however it ends."""
         with contextlib.suppress(ConnectionClosed):
             while True:
-                raw = await self._ws.recv(decode=False)
-                _acknowledge_at_once(self._socket)
-                yield raw
+                yield await self._ws.recv(decode=False)
 
     async def hang_up(self, *, lost: bool = False) -> None:
         """Close it; 0.2 s at most, even when nothing listens at its other end any more.
@@ -107,6 +105,18 @@ class Connection:
             self._ws.transport.abort()
 
 
+class _Acknowledging(ClientConnection):
+    """Has the kernel acknowledge what came as soon as it is read, not only with the last piece of a message.
+
+    A server with Nagle's algorithm holds back the short last piece of what it sends until all before it is acknowledged.
+    """
+
+    def data_received(self, data: bytes) -> None:
+        """Take what came from the network."""
+        _acknowledge_at_once(self.transport.get_extra_info("socket"))
+        super().data_received(data)
+
+
 async def dial(url: str, open_timeout: float, *, ping_interval: float | None = None) -> Connection:
     """Open a WebSocket; LinkLost or BadAddress with the reason when that fails.
 
@@ -123,6 +133,7 @@ async def dial(url: str, open_timeout: float, *, ping_interval: float | None = N
             port=port,
             compression=None,
             proxy=None,
+            create_connection=_Acknowledging,
             open_timeout=open_timeout,
             ping_interval=ping_interval,
             ping_timeout=ping_interval and ping_interval * 2,

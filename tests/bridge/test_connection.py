@@ -10,19 +10,30 @@ from bridge import connection
 from tests.bridge.wires import Record, server, url
 
 
-async def test_each_message_that_came_is_acknowledged_at_once(monkeypatch):
-    """A server that waits for acknowledgements before it sends small packets would hold answers back for 40 ms."""
-    asked = Record()
+async def test_what_came_is_acknowledged_at_once_even_if_it_is_half_a_message(monkeypatch):
+    """A server that waits for acknowledgements before it sends small packets would hold the rest back for 40 ms."""
+    asked, go = Record(), asyncio.Event()
     monkeypatch.setattr(connection, "_acknowledge_at_once", asked)
 
     async def say(ws):
-        for text in ("1", "2", "3"):
-            await ws.send(text)
+        await ws.send("1")
+        await go.wait()
+        ws.transport.write(b"\x81\x04ha")
+        go.clear()
+        await go.wait()
+        ws.transport.write(b"lf")
+        await ws.wait_closed()
 
-    async with serve(say, "127.0.0.1", 0) as listening:
+    async with serve(say, "127.0.0.1", 0, close_timeout=0.1) as listening:
         made = await connection.dial(f"ws://127.0.0.1:{listening.sockets[0].getsockname()[1]}", 5.0)
-        assert [raw async for raw in made.arriving()] == [b"1", b"2", b"3"]
-        assert asked == [made._socket] * 3
+        arriving = made.arriving()
+        assert await anext(arriving) == b"1"
+        assert asked[-1] == made._socket
+        for _ in range(2):
+            asked.clear()
+            go.set()
+            await asked.reach(1)
+        assert await anext(arriving) == b"half"
         await made.hang_up()
 
 

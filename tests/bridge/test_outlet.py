@@ -43,6 +43,11 @@ class Line:
     def numbers(self):
         return [json.loads(text)["msg"]["data"] for text in self.heard]
 
+    def short(self):
+        """The numbers among texts of all kinds."""
+        found = [json.loads(text)["msg"]["data"] for text in self.heard if text.startswith(b"{")]
+        return [data for data in found if not isinstance(data, str)]
+
 
 class Bench:
     """An outlet whose client answers when the test lets it."""
@@ -287,6 +292,19 @@ async def test_what_does_not_fit_waits_until_the_way_is_nearly_empty_and_is_ping
     bench.outlet.offer(odom, number(1))
     bench.step()
     assert len(bench.line.heard) == 6
+
+
+async def test_a_sample_passes_a_map_that_waits_for_room_and_other_maps_do_not(bench):
+    for length in (2000, 2000):
+        bench.outlet.send(Lane.REPLY, text_of(length))
+    first, second = stream("/map", Lane.BULK), stream("/costs", Lane.BULK)
+    bench.outlet.offer(first, Outgoing("/map", String("x" * 2 * START)))
+    bench.outlet.offer(second, number(1))
+    bench.outlet.offer(stream(), number(2))
+    bench.step()
+    assert bench.line.short() == [2.0]
+    bench.answer()
+    assert bench.line.short() == [2.0, 1.0]
 
 
 async def test_a_map_gets_its_turn_among_samples_without_end(bench):
