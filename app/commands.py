@@ -300,7 +300,7 @@ class Commands:
 
     async def _repeat_stop(self, outcome: Outcome, request: Msg, started: float) -> None:
         doubted = False
-        while True:
+        while not self._stop_void:
             answer = await self._try_stop(request)
             latency = self._now() - started
             if self._stop_void:
@@ -325,9 +325,9 @@ class Commands:
         return answer  # type: ignore[no-any-return]
 
     def confirm_stop(self) -> None:
-        """The robot's own status says that it is stopped: no need to go on asking."""
+        """The robot's own status says that it is stopped and rests: no need to go on asking."""
         self._stop_confirmed = True
 
     def void_stop(self) -> None:
-        """The robot turned out to have no such service: asking for it is of no use."""
+        """The robot turned out to have no such service, or the operator lets STOP go: it is asked for no longer."""
         self._stop_void = True

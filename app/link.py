@@ -172,8 +172,9 @@ class Link:
         self._network.call(self._wake.set)
 
     def unlatch(self) -> None:
-        """Zero speed is no longer sent of itself; the stick must be pushed anew."""
+        """Neither STOP nor zero speed is sent of itself any longer; the stick must be pushed anew."""
         self._slot.latch(False)
+        self._network.call(self.commands.void_stop)
 
     def look(self, topic: str, type_name: str) -> None:
         """Listen to one topic and tell what is `SEEN` of it; the one before ends."""
@@ -296,7 +297,7 @@ class Link:
 
     def _on_message(self, name: str, message: Msg, received: float) -> None:
         self._heard = received
-        if isinstance(message, ControlStatus) and message.stopped:
+        if isinstance(message, ControlStatus) and message.stopped and message.at_rest:
             self.commands.confirm_stop()
         self._mailbox.post(name, message, received)
 

@@ -26,6 +26,8 @@ __all__ = ["Session"]
 
 STOP_SETTLES = 1.0
 """An accepted STOP shows in the robot's status within this [s]."""
+COMES_TO_REST = 2.0
+"""A robot whose STOP is latched rests within this, or it is not obeyed [s]."""
 PLACED_WITHIN = (0.25, 0.25, 0.07)
 """Variance of a place pointed at by finger: x, y [m2] and yaw [rad2]."""
 
@@ -66,6 +68,8 @@ class Session:
         self.ever_connected = False
         self._settings, self._now = settings, now
         self._state_since = self._stop_at = now()
+        self._moves_since = math.inf
+        """Since when the robot says that STOP is latched and not that it rests [s]."""
         self._asked_control = False
         self._known = False
         self._told_mission: Mission | None = None
@@ -148,13 +152,25 @@ class Session:
         )
 
     @property
+    def stop_latched(self) -> bool:
+        """STOP is known to be pressed, at the robot or, where it has none, here; whether it rests is another question."""
+        if self.foreign:
+            return self.local_stop.latched
+        status: ControlStatus | None = self.feeds.latest("/control/status")
+        return status is not None and status.stopped
+
+    @property
     def stop_phase(self) -> str:
-        """What became of STOP: `ready`, `sent`, `stopped` (the robot, or else its odometry, says so) or `no_answer`."""
+        """What became of STOP: `ready`, `sent`, `stopped` or `no_answer`.
+
+        `stopped` when it is latched and the robot, or else its odometry, says that it rests.
+        """
         if self.foreign:
             return self.local_stop.phase
         status: ControlStatus | None = self.feeds.latest("/control/status")
         if status is not None and status.stopped:
-            return "stopped"
+            moves = not status.at_rest
+            return "stopped" if not moves else "no_answer" if self._unrested else "sent"
         outcome = self.outcomes.get("stop")
         if outcome is None:
             return "ready"
@@ -162,6 +178,13 @@ class Session:
             fresh = self._now() - self._stop_at < STOP_SETTLES
             return "stopped" if status is None else "sent" if fresh else "ready"
         return "sent" if outcome.phase == "sent" else "no_answer"
+
+    @property
+    def _unrested(self) -> bool:
+        """The robot says itself that STOP is not done, or does not say in time that it rests."""
+        outcome = self.outcomes.get("stop")
+        doubted = outcome is not None and outcome.phase in ("refused", "no_reply")
+        return doubted or self._now() - self._moves_since > COMES_TO_REST
 
     @property
     def retry_in(self) -> float:
@@ -195,6 +218,8 @@ class Session:
             self._told_mission = post.value
             self._take_mission()
         elif channel == "/control/status":
+            moves = post.value.stopped and not post.value.at_rest
+            self._moves_since = min(self._moves_since, self._now()) if moves else math.inf
             self._take_control()
         elif channel == EVENT:
             post = replace(post, value=self._addressed(post.value))
@@ -220,6 +245,9 @@ class Session:
         self.link = link
         if self.local_stop.latched:
             link.latch()
+        stop = self.outcomes.get("stop")
+        if stop is not None and stop.phase != "accepted":
+            link.stop()
         if self.mission.sent is not None:
             self.mission.answered(self.mission.sent, False, "No reply: the link was closed.")
         self._link_changed(link.state)
@@ -294,6 +322,7 @@ class Session:
     def release_stop(self) -> None:
         """The operator wants to drive again; nothing moves by that alone."""
         self.local_stop.release()
+        self.outcomes.pop("stop", None)
         self.link.unlatch()
         if not self.foreign:
             self.command("stop_release")

@@ -117,7 +117,7 @@ class StopButton(Control, AnchorLayout):
     phase = OptionProperty("ready", options=list(PHASES))
     """`ready`; `sent`, not confirmed; `stopped`, confirmed and latched; `no_answer`, sent and not confirmed in time."""
     local = BooleanProperty(False)
-    """The robot has no STOP of its own: a hold releases it even while it is not confirmed."""
+    """It is latched, or the robot has no STOP of its own: a hold releases it even while it is not confirmed."""
     held = NumericProperty(0.0)
     """How much of the hold that releases is over, 0 to 1."""
     pressed = NumericProperty(0)

@@ -213,7 +213,7 @@ class DriveScreen(FloatLayout):
         session = self.session
         self.stick.state = "live" if session.may_drive else "disabled"
         mine = session.connected and session.control != "other"
-        held = session.stop_phase == "stopped"
+        held = session.stop_latched
         self.ids.home.disabled = held or not mine or not session.offers("/task/go_home")
         status = session.feeds.latest("/task/status")
         paused = status is not None and status.state == "PAUSED"

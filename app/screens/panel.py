@@ -331,7 +331,7 @@ class MissionPanel(BoxLayout):
         if not tasks:
             self.tasks.reason = NO_TASKS
         self.tasks.ready = bool(session.mission.draft.points)
-        self.tasks.held = session.stop_phase == "stopped"
+        self.tasks.held = session.stop_latched
         self._send.may_send = int(mine and missions and session.mission.state == "draft")
         if not missions:
             self._send.note = NO_MISSIONS

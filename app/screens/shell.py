@@ -372,7 +372,8 @@ class Shell(FloatLayout):
         if self.stop.phase == "stopped" != self.session.stop_phase:
             for kind in ("stop", "task"):
                 self.unsay(kind)
-        self.stop.local, self.stop.phase = self.session.foreign, self.session.stop_phase
+        self.stop.local = self.session.foreign or self.session.stop_latched
+        self.stop.phase = self.session.stop_phase
         self._tick_stop()
         self._show_rail()
         for name, screen in self.screens.items():

@@ -206,6 +206,26 @@ def test_stop_is_confirmed_by_the_robot_and_lets_the_stick_go(
     operator.until(lambda: operator.session.stop_phase == "ready")
 
 
+def test_stop_is_repeated_while_the_robot_does_not_rest_until_it_is_let_go(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
+    robot.refusals["/stop"] = "STOP is pressed, but the robot cannot be reached."
+    operator = connect()
+    operator.until(lambda: operator.session.control == "mine")
+    operator.link.stop()
+    operator.until(lambda: "/stop" in robot.services())
+    robot.publish("/control/status", ControlStatus(mode="STOPPED", stopped=True, at_rest=False))
+    operator.until(lambda: operator.session.stop_latched)
+    asked = robot.services().count("/stop")
+    operator.until(lambda: robot.services().count("/stop") > asked + 3)
+    operator.until(lambda: operator.session.stop_phase == "no_answer")
+    operator.session.release_stop()
+    operator.until(lambda: "/stop/release" in robot.services())
+    holds(operator, 0.6)
+    assert not operator.link.commands.stopping
+    assert robot.services()[-1] == "/stop/release"
+
+
 def drives(operator: Operator, robot: FakeRobot) -> None:
     """The stick is pushed and held, and the robot moves."""
     operator.until(lambda: operator.session.control == "mine" and operator.session.may_drive)

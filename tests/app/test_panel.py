@@ -147,11 +147,12 @@ def test_start_invites_only_when_there_are_points(stage: Stage, session: Session
 
 
 @both
+@pytest.mark.parametrize("at_rest", [True, False])
 def test_with_stop_pressed_nothing_that_moves_can_be_asked_for(
-    stage: Stage, session: Session, panel: Any
+    stage: Stage, session: Session, panel: Any, at_rest: bool
 ) -> None:
     assert not panel.tasks.held
-    tell(session, "/control/status", ControlStatus(stopped=True, mode="STOPPED"))
+    tell(session, "/control/status", ControlStatus(stopped=True, mode="STOPPED", at_rest=at_rest))
     settle(stage, panel)
     assert panel.tasks.held
 

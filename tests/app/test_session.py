@@ -1,0 +1,120 @@
+"""What the operator is told of STOP on a robot that has one, in virtual time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from app.commands import Outcome
+from app.feeds import Feeds, Post
+from app.link import OUTCOME
+from app.session import COMES_TO_REST, Session
+from app.settings import Settings
+from bridge.client import LinkState, Phase
+from bridge.msgs.pilothouse_msgs import ControlStatus
+from tests.bridge.wires import Clock
+
+UNREACHED = "STOP is pressed, but the robot cannot be reached: the connection was cut."
+
+
+class Wire:
+    """Stands for the link; notes what it is asked for."""
+
+    state = LinkState(Phase.CONNECTED, "", 0, 0.0)
+
+    def __init__(self) -> None:
+        self.asked: list[str] = []
+
+    def stop(self) -> None:
+        self.asked.append("stop")
+
+    def unlatch(self) -> None:
+        self.asked.append("unlatch")
+
+    def latch(self) -> None:
+        self.asked.append("latch")
+
+    def command(self, name: str, **_: object) -> None:
+        self.asked.append(name)
+
+
+class Watch:
+    """A session, its clock and its link."""
+
+    def __init__(self, folder: Path) -> None:
+        self.clock, self.link = Clock(), Wire()
+        self.session = Session(
+            self.link,  # type: ignore[arg-type]
+            Feeds(self.clock),
+            Settings(folder / "settings.json"),
+            now=self.clock,
+            client_id="me",
+            wants_control=False,
+        )
+
+    def told(self, *, stopped: bool = True, at_rest: bool) -> None:
+        mode = "STOPPED" if stopped else "MANUAL"
+        status = ControlStatus(mode=mode, stopped=stopped, at_rest=at_rest)
+        self.session.deliver("/control/status", Post(status, self.clock.time, 1))
+
+    def outcome(self, phase: str, reason: str = "") -> None:
+        self.session.deliver(OUTCOME, Post(Outcome("stop", "1", phase, reason), self.clock.time, 1))
+
+
+@pytest.fixture
+def watch(tmp_path: Path) -> Watch:
+    return Watch(tmp_path)
+
+
+def test_stop_is_done_when_the_robot_says_that_it_rests(watch: Watch) -> None:
+    watch.session.stop()
+    watch.outcome("sent")
+    assert watch.session.stop_phase == "sent"
+    watch.told(at_rest=False)
+    watch.outcome("accepted")
+    assert (watch.session.stop_phase, watch.session.stop_latched) == ("sent", True)
+    watch.told(at_rest=True)
+    assert watch.session.stop_phase == "stopped"
+
+
+def test_a_robot_that_does_not_come_to_rest_in_time_has_not_answered(watch: Watch) -> None:
+    watch.told(at_rest=False)
+    watch.clock.time += COMES_TO_REST - 0.1
+    watch.told(at_rest=False)
+    assert watch.session.stop_phase == "sent"
+    watch.clock.time += 0.2
+    assert watch.session.stop_phase == "no_answer"
+    watch.told(at_rest=True)
+    assert watch.session.stop_phase == "stopped"
+
+
+def test_a_robot_side_that_cannot_reach_its_robot_has_not_stopped_it(watch: Watch) -> None:
+    watch.outcome("sent")
+    watch.told(at_rest=False)
+    watch.outcome("no_reply", UNREACHED)
+    assert (watch.session.stop_phase, watch.session.stop_latched) == ("no_answer", True)
+    watch.outcome("accepted")
+    assert watch.session.stop_phase == "sent"
+    watch.told(at_rest=True)
+    assert watch.session.stop_phase == "stopped"
+
+
+def test_stop_can_be_let_go_before_it_was_done_and_is_asked_for_no_longer(watch: Watch) -> None:
+    watch.outcome("no_reply", UNREACHED)
+    watch.told(at_rest=False)
+    watch.session.release_stop()
+    assert watch.link.asked == ["unlatch", "stop_release"]
+    watch.told(stopped=False, at_rest=False)
+    assert (watch.session.stop_phase, watch.session.stop_latched) == ("ready", False)
+
+
+def test_a_stop_that_is_not_done_goes_on_over_a_new_link(watch: Watch) -> None:
+    watch.outcome("no_reply", UNREACHED)
+    new = Wire()
+    watch.session.resume(new)  # type: ignore[arg-type]
+    assert new.asked == ["stop"]
+    watch.outcome("accepted")
+    later = Wire()
+    watch.session.resume(later)  # type: ignore[arg-type]
+    assert later.asked == []
