@@ -81,6 +81,7 @@ async def test_a_stop_pressed_behind_is_told_in_front_and_can_be_released_where_
         await until(lambda: it.port.trouble == "")
         await until(lambda: "The robot can be driven again; it stands still." in said(it.front))
         assert SPEED not in it.robot.commands
+        it.anna.publish("/cmd_vel", Twist())
         it.anna.publish("/cmd_vel", SPEED)
         await until(lambda: SPEED in it.robot.commands)
 
