@@ -93,7 +93,7 @@ class ForeignLink:
         self._network.close()
 
     async def _end(self) -> None:
-        self._drive(Twist(), self._client.robot_time())
+        self._send(Twist(), self._client.robot_time())
         await asyncio.sleep(0)
         for work in (self._asking, self._ordering):
             if work is not None:
@@ -103,7 +103,7 @@ class ForeignLink:
     def _become(self, state: LinkState) -> None:
         if state.phase is Phase.CONNECTED:
             # first of all, and again when it is known on which topic: whatever it did when the link was lost
-            self._drive(Twist(), self._client.robot_time())
+            self._send(Twist(), self._client.robot_time())
             self._asking = asyncio.create_task(self._ask())
         elif state.phase in (Phase.WAITING, Phase.CLOSED):
             self._busy = False
@@ -116,11 +116,11 @@ class ForeignLink:
         if CONTROL in found.topics:
             await self._order("/control/acquire")
         if self._found is not None and self._found.command != found.command:
-            self._drive(Twist(), self._client.robot_time())
+            self._send(Twist(), self._client.robot_time())
         before, self._found = self._found, found
         if before is None or (before.command, before.stamped) != (found.command, found.stamped):
             self._client.advertise(found.command, TwistStamped if found.stamped else Twist)
-        self._drive(Twist(), self._client.robot_time())
+        self._send(Twist(), self._client.robot_time())
         for topic in {*self._leave, *found.topics}:
             if before is None or before.topics.get(topic) != found.topics.get(topic):
                 self._unsubscribe(topic)
@@ -181,11 +181,14 @@ class ForeignLink:
             self._unsubscribe(topic)
 
     def _drive(self, twist: Twist, stamp: float) -> None:
-        if self._found is None:
-            return
         if self._busy and twist == Twist():
             # to a robot on a task of its own no speed is a stick that nobody touches
             self._begin("/task/pause")
+        self._send(twist, stamp)
+
+    def _send(self, twist: Twist, stamp: float) -> None:
+        if self._found is None:
+            return
         known = math.isfinite(stamp)
         msg: Msg = twist
         if self._found.stamped:

@@ -13,6 +13,8 @@ from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Mission
 from robotside.foreign import ForeignRobot
 from robotside.pose2 import ORIGIN
 from robotside.serving import Serving
+from robotside.station import Station
+from tests.bridge.wires import Wire, wire
 from tests.fakes import FakeRobot
 from tests.robotside.test_foreign_link import order, reached, served, until
 from tests.robotside.test_serving import connected
@@ -32,6 +34,7 @@ class Two(NamedTuple):
     front: Serving
     fred: BridgeClient
     anna: BridgeClient
+    cable: Wire
 
 
 @asynccontextmanager
@@ -40,14 +43,15 @@ async def two(state: Path) -> AsyncIterator[Two]:
     async with (
         served(state / "far", robot, "Rex") as behind,
         connected(behind) as fred,
-        reached(behind.server.port) as port,
+        wire(behind.server.port) as cable,
+        reached(cable.port) as port,
         served(state / "near", port) as front,
         connected(front) as anna,
     ):
         fred_is = CommandRequest(client_id="fred", client_name="Fred")
         # whoever is in front has control, so that only the names are told here
         await fred.call("/task/pause", fred_is, CommandResponse)
-        yield Two(robot, behind, port, front, fred, anna)
+        yield Two(robot, behind, port, front, fred, anna, cable)
 
 
 def said(by: Serving) -> list[str]:
@@ -100,14 +104,28 @@ async def test_a_task_is_paused_while_somebody_else_has_the_robot(tmp_path: Path
         assert await order(it.anna, "/task/resume") == STOPPED
 
 
+def begin_by_itself(far: Station) -> None:
+    """Have the robot behind begin a patrol for which nobody has control any more."""
+    far.autonomy.place(ORIGIN)
+    far.keep(Mission(waypoints=[Waypoint(4.0, 0.0)]))
+    far.controls.release(far.controls.driver.client)  # type: ignore[union-attr]
+    far.autonomy.start_patrol(far.mission, far.now)
+    far.show_control()
+
+
 async def test_stop_in_front_ends_what_the_robot_behind_does_by_itself(tmp_path: Path) -> None:
     async with two(tmp_path) as it:
-        far = it.behind.station
-        far.autonomy.place(ORIGIN)
-        far.keep(Mission(waypoints=[Waypoint(4.0, 0.0)]))
-        far.controls.release(far.controls.driver.client)  # type: ignore[union-attr]
-        far.autonomy.start_patrol(far.mission, far.now)
-        far.show_control()
+        begin_by_itself(it.behind.station)
         await until(lambda: it.port.trouble == BUSY)
         await order(it.anna, "/stop")
-        await until(lambda: far.autonomy.engine.paused and it.robot.at_rest)
+        await until(lambda: it.behind.station.autonomy.engine.paused and it.robot.at_rest)
+
+
+async def test_what_the_robot_behind_does_by_itself_outlasts_a_cut_line(tmp_path: Path) -> None:
+    async with two(tmp_path) as it:
+        begin_by_itself(it.behind.station)
+        await until(lambda: it.port.trouble == BUSY)
+        it.cable.cut()
+        await until(lambda: "cannot be reached" in it.port.trouble)
+        await until(lambda: it.port.trouble == BUSY)
+        assert it.behind.station.autonomy.engine.running
