@@ -94,7 +94,7 @@ class Offer:
         if not self.rosapi:
             return "This robot does not tell what it offers (it runs no rosapi): the usual names are tried."
         told = "This robot has no Pilothouse services: no tasks, and STOP sends zero speed."
-        return f"{told} Its place is told by its wheels." if self.pose_by_odometry else told
+        return f"{told} Its place is by odometry." if self.pose_by_odometry else told
 
 
 NOTHING = Offer({}, frozenset(), rosapi=False)
