@@ -50,6 +50,9 @@ AT_REST = (0.01, 0.03)
 class Station:
     """One robot, its mind, and who may command it. All calls come from one thread."""
 
+    _unnoted = ""
+    _next_note = -math.inf
+
     def __init__(
         self,
         robot: Robot,
@@ -99,7 +102,6 @@ class Station:
         if problem:
             self.events.say("mission", problem, "warn")
         self._left = store.left()
-        self._unnoted, self._next_note = "", -math.inf
         self._ending = False
         self._take_up(self._left)
         self._pass_on(first)
