@@ -50,6 +50,8 @@ AT_REST = (0.01, 0.03)
 class Station:
     """One robot, its mind, and who may command it. All calls come from one thread."""
 
+    _turned = -math.inf
+    """When trouble began or ended last [s]: what was measured before says nothing of the time since."""
     _unnoted = ""
     _next_note = -math.inf
 
@@ -79,8 +81,6 @@ class Station:
         self._next_diagnostics = now
         self._next_fault = -math.inf
         self._trouble = ""
-        self._turned = -math.inf
-        """When trouble began or ended last [s]: what was measured before says nothing of the time since."""
         first = list(robot.read(now))
         chart = next(
             (msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None
