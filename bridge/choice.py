@@ -6,13 +6,15 @@ most; what is known to be something else of that type is never taken.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
+from bridge.msgs.std_msgs import Header, Time
 from bridge.topics import TOPICS
 
-__all__ = ["CAMERA", "DRIVE", "OURS", "USUAL", "Command", "command", "source"]
+__all__ = ["CAMERA", "DRIVE", "OURS", "USUAL", "Command", "command", "drive_message", "source"]
 
 DRIVE, CAMERA = "/cmd_vel", "/camera/image/compressed"
 """Our names of the drive command and of the pictures."""
@@ -86,6 +88,14 @@ def command(topics: Mapping[str, str]) -> Command | None:
         if kind in _DRIVES and any(word in name.lower() for word in _STEERS)
     ]
     return min(found, key=_far, default=None)
+
+
+def drive_message(twist: Twist, now: float, *, stamped: bool) -> Twist | TwistStamped:
+    """A drive command as the robot takes it; `now` is its clock [s], NaN while that is not known."""
+    if not stamped:
+        return twist
+    stamp = Time.at(now) if math.isfinite(now) else Time()
+    return TwistStamped(Header(stamp, "base_link"), twist)
 
 
 def _far(one: Command) -> tuple[bool, bool, bool, int, str]:

@@ -307,6 +307,7 @@ class ForeignServer:
         self.port = 0
         self.robot = ForeignRobot()
         self.topics: dict[str, Topic] = {}
+        self.command = "/cmd_vel"
         self.offered: dict[str, tuple[Peer, str]] = {}
         self.performers: dict[str, tuple[Peer, str]] = {}
         self.calls: dict[str, Answer] = {}
@@ -322,7 +323,7 @@ class ForeignServer:
         self.rosapi = RosApi(self, now)
         for name, (_, kind) in PERIODS.items():
             self.topic(name, kind).publishers.add("robot")
-        self.topic("/cmd_vel", "geometry_msgs/Twist")
+        self.topic(self.command, "geometry_msgs/Twist")
         self.publish("/robot_description", "std_msgs/String", {"data": "<robot name='disc'/>"}, True)
 
     async def start(self, port: int = 0, host: str = "127.0.0.1") -> None:
@@ -408,8 +409,8 @@ class ForeignServer:
         topic.publishers.add((by, None) if isinstance(by, Peer) else by)
         topic.latch = topic.latch or latch
         topic.last = made
-        if name == "/cmd_vel":
-            self.robot.command(made)
+        if name == self.command:
+            self.robot.command(made.get("twist", made))
         for peer in list(self.peers):
             if name in peer.wishes:
                 peer.wishes[name].offer(kind, made)

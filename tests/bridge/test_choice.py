@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from app.offer import Offer
-from bridge.choice import CAMERA, Command, command, source
+from bridge.choice import CAMERA, Command, command, drive_message, source
 from bridge.msgs import ros1_name
+from bridge.msgs.geometry_msgs import Twist, TwistStamped
+from bridge.msgs.std_msgs import Header, Time
 from robotside.foreign_topics import match
 
 SCAN, MAP, PICTURE = "sensor_msgs/LaserScan", "nav_msgs/OccupancyGrid", "sensor_msgs/CompressedImage"
@@ -63,6 +67,14 @@ def test_what_only_bears_a_usual_name_is_taken_for_what_it_is() -> None:
 )
 def test_it_is_driven_where_the_name_says_so(topics: dict[str, str], chosen: Command | None) -> None:
     assert command(topics) == chosen
+
+
+def test_a_stamped_command_carries_the_robots_clock_where_it_is_known() -> None:
+    twist = Twist.planar(0.3, 0.1)
+    assert drive_message(twist, 12.5, stamped=False) == twist
+    told = drive_message(twist, 12.5, stamped=True)
+    assert told == TwistStamped(Header(Time.at(12.5), "base_link"), twist)
+    assert drive_message(twist, math.nan, stamped=True) == TwistStamped(Header(Time(), "base_link"), twist)
 
 
 CROWD = {
