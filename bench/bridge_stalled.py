@@ -2,7 +2,7 @@
 
 Every 20 s it breaks off and comes back to do the same. The other two go on reading; their rate is the lower one of a
 second before and after the stall began. The server's memory is its resident set before the stall and its greatest one during it.
-The other way is a server that sends by `websockets.broadcast`, for 15 s; its growth is told for a minute.
+The other way is a server that sends by `websockets.broadcast`, for 10 s; its growth is told for a minute.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ REPEATS = 1
 OTHERS = 2
 BEFORE = 6.0
 """The others watch alone for so long [s]; the memory that this takes is not counted."""
-OURS, THEIRS = 60.0, 15.0
+OURS, THEIRS = 60.0, 10.0
 """How long the stall is watched [s]."""
 AGAIN = 20.0
 """[s]"""

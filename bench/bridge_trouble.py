@@ -57,13 +57,13 @@ FIGURES = (
         stated=Stated("roslibpy 2.1 on rosbridge_server", 5),
     ),
 )
-REPEATS = 2
+REPEATS = 1
 
 LINK = 250_000.0
 """What the slow link carries [byte/s]."""
 TIMES = 10.0
 """How many times as much is offered."""
-WATCHED = 5.0
+WATCHED = 6.0
 """How long STOPs are sent [s]."""
 PAUSE = (0.03, 0.09)
 """Between two STOPs [s]."""
