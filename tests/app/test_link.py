@@ -361,7 +361,7 @@ def test_after_a_lost_link_everything_comes_back_but_the_old_drive_command(
 
 def test_a_stream_is_live_and_goes_stale(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
     operator = connect()
-    operator.until(lambda: operator.session.connected)
+    operator.until(lambda: operator.session.control == "mine")  # by then it has subscribed
     robot.publish("/pose", PoseWithCovarianceStamped())
     operator.until(lambda: operator.session.feeds.state("/pose") == "live")
     operator.until(lambda: operator.session.feeds.state("/pose") == "stale")
