@@ -94,6 +94,11 @@ class DriveSlot:
         with self._lock:
             self._wanted, self._last_sent, self._zeros = _ZERO, _ZERO, 0
 
+    def rest(self) -> None:
+        """Say rest a few times, whatever was said before; the stick must be pushed anew."""
+        with self._lock:
+            self._wanted, self._last_sent, self._zeros = _ZERO, _ZERO, ZEROS
+
     @property
     def driving(self) -> bool:
         """The robot was last told to move."""

@@ -16,11 +16,12 @@ from app.events import EventStream
 from app.feeds import Mailbox
 from app.offer import DRIVE, Offer, ask
 from app.sources import Peek, Seen, Sources
+from bridge.choice import drive_message
 from bridge.client import BridgeClient, CameraStream, LinkState, Phase
 from bridge.errors import BridgeError, NoReply, NotConnected
 from bridge.frames import Frame
 from bridge.msgs import Msg
-from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
+from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist, TwistStamped
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, GetEventsRequest, GetEventsResponse
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.network import NetworkThread
@@ -93,6 +94,8 @@ class Link:
         self._asking: asyncio.Task[None] | None = None
         self._followed = False
         self._advertised: set[str] = set()
+        self._moved = False
+        """The robot was told over this link to move."""
 
     # what the UI thread calls
 
@@ -222,7 +225,15 @@ class Link:
             if twist is not None and topic is not None:
                 # rest goes out whatever is known of the clock; what moves a robot of ours does not without one
                 void = twist == Twist() and (self._slot.latched or math.isnan(stamp))
-                self._client.publish(topic, twist, stamp=None if void else stamp)
+                self._moved = self._moved or twist != Twist()
+                self._client.publish(
+                    topic, self._said(twist), stamp=None if void else stamp, even_late=twist == Twist()
+                )
+
+    def _said(self, twist: Twist) -> Msg:
+        """A drive command as the robot takes it."""
+        stamped = self.offer is not None and self.offer.stamped
+        return drive_message(twist, self._client.robot_time(), stamped=stamped)
 
     def _measure(self) -> None:
         """Copy what the client knows for other threads; an answered ping is a sign of life as well."""
@@ -235,6 +246,10 @@ class Link:
         self._mailbox.queue(LINK, state, self._now())
         if state.phase is Phase.CONNECTED:
             self._heard = self._now()
+            if self.foreign and self._moved and self.drive_topic is not None:
+                # whatever is left of what was sent before the link was lost; who only watched says nothing
+                self._client.publish(self.drive_topic, self._said(Twist()), even_late=True)
+                self._slot.rest()
             self._asking = asyncio.get_running_loop().create_task(self._arrive())
             self._keep(self._asking)
         else:
@@ -273,7 +288,7 @@ class Link:
         self._sources.follow(offer)
         if offer.drive is not None and offer.drive not in self._advertised:
             self._advertised.add(offer.drive)
-            self._client.advertise(offer.drive, Twist)
+            self._client.advertise(offer.drive, TwistStamped if offer.stamped else Twist)
         if "/initialpose" not in self._advertised and (offer.ours or "/initialpose" in offer.topics):
             self._advertised.add("/initialpose")
             self._client.advertise("/initialpose", PoseWithCovarianceStamped)
@@ -353,7 +368,7 @@ class Link:
         rest = self._slot.driving or self._slot.latched
         self._slot.drop()
         if rest and self.drive_topic is not None:
-            self._client.publish(self.drive_topic, Twist())
+            self._client.publish(self.drive_topic, self._said(Twist()), even_late=True)
         self._watch(None)
         self._peek.close()
         await self._client.close()

@@ -24,6 +24,7 @@ from bridge.goals import part_of
 from bridge.heartbeat import Heartbeat
 from bridge.link_state import LinkState, Phase
 from bridge.msgs import Msg, ros1_name
+from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.protocol import (
     ActionFeedback,
     ActionResult,
@@ -53,6 +54,8 @@ R = TypeVar("R", bound=Msg)
 
 OPEN_TIMEOUT = 3.0
 """How long looking up a name may take, and then opening the connection [s]."""
+UNREAD = 0.25
+"""What a foreign server leaves unread for longer holds drive commands back until it was read [s]."""
 LOOK_PERIOD = 0.25
 """While waiting for the next attempt the network is looked at this often [s]."""
 _RAW = {"secs", "nsecs", "bytes"}
@@ -116,6 +119,12 @@ class BridgeClient(Asking, Reconnecting):
         """The server said last that it speaks ROS 2: types are spelled `pkg/msg/Type` to it, and times `sec`, `nanosec`."""
         return self._session.ros2
 
+    @property
+    def late(self) -> bool:
+        """Nothing came for a second: what is sent now may wait on its way. False without a connection."""
+        heart = self._heart if self._connection is not None else None
+        return heart is not None and heart.life.late(self._now())
+
     def robot_time(self) -> float:
         """The operators' clock, which the robot tells, now [s]; NaN until it is known."""
         return self._now() + self.offset
@@ -169,22 +178,38 @@ class BridgeClient(Asking, Reconnecting):
         if op := self._session.unadvertise(topic):
             self._send(op)
 
-    def publish(self, topic: str, msg: Msg, *, stamp: float | None = None) -> bool:
+    def publish(self, topic: str, msg: Msg, *, stamp: float | None = None, even_late: bool = False) -> bool:
         """Send a message at once. False when it was dropped, because there is no connection or it is stuck.
 
         It is never sent later. `stamp` is when the operator meant it [s], operators' clock: a drive command, which is
         dropped too when nothing came from the robot for a second. NaN is for when that clock is not known: such a command
-        goes to a foreign server only, without a stamp. ProtocolError for what JSON cannot say.
+        goes to a foreign server only, without a stamp. Foreign servers do not mind how old a command is: to them a twist with
+        a stamp is dropped as well while they leave unread, for 0.25 s, what was sent before.
+
+        `even_late` is for commands to rest, which are as right late as in time: they go out unless the socket is full.
+        ProtocolError for what JSON cannot say.
         """
         connection, heart = self._connection, self._heart
-        if connection is None or heart is None or self.state.phase is not Phase.CONNECTED or connection.stuck:
+        if connection is None or heart is None or self.state.phase is not Phase.CONNECTED:
             return False
-        if stamp is not None:
-            unknown = not math.isfinite(stamp)
-            if heart.life.late(self._now()) or (unknown and connection.ours):
-                return False
-            stamp = None if unknown else stamp
+        if connection.full if even_late else connection.stuck:
+            return False
+        if stamp is not None and not even_late and self._too_late(msg, stamp, connection, heart):
+            return False
+        stamp = None if stamp is not None and not math.isfinite(stamp) else stamp
         return self._send(Publish(topic=topic, msg=Raw(to_json(msg, self._session.ros2)), stamp=stamp))
+
+    def _too_late(self, msg: Msg, stamp: float, connection: Connection, heart: Heartbeat) -> bool:
+        """A drive command would wait on its way; of one to a foreign server that does not, it is asked when it was read."""
+        now = self._now()
+        if heart.life.late(now) or (connection.ours and not math.isfinite(stamp)):
+            return True
+        if connection.ours or not isinstance(msg, (Twist, TwistStamped)):
+            return False
+        if heart.life.pongs and connection.unread(now) > UNREAD:
+            return True
+        connection.sound(now)
+        return False
 
     def serve(
         self, service: str, type: str, call: Call, *, request: type[Msg] | None = None

@@ -39,6 +39,8 @@ class Connection:
         self._ws = ws
         self._socket: socket.socket = ws.transport.get_extra_info("socket")
         self._pinging: asyncio.Task[None] | None = None
+        self._sounding: asyncio.Task[None] | None = None
+        self._sounded = 0.0
 
     @property
     def ours(self) -> bool:
@@ -59,7 +61,12 @@ class Connection:
         The system tells when the other end did not acknowledge in time, which takes 0.2 s at least; where it does not tell,
         only a full buffer is noticed.
         """
-        return self._ws.transport.get_write_buffer_size() > _UNSENT or _sent_again(self._socket)
+        return self.full or _sent_again(self._socket)
+
+    @property
+    def full(self) -> bool:
+        """So much waits in the socket that nothing more is to be put behind it."""
+        return self._ws.transport.get_write_buffer_size() > _UNSENT
 
     def post(self, text: str) -> bool:
         """Send a text now; False when it is closed."""
@@ -72,6 +79,17 @@ class Connection:
         """Send a WebSocket ping; does nothing while the last one is not answered."""
         if self._pinging is None or self._pinging.done():
             self._pinging = asyncio.create_task(self._ping(answered))
+
+    def sound(self, now: float) -> None:
+        """Ask the other end, at `now` [s], to answer when it has read what was sent; does nothing while it owes an answer."""
+        if self._sounding is None or self._sounding.done():
+            self._sounded = now
+            self._sounding = asyncio.create_task(self._ping(lambda: None))
+
+    def unread(self, now: float) -> float:
+        """For how long it has owed that answer [s]; 0 when it owes none."""
+        owes = self._sounding is not None and not self._sounding.done()
+        return now - self._sounded if owes else 0.0
 
     async def _ping(self, answered: Callable[[], object]) -> None:
         with contextlib.suppress(ConnectionClosed):
@@ -89,9 +107,10 @@ class Connection:
 
         When it is `lost` the system is told to throw away what it could not deliver yet: it would arrive late.
         """
-        if self._pinging is not None:
-            self._pinging.cancel()
-            await asyncio.gather(self._pinging, return_exceptions=True)
+        asked = [task for task in (self._pinging, self._sounding) if task is not None]
+        for task in asked:
+            task.cancel()
+        await asyncio.gather(*asked, return_exceptions=True)
         try:
             async with asyncio.timeout(0.2):
                 await self._ws.close()

@@ -64,6 +64,11 @@ class Liveness:
         self.heard(now)
         self._pong = True
 
+    @property
+    def pongs(self) -> bool:
+        """It answers pings of WebSocket."""
+        return self._pong
+
     def answered(self) -> None:
         """A question of ours was answered, or something came that we subscribed."""
         self._answers = True

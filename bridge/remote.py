@@ -18,6 +18,7 @@ from bridge.client import BridgeClient, LinkState, Phase
 from bridge.errors import BridgeError, NoReply, NotConnected
 from bridge.goals import Goal, part_of
 from bridge.msgs import Msg, ros1_name
+from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import CommandResponse
 from bridge.network import NetworkThread
 from bridge.protocol import Reduction
@@ -119,7 +120,7 @@ class RemoteRobot:
     def _publish(self, topic: str, msg: Msg, stamp: float) -> None:
         if topic not in self._published:
             self._advertise(topic, type(msg), latch=False)
-        self._client.publish(topic, msg, stamp=stamp)
+        self._client.publish(topic, msg, stamp=stamp, even_late=msg == Twist())
 
     def advertise(self, topic: str, type: type[Msg], *, latch: bool = False) -> None:
         """Say that this program publishes on `topic`; with `latch` later subscribers get the last message at once."""

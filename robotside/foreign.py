@@ -42,15 +42,24 @@ JPEG = b"\xff\xd8"
 SUPPOSED = RobotInfo(kind="wheels", model="ros", max_speed=0.5, max_yaw_rate=1.0, radius=0.3)
 """What is supposed of a robot that does not tell: slow enough for most."""
 
+STILL_SILENT = 0.2
+"""A silence must be seen for this long [s]: when this machine was busy, what came is only read late."""
+
+SILENT = "The robot cannot be reached: nothing has come from it for a second."
+
 
 class Link(Protocol):
     """The line to the robot."""
+
+    @property
+    def silent(self) -> bool:
+        """Nothing has come for a second, though it still stands: what is sent now may arrive late."""
 
     def robot_time(self) -> float:
         """Its clock now [s]; NaN while not known."""
 
     def drive(self, twist: Twist) -> None:
-        """Send a drive command at once, or never."""
+        """Send a drive command at once, or never; rest even when it may arrive late."""
 
     def want(self, topic: str, wanted: bool) -> None:
         """Have the messages of an on-demand topic sent from now on, or no longer."""
@@ -83,6 +92,7 @@ class ForeignRobot:
         place = urlsplit(url).netloc.rpartition("@")[2]  # a password is nobody's business
         self._unreached = f"The robot cannot be reached: nobody has answered yet at {place}."
         self._held = ""
+        self._silent, self._silent_since = False, math.inf
         self._told = False
         self._link = connect(url, self)
         self._wait(patience)
@@ -92,7 +102,7 @@ class ForeignRobot:
     @property
     def trouble(self) -> str:
         """Why it cannot be driven, as one sentence: not reached, or in others' hands; empty when all is well."""
-        return self._unreached or self._held
+        return self._unreached or (SILENT if self._silent else self._held)
 
     def drive(self, twist: Twist) -> None:
         """Move with `twist` until the next `drive` or `stop`; dropped while there is `trouble`."""
@@ -110,7 +120,9 @@ class ForeignRobot:
 
     def read(self, now: float) -> list[tuple[str, Msg]]:
         """What came since the last call, of each topic the newest, by our clock; says the command in force again."""
+        silent = self._link.silent
         with self._lock:
+            self._mind_silence(silent, now)
             newest, self._newest = self._newest, {}
             said = [*self._said]
             self._said.clear()
@@ -165,6 +177,14 @@ class ForeignRobot:
             if sentence:
                 self._twist, self._rests = None, 0
             self._held = sentence
+
+    def _mind_silence(self, silent: bool, now: float) -> None:
+        """What was sent into a silence may still arrive: rest is said from its beginning on, and again after its end."""
+        self._silent_since = min(self._silent_since, now) if silent else math.inf
+        silent = now - self._silent_since >= STILL_SILENT
+        if silent or self._silent:
+            self._twist, self._rests = None, 0 if self._held else RESTS
+        self._silent = silent
 
     def _refuse(self, image: CompressedImage) -> None:
         """Say once that such pictures cannot be shown."""

@@ -5,19 +5,18 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
-import math
 import platform
 import secrets
 from collections.abc import Callable
 from typing import Protocol
 
 from bridge.address import host_and_port
+from bridge.choice import drive_message
 from bridge.client import BridgeClient, LinkState, Phase
 from bridge.errors import BridgeError, NotConnected
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, ControlStatus
-from bridge.msgs.std_msgs import Header, Time
 from bridge.network import NetworkThread
 from robotside.autonomy import CAMERA
 from robotside.foreign_topics import CONTROL, Found, match, usual
@@ -78,8 +77,13 @@ class ForeignLink:
         """The foreign robot's clock now [s], as it tells it; NaN while it is not known."""
         return self._client.robot_time()
 
+    @property
+    def silent(self) -> bool:
+        """Nothing has come from the robot for a second, though the link still stands."""
+        return self._client.late
+
     def drive(self, twist: Twist) -> None:
-        """Send a drive command at once, or never."""
+        """Send a drive command at once, or never; rest even when it may arrive late."""
         self._network.call(self._drive, twist, self._client.robot_time())
 
     def want(self, topic: str, wanted: bool) -> None:
@@ -118,6 +122,8 @@ class ForeignLink:
         if self._found is not None and self._found.command != found.command:
             self._send(Twist(), self._client.robot_time())
         before, self._found = self._found, found
+        if before is not None and before.command != found.command:
+            self._client.unadvertise(before.command)
         if before is None or (before.command, before.stamped) != (found.command, found.stamped):
             self._client.advertise(found.command, TwistStamped if found.stamped else Twist)
         self._send(Twist(), self._client.robot_time())
@@ -189,11 +195,8 @@ class ForeignLink:
     def _send(self, twist: Twist, stamp: float) -> None:
         if self._found is None:
             return
-        known = math.isfinite(stamp)
-        msg: Msg = twist
-        if self._found.stamped:
-            msg = TwistStamped(Header(Time.at(stamp) if known else Time(), "base_link"), twist)
-        self._client.publish(self._found.command, msg, stamp=stamp if known else None)
+        msg = drive_message(twist, stamp, stamped=self._found.stamped)
+        self._client.publish(self._found.command, msg, stamp=stamp, even_late=twist == Twist())
 
 
 def _holder(told: ControlStatus, others: bool) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -18,6 +19,7 @@ class Strange:
 
     def __init__(self, network: NetworkThread, server: ForeignServer) -> None:
         self._network, self._server = network, server
+        self._awake = threading.Event()
 
     @property
     def url(self) -> str:
@@ -40,6 +42,21 @@ class Strange:
         for name in services or tuple(self._server.rosapi.asked):
             del self._server.rosapi.asked[name]
 
+    def faint(self) -> None:
+        """Neither read nor do anything until `wake`, with every connection open, as a process that hangs."""
+        self._awake.clear()
+        self._network.call(self._awake.wait)
+
+    def wake(self) -> None:
+        """Go on, beginning with what waits in the sockets."""
+        self._awake.set()
+
+    def drive_by(self, name: str, kind: str) -> None:
+        """Have the robot take its commands on `name` and no longer on `/cmd_vel`, as Twist or TwistStamped."""
+        del self._server.topics[self._server.command]
+        self._server.command = name
+        self._server.topic(name, kind)
+
     def cut(self) -> None:
         """Break every connection; whoever connects again is served."""
 
@@ -56,9 +73,11 @@ def strange_robot(ros: int = 1) -> Iterator[Strange]:
     logging.getLogger("websockets.server").setLevel(logging.WARNING)  # Kivy logs every byte otherwise
     network = NetworkThread("strange robot")
     server = ForeignServer(ros)
+    made = Strange(network, server)
     try:
         network.start(server.start()).result(5)
-        yield Strange(network, server)
+        yield made
     finally:
+        made.wake()
         network.start(server.close()).result(5)
         network.close()

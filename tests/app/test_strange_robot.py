@@ -110,6 +110,47 @@ def test_stop_outlives_a_cut_connection(operator: Operator, strange: Strange) ->
     operator.until(lambda: operator.session.stop_phase == "stopped")
 
 
+@pytest.fixture
+def careless(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Strange robots keep their last command for ever."""
+    monkeypatch.setattr("tests.bridge.foreign_robot.WATCHDOG", 1e9)
+
+
+@pytest.mark.usefixtures("careless")
+def test_a_robot_that_drove_rests_first_of_all_when_the_link_is_back(
+    operator: Operator, strange: Strange
+) -> None:
+    drives(operator, strange)
+    strange.cut()
+    operator.until(lambda: not operator.session.connected)
+    assert strange.robot.speed > 0.2
+    operator.until(lambda: operator.session.connected)
+    operator.until(lambda: len(told(strange)) > 2)
+    assert strange.robot.speed == 0.0
+    assert all(op["msg"]["linear"]["x"] == 0.0 for op in told(strange))
+
+
+def test_who_only_watched_says_nothing_when_the_link_is_back(operator: Operator, strange: Strange) -> None:
+    strange.cut()
+    operator.until(lambda: not operator.session.connected)
+    operator.until(lambda: operator.session.connected)
+    holds(operator, 0.4)
+    assert told(strange) == []
+
+
+def test_of_a_stick_held_into_a_server_that_hangs_little_is_left_and_rest_comes_last(
+    operator: Operator, strange: Strange
+) -> None:
+    drives(operator, strange)
+    before = len(told(strange))
+    strange.faint()
+    holds(operator, 1.5, lambda: operator.link.drive(AHEAD) if operator.session.may_drive else None)
+    strange.wake()
+    operator.until(lambda: len(told(strange)) > before and told(strange)[-1]["msg"]["linear"]["x"] == 0.0)
+    moving = [op for op in told(strange)[before:] if op["msg"]["linear"]["x"] != 0.0]
+    assert len(moving) <= 9
+
+
 def test_a_robot_that_does_not_obey_is_not_said_to_be_stopped(operator: Operator, strange: Strange) -> None:
     drives(operator, strange)
     strange.robot.command = lambda _: None  # type: ignore[method-assign]
@@ -186,3 +227,20 @@ def test_a_robot_without_rosapi_is_tried_by_the_usual_names(
     operator.session.stop()
     operator.until(lambda: operator.session.stop_phase == "stopped")
     assert Topics(operator.session).sentence == "This robot does not tell its topics: it runs no rosapi."
+
+
+def test_a_robot_that_takes_stamped_commands_is_driven_by_them(tmp_path: Path) -> None:
+    with strange_robot(2) as strange:
+        strange.drive_by("/base/cmd_vel", "geometry_msgs/TwistStamped")
+        operator = Operator(strange.url, tmp_path, wants_control=True)
+        operator.until(lambda: operator.session.foreign and operator.session.connected)
+        drives(operator, strange)
+        operator.link.drive(Twist())
+        operator.until(lambda: strange.robot.speed == 0.0)
+        (advertised,) = (op for op in strange.operations("advertise") if op["topic"] == "/base/cmd_vel")
+        sent: list[Any] = [
+            op["msg"] for op in strange.operations("publish") if op["topic"] == "/base/cmd_vel"
+        ]
+        operator.close()
+    assert advertised["type"] == "geometry_msgs/msg/TwistStamped"
+    assert all(abs(msg["header"]["stamp"]["sec"] - time.time()) < 60 for msg in sent)

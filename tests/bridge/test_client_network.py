@@ -16,13 +16,20 @@ from bridge import client as module
 from bridge import connection, heartbeat
 from bridge.client import BridgeClient, Phase
 from bridge.msgs.geometry_msgs import Twist
-from tests.bridge.wires import Clock, FakeNetwork, Record, link, server, url, wire
+from tests.bridge.foreign_server import foreign
+from tests.bridge.wires import PATIENCE, Clock, FakeNetwork, Record, link, server, url, wire
 
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
     monkeypatch.setattr(heartbeat, "PING_PERIOD", 0.02)
     monkeypatch.setattr(module, "LOOK_PERIOD", 0.01)
+
+
+async def until(true):
+    async with asyncio.timeout(PATIENCE):
+        while not true():  # noqa: ASYNC110 - no event tells of it
+            await asyncio.sleep(0.005)
 
 
 def attempts(seed: int, until: float) -> list[float]:
@@ -182,6 +189,51 @@ async def test_while_nothing_comes_from_the_robot_no_drive_command_is_sent():
         assert not client.publish("/cmd_vel", Twist(), stamp=1.0)
 
 
+async def test_a_foreign_server_that_leaves_commands_unread_gets_no_more_of_them_but_rest():
+    clock = Clock()
+    async with (
+        foreign() as robot,
+        wire(robot.port) as cable,
+        link(f"ws://127.0.0.1:{cable.port}", now=clock) as made,
+    ):
+        client = await made.connected()
+        client.advertise("/cmd_vel", Twist)
+        await until(lambda: client._heart.life.pongs)
+        cable.freeze()
+        sent = []
+        for _ in range(20):
+            sent.append(client.publish("/cmd_vel", Twist.planar(0.3, 0.0), stamp=math.nan))
+            clock.time += 0.05
+        assert (sum(sent), sent[:6], sent[6:]) == (6, [True] * 6, [False] * 14)
+        assert client.publish("/cmd_vel", Twist(), even_late=True)
+        cable.thaw()
+        await until(lambda: robot.robot.heard == 7)
+        assert robot.robot.speed == 0.0
+        await until(lambda: client.publish("/cmd_vel", Twist.planar(0.3, 0.0), stamp=math.nan))
+
+
+async def test_rest_is_sent_into_a_socket_that_is_stuck_but_not_into_one_that_is_full():
+    async with server() as robot, wire(robot.port) as cable, link(url(cable)) as made:
+        client = await made.connected()
+        cable.freeze()
+        sent = [client.publish("/cmd_vel", Twist(), even_late=True) for _ in range(200_000)]
+        assert sent[0]
+        assert not sent[-1]
+
+
+async def test_a_link_on_which_nothing_came_for_a_second_says_so():
+    clock = Clock()
+    async with server() as robot, wire(robot.port) as cable, link(url(cable), now=clock) as made:
+        client = await made.connected()
+        assert not client.late
+        cable.freeze()
+        await asyncio.sleep(0.05)
+        clock.time += 1.1
+        assert client.late
+        cable.thaw()
+        await until(lambda: not client.late)
+
+
 class Socket:
     """A socket whose system tells how often it sent something again."""
 
@@ -201,6 +253,7 @@ async def test_nothing_is_published_while_the_system_sends_again_what_was_not_ac
         for retransmits, sent in ((0, True), (1, False), (7, False)):
             connected._socket, real = Socket(retransmits), connected._socket
             assert client.publish("/cmd_vel", Twist()) is sent
+            assert client.publish("/cmd_vel", Twist(), even_late=True)
             connected._socket = real
 
 

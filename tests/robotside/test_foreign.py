@@ -31,6 +31,7 @@ class Line:
         self.sent: list[Twist] = []
         self.wanted: list[tuple[str, bool]] = []
         self.clock = math.nan
+        self.silent = False
         self.closed = False
 
     def __call__(self, url: str, listener: Listener) -> Line:
