@@ -19,7 +19,7 @@ import gc
 import time
 from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, NamedTuple
 
 from bench.support.child import Child, child
 from bench.support.echo import lean_trips, our_trips
@@ -102,17 +102,20 @@ def prepare(_: Context) -> Iterator[Sides]:
 
 def costs(kind: str) -> dict[str, float]:
     """CPU of a server a message [µs]."""
-    found = {
-        "relay_odom_1": relayed(kind, ODOM, 1),
-        "relay_odom_10": relayed(kind, ODOM, 10),
-        "relay_scan": relayed(kind, SCAN, 1),
-        "robot_odom_1": made(kind, ODOM, 1),
-        "robot_odom_10": made(kind, ODOM, 10),
-        "robot_scan": made(kind, SCAN, 1),
-        "robot_scan_cbor": made(kind, SCAN, 1, compression="cbor"),
-    }
+    with child("bench.support.rosbridge", kind) as process:
+        server = Server(process, f"ws://127.0.0.1:{process.hear()['port']}")
+        found = {
+            "relay_odom_1": relayed(server, ODOM, 1),
+            "relay_odom_10": relayed(server, ODOM, 10),
+            "relay_scan": relayed(server, SCAN, 1),
+            "robot_odom_1": made(server, ODOM, 1),
+            "robot_odom_10": made(server, ODOM, 10),
+            "robot_scan": made(server, SCAN, 1),
+            "robot_scan_cbor": made(server, SCAN, 1, compression="cbor"),
+        }
+        ten = made(server, SCAN, 10)
     found["tenth_odom"] = more(found["robot_odom_1"], found["robot_odom_10"])
-    found["tenth_scan"] = more(found["robot_scan"], made(kind, SCAN, 10))
+    found["tenth_scan"] = more(found["robot_scan"], ten)
     return found
 
 
@@ -121,39 +124,43 @@ def more(one: float, ten: float) -> float:
     return (ten - one) / 9 / one * 100
 
 
+class Server(NamedTuple):
+    """A server that runs."""
+
+    process: Child
+    url: str
+
+
 @contextmanager
-def watched(kind: str, topic: str, **asked: object) -> Iterator[tuple[Child, Child]]:
-    """A server, and clients of it that watch `topic`."""
-    with (
-        child("bench.support.rosbridge", kind) as server,
-        child("bench.support.crowd", f"ws://127.0.0.1:{server.hear()['port']}") as crowd,
-    ):
+def watched(server: Server, topic: str, **asked: object) -> Iterator[Child]:
+    """Clients that watch `topic`."""
+    with child("bench.support.crowd", server.url) as crowd:
         crowd.hear()
         crowd.ask({"do": "watch", "topic": topic, "queue_length": 100, **asked})
         time.sleep(0.2)  # they are known now
-        yield server, crowd
+        yield crowd
 
 
-def relayed(kind: str, like: str, clients: int) -> float:
+def relayed(server: Server, like: str, clients: int) -> float:
     """CPU a message that one client publishes [µs]."""
-    with watched(kind, "/relayed", type=MESSAGES[like].MSGTYPE, clients=clients) as (server, crowd):
+    with watched(server, "/relayed", type=MESSAGES[like].MSGTYPE, clients=clients) as crowd:
         order = {"do": "relay", "topic": "/relayed", "like": like, "burst": BURST}
         crowd.ask({**order, "count": 10 * BURST})
-        before = server.ask({"do": "cpu"})["cpu"]
+        before = server.process.ask({"do": "cpu"})["cpu"]
         crowd.ask({**order, "count": MESSAGES_A_ROW})
-        spent: float = server.ask({"do": "cpu"})["cpu"] - before
+        spent: float = server.process.ask({"do": "cpu"})["cpu"] - before
     return spent / MESSAGES_A_ROW * 1e6
 
 
-def made(kind: str, topic: str, clients: int, compression: str = "none") -> float:
+def made(server: Server, topic: str, clients: int, compression: str = "none") -> float:
     """CPU a message that the server itself publishes [µs]; RuntimeError when some do not arrive."""
     type = MESSAGES[topic].MSGTYPE
     order = {"do": "publish", "topic": topic, "count": BURST, "step": STEP}
     spent: list[float] = []
-    with watched(kind, topic, type=type, clients=clients, compression=compression) as (server, crowd):
+    with watched(server, topic, type=type, clients=clients, compression=compression) as crowd:
         goal = crowd.ask({"do": "received"})["received"]
         while len(spent) * BURST < MESSAGES_A_ROW:
-            spent.append(server.ask(order)["cpu"])
+            spent.append(server.process.ask(order)["cpu"])
             goal += BURST * clients
             came = crowd.ask({"do": "received", "until": goal})["received"]
             if came != goal:

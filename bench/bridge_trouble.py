@@ -8,7 +8,8 @@ which take 82 ms over that link each, are a part of the load. The other way is a
 In the outage the link freezes (nothing passes and nobody is told; what its sender has not given up arrives late) or breaks
 (connections are reset, new ones refused). A program drives 20 times a second all the while. It has healed when telemetry comes
 again and the first new command is at the robot's server. Stale are the commands that arrive there over 0.3 s old, whether
-the robot would still refuse them or not. The other way is roslibpy on the same server and link.
+the robot would still refuse them or not. The other way is roslibpy on the same server and link; what is stated of
+it are 9.5 s from the beginning of an outage of 4 s.
 """
 
 from __future__ import annotations
