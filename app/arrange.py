@@ -106,12 +106,12 @@ def _mission_short(area: Rect, right: float, gap: float, dp: float) -> dict[str,
 
 
 def _mission_notice(places: dict[str, Rect], gap: float, dp: float) -> Rect:
-    """A line over the map for what happened: beside the modes, or below them where that is too narrow."""
-    modes, right, high = places["modes"], places["tools"].x - gap, 46 * dp
+    """Over the map for what happened: beside the modes, or below them where that is too narrow."""
+    modes, right, low = places["modes"], places["tools"].x - gap, places["map"].y + gap
     beside = right - modes.right - gap
     if beside >= 320 * dp:
-        return Rect(modes.right + gap, modes.y, beside, high)
-    return Rect(modes.x, modes.y - 8 * dp - high, right - modes.x, high)
+        return Rect(modes.right + gap, low, beside, modes.top - low)
+    return Rect(modes.x, low, right - modes.x, modes.y - 8 * dp - low)
 
 
 def _mission_instruments(area: Rect, gap: float, dp: float) -> dict[str, Rect]:
@@ -143,21 +143,26 @@ def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
     picture = min(148 * dp, body.width * 0.4)
     video = Rect(area.x + gap, area.top - gap - picture * 0.66, picture, picture * 0.66)
     tools = _column(area, 50 * dp, 4, gap, 8 * dp)
+    modes = Rect(area.x + gap, area.y + gap, body.width - 3 * gap - 50 * dp, 46 * dp)
     return {
         "map": area,
         "side": sheet,
-        "notice": Rect(video.x, video.y - 54 * dp, tools.x - gap - video.x, 46 * dp),
+        "notice": _between(video.x, modes.top + 8 * dp, tools.x - gap, video.y - 8 * dp),
         "handle": Rect(sheet.x, sheet.top - handle, sheet.width, handle),
         "panel": panel,
         "stop": stop,
         "tasks": tasks,
         "tools": tools,
         "video": video,
-        "modes": Rect(area.x + gap, area.y + gap, body.width - 3 * gap - 50 * dp, 46 * dp),
+        "modes": modes,
         "selection": Rect(
             area.x + gap, area.y + 2 * gap + 46 * dp, min(340 * dp, body.width - 3 * gap - 50 * dp), 52 * dp
         ),
     }
+
+
+def _between(left: float, low: float, right: float, top: float) -> Rect:
+    return Rect(left, low, right - left, top - low)
 
 
 def _column(area: Rect, button: float, count: int, gap: float, between: float) -> Rect:
@@ -208,7 +213,7 @@ def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     if not wide:
         readouts = Rect(right.x - gap - readouts_size[0], right.y, *readouts_size)
         tape = Rect(left.right + gap, tape.y, readouts.x - gap - left.right - gap, 52 * dp)
-    notice = Rect(tape.x, tape.y - 78 * dp, tape.width, 46 * dp)
+    notice = _between(tape.x, slider.top + 8 * dp, tape.right, tape.y - 32 * dp)
     return places | {"top": tape, "top_right": right, "readouts": readouts, "notice": notice}
 
 
@@ -248,7 +253,7 @@ def _drive_tall(body: Rect, dp: float) -> dict[str, Rect]:
         ),
         "readouts": Rect(right.x, right.y, right.width, readouts_height),
         "top": tape,
-        "notice": Rect(body.x + gap, tape.y - 82 * dp, body.width - 2 * gap, 46 * dp),
+        "notice": _between(body.x + gap, actions.top + gap, body.right - gap, tape.y - 36 * dp),
     }
 
 

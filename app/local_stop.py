@@ -76,15 +76,26 @@ class LocalStop:
             return "stopped"
         return "sent" if self._now() - self._pressed_at < DOUBT else "no_answer"
 
-    def sentence(self, drives: bool) -> str:
-        """What is the case, for the operator; empty while it is not latched. `drives`: there is a topic to send on."""
+    def sentence(self, drives: bool, reaches: bool = True) -> str:
+        """What is the case, for the operator; empty while it is not latched.
+
+        `drives`: there is a topic to send on. `reaches`: the link stands, so that what is sent can arrive.
+        """
         if not self.latched:
             return ""
         if not drives:
             return "This robot has no STOP of its own and no topic to drive it by: it cannot be stopped from here."
-        what = "No STOP of its own: zero speed is sent while the link stands."
-        if self._confirmed:
-            return f"{what} Its odometry says that it rests."
-        if not self._now() - self._heard_at < BELIEVED:
-            return f"{what} No odometry confirms that it rests."
-        return f"{what} Its odometry does not yet say that it rests."
+        if not reaches:
+            return f"Nothing reaches it: zero speed is sent again once the link is back. {self._witness}"
+        return f"No STOP of its own: zero speed is sent while the link stands. {self._witness}"
+
+    @property
+    def _witness(self) -> str:
+        """What odometry says of its rest."""
+        silence = self._now() - self._heard_at
+        if math.isnan(silence):
+            return "No odometry has come that could confirm that it rests."
+        if silence >= BELIEVED:
+            long_ago = f"{silence:.0f} s" if silence < 60 else f"{silence / 60:.0f} min"
+            return f"Its odometry was last heard {long_ago} ago."
+        return f"Its odometry {'says' if self._confirmed else 'does not yet say'} that it rests."

@@ -310,7 +310,10 @@ class Shell(FloatLayout):
         if self.screen:
             room = self.screens[self.screen].notice
             notices.width = min(560 * Metrics.density, room.width)
-            notices.pos = (room.x + (room.width - notices.width) / 2, room.top - notices.height)
+            low = max(
+                room.y, room.top - notices.height
+            )  # what is too much goes up, where nothing can be touched
+            notices.pos = (room.x + (room.width - notices.width) / 2, low)
 
     # what is heard
 
@@ -398,7 +401,8 @@ class Shell(FloatLayout):
     def _tick_stop(self) -> None:
         """What is known of a STOP that this handheld alone holds, for as long as it holds it."""
         session, banner = self.session, self._stop_banner
-        text = session.local_stop.sentence(session.link.drive_topic is not None) if session.foreign else ""
+        drives = session.link.drive_topic is not None
+        text = session.local_stop.sentence(drives, session.connected) if session.foreign else ""
         banner.text = text or banner.text
         banner.level = "ok" if session.stop_phase == "stopped" else "warn"
         if text and banner.parent is None:

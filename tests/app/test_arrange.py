@@ -6,7 +6,7 @@ import itertools
 
 import pytest
 
-from app.arrange import Rect, connect_columns, drive, form, mission, shell
+from app.arrange import Rect, connect_columns, drive, form, mission, shell, topics
 
 SIZES = [(412, 892), (892, 412), (1280, 800), (1920, 1200), (800, 1280), (360, 640), (640, 360), (1024, 600)]
 MAY_LIE_ON = {"video", "map", "side"}
@@ -19,10 +19,12 @@ def screens(width: int, height: int) -> dict[str, dict[str, Rect]]:
         "mission": mission(body, shape),
         "sheet": mission(body, shape, sheet_open=True),
         "drive": drive(body, shape),
+        "topics": topics(body, shape),
     }
 
 
 CASES = [(size, name) for size in SIZES for name in ("mission", "drive")]
+NOTICES = [(size, name) for size in SIZES for name in ("mission", "sheet", "drive", "topics")]
 
 
 @pytest.mark.parametrize(("size", "name"), CASES)
@@ -33,6 +35,15 @@ def test_nothing_overlaps(size: tuple[int, int], name: str) -> None:
     things = {key: rect for key, rect in places.items() if key not in {*ground, "notice"}}
     for (one, first), (two, second) in itertools.combinations(things.items(), 2):
         assert not first.overlaps(second), f"{one} {first} overlaps {two} {second}"
+
+
+@pytest.mark.parametrize(("size", "name"), NOTICES)
+def test_the_room_for_notices_leaves_stop_and_what_is_above_it_free(size: tuple[int, int], name: str) -> None:
+    places = screens(*size)[name]
+    room, stop = places["notice"], places["stop"]
+    beside = stop.right <= room.x or room.right <= stop.x
+    assert beside or room.y >= stop.top, "what is higher than the room goes on upwards, never down"
+    assert min(room.width, room.height) > 0
 
 
 @pytest.mark.parametrize(("size", "name"), CASES)

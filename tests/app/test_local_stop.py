@@ -88,7 +88,24 @@ def test_odometry_that_falls_silent_is_not_believed(watch: Watch) -> None:
     watch.drive(0.0, 1.5)
     watch.time += 1.1
     assert watch.stop.phase == "no_answer"
-    assert "No odometry confirms" in watch.stop.sentence(drives=True)
+    assert watch.stop.sentence(drives=True).endswith("Its odometry was last heard 1 s ago.")
+    watch.time += 118.9
+    assert watch.stop.sentence(drives=True).endswith("Its odometry was last heard 2 min ago.")
+
+
+def test_a_robot_that_never_told_odometry_is_said_to_have_none(watch: Watch) -> None:
+    watch.stop.press()
+    assert watch.stop.sentence(drives=True).endswith("No odometry has come that could confirm that it rests.")
+
+
+def test_without_a_link_nothing_is_said_to_be_sent(watch: Watch) -> None:
+    watch.stop.press()
+    watch.drive(0.0, 1.0)
+    watch.time += 12.0
+    assert watch.stop.sentence(drives=True, reaches=False) == (
+        "Nothing reaches it: zero speed is sent again once the link is back."
+        " Its odometry was last heard 12 s ago."
+    )
 
 
 def test_a_robot_without_a_topic_to_drive_it_by_cannot_be_stopped_and_that_is_said(watch: Watch) -> None:
