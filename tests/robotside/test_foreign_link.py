@@ -32,7 +32,7 @@ from robotside.robot import Robot
 from robotside.serving import Addresses, Serving
 from robotside.station import Station
 from robotside.store import Store
-from tests.bridge.foreign_server import foreign
+from tests.bridge.foreign_server import ForeignServer, foreign
 from tests.bridge.wires import wire
 from tests.fakes import FakeRobot
 from tests.robotside.test_serving import connected
@@ -120,6 +120,50 @@ async def test_a_robot_that_went_on_alone_rests_first_of_all_when_it_is_reached_
         await until(lambda: not robot.trouble)
         read()
         assert server.robot.speed == 0.0
+
+
+def said_to(server: ForeignServer) -> list[tuple[str, str]]:
+    """What the robot side has said over its present connection, of commands and of what it asks: operation and name."""
+    names = {"publish": "topic", "advertise": "topic", "unadvertise": "topic", "call_service": "service"}
+    ops = [op for peer in server.peers for op in peer.heard]
+    return [(op["op"], op[names[op["op"]]]) for op in ops if op["op"] in names]
+
+
+async def test_rest_is_said_before_anything_is_asked_when_a_robot_is_reached_again() -> None:
+    async with foreign() as server, wire(server.port) as cable, reached(cable.port) as robot:
+        cable.cut()
+        await until(lambda: robot.trouble)
+        await until(lambda: not robot.trouble)
+        said = said_to(server)
+        assert said.index(("publish", "/cmd_vel")) < said.index(("call_service", "/rosapi/topics"))
+
+
+def drive_by(server: ForeignServer, name: str, kind: str) -> None:
+    """Have the robot take its commands on `name` from now on."""
+    del server.topics[server.command]
+    server.command = name
+    server.topic(name, kind)
+
+
+async def test_one_that_is_driven_elsewhere_now_rests_by_the_old_topic_and_that_is_given_back() -> None:
+    async with foreign() as server:
+        drive_by(server, "/base/cmd_vel", "geometry_msgs/Twist")
+        async with wire(server.port) as cable, reached(cable.port) as robot:
+            cable.cut()
+            await until(lambda: robot.trouble)
+            drive_by(server, "/cmd_vel", "geometry_msgs/TwistStamped")
+            await until(lambda: not robot.trouble)
+            said = said_to(server)
+            asked = said.index(("call_service", "/rosapi/topics"))
+            assert [each for each in said[asked:] if each[1].endswith("cmd_vel")][:4] == [
+                ("publish", "/base/cmd_vel"),
+                ("unadvertise", "/base/cmd_vel"),
+                ("advertise", "/cmd_vel"),
+                ("publish", "/cmd_vel"),
+            ]
+            read = Reads(robot)
+            robot.drive(SPEED)
+            await until(lambda: read() and server.robot.speed == pytest.approx(0.3))
 
 
 def test_an_address_that_can_never_work_is_said_at_once() -> None:

@@ -99,6 +99,7 @@ async def test_who_asks_once_waits_however_much_is_wanted(
 ) -> None:
     go = threading.Event()
     monkeypatch.setattr(pictures, "smaller", lambda jpeg, width, quality: go.wait(5) and b"%d" % width)
+    watched = [worker.make(PHOTO, 9), worker.make(PHOTO, 9, patient=True)]
     wanted = [worker.make(PHOTO, width, patient=width < 20) for width in range(10, 28)]
     passed_over = worker.make(PHOTO, 20, patient=True)
     await asyncio.sleep(0)
@@ -107,6 +108,7 @@ async def test_who_asks_once_waits_however_much_is_wanted(
     assert made[:10] == [b"%d" % width for width in range(10, 20)]
     assert [type(one) for one in made[10:]] == [Superseded] * 4 + [bytes] * 4
     assert await passed_over == b"20"
+    assert await asyncio.gather(*watched) == [b"9", b"9"]
 
 
 async def test_who_no_longer_waits_takes_nothing_from_the_others(worker: Pictures) -> None:
