@@ -25,12 +25,16 @@ def check_address(text: str) -> str:
     typed = text.strip()
     if not typed:
         raise ValueError("Enter an address such as 192.168.1.7 or ws://192.168.1.7:9090.")
+    if ":/" in typed and "://" not in typed:
+        raise ValueError(f"An address begins with ws:// or wss://, not {typed[: typed.index(':/') + 2]}.")
     url = typed if "://" in typed else f"ws://{typed}"
     try:
         parts = urlsplit(url)
         host, port = parts.hostname, parts.port
     except ValueError:
         raise ValueError(f"{typed} has no valid port: it is a number from 1 to 65535.") from None
+    if parts.netloc.endswith(":"):
+        raise ValueError(f"{typed} has no valid port: it is a number from 1 to 65535.")
     if parts.scheme not in ("ws", "wss"):
         raise ValueError(f"An address begins with ws:// or wss://, not {parts.scheme}://.")
     if not host or any(sign in host for sign in " ,;") or port == 0:

@@ -16,7 +16,7 @@ class Comments:
     """What the comments of one part say."""
 
     part: str = ""
-    """Of the whole: what stands first, apart from the first field by an empty line, and what follows the last."""
+    """Of the whole: what stands first, apart from the first field or above a constant, and what follows the last."""
     of: dict[str, str] = field(default_factory=dict)
     """Of each field and constant by its name: what stands right above it, then what stands behind it."""
 
@@ -25,7 +25,8 @@ def read_comments(text: str) -> Comments:
     """The comments of one part's `text`.
 
     A comment behind a field goes on in the indented comment lines below it. A comment that an empty line parts from the
-    next field is about the whole when it comes first, and about the next field otherwise.
+    next field is about the whole when it comes first, and about the next field otherwise. So is the first one of all when
+    what follows it at once is a constant: a list of constants has no room for a word about the whole.
     """
     found = Comments()
     above: list[str] = []
@@ -34,6 +35,8 @@ def read_comments(text: str) -> Comments:
         code, comment = without_comment(line)
         named = _NAME.match(code)
         if named:
+            if above and not found.of and not found.part and code[named.end() :].lstrip().startswith("="):
+                found.part, above = _joined(above), []
             last = named[1]
             found.of[last] = _joined([*above, *([comment] if comment is not None else [])])
             above = []

@@ -48,6 +48,8 @@ def read(path: Path, package: str | None = None) -> Definition:
         raise TextError(f"{path} ends neither in .msg nor in .srv nor in .action.")
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", path.stem):
         raise TextError(f"{path}: a type is called by letters, digits and _, not {path.stem!r}.")
+    if not path.exists():
+        raise TextError(f"{path} cannot be read: No such file or directory.")
     package = _package_of(path, package)
     try:
         text = path.resolve().read_text(encoding="utf-8-sig")

@@ -37,6 +37,7 @@ def test_a_package_is_told_by_the_folders_or_by_name(boat, tmp_path, capsys):
             ["{boat}", "--package", "Boat-Msgs"],
             "A package is called by small letters, digits and _, not 'Boat-Msgs'.",
         ),
+        (["gone.msg"], "gone.msg cannot be read: No such file or directory."),
         (["nowhere/msg/Gone.msg"], "nowhere/msg/Gone.msg cannot be read: No such file or directory."),
         (["{folder}/boat.txt"], "boat.txt ends neither in .msg nor in .srv nor in .action."),
         (["{folder}/empty"], "empty holds no .msg, .srv or .action file."),

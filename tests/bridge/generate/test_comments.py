@@ -37,6 +37,24 @@ def test_what_comes_first_and_apart_is_about_the_whole():
     assert found.of == {"depth": ""}
 
 
+def test_what_comes_first_right_above_a_constant_is_about_the_whole():
+    found = read_comments(
+        "# How full\n# it is.\nuint8 EMPTY=0  # Dry.\n# To the brim.\nuint8 FULL = 1\nuint8 level\n"
+    )
+    assert found.part == "How full\nit is."
+    assert found.of == {"EMPTY": "Dry.", "FULL": "To the brim.", "level": ""}
+
+
+def test_where_the_whole_has_its_word_a_comment_above_a_constant_is_about_that():
+    found = read_comments("# A tank.\n\n# Dry.\nuint8 EMPTY=0\n")
+    assert (found.part, found.of) == ("A tank.", {"EMPTY": "Dry."})
+
+
+def test_a_comment_right_above_the_first_field_is_about_it():
+    found = read_comments("# Down.\nfloat64 depth\nstring<=5 name\n")
+    assert (found.part, found.of["depth"]) == ("", "Down.")
+
+
 def test_a_later_comment_that_stands_apart_is_about_the_next_field():
     assert of("float64 x\n\n# Below are depths.\n\nfloat64 depth\n", "depth") == "Below are depths."
 
