@@ -121,9 +121,13 @@ class BridgeClient(Asking, Reconnecting):
 
     @property
     def late(self) -> bool:
-        """Nothing came for a second: what is sent now may wait on its way. False without a connection."""
-        heart = self._heart if self._connection is not None else None
-        return heart is not None and heart.life.late(self._now())
+        """Nothing came for a second: what is sent now may wait on its way. False before and after a connection.
+
+        One that is being given up is late until `state` tells of it.
+        """
+        if self.state.phase is not Phase.CONNECTED or self._heart is None:
+            return False
+        return self._connection is None or self._heart.life.late(self._now())
 
     def robot_time(self) -> float:
         """The operators' clock, which the robot tells, now [s]; NaN until it is known."""

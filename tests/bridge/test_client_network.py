@@ -234,6 +234,20 @@ async def test_a_link_on_which_nothing_came_for_a_second_says_so():
         await until(lambda: not client.late)
 
 
+async def test_a_link_that_is_given_up_is_late_until_its_state_says_so():
+    clock, seen = Clock(), []
+    async with server() as robot, wire(robot.port) as cable, link(url(cable), now=clock) as made:
+        client = await made.connected()
+        cable.freeze()
+        await asyncio.sleep(0.05)
+        clock.time += 3.1
+        while client.state.phase is Phase.CONNECTED:
+            seen.append(client.late)
+            await asyncio.sleep(0)
+        assert set(seen) == {True}
+        assert not client.late
+
+
 class Socket:
     """A socket whose system tells how often it sent something again."""
 
