@@ -310,9 +310,8 @@ class Shell(FloatLayout):
         if self.screen:
             room = self.screens[self.screen].notice
             notices.width = min(560 * Metrics.density, room.width)
-            low = max(
-                room.y, room.top - notices.height
-            )  # what is too much goes up, where nothing can be touched
+            # what is too much for its room goes up, never down over what can be touched
+            low = max(room.y, room.top - notices.height)
             notices.pos = (room.x + (room.width - notices.width) / 2, low)
 
     # what is heard

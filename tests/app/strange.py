@@ -57,6 +57,10 @@ class Strange:
         self._server.command = name
         self._server.topic(name, kind)
 
+    def vanish(self) -> None:
+        """Break every connection, and take no other: whoever connects is refused."""
+        self._network.start(self._server.close()).result(5)
+
     def cut(self) -> None:
         """Break every connection; whoever connects again is served."""
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from kivy.core.window import Window
 
 from tests.app.strange import Strange, strange_robot
 from tests.e2e.handheld import Handheld, handheld
@@ -138,3 +139,28 @@ def test_what_it_does_not_offer_is_said_and_never_asked_for(glass: Handheld, str
     glass.until(lambda: glass.app.shell.screen == "drive", "the screen that fits it")
     called = {str(op["service"]) for op in strange.operations("call_service")}
     assert {name for name in called if not name.startswith("/rosapi/")} == set()
+
+
+@pytest.fixture(params=[(412, 892), (892, 412)], ids=["upright", "on its side"])
+def phone(request: pytest.FixtureRequest) -> Iterator[None]:
+    before, Window.size = tuple(Window.size), request.param
+    yield
+    Window.size = before
+
+
+@pytest.mark.usefixtures("phone")
+def test_a_lost_link_under_stop_leaves_stop_in_sight_and_says_what_is_so(
+    glass: Handheld, strange: Strange
+) -> None:
+    stop, notices = glass.app.shell.stop, glass.app.shell.ids.notices
+    glass.until(lambda: glass.one("Joystick").state == "live", "a stick to push")
+    glass.play(glass.hand.tap(stop.to_window(*stop.center)))
+    glass.until(lambda: stop.phase == "stopped", "STOPPED, by its odometry", 4.0)
+    strange.vanish()
+    for screen in ("drive", "topics", "mission"):
+        glass.app.show(screen)
+        glass.until(lambda: any("Nothing reaches it" in words for words in glass.words()), "the truth")
+        assert not any("is sent while" in words for words in glass.words())
+        glass.until(lambda: len(notices.children) == 2, "both sentences")
+        glass.settle(notices)
+        assert notices.right <= stop.x or notices.x >= stop.right or notices.y >= stop.top, screen
