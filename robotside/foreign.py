@@ -31,7 +31,7 @@ REPEAT = 0.1
 """A command is said again so often [s]: many drives stop by themselves without one, and some never do."""
 
 RESTS = 10
-"""How often rest is said; one of them gets through."""
+"""How often rest is sent; one of them gets through."""
 
 OLDEST = 1.0
 """A message that claims to be older than this when it comes was stamped by another clock [s]."""
@@ -54,6 +54,10 @@ class Link(Protocol):
     @property
     def silent(self) -> bool:
         """Nothing has come for a second, though it still stands: what is sent now may arrive late."""
+
+    @property
+    def dropped(self) -> bool:
+        """The last command did not leave this machine."""
 
     def robot_time(self) -> float:
         """Its clock now [s]; NaN while not known."""
@@ -227,7 +231,8 @@ class ForeignRobot:
         if self._twist is not None:
             self._link.drive(self._twist)
         elif self._rests > 0:
-            self._rests -= 1
+            if not self._link.dropped:
+                self._rests -= 1
             self._link.drive(Twist())
 
     def _dated(self, topic: str, msg: Msg, now: float) -> Msg:

@@ -69,6 +69,8 @@ class ForeignLink:
         self._asking: asyncio.Task[None] | None = None
         self._ordering: asyncio.Task[None] | None = None
         self._busy = False
+        self.dropped = False
+        """The last command did not leave this machine: there is no connection, or too much waits in it."""
         self._id = f"robotside-{secrets.token_hex(4)}"
         self._network = NetworkThread(f"link to {url}")
         self._network.start(self._client.run())
@@ -196,7 +198,8 @@ class ForeignLink:
         if self._found is None:
             return
         msg = drive_message(twist, stamp, stamped=self._found.stamped)
-        self._client.publish(self._found.command, msg, stamp=stamp, even_late=twist == Twist())
+        sent = self._client.publish(self._found.command, msg, stamp=stamp, even_late=twist == Twist())
+        self.dropped = not sent
 
 
 def _holder(told: ControlStatus, others: bool) -> str:

@@ -31,7 +31,7 @@ class Line:
         self.sent: list[Twist] = []
         self.wanted: list[tuple[str, bool]] = []
         self.clock = math.nan
-        self.silent = False
+        self.silent = self.dropped = False
         self.closed = False
 
     def __call__(self, url: str, listener: Listener) -> Line:
@@ -141,6 +141,30 @@ def test_rest_is_said_several_times_and_then_no_more() -> None:
     for number in range(600):
         robot.read(10.0 + number / 60)
     assert line.sent == [SPEED, *[REST] * (RESTS + 1)]
+
+
+def test_a_rest_that_did_not_leave_is_not_counted() -> None:
+    robot, line = here()
+    robot.drive(SPEED)
+    robot.stop()
+    line.dropped = True
+    for number in range(300):
+        robot.read(10.0 + number / 60)
+    line.dropped = False
+    line.sent.clear()
+    for number in range(600):
+        robot.read(15.0 + number / 60)
+    assert line.sent == [REST] * RESTS
+
+
+def test_while_the_line_is_lost_nothing_is_said() -> None:
+    robot, line = here()
+    robot.drive(SPEED)
+    robot.lost("The connection was cut.")
+    line.sent.clear()
+    for number in range(60):
+        robot.read(20.0 + number / 60)
+    assert line.sent == []
 
 
 def test_after_an_outage_rest_is_said_and_the_command_before_it_is_forgotten() -> None:

@@ -14,6 +14,7 @@ import pytest
 
 from bridge.address import BadAddress
 from bridge.client import BridgeClient
+from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
@@ -27,6 +28,8 @@ from bridge.msgs.pilothouse_msgs import (
 from robotside.autonomy import CAMERA
 from robotside.clock import RobotClock
 from robotside.foreign import ForeignRobot
+from robotside.foreign_link import ForeignLink
+from robotside.foreign_topics import Found
 from robotside.pose2 import ORIGIN
 from robotside.robot import Robot
 from robotside.serving import Addresses, Serving
@@ -164,6 +167,43 @@ async def test_one_that_is_driven_elsewhere_now_rests_by_the_old_topic_and_that_
             read = Reads(robot)
             robot.drive(SPEED)
             await until(lambda: read() and server.robot.speed == pytest.approx(0.3))
+
+
+class Told:
+    """What a link tells."""
+
+    def __init__(self) -> None:
+        self.reached = False
+
+    def found(self, found: Found) -> None:
+        self.reached = True
+
+    def lost(self, sentence: str) -> None:
+        self.reached = False
+
+    def heard(self, topic: str, msg: Msg) -> None:
+        pass
+
+    def held(self, sentence: str) -> None:
+        pass
+
+
+async def test_it_is_known_whether_the_last_command_left() -> None:
+    async with foreign() as server, wire(server.port) as cable:
+        told = Told()
+        link = ForeignLink(f"ws://127.0.0.1:{cable.port}", told)
+        try:
+            await until(lambda: told.reached)
+            link.drive(SPEED)
+            await until(lambda: server.robot.speed > 0)
+            assert not link.dropped
+            cable.cut()
+            await until(lambda: not told.reached)
+            link.drive(Twist())
+            await until(lambda: link.dropped)
+        finally:
+            with ThreadPoolExecutor(1) as aside:
+                await asyncio.get_running_loop().run_in_executor(aside, link.close)
 
 
 def test_an_address_that_can_never_work_is_said_at_once() -> None:

@@ -8,13 +8,16 @@ from pathlib import Path
 
 import pytest
 
+from bridge.connection import Connection
 from bridge.msgs.geometry_msgs import PoseWithCovariance, Twist, TwistWithCovariance
 from bridge.msgs.nav_msgs import Odometry
 from robotside.foreign import SILENT, ForeignRobot
 from robotside.foreign_link import Listener
 from robotside.foreign_topics import Found
 from robotside.sticks import LET_GO
+from tests.bridge.foreign_server import foreign
 from tests.robotside.scene import Scene
+from tests.robotside.test_foreign_link import reached, until
 
 AHEAD, REST = Twist.planar(0.3, 0.0), Twist()
 CUT = "Nothing came from robot:9090 for 3 s."
@@ -25,7 +28,7 @@ class Far:
     """A robot that keeps its last command for ever, at the end of a line that can freeze or be cut."""
 
     def __init__(self) -> None:
-        self.silent = self.frozen = False
+        self.silent = self.dropped = self.frozen = False
         self.speed = 0.0
         self.heard: list[Twist] = []
         self._waiting: list[Twist] = []
@@ -166,3 +169,15 @@ def test_a_silence_of_a_moment_is_none(outage: Outage) -> None:
     outage.run(0.5, AHEAD)
     assert outage.scene.events("robot") == []
     assert outage.far.speed == 0.3
+
+
+async def test_over_a_line_that_is_stuck_rest_goes_out_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    async with foreign() as server, reached(server.port) as robot:
+        robot.drive(AHEAD)
+        await until(lambda: server.robot.speed == 0.3)
+        monkeypatch.setattr(Connection, "stuck", True)
+        before = server.robot.heard
+        robot.drive(AHEAD)
+        robot.stop()
+        await until(lambda: server.robot.heard > before)
+        assert server.robot.speed == 0.0
