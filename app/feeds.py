@@ -21,6 +21,8 @@ PERIODS = 10
 """A stream is stale when this many of its periods pass in silence."""
 SHORTEST, LONGEST = 0.5, 3.0
 """Bounds of that silence [s]: jitter of a fast stream is no failure, and a slow one is not forgiven for long."""
+GAPS = 3
+"""A stream whose rate nobody knows is stale after so many times the last pause between two messages, or more."""
 RATE_WINDOW = 1.0
 """Length over which a stream's rate is measured [s]."""
 
@@ -74,8 +76,10 @@ class Mailbox:
 class Feed:
     """The newest message of one topic."""
 
-    def __init__(self, topic: Topic) -> None:
+    def __init__(self, topic: Topic, *, learns: bool = False) -> None:
+        """`learns`: nobody knows the topic's rate, so that what comes tells it, and one message alone was said once."""
         self.topic = topic
+        self.learns = learns
         self.message: Msg | None = None
         """None before the first."""
         self.received = math.nan
@@ -84,16 +88,26 @@ class Feed:
         """Measured messages a second [Hz]; NaN until known."""
         self._since = math.nan
         self._count = 0
+        self._gap = math.nan
+
+    @property
+    def repeats(self) -> bool:
+        """It is a stream, as far as is known, and not said once or only on change."""
+        return not math.isnan(self._gap) if self.learns else self.topic.rate > 0
 
     @property
     def patience(self) -> float:
         """Silence after which the message is no longer believed [s]; infinite where nothing is repeated."""
-        if self.topic.rate <= 0:
+        if not self.repeats:
             return math.inf
+        if self.learns:
+            return max(LONGEST, GAPS * self._gap)
         return min(max(PERIODS / self.topic.rate, SHORTEST), LONGEST)
 
     def put(self, message: Msg, received: float, count: int = 1) -> None:
         """Replace the message; `count` came since the last `put`."""
+        if self.message is not None or count > 1:
+            self._gap = (received - self.received) / count if self.message is not None else 0.0
         if math.isnan(self._since) or received - self._since > LONGEST:
             self._since, self._count, self.rate = received, 0, math.nan
         else:
@@ -111,7 +125,7 @@ class Feed:
         """
         if self.message is None:
             return math.nan
-        if self.topic.rate > 0:
+        if self.repeats:
             return max(0.0, now - self.received)
         return 0.0 if math.isnan(lost_at) else max(0.0, now - lost_at)
 
@@ -119,7 +133,7 @@ class Feed:
         """`never`, `live` or `stale`."""
         if self.message is None:
             return "never"
-        silent = self.topic.rate > 0 and now - self.received > self.patience
+        silent = now - self.received > self.patience
         return "stale" if silent or not math.isnan(lost_at) else "live"
 
 

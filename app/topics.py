@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from app.feeds import Feed, Post
+from app.feeds import LONGEST, Feed, Post
 from app.link import LINK, OFFER, SEEN
 from app.offer import CAMERA, Offer
 from app.session import Session
@@ -179,8 +179,8 @@ class Topics:
         if seen.kind is not None:
             self.kind = seen.kind
             known = next((one for one in TOPICS if one.name == self.opened and self._ours), None)
-            rate = known.rate if known is not None else 1.0
-            self._feed = Feed(Topic(self.opened, seen.kind, rate, "handheld", ""))
+            rate = known.rate if known is not None else 0.0
+            self._feed = Feed(Topic(self.opened, seen.kind, rate, "handheld", ""), learns=known is None)
         elif seen.message is not None and self._feed is not None:
             self.problem = ""
             self._feed.put(seen.message, post.received, post.count)
@@ -203,10 +203,22 @@ class Topics:
 
     @property
     def state(self) -> str:
-        """Of the open topic: `never`, `live` or `stale`. A topic without a known rate is live for 3 s."""
+        """Of the open topic: `never`, `live` or `stale`.
+
+        One whose rate nobody knows is live for 3 s, or longer where its messages come seldom; said once, it stays so.
+        """
         return (
             self._feed.state(self._now(), self._session.feeds.lost_at) if self._feed is not None else "never"
         )
+
+    @property
+    def once(self) -> float:
+        """How long ago the open topic said the only thing that it has said here [s]; NaN for a stream and a lost link."""
+        feed = self._feed
+        if feed is None or feed.repeats or self.state != "live" or not feed.learns:
+            return math.nan
+        since = self._now() - feed.received
+        return since if since > LONGEST else math.nan
 
     @property
     def notice(self) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import accumulate
 from typing import Any
 
@@ -62,8 +63,8 @@ Builder.load_string("""
         Color:
             rgba: theme.line if not root.foldable else (0, 0, 0, 0)
         Rectangle:
-            pos: self.x + root.indent, self.y
-            size: self.width - root.indent - dp(12), theme.outline * .6
+            pos: self.x + root.indent, round(self.y)
+            size: self.width - root.indent - dp(12), max(1, round(theme.outline))  # less than a pixel comes and goes
     Icon:
         name: 'expand_less' if root.open else 'expand_more'
         role: 'muted'
@@ -93,7 +94,7 @@ Builder.load_string("""
         font_size: sp(12.5)
         color: theme.muted
         disabled_color: self.color
-        opacity: .85 if root.type_width else 0
+        opacity: 1 if root.type_width else 0
         shorten: True
         shorten_from: 'right'
         text_size: self.size
@@ -180,6 +181,8 @@ class FieldRow(ButtonBehavior, Widget):
     """Farther in for each level [px]."""
 
     path: Path = ()
+    widest = NumericProperty(0.0)
+    """Of the values that this field has had [px]: the type does not come and go with the length of a figure."""
 
     def _indent(self) -> float:
         return dp(10) + self.depth * self.step
@@ -209,11 +212,13 @@ class FieldRow(ButtonBehavior, Widget):
         value = min(_width(self.value, sp(15), bold=True), room * 0.7)
         name = _width(self.name, sp(15), bold=self.foldable)
         name = max(0.0, min(name, room - value - (dp(10) if value else 0)))
-        spare = room - value - name - dp(19)
+        spare = room - max(value, min(self.widest, room * 0.7)) - name - dp(19)
         kind = _width(self.type, sp(12.5))
         return name, kind if kind <= spare else 0.0, value
 
-    widths = AliasProperty(_widths, bind=["width", "name_x", "value", "name", "type", "foldable"], cache=True)
+    widths = AliasProperty(
+        _widths, bind=["width", "name_x", "value", "name", "type", "foldable", "widest"], cache=True
+    )
 
     def _name_width(self) -> float:
         return float(self.widths[0])
@@ -301,10 +306,12 @@ class FieldView(RobotWidget, FloatLayout):
         self._soon = Clock.create_trigger(self._renew, PERIOD)
         self._at_once = Clock.create_trigger(self._renew, -1)
         self._place_soon = Clock.create_trigger(self._place, -1)
+        self._write_soon = Clock.create_trigger(self._place, PERIOD)
         super().__init__(**kwargs)
         self.fbind("message", self._on_news)
         for name in ("type", "folds", "size"):
             self.fbind(name, self._at_once)
+        self.fbind("now", self._write_soon)
         theme.bind(target=self._follow_target)
         self.ids.scroll.bind(scroll_y=self._place_soon)
         self.ids.sheet.bind(pos=self._place_soon, size=self._place_soon)
@@ -333,6 +340,8 @@ class FieldView(RobotWidget, FloatLayout):
         """Bring tree and figures up to the newest message."""
         message = self.message if self.message is not None else self.type() if self.type else None
         found = rows(message, self.folds) if message is not None else []
+        if self.message is None:  # what has not come needs no second line
+            found = [replace(row, kind=LEAF) if row.kind == ARRAY else row for row in found]
         heights = [self._height(row) for row in found]
         edges = [0.0, *accumulate(heights)]
         self.lines = found
@@ -372,11 +381,14 @@ class FieldView(RobotWidget, FloatLayout):
         value, second = describe(row, self.now)
         if self.message is None and row.kind != BRANCH:
             value, second = DASH, ""
-        widget.path, widget.kind, widget.depth = row.path, row.kind, row.depth
+        if widget.path != row.path:
+            widget.path, widget.widest = row.path, 0.0
+        widget.kind, widget.depth = row.kind, row.depth
         widget.step = dp(16 if self.width > dp(NARROW) else 12)
         widget.foldable, widget.open = row.kind == BRANCH, row.open
         widget.name, widget.type = row.name, row.type
         widget.value, widget.second = value, second
+        widget.widest = max(widget.widest, _width(value, sp(15), bold=True))
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

@@ -250,7 +250,7 @@ def _summary(value: Any, now: float, *, opened: bool) -> str:
         return _moment(value.stamp, now)
     parts = [getattr(value, name) for name, _ in _table(type(value))]
     if 0 < len(parts) <= 3 and all(isinstance(part, float) for part in parts):
-        return "  ".join(f"{part:.2f}".replace("-", MINUS) if math.isfinite(part) else DASH for part in parts)
+        return "  ".join(_plainly(part, 2) if math.isfinite(part) else DASH for part in parts)
     texts = [part for part in parts if isinstance(part, str) and part]
     whole = len(texts) == len(parts) <= 2
     return _one_line(" · ".join(texts if whole else texts[:1]))
@@ -260,24 +260,37 @@ def _array(value: Any) -> tuple[str, str]:
     """How many numbers; then the least, the greatest and the first few."""
     with np.errstate(invalid="ignore"):
         numbers = np.asarray(value)
+    count = f"{number(len(value))} values"
     if numbers.dtype == bool:
-        return f"{len(numbers)} values", f"{int(numbers.sum())} true"
+        return count, f"{int(numbers.sum())} true"
     if numbers.dtype.kind not in "iuf":
-        return f"{len(value)} values", ""
+        return count, ""
     finite = numbers[np.isfinite(numbers)] if numbers.dtype.kind == "f" else numbers
-    first = "  ".join(_short(one) for one in numbers[:FIRST].tolist())
+    exponent, decimals = _manner(finite)
+    first = "  ".join(_short(one, exponent, decimals) for one in numbers[:FIRST].tolist())
     if len(numbers) > FIRST:
         first += " …"
     if not len(finite):
-        return f"{len(numbers)} values", first
-    span = f"{_short(finite.min().item())} to {_short(finite.max().item())}"
-    return f"{len(numbers)} values", f"{span}   ({first})"
+        return count, first
+    ends = (_short(one, exponent, decimals) for one in (finite.min().item(), finite.max().item()))
+    return count, f"{' to '.join(ends)}   ({first})"
 
 
-def _short(value: float) -> str:
-    """A number among many: fewer decimals."""
-    if isinstance(value, float) and math.isfinite(value) and (not value or 0.005 <= abs(value) < LARGE):
-        return f"{value:.2f}".replace("-", MINUS)
-    if isinstance(value, float) and math.isfinite(value):
-        return f"{value:.0e}".replace("-", MINUS)
-    return number(value)
+def _manner(finite: np.ndarray) -> tuple[bool, int]:
+    """How all figures of an array are written, so that they can be compared: with an exponent, with so many decimals."""
+    greatest = float(np.abs(finite).max()) if len(finite) and finite.dtype.kind == "f" else 0.0
+    exponent = bool(greatest) and not 0.0005 <= greatest < LARGE
+    return exponent, 4 if 0 < greatest < 0.1 else 2
+
+
+def _short(value: float, exponent: bool, decimals: int) -> str:
+    """A number among many."""
+    if not isinstance(value, float) or not math.isfinite(value):
+        return number(value)
+    return f"{value:.0e}".replace("-", MINUS) if exponent else _plainly(value, decimals)
+
+
+def _plainly(value: float, decimals: int) -> str:
+    """So many decimals and a real minus sign, which nothing that is written as 0 has."""
+    text = f"{value:.{decimals}f}"
+    return text.lstrip("-") if not text.strip("-0.") else text.replace("-", MINUS)

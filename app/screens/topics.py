@@ -411,6 +411,7 @@ class TopicsScreen(FloatLayout):
         }
 
     def _show_message(self) -> None:
+        self.view.now = self.session.link.robot_time()
         self.view.type = self.topics.kind
         if self.topics.message is not None:
             self.view.show(self.topics.message)
@@ -425,10 +426,16 @@ class TopicsScreen(FloatLayout):
             view.age = age
         view.state = state
         view.opacity = 1 if topics.kind is not None else 0
-        stale = state == "stale"
+        stale, once = state == "stale", topics.once
         rate = f"{topics.rate:.1f} Hz" if math.isfinite(topics.rate) else ""
         detail.pace = age_text(age) if stale else rate or ("live" if state == "live" else "")
         detail.pace_icon, detail.pace_role = ("schedule", "warn") if stale else ("sensors", "ok")
+        if math.isfinite(once):
+            detail.pace, detail.pace_icon, detail.pace_role = (
+                f"once, {age_text(once)[:-3]}ago",
+                "info",
+                "muted",
+            )
 
     # what the fingers do
 

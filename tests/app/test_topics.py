@@ -116,7 +116,8 @@ def test_a_topic_is_listened_to_from_opening_to_closing() -> None:
     assert robot.topics.notice == "Learning sensor_msgs/Imu …"
     assert robot.say(Seen("/imu", kind=Imu))
     assert robot.topics.notice == "Nothing has come yet on /imu."
-    robot.say(Seen("/imu", Imu()))
+    for _ in range(2):
+        robot.say(Seen("/imu", Imu()))
     assert (robot.topics.notice, robot.topics.state, robot.topics.message) == ("", "live", Imu())
     robot.time += 3.1
     assert (robot.topics.state, robot.topics.age) == ("stale", pytest.approx(3.1))
@@ -158,6 +159,32 @@ def test_what_a_robot_of_ours_tells_once_does_not_grow_old() -> None:
     robot.feeds.link(False)
     robot.time += 2.0
     assert (robot.topics.state, robot.topics.age) == ("stale", pytest.approx(2.0))
+
+
+def test_what_a_strange_robot_says_once_is_no_fault() -> None:
+    robot = Robot()
+    robot.topics.open("/gripper")
+    robot.say(Seen("/gripper", kind=Twist))
+    robot.say(Seen("/gripper", Twist()))
+    assert (robot.topics.state, math.isnan(robot.topics.once)) == ("live", True)
+    robot.time += 60.0
+    assert (robot.topics.state, robot.topics.age, robot.topics.once) == ("live", 0.0, 60.0)
+    robot.feeds.link(False)
+    robot.time += 2.0
+    assert (robot.topics.state, robot.topics.age) == ("stale", pytest.approx(2.0))
+    assert math.isnan(robot.topics.once)
+
+
+def test_a_slow_stream_is_given_the_time_that_it_takes() -> None:
+    robot = Robot()
+    robot.topics.open("/gripper")
+    robot.say(Seen("/gripper", kind=Twist))
+    for _ in range(2):
+        robot.say(Seen("/gripper", Twist()))
+        robot.time += 10.0
+    assert robot.topics.state == "live"
+    robot.time += 20.5
+    assert (robot.topics.state, robot.topics.age) == ("stale", pytest.approx(30.5))
 
 
 def test_the_open_topic_has_its_rate_in_the_list_though_no_screen_shows_it() -> None:

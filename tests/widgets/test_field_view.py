@@ -185,3 +185,34 @@ def test_a_type_is_written_whole_or_not_at_all(stage, view):
     header = next(row for row in shown(view) if row.name == "header")
     assert header.type_width == 0.0
     assert [label.opacity for label in header.children if getattr(label, "text", "") == header.type] == [0]
+
+
+def test_an_age_goes_on_while_nothing_comes(stage, view):
+    view.show(imu())
+    view.now = 1763719271.12 + 2.0
+    stage.run_for(0.3)
+    view.now += 30.0
+    stage.run_for(0.3)
+    assert figures(view)["header"].endswith("· 32.0 s ago")
+
+
+def test_what_has_not_come_needs_no_second_line(stage, view):
+    view.type = type(scan())
+    stage.frames(2)
+    assert {row.height for row in shown(view) if not row.foldable} == {38.0}
+    view.show(scan())
+    stage.run_for(0.3)
+    assert next(row for row in shown(view) if row.name == "ranges").height == 60.0
+
+
+def test_a_type_does_not_come_and_go_with_the_length_of_a_figure(stage, view):
+    narrow = next(width for width in range(120, 400, 2) if has_type(stage, view, width, "short"))
+    assert not has_type(stage, view, narrow, "a longer figure")
+    assert not has_type(stage, view, narrow, "short")
+
+
+def has_type(stage, view, width, text):
+    view.width = width
+    view.show(String(text))
+    stage.run_for(0.2)
+    return next(row for row in shown(view) if row.name == "data").type_width > 0

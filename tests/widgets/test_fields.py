@@ -112,6 +112,26 @@ def test_an_array_says_how_many_the_least_the_greatest_and_the_first():
     assert unknown["voltages"] == ("2 values", "—  —")
 
 
+def test_the_figures_of_an_array_are_written_alike():
+    cells_type = type(cells())
+
+    def second(values: list[float]) -> str:
+        return texts(cells_type(voltages=Float32Array(values)))["voltages"][1]
+
+    assert second([0.0, 0.001, 0.01]) == "0.0000 to 0.0100   (0.0000  0.0010  0.0100)"
+    assert second([0.0, 0.001, 24.0]) == "0.00 to 24.00   (0.00  0.00  24.00)"
+    assert second([0.0, 2e-9]) == "0e+00 to 2e−09   (0e+00  2e−09)"
+    assert texts(cells_type(voltages=Float32Array([1.0] * 20000)))["voltages"][0] == "20 000 values"
+
+
+def test_nothing_is_less_than_nothing():
+    twist = Twist(linear=Vector3(-0.001, -0.0, -0.5))
+    assert texts(twist, folds={("linear",): False})["linear"] == ("0.00  0.00  −0.50", "")
+    assert texts(type(cells())(voltages=Float32Array([-0.001, 1.0])))["voltages"][1].startswith(
+        "0.00 to 1.00"
+    )
+
+
 def test_truths_are_counted():
     assert texts(Notes(flags=[True, False, True]))["flags"] == ("3 values", "2 true")
 
