@@ -197,12 +197,12 @@ def test_an_age_goes_on_while_nothing_comes(stage, view):
 
 
 def test_what_has_not_come_needs_no_second_line(stage, view):
-    view.type = type(scan())
+    view.type = Imu
     stage.frames(2)
     assert {row.height for row in shown(view) if not row.foldable} == {38.0}
-    view.show(scan())
+    view.show(imu())
     stage.run_for(0.3)
-    assert next(row for row in shown(view) if row.name == "ranges").height == 60.0
+    assert next(row for row in shown(view) if row.name == "orientation_covariance").height == 60.0
 
 
 def test_a_type_does_not_come_and_go_with_the_length_of_a_figure(stage, view):
