@@ -15,11 +15,10 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidSta
 from websockets.protocol import State
 
 from bridge.address import LinkLost, cause, host_and_port, look_up
+from bridge.protocol import LARGEST_TOLD
 
 __all__ = ["Connection", "dial"]
 
-LARGEST = 32 * 1024 * 1024
-"""The largest message that is taken [byte]; a big map is one message."""
 OURS = "Pilothouse"
 """What our server calls itself."""
 _UNSENT = 65536
@@ -157,7 +156,7 @@ async def dial(url: str, open_timeout: float, *, ping_interval: float | None = N
             ping_interval=ping_interval,
             ping_timeout=ping_interval and ping_interval * 2,
             close_timeout=0.2,
-            max_size=LARGEST,
+            max_size=LARGEST_TOLD,
             user_agent_header=None,
             logger=_quiet_log(),
         )

@@ -34,6 +34,7 @@ from bridge.offer import Action, Service, Session
 from bridge.outgoing import Reduce
 from bridge.outlet import Round
 from bridge.params import Params
+from bridge.protocol import LARGEST_HEARD
 from bridge.reducing import Reducing
 from bridge.rosapi import RosApi
 from bridge.server_connection import HeardConnection
@@ -53,8 +54,6 @@ _UNSENT = 65536
 
 _DEAD = 15_000
 """How long a client may leave unacknowledged what was sent to it [ms]; then it is disconnected."""
-_LARGEST = 16_777_216
-"""The largest message that a client may send [byte]; a larger one is not read and closes the connection."""
 _BEAT = 1.0
 """How often every client is looked after [s]."""
 _FAREWELL = 0.5
@@ -141,7 +140,7 @@ class BridgeServer:
                 ping_interval=5,
                 ping_timeout=10,
                 close_timeout=_FAREWELL,
-                max_size=_LARGEST,
+                max_size=LARGEST_HEARD,
                 write_limit=_UNSENT,
                 server_header="Pilothouse",
                 logger=_quiet_log(),

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from typing import Protocol
+import time
+from collections.abc import Callable
+from typing import Any, Protocol
 
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosedOK
@@ -26,14 +28,21 @@ MOST = 128
 """Connections open at a time; for one more the oldest that has not shaken hands is closed, else that one."""
 MOST_PIECES = 1000
 """Frames that one message may come in."""
+PIECE = 4096
+"""So much of what came is looked at before the clock is [byte]."""
+TURN = 0.005
+"""After so long with one connection the others have their turn [s]."""
 _DATA = (Opcode.TEXT, Opcode.BINARY, Opcode.CONT)
 
 
 class Ears(Protocol):
     """Hears a connection."""
 
-    def hear(self, message: str | bytes) -> None:
-        """A message came; bytes hold the UTF-8 of a text or a binary message."""
+    def hear(self, message: str | bytes) -> bool:
+        """A message came; bytes hold the UTF-8 of a text or a binary message. False when it asks for more than a turn."""
+
+    def go_on(self) -> bool:
+        """Do more of what was heard; False when there is still more."""
 
     def answered(self, content: bytes) -> None:
         """A pong came."""
@@ -45,6 +54,7 @@ class Ears(Protocol):
 class HeardConnection(ServerConnection):
     """One WebSocket; works as any other until it is heard."""
 
+    clock = staticmethod(time.monotonic)
     round: Round | None = None
     """Where what is written in one step of the loop is gathered; set by the server."""
     crowd: dict[HeardConnection, None] | None = None
@@ -54,6 +64,12 @@ class HeardConnection(ServerConnection):
     _deaf = False
     _kind = Opcode.TEXT
     _pieces: list[bytes]
+    _behind = False
+    _waits = False
+
+    def __init__(self, *args: Any, **options: Any) -> None:
+        super().__init__(*args, **options)
+        self._rest = bytearray()
 
     @property
     def open(self) -> bool:
@@ -77,6 +93,8 @@ class HeardConnection(ServerConnection):
             while not self._take_over():
                 message = await self.recv()
                 self._tell(ears, message)
+            if self._behind:
+                self._wait()
         except ConnectionClosedOK:
             return
         await self.wait_closed()
@@ -102,14 +120,58 @@ class HeardConnection(ServerConnection):
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
-        """Take what came from the network, and let what it causes leave together."""
+        """Take what came from the network, in pieces with a turn for others between when it is much."""
+        if self._waits:
+            self._rest += data
+        elif self._direct and len(data) > PIECE:
+            self._rest += data
+            self._go_on()
+        else:
+            self._together(super().data_received, data)
+            if self._behind:
+                self._wait()
+
+    def _go_on(self) -> None:
+        """Have a turn: what was heard first, then what came after it."""
+        take = super().data_received
+        self._waits = False
+        if self._deaf or self._ears is None:
+            return
+        until = self.clock() + TURN
+        if self._behind:
+            self._together(self._catch_up, self._ears)
+        while self._rest and not self._behind and not self._deaf:
+            piece = bytes(self._rest[:PIECE])
+            del self._rest[:PIECE]
+            self._together(take, piece)
+            if self.clock() >= until:
+                break
+        if self._rest or self._behind:
+            self._wait()
+        else:
+            self.transport.resume_reading()
+
+    def _wait(self) -> None:
+        self._waits = True
+        self.transport.pause_reading()
+        self.loop.call_soon(self._go_on)
+
+    def _catch_up(self, ears: Ears) -> None:
+        self._behind = False
+        try:
+            self._behind = not ears.go_on()
+        except Exception:
+            log.exception("A message was not understood")
+
+    def _together(self, work: Callable[[Any], None], about: Any) -> None:
+        """Let what `work` causes leave together."""
         round = self.round
         if round is None or round.held:
-            super().data_received(data)
+            work(about)
             return
         round.held = True
         try:
-            super().data_received(data)
+            work(about)
         finally:
             round.held = False
             round.flush()
@@ -165,7 +227,7 @@ class HeardConnection(ServerConnection):
         if self._deaf:
             return
         try:
-            ears.hear(message)
+            self._behind = not ears.hear(message)
         except Exception:
             log.exception("A message of %d bytes was not understood", len(message))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+from collections import deque
 from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -28,6 +29,7 @@ from bridge.protocol import (
     Advertise,
     AdvertiseAction,
     AdvertiseService,
+    Arrival,
     Auth,
     BinaryPublish,
     CallService,
@@ -66,6 +68,10 @@ MOST_CALLS = 256
 """So many of the robot's services may be at work for one client at a time; those of `FIRST` always may."""
 
 
+TURN = 0.005
+"""After so long with one frame the others have their turn [s]; a frame may hold a thousand operations."""
+
+
 @dataclass(frozen=True, slots=True)
 class Offer:
     """What a server has for its clients, the same for all of them."""
@@ -95,7 +101,8 @@ class Client:
         self._complaints = Complaints(session.address)
         self._errands = Errands(self, session, self.outlet, offer.actions, offer.exchange)
         self._tasks: set[asyncio.Task[None]] = set()
-        self._size: int | None = None
+        self._again: set[str] = set()
+        self._left: deque[Arrival] = deque()
         exchange = offer.exchange
         self._hear: dict[type[Op], Callable[[Any], object]] = {
             Publish: self._publish,
@@ -117,19 +124,35 @@ class Client:
             Auth: lambda _: None,
         }
 
-    def hear(self, message: str | bytes) -> None:
-        """Do what one message of the client says; never raises what the message can cause."""
+    def hear(self, message: str | bytes) -> bool:
+        """Do what one message of the client says; False when that takes longer than its turn, and `go_on` must follow.
+
+        Never raises what the message can cause.
+        """
         self.session.last_heard = self._offer.now()
         arrivals = self.remembered.receive(message, self._clock())
-        if self.remembered.fragment_size != self._size:
-            self._size = self.remembered.fragment_size
-            for topic, wanted in self.remembered.subscriptions.items():
-                self._offer.switchboard.alter(self, topic, wanted)
-        for arrival in arrivals:
-            try:
-                self._do(arrival)
-            except ProtocolError as error:
-                self._complain(error, arrival)
+        if len(arrivals) == 1 and not self._left:
+            self._try(arrivals[0])
+            self._alter()
+            return True
+        self._left.extend(arrivals)
+        return self.go_on()
+
+    def go_on(self) -> bool:
+        """Do more of what `hear` left; False when there is still more."""
+        until = self._clock() + TURN
+        while self._left:
+            self._try(self._left.popleft())
+            if self._clock() >= until:
+                break
+        self._alter()
+        return not self._left
+
+    def _try(self, arrival: Arrival) -> None:
+        try:
+            self._do(arrival)
+        except ProtocolError as error:
+            self._complain(error, arrival)
 
     def answered(self, content: bytes) -> None:
         """The client answered a ping."""
@@ -163,6 +186,7 @@ class Client:
             switchboard.unsubscribe(self, topic)
         for topic in list(self.remembered.advertised):
             switchboard.unadvertise(self, topic)
+        self._left.clear()
         self.remembered.lose()
         self.outlet.close()
         self._complaints.close()
@@ -225,6 +249,9 @@ class Client:
         switchboard.check(topic, op.type)
         switchboard.check_fields(topic, op.reduce.fields if op.reduce else None)
         self.remembered.subscribe(op)
+        if self.remembered.stale(topic):
+            self._again.add(topic)
+            return
         try:
             switchboard.subscribe(self, topic, self.remembered.subscriptions[topic], op.type or "")
         except ProtocolError:
@@ -233,14 +260,20 @@ class Client:
 
     def _unsubscribe(self, op: Unsubscribe) -> None:
         topic = self.remembered.unsubscribe(op)
-        wanted = self.remembered.subscriptions.get(topic)
-        switchboard = self._offer.switchboard
-        if wanted is None:
-            stream = switchboard.unsubscribe(self, topic)
+        if not self.remembered.stale(topic):
+            stream = self._offer.switchboard.unsubscribe(self, topic)
             if stream is not None:
                 self.outlet.forget(stream)
-        else:
-            switchboard.alter(self, topic, wanted)
+
+    def _alter(self) -> None:
+        """What is wanted otherwise since the last frame, once for all operations of this one."""
+        switchboard = self._offer.switchboard
+        again, self._again = self._again, set()
+        for topic, wanted in self.remembered.altered().items():
+            if topic in again:
+                switchboard.subscribe(self, topic, wanted)
+            else:
+                switchboard.alter(self, topic, wanted)
 
     def _advertise(self, op: Advertise) -> None:
         topic, switchboard = absolute(op.topic), self._offer.switchboard

@@ -10,6 +10,7 @@ kind take, and those of ROS 2 (`sec`, `nanosec`) where the receiver is known to 
 from __future__ import annotations
 
 from bridge.codec.binary import from_cbor, to_cbor
+from bridge.codec.heads import check_cbor
 from bridge.codec.reader import from_builtins, shown, to_builtins
 from bridge.codec.selection import check_paths, select
 from bridge.codec.text import from_json, to_json
@@ -17,6 +18,7 @@ from bridge.codec.unread import Unread, unread
 
 __all__ = [
     "Unread",
+    "check_cbor",
     "check_paths",
     "from_builtins",
     "from_cbor",

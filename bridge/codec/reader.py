@@ -202,5 +202,8 @@ def shown(value: object) -> str:
     try:
         text = msgspec.json.encode(value, enc_hook=str).decode()
     except (OverflowError, UnicodeEncodeError, TypeError, ValueError, RecursionError):
-        text = ascii(value)
+        try:
+            text = ascii(value)
+        except ValueError:
+            text = "a number of more digits than anybody reads"
     return text if len(text) <= 60 else f"{text[:59]}…"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bridge.protocol.arrivals import Arrival, Arrivals
-from bridge.protocol.client_session import ClientSession, Given, Provided, Served, Subscription
+from bridge.protocol.client_session import LARGEST_TOLD, ClientSession, Given, Provided, Served, Subscription
 from bridge.protocol.fragments import Fragments, split
 from bridge.protocol.merging import Subscribed
 from bridge.protocol.names import absolute, ros2_name, service_and_id, spells_ros2
@@ -38,8 +38,8 @@ from bridge.protocol.ops import (
     Unsubscribe,
 )
 from bridge.protocol.pending import Calls, Goals
-from bridge.protocol.png import from_png, to_png
-from bridge.protocol.server_session import ServerSession
+from bridge.protocol.png import MOST_FILTERED, pixels, to_png
+from bridge.protocol.server_session import LARGEST_HEARD, ServerSession
 from bridge.protocol.wire import (
     arguments,
     complaint,
@@ -49,7 +49,6 @@ from bridge.protocol.wire import (
     parse,
     parse_binary,
     parse_each,
-    parse_many,
     too_deep,
 )
 
@@ -73,8 +72,11 @@ __all__ = [
     "Given",
     "Goals",
     "Id",
+    "LARGEST_HEARD",
+    "LARGEST_TOLD",
     "LEVELS",
     "MISSING",
+    "MOST_FILTERED",
     "OPS",
     "Op",
     "Png",
@@ -99,12 +101,11 @@ __all__ = [
     "complaint",
     "dump",
     "encode",
-    "from_png",
     "goal_status",
     "parse",
     "parse_binary",
     "parse_each",
-    "parse_many",
+    "pixels",
     "ros2_name",
     "service_and_id",
     "spells_ros2",

@@ -6,7 +6,7 @@ from bridge.errors import ProtocolError
 from bridge.protocol.fragments import Fragments
 from bridge.protocol.names import wrong
 from bridge.protocol.ops import BinaryPublish, Fragment, Op, Png
-from bridge.protocol.png import pixels
+from bridge.protocol.png import MOST_FILTERED, pixels
 from bridge.protocol.wire import parse, parse_binary, parse_each
 
 __all__ = ["Arrival", "Arrivals"]
@@ -19,35 +19,44 @@ _PACKED = {Fragment, Png}
 class Arrivals:
     """What comes over one connection. Bounded: by bytes in each frame, in all unfinished fragments, in a picture."""
 
-    def __init__(self, limit_bytes: int, *, most: int = 4, lifetime: float = 10.0) -> None:
-        """`most` texts may be unfinished at a time, each for `lifetime` [s] after its last fragment."""
+    def __init__(
+        self,
+        limit_bytes: int,
+        *,
+        most: int = 4,
+        lifetime: float = 10.0,
+        filtered: int = MOST_FILTERED,
+        most_values: int | None = None,
+    ) -> None:
+        """`most` texts may be unfinished at a time, each for `lifetime` [s] after its last fragment.
+
+        What takes long to read is bounded too: `filtered` are the bytes in filtered rows of a frame's pictures, `most_values`
+        the values in a frame of CBOR, None for any.
+        """
         self._limit = limit_bytes
+        self._filtered = filtered
+        self._most_values = most_values
         self._lost: list[ProtocolError] = []
         self._fragments = Fragments(limit_bytes, most, lifetime, given_up=self._lost.append)
-
-    @property
-    def held(self) -> int:
-        """What waits for its other fragments [byte]."""
-        return self._fragments.held
 
     def take(self, frame: str | bytes, now: float) -> list[Arrival]:
         """What is in a frame that came at `now` [s], in its order. Fragments and pictures give what they held, once whole."""
         if len(frame) > self._limit:
             return [ProtocolError(f"A frame may have at most {self._limit} bytes, not {len(frame)}.")]
         if isinstance(frame, bytes) and frame[:1] > b"\x7f":  # a CBOR map begins so, JSON text never does
-            return [_binary(frame)]
+            return [_binary(frame, self._most_values)]
         try:
             op = parse(frame)
-        except ProtocolError:
-            found = parse_each(frame)
+        except ProtocolError as error:
+            found = parse_each(frame, error)
         else:
             if type(op) not in _PACKED:
                 return [op]
             found = [op]
-        return _Unpacking(self._limit, self._fragments, self._lost, now).unpacked(found)
+        return _Unpacking(self._limit, self._filtered, self._fragments, self._lost, now).unpacked(found)
 
     def expire(self, now: float) -> list[ProtocolError]:
-        """What is given up at `now` [s] because the rest did not come. `take` tells it with the next fragment anyway."""
+        """What is given up at `now` [s] because the rest did not come; to be called every second or so."""
         self._fragments.expire(now)
         lost, self._lost[:] = list(self._lost), []
         return lost
@@ -56,9 +65,11 @@ class Arrivals:
 class _Unpacking:
     """One frame being unpacked. A picture may stand in fragments, and nothing else within another."""
 
-    def __init__(self, limit: int, fragments: Fragments, lost: list[ProtocolError], now: float) -> None:
-        self._limit = limit
+    def __init__(
+        self, limit: int, filtered: int, fragments: Fragments, lost: list[ProtocolError], now: float
+    ) -> None:
         self._left = limit
+        self._filtered = filtered
         self._fragments = fragments
         self._lost = lost
         self._now = now
@@ -88,13 +99,14 @@ class _Unpacking:
     def _picture(self, op: Png, within: type[Op] | None) -> list[Arrival]:
         if within is Png:
             raise wrong(op, "A png cannot stand in a png.")
-        text = pixels(op, self._left)
+        text, filtered = pixels(op, self._left, self._filtered)
         self._left -= len(text)
+        self._filtered -= filtered
         return self.unpacked(parse_each(text), Png)
 
 
-def _binary(frame: bytes) -> BinaryPublish | ProtocolError:
+def _binary(frame: bytes, most_values: int | None) -> BinaryPublish | ProtocolError:
     try:
-        return parse_binary(frame)
+        return parse_binary(frame, most_values)
     except ProtocolError as error:
         return error

@@ -36,11 +36,13 @@ from bridge.protocol.ops import (
 )
 from bridge.protocol.pending import Answer, Calls, Feedback, Goals, Result
 
-__all__ = ["ClientSession", "Given", "Provided", "Served", "Subscription"]
+__all__ = ["LARGEST_TOLD", "ClientSession", "Given", "Provided", "Served", "Subscription"]
 
 AnyOp = TypeVar("AnyOp", bound=Op)
-LARGEST = 32 * 1024 * 1024
-"""The largest frame, and the most that may wait in fragments [byte]."""
+LARGEST_TOLD = 33_554_432
+"""The largest frame that a client takes, a big map is one, and the most that may wait in fragments [byte]."""
+_FILTERED = 1_048_576
+"""Bytes in filtered rows of pictures that a client reads of a frame: it gets what it asked for."""
 MOST_CALLS = 1000
 """So many calls may wait for their answer."""
 MOST_GOALS = 1000
@@ -91,7 +93,7 @@ class ClientSession:
     Its subscriptions and what it advertises for ever, its calls and goals until answered or until the connection is lost.
     """
 
-    def __init__(self, *, limit_bytes: int = LARGEST) -> None:
+    def __init__(self, *, limit_bytes: int = LARGEST_TOLD) -> None:
         """`limit_bytes` bounds a frame, what waits in fragments, and what is unpacked of one frame [byte]."""
         self.subscriptions: dict[str, dict[Id, Subscription]] = {}
         """By topic and id."""
@@ -112,7 +114,7 @@ class ClientSession:
         self.goals = Goals("goal", MOST_GOALS)
         """Goals of ours until the server says what became of them."""
         self._limit = limit_bytes
-        self._arrivals = Arrivals(limit_bytes)
+        self._arrivals = Arrivals(limit_bytes, filtered=_FILTERED)
         self._numbers = itertools.count(1)
 
     def receive(self, frame: str | bytes, now: float) -> list[Arrival]:
@@ -252,7 +254,7 @@ class ClientSession:
 
     def lose(self) -> None:
         """The connection is gone, and with it all answers, unfinished fragments, and whoever gave goals."""
-        self._arrivals = Arrivals(self._limit)
+        self._arrivals = Arrivals(self._limit, filtered=_FILTERED)
         given, self.given = self.given, {}
         with contextlib.ExitStack() as stack:
             for each in reversed(given.values()):

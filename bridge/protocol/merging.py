@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from msgspec import UNSET
@@ -64,23 +65,27 @@ def wish(op: Subscribe, compat: Compat, ros2: bool = False) -> Subscribed:
     )
 
 
-def merged(first: Subscribed, second: Subscribed, compat: Compat) -> Subscribed:
-    """What both ask for as one delivery, under the name of the first.
+def merged(wishes: Iterable[Subscribed], compat: Compat) -> Subscribed:
+    """What several ask for, one at least, as one delivery, under the name of the first.
 
     The faster rate, the smaller fragments, the later in `COMPRESSIONS`; the same reduction stays, with different ones
     everything is sent. For the queue see `Compat.shortest_queue`.
     """
-    sizes = [size for size in (first.fragment_size, second.fragment_size) if size is not None]
-    queues = (first.queue, second.queue)
+    several = list(wishes)
+    first = several[0]
+    queues = [each.queue for each in several]
     longest = 0 if 0 in queues else max(queues)
+    alike = all(each.reduction == first.reduction for each in several)
     return Subscribed(
         name=first.name,
-        period=min(first.period, second.period),
+        period=min([each.period for each in several]),
         queue=min(queues) if compat.shortest_queue else longest,
-        compression=max(first.compression, second.compression, key=COMPRESSIONS.index),
-        fragment_size=min(sizes, default=None),
-        reduction=first.reduction if first.reduction == second.reduction else None,
-        ros2=first.ros2 or second.ros2,
+        compression=max({each.compression for each in several}, key=COMPRESSIONS.index),
+        fragment_size=min(
+            [size for each in several if (size := each.fragment_size) is not None], default=None
+        ),
+        reduction=first.reduction if alike else None,
+        ros2=any(each.ros2 for each in several),
     )
 
 

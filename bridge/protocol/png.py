@@ -16,7 +16,7 @@ from bridge.errors import ProtocolError
 from bridge.protocol.names import wrong
 from bridge.protocol.ops import Png
 
-__all__ = ["from_png", "pixels", "to_png"]
+__all__ = ["MOST_FILTERED", "pixels", "to_png"]
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _HEADER = struct.Struct(">IIBBBBB")
@@ -24,6 +24,8 @@ _LENGTH_AND_NAME = struct.Struct(">I4s")
 _CHANNELS = {2: 3, 6: 4}
 """Bytes of a pixel by colour type: RGB and, as a browser's canvas writes it, RGBA."""
 _LONGEST_SIDE = 1 << 20
+MOST_FILTERED = 131_072
+"""So many bytes of rows may be filtered: each takes a step of Python to restore, those of other rows nothing [byte]."""
 
 
 def to_png(text: bytes) -> Png:
@@ -43,17 +45,12 @@ def to_png(text: bytes) -> Png:
     return Png(data=binascii.b2a_base64(picture, newline=False).decode())
 
 
-def from_png(op: Png, limit: int) -> bytes:
-    """The text in a picture of 8-bit RGB or RGBA, without the line breaks at its end.
+def pixels(op: Png, limit: int, filtered: int = MOST_FILTERED) -> tuple[bytes, int]:
+    """The text in a picture of 8-bit RGB or RGBA with the line breaks that fill it up, and what was filtered [byte].
 
-    `limit` is how large the text may be with what fills the picture up [byte]; nothing larger is ever unpacked.
+    `limit` is how large the text may be [byte], `filtered` how much of the pixels; nothing larger is ever unpacked.
     ProtocolError when it is larger or no such picture.
     """
-    return pixels(op, limit).rstrip(b"\n")
-
-
-def pixels(op: Png, limit: int) -> bytes:
-    """The same with the line breaks that fill the picture up."""
     try:
         picture = binascii.a2b_base64(op.data)
     except ValueError as error:
@@ -68,7 +65,11 @@ def pixels(op: Png, limit: int) -> bytes:
             packed.append(content)
     width, height, channels = _shape(op, header, limit)
     rows = _inflate(op, b"".join(packed), (channels * width + 1) * height)
-    return _unfiltered(op, rows, width * channels, channels)
+    stride = width * channels
+    costs = stride * (height - rows[:: stride + 1].count(0))
+    if costs > filtered:
+        raise _wrong(op, f"at most {filtered} bytes of it may stand in filtered rows, not {costs}")
+    return _unfiltered(op, rows, stride, channels), costs
 
 
 def _chunk(name: bytes, content: bytes) -> bytes:

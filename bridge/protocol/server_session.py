@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-import functools
+from collections.abc import Mapping
 
 import msgspec
 from msgspec import UNSET, Raw
@@ -38,12 +38,21 @@ from bridge.protocol.ops import (
 )
 from bridge.protocol.pending import Answer, Calls, Feedback, Goals, Result
 
-__all__ = ["MOST_ADVERTISED", "MOST_CALLS", "MOST_GOALS", "MOST_SUBSCRIPTIONS", "ServerSession"]
+__all__ = [
+    "LARGEST_HEARD",
+    "MOST_ADVERTISED",
+    "MOST_CALLS",
+    "MOST_GOALS",
+    "MOST_SUBSCRIPTIONS",
+    "ServerSession",
+]
 
 NAMELESS = (None, UNSET)
 _TYPED = (Subscribe, Advertise, AdvertiseService, AdvertiseAction)
-LARGEST = 32 * 1024 * 1024
-"""The largest frame, and the most that may wait in fragments [byte]."""
+LARGEST_HEARD = 16_777_216
+"""The largest frame that a server takes, and the most that may wait in fragments [byte]."""
+MOST_VALUES = 100_000
+"""Values in one binary frame, a number array counted as one."""
 MOST_SUBSCRIPTIONS = 1000
 """Subscriptions of one client, each id counted."""
 MOST_ADVERTISED = 1000
@@ -57,11 +66,9 @@ MOST_GOALS = 100
 class ServerSession:
     """What a server remembers about one client: what it wants, what it offers, what is asked of it."""
 
-    def __init__(self, compat: Compat | None = None, *, limit_bytes: int = LARGEST) -> None:
+    def __init__(self, compat: Compat | None = None, *, limit_bytes: int = LARGEST_HEARD) -> None:
         """`limit_bytes` bounds a frame, what waits in fragments, and what is unpacked of one frame [byte]."""
         self.compat = compat or Compat()
-        self.subscriptions: dict[str, Subscribed] = {}
-        """By the topic's absolute name."""
         self.advertised: dict[str, dict[Id, Advertise]] = {}
         """Topics it publishes on: the advertisements by id, by the topic's absolute name."""
         self.services: dict[str, AdvertiseService] = {}
@@ -76,8 +83,11 @@ class ServerSession:
         """Longest text frame [characters] for everything sent to it; None for no end."""
         self.ros2 = False
         """It has spelled a type as `pkg/msg/Type`, so it wants times as `sec` and `nanosec` where it names no type."""
-        self._arrivals = Arrivals(limit_bytes)
+        self._arrivals = Arrivals(limit_bytes, most_values=MOST_VALUES)
         self._asked: dict[str, dict[Id, Subscribed]] = {}
+        self._wanted: dict[str, Subscribed] = {}
+        self._stale: dict[str, None] = {}
+        self._altered: dict[str, None] = {}
         self._subscriptions = 0
         self._calls = Calls("service_request", MOST_CALLS)
         self._goals = Goals("action_goal", MOST_GOALS)
@@ -90,14 +100,17 @@ class ServerSession:
         """
         return [self._noted(arrival) for arrival in self._arrivals.take(frame, now)]
 
+    def expire(self, now: float) -> list[ProtocolError]:
+        """What is given up at `now` [s] because the rest of its fragments did not come; to be called every second or so."""
+        return self._arrivals.expire(now)
+
     def note(self, op: Op) -> None:
         """Remember what any operation may say beside its own matter; `receive` does it."""
         if op.fragment_size is not UNSET:
             size = checked_size(op)
             if self.compat.sticky_fragment_size and size != self.fragment_size:
                 self.fragment_size = size
-                for topic in self.subscriptions:
-                    self._merge(topic)
+                self._stale = dict.fromkeys(self._asked)
         if not self.ros2 and isinstance(op, SendActionGoal):
             self.ros2 = spells_ros2(op.action_type)
         elif not self.ros2 and isinstance(op, _TYPED):
@@ -121,10 +134,11 @@ class ServerSession:
         again = id in asked
         self._asked.setdefault(topic, {})[id] = wanted
         self._subscriptions += not again
-        if again or not asked:
-            self._merge(topic)
+        if again or topic in self._stale:
+            self._stale[topic] = None
         else:
-            self.subscriptions[topic] = self._cut(merged(self.subscriptions[topic], wanted, self.compat))
+            both = merged((self._wanted[topic], wanted), self.compat) if asked else wanted
+            self._wanted[topic] = self._cut(both)
         return topic
 
     def unsubscribe(self, op: Unsubscribe) -> str:
@@ -136,8 +150,36 @@ class ServerSession:
             asked.clear()
         asked.pop(op.id, None)
         self._subscriptions -= before - len(asked)
-        self._merge(topic)
+        if asked:
+            self._stale[topic] = None
+        else:
+            for forgotten in (self._asked, self._wanted, self._stale):
+                forgotten.pop(topic, None)
         return topic
+
+    @property
+    def subscriptions(self) -> Mapping[str, Subscribed]:
+        """What it wants of each topic, by absolute name."""
+        stale, self._stale = self._stale, {}
+        for topic in stale:
+            self._wanted[topic] = self._cut(merged(self._asked[topic].values(), self.compat))
+        self._altered |= stale
+        return self._wanted
+
+    def stale(self, topic: str) -> bool:
+        """Whether what it wants of a topic, by its absolute name, is still to be put together, for `altered` to tell.
+
+        That is not done with each operation: a frame may hold a thousand of them, and a topic as many subscriptions.
+        """
+        return topic in self._stale
+
+    def altered(self) -> dict[str, Subscribed]:
+        """What it wants otherwise since this was last asked, by the topic's absolute name; new topics are not among it."""
+        if not self._stale and not self._altered:
+            return {}
+        wanted = self.subscriptions
+        altered, self._altered = self._altered, {}
+        return {topic: wanted[topic] for topic in altered if topic in wanted}
 
     def advertise(self, op: Advertise) -> str:
         """The client is going to publish; gives the topic's absolute name. ProtocolError when it is one too many."""
@@ -234,10 +276,6 @@ class ServerSession:
         """The client says what became of a goal, passed on to whose it was; False when nobody waits for it."""
         return self._goals.finished(op)
 
-    def forget_goal(self, id: Id) -> bool:
-        """Whose goal this is, by the id that `hand_goal` gave, waits no longer; False when nobody did."""
-        return self._goals.forget(id)
-
     def begin_goal(self, op: SendActionGoal) -> None:
         """The client has a goal under way. ProtocolError when it has one of that id already, or too many."""
         id = checked_id(op)
@@ -273,8 +311,10 @@ class ServerSession:
         """The client is gone: forget all, tell None to whoever waits for it; gives the goals that it leaves behind."""
         goals = list(self.goals.values())
         for forgotten in (
-            self.subscriptions,
             self._asked,
+            self._wanted,
+            self._stale,
+            self._altered,
             self.advertised,
             self.services,
             self.actions,
@@ -302,15 +342,6 @@ class ServerSession:
         topics = sum(len(ids) for ids in self.advertised.values())
         if topics + len(self.services) + len(self.actions) >= MOST_ADVERTISED:
             raise wrong(op, f"A client may advertise at most {MOST_ADVERTISED} topics, services and actions.")
-
-    def _merge(self, topic: str) -> None:
-        asked = self._asked.get(topic)
-        if not asked:
-            self._asked.pop(topic, None)
-            self.subscriptions.pop(topic, None)
-            return
-        wanted = functools.reduce(lambda one, other: merged(one, other, self.compat), asked.values())
-        self.subscriptions[topic] = self._cut(wanted)
 
     def _cut(self, wanted: Subscribed) -> Subscribed:
         if not self.compat.sticky_fragment_size:

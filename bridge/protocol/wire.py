@@ -7,9 +7,9 @@ import json
 import re
 
 import msgspec
-from msgspec import Raw
+from msgspec import UNSET, Raw, UnsetType
 
-from bridge.codec import from_builtins, from_cbor, from_json, shown
+from bridge.codec import check_cbor, from_cbor, from_json, shown
 from bridge.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.protocol.names import LONGEST_ID
@@ -25,12 +25,20 @@ __all__ = [
     "parse",
     "parse_binary",
     "parse_each",
-    "parse_many",
     "too_deep",
 ]
 
 MOST_OPERATIONS = 1000
 """So many operations may stand in one frame."""
+LARGEST_SHARED = 1_048_576
+"""The largest frame that is looked through for several operations [byte]."""
+LARGEST_ARGUMENTS = 1_048_576
+"""The longest text of a request or a goal that is read [byte]."""
+_DEEPEST = 100
+_MOST_GAPS = 100_000
+"""Bare NaNs are looked for in so many places between the texts of a frame."""
+_LONGEST_SCALAR = 8 * LONGEST_ID
+_LONGEST_REDUCTION = 65_536
 _NAMES = tuple(str(op.__struct_config__.tag) for op in OPS)
 _FAULTS = (msgspec.MsgspecError, UnicodeError, RecursionError, OverflowError, ValueError)
 """What msgspec and json raise for texts that are no JSON, or no JSON of this shape."""
@@ -43,12 +51,21 @@ def _decoder() -> msgspec.json.Decoder[Op]:
 
 
 _ENCODER = msgspec.json.Encoder()
-_FIELDS = msgspec.json.Decoder(dict[str, Raw])
-_SCANNER = json.JSONDecoder()
-_STRING_OR_NAN = re.compile(rb'"[^"\\]*+(?:\\.[^"\\]*+)*+(?:"|\\?\Z)|-?\b(?:NaN|Infinity)\b', re.DOTALL)
-_STRING_OR_BRACKET = re.compile(rb'"[^"\\]*+(?:\\.[^"\\]*+)*+(?:"|\\?\Z)|[\[{]|[\]}]', re.DOTALL)
-_SPACES = re.compile(r"[ \t\r\n]*+")
 _NULLABLE = ("id", "msg", "args", "values", "fragment_size")
+_FIELDS = msgspec.json.Decoder(
+    msgspec.defstruct(
+        "Fields",
+        [
+            (name, Raw | UnsetType, UNSET)
+            for name in sorted({"op"} | {field for op in OPS for field in op.__struct_fields__})
+        ],
+    )
+)
+"""The fields that any operation has, unread; a frame may hold others without number, which cost nothing so."""
+_SCANNER = json.JSONDecoder()
+_STRING = rb'"[^"\\]*+(?:\\.[^"\\]*+)*+(?:"|\\?\Z)'
+_GAP_WITH_NAN = re.compile(rb"((?:[^\"NI-]++|" + _STRING + rb')*+)([^"]*+)', re.DOTALL)
+_SPACES = re.compile(r"[ \t\r\n]*+")
 
 
 def parse(text: str | bytes) -> Op:
@@ -62,12 +79,15 @@ def parse(text: str | bytes) -> Op:
             text.decode()  # the decoder does not look at the texts of a message, which may be passed on as it is
         return _decoder().decode(text)
     except UnicodeError as error:
-        raise _explained(error, text) from error
+        raise _explained(error, text, b"") from error
     except _FAULTS as error:
         fault = error
+    raw = b""
     try:
-        raw = _without_nan(text.encode() if isinstance(text, str) else text)
-        return _decoder().decode(raw)
+        whole = text.encode() if isinstance(text, str) else text
+        raw = _without_nan(whole)
+        if raw is not whole:
+            return _decoder().decode(raw)
     except _FAULTS as error:
         fault = error
     if isinstance(fault, msgspec.ValidationError):
@@ -75,19 +95,21 @@ def parse(text: str | bytes) -> Op:
             return _decoder().decode(_without_nulls(raw))
         except _FAULTS as error:
             fault = error
-    raise _explained(fault, text) from fault
+    raise _explained(fault, text, raw) from fault
 
 
-def parse_each(text: str | bytes) -> list[Op | ProtocolError]:
+def parse_each(text: str | bytes, alone: ProtocolError | None = None) -> list[Op | ProtocolError]:
     """The operations in one frame of text, which may hold several one after the other; what is none as its error.
 
-    What follows something that is no JSON cannot be told apart and is one error with it.
+    What follows something that is no JSON cannot be told apart and is one error with it. `alone` is what `parse` says
+    of all of it, where that was asked before.
     """
-    try:
-        return [parse(text)]
-    except ProtocolError as error:
-        alone = error
-    pieces = _pieces(text)
+    if alone is None:
+        try:
+            return [parse(text)]
+        except ProtocolError as error:
+            alone = error
+    pieces = _pieces(text) if len(text) <= LARGEST_SHARED else []
     if len(pieces) < 2:
         return [alone]
     found: list[Op | ProtocolError] = []
@@ -101,18 +123,13 @@ def parse_each(text: str | bytes) -> list[Op | ProtocolError]:
     return found
 
 
-def parse_many(text: str | bytes) -> list[Op]:
-    """The operations in one frame of text, one or several; the first ProtocolError when any of them is none."""
-    found = []
-    for each in parse_each(text):
-        if isinstance(each, ProtocolError):
-            raise each
-        found.append(each)
-    return found
+def parse_binary(raw: bytes, most_values: int | None = None) -> BinaryPublish:
+    """The publish operation in one frame of CBOR; ProtocolError when it is none.
 
-
-def parse_binary(raw: bytes) -> BinaryPublish:
-    """The publish operation in one frame of CBOR; ProtocolError when it is none."""
+    With `most_values` also when it holds more of them, a number array counted as one, or tags that are none of arrays.
+    """
+    if most_values is not None:
+        check_cbor(raw, most_values)
     obj = from_cbor(raw)
     if not isinstance(obj, dict) or obj.get("op") != "publish" or not isinstance(obj.get("topic"), str):
         try:
@@ -151,19 +168,35 @@ def complaint(error: ProtocolError, level: str = "error") -> Status:
 
 
 def arguments(raw: Raw, type: type[Msg]) -> Msg:
-    """A request or a goal in `args`: an object, a list of the fields in their order, or null."""
+    """A request or a goal in `args`: an object, a list of the fields in their order, or null.
+
+    ProtocolError when it is none of them, or over `LARGEST_ARGUMENTS`.
+    """
     text = bytes(raw).lstrip()
+    if len(text) > LARGEST_ARGUMENTS:
+        raise ProtocolError(
+            f"args of {type.MSGTYPE} may have at most {LARGEST_ARGUMENTS} bytes, not {len(text)}."
+        )
     if text.startswith(b"{"):
         return from_json(raw, type)
     try:
+        if text.startswith(b"["):
+            listed = msgspec.structs.astuple(msgspec.json.decode(text, type=_listed(type)))
+            named = zip(type.__struct_encode_fields__, listed, strict=True)
+            return from_json(_ENCODER.encode({name: each for name, each in named if each is not UNSET}), type)
         values = msgspec.json.decode(text)
     except _FAULTS as error:
         raise ProtocolError(f"args of {type.MSGTYPE} cannot be read: {error}.") from error
     if values is None:
         return type()
-    if not isinstance(values, list):
-        raise ProtocolError(f"args must be an object or a list, not {shown(values)}.")
-    return from_builtins(dict(zip(type.__struct_fields__, values, strict=False)), type)
+    raise ProtocolError(f"args must be an object or a list, not {shown(values)}.")
+
+
+@functools.lru_cache(maxsize=1024)
+def _listed(type: type[Msg]) -> type[msgspec.Struct]:
+    """The fields of `type` in their order, unread; a list may be longer."""
+    fields = [(f"f{place}", Raw | UnsetType, UNSET) for place in range(len(type.__struct_fields__))]
+    return msgspec.defstruct("Listed", fields, array_like=True)
 
 
 def goal_status(op: ActionResult) -> int:
@@ -171,8 +204,7 @@ def goal_status(op: ActionResult) -> int:
     status: object = op.status
     if not status:
         try:
-            values = _FIELDS.decode(op.values)
-            status = msgspec.json.decode(values.get("status", b"0"))
+            status = _scalar(_FIELDS.decode(op.values).status)  # type: ignore[attr-defined]
         except _FAULTS:
             return 0
     if isinstance(status, bool) or not isinstance(status, (int, float)) or not 0 <= status <= 6:
@@ -180,40 +212,52 @@ def goal_status(op: ActionResult) -> int:
     return int(status)
 
 
-def too_deep(text: bytes, limit: int = 100) -> bool:
+def too_deep(text: bytes, limit: int = _DEEPEST) -> bool:
     """Whether lists and objects of a JSON text stand in one another more than `limit` deep.
 
     For what is passed on unread: many a client's parser gives up where ours does not.
     """
     if text.count(b"[") + text.count(b"{") <= limit:
         return False
-    depth = 0
-    for token in _STRING_OR_BRACKET.finditer(text):
-        first = text[token.start()]
-        if first in b"[{":
-            depth += 1
-            if depth > limit:
-                return True
-        elif first in b"]}":
-            depth -= 1
-    return False
+    return _flat(limit).fullmatch(text) is None
+
+
+@functools.cache
+def _flat(limit: int) -> re.Pattern[bytes]:
+    """Matches what is nested at most `limit` deep; a loop over the brackets in Python takes ten times as long."""
+    other = rb'[^"\[\]{}]*+'
+    inner = other + rb"(?:" + _STRING + other + rb")*+"
+    for _ in range(limit):
+        inner = other + rb"(?:(?:" + _STRING + rb"|[\[{]" + inner + rb"(?:[\]}]|\Z))" + other + rb")*+"
+    return re.compile(inner, re.DOTALL)
 
 
 def _without_nan(raw: bytes) -> bytes:
-    """The same JSON with `null` where Python's own encoder writes NaN or Infinity."""
+    """The same JSON with `null` where Python's own encoder writes NaN or Infinity; ValueError where that is too much work."""
     if b"NaN" not in raw and b"Infinity" not in raw:
         return raw
-    return _STRING_OR_NAN.sub(lambda found: found[0] if found[0][:1] == b'"' else b"null", raw)
+    gaps = 0
+
+    def nulled(found: re.Match[bytes]) -> bytes:
+        nonlocal gaps
+        gaps += 1
+        if gaps > _MOST_GAPS:
+            raise ValueError("there are too many texts among bare NaNs")
+        gap = found[2]
+        for word in (b"-NaN", b"NaN", b"-Infinity", b"Infinity"):
+            gap = gap.replace(word, b"null")
+        return found[1] + gap
+
+    return _GAP_WITH_NAN.sub(nulled, raw)
 
 
 def _without_nulls(raw: bytes) -> bytes:
     """The same operation without null where a null means nothing, and with whole numbers that came as floats whole."""
-    fields = _FIELDS.decode(raw)
     kept: dict[str, object] = {}
-    for name, value in fields.items():
-        if bytes(value) == b"null" and name not in _NULLABLE:
+    for name, value in msgspec.structs.asdict(_FIELDS.decode(raw)).items():
+        if value is UNSET or (bytes(value) == b"null" and name not in _NULLABLE):
             continue
-        whole = name in ("status", "reduce")
+        whole = name in ("status", "reduce") and len(value) <= _LONGEST_REDUCTION
         kept[name] = _whole_numbers(msgspec.json.decode(value)) if whole else value
     return _ENCODER.encode(kept)
 
@@ -251,21 +295,20 @@ _PLACE = re.compile(r"Expected `(?P<wanted>.+?)`, got `(?P<found>.+?)`(?: - at `
 _MISSING = re.compile(r"Object missing required field `(?P<field>.+?)`")
 
 
-def _explained(error: Exception, text: str | bytes) -> ProtocolError:
+def _explained(error: Exception, text: str | bytes, raw: bytes) -> ProtocolError:
     start = text[:80] if isinstance(text, str) else text[:80].decode(errors="replace")
     if isinstance(error, RecursionError):
         return ProtocolError(f"This is nested too deeply: {start!r}.")
     if isinstance(error, UnicodeError):
         return ProtocolError(f"This is not UTF-8: {start!r}.")
     try:
-        raw = _without_nan(text.encode() if isinstance(text, str) else text)
         msgspec.json.decode(raw, type=Raw)
     except _FAULTS:
         return ProtocolError(f"This is not JSON: {start!r}.")
     if not raw.lstrip().startswith(b"{"):
         return ProtocolError(f"An operation must be an object, not {start!r}.")
     fields = _FIELDS.decode(raw)
-    op, id = _scalar(fields.get("op")), _scalar(fields.get("id"))
+    op, id = _scalar(fields.op), _scalar(fields.id)  # type: ignore[attr-defined]
     if op not in _NAMES:
         return ProtocolError(f"op must be one of {', '.join(_NAMES)}, not {shown(op)}.", id=id)
     return ProtocolError(f"{_sentence(str(op), str(error))}: {start!r}.", op=str(op), id=id)
@@ -280,10 +323,12 @@ def _sentence(op: str, fault: str) -> str:
     return f"{op}: {fault}"
 
 
-def _scalar(raw: Raw | None) -> str | float | None:
+def _scalar(raw: Raw | UnsetType) -> str | float | None:
     """A short text or a number; None for anything else."""
+    if raw is UNSET or len(raw) > _LONGEST_SCALAR:
+        return None
     try:
-        value = None if raw is None else msgspec.json.decode(raw)
+        value = msgspec.json.decode(raw)
     except _FAULTS:
         return None
     usable = isinstance(value, (str, int, float)) and not isinstance(value, bool)

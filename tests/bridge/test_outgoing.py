@@ -17,7 +17,7 @@ from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import LaserScan
 from bridge.msgs.std_msgs import Float64, Header, String, Time
 from bridge.outgoing import Form, Outgoing, ping_frame, said
-from bridge.protocol import Png, Reduction, Status, from_png
+from bridge.protocol import Png, Reduction, Status, pixels
 from bridge.rosbytes import serialize
 from tests.bridge.ws_frames import frames
 
@@ -58,7 +58,7 @@ def test_in_cbor_raw_it_holds_the_bytes_of_ros_and_the_time():
 
 def test_as_a_picture_it_holds_the_same_text():
     (heard,) = received(Outgoing("/n", Float64(1.5)).frame(Form("/n", "png")))
-    assert json.loads(from_png(Png(data=heard["data"]), 1000))["msg"] == {"data": 1.5}
+    assert json.loads(pixels(Png(data=heard["data"]), 1000)[0])["msg"] == {"data": 1.5}
 
 
 @pytest.mark.parametrize("compression", ["none", "png"])

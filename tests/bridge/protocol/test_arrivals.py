@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import base64
+import io
 import json
 
 import cbor2
 import pytest
+from PIL import Image
 
 from bridge.errors import ProtocolError
 from bridge.protocol import (
     Arrivals,
     BinaryPublish,
+    Png,
     Publish,
     Unadvertise,
     Unsubscribe,
@@ -57,9 +61,8 @@ def test_fragments_give_what_they_held_once_whole():
     *first, last = frames(BOTH)
     arrivals = Arrivals(LIMIT)
     assert taken(arrivals, *first) == []
-    assert arrivals.held > 0
     assert taken(arrivals, last) == [A, B]
-    assert arrivals.held == 0
+    assert arrivals.expire(100.0) == []
 
 
 def test_a_picture_gives_what_it_held():
@@ -121,6 +124,32 @@ def test_the_pictures_of_one_frame_unpack_to_the_limit_together():
     assert len(good) == 2
 
 
+def test_the_filtered_rows_of_all_pictures_of_one_frame_are_counted_together():
+    picture = Image.frombytes("RGB", (100, 100), encode(A).ljust(30_000, b"\n"))
+    file = io.BytesIO()
+    picture.save(file, "png")
+    filtered = encode(Png(data=base64.b64encode(file.getvalue()).decode()))
+    found = Arrivals(LIMIT, filtered=50_000).take(filtered * 3, 0.0)
+    assert [each == A for each in found] == [True, False, False]
+    assert "filtered rows" in str(found[-1])
+
+
+@pytest.mark.parametrize(
+    "msg",
+    [
+        [[]] * 100,
+        cbor2.CBORTag(35, "(a|b)*" * 100),
+        cbor2.CBORTag(4, [2**31, 2**9000]),
+        cbor2.CBORTag(28, [cbor2.CBORTag(29, 0)]),
+    ],
+)
+def test_cbor_that_takes_long_to_read_is_refused_before_it_is_read(msg):
+    frame = cbor2.dumps({"op": "publish", "topic": "/a", "msg": msg})
+    assert "A binary frame may hold" in str(only(Arrivals(LIMIT, most_values=100), frame))
+    arrays = {"op": "publish", "topic": "/a", "msg": {"data": cbor2.CBORTag(85, bytes(4000))}}
+    assert isinstance(only(Arrivals(LIMIT, most_values=100), cbor2.dumps(arrays)), BinaryPublish)
+
+
 def test_who_sends_texts_without_end_is_told():
     arrivals = Arrivals(LIMIT, most=2, lifetime=10.0)
     taken(arrivals, *(frames(A, id=id)[0] for id in "ab"))
@@ -128,7 +157,6 @@ def test_who_sends_texts_without_end_is_told():
     assert (error.op, error.id) == ("fragment", "a")
     assert [each.id for each in arrivals.expire(11.0)] == ["b", "c"]
     assert arrivals.expire(12.0) == []
-    assert arrivals.held == 0
 
 
 def test_a_message_is_left_as_it_is_through_all_of_it():

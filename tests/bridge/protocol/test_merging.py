@@ -21,9 +21,10 @@ def asked(compat=KEPT, **wishes):
 
 
 def together(*wishes, compat=KEPT):
-    return functools.reduce(
-        lambda one, other: merged(one, other, compat), (asked(compat, **each) for each in wishes)
-    )
+    several = [asked(compat, **each) for each in wishes]
+    one_by_one = functools.reduce(lambda one, other: merged([one, other], compat), several)
+    assert merged(several, compat) == one_by_one
+    return one_by_one
 
 
 def test_a_subscription_says_what_it_wants():
@@ -96,7 +97,7 @@ def test_equal_reductions_stay_and_different_ones_bring_everything(reductions, e
 
 def test_the_name_is_that_of_the_first():
     one, other = wish(Subscribe(topic="odom"), KEPT), wish(Subscribe(topic="/odom"), KEPT)
-    assert merged(one, other, KEPT).name == "odom"
+    assert merged([one, other], KEPT).name == "odom"
 
 
 @pytest.mark.parametrize("type", [None, "", "*"])

@@ -7,6 +7,7 @@ import contextlib
 import io
 import random
 import struct
+import tracemalloc
 import zlib
 
 import pytest
@@ -15,9 +16,16 @@ from hypothesis import strategies as st
 from PIL import Image
 
 from bridge.errors import ProtocolError
-from bridge.protocol import Png, dump, from_png, parse, to_png
+from bridge.protocol import MOST_FILTERED, Png, dump, parse, pixels, to_png
 
 LIMIT = 1_000_000
+
+
+def from_png(op, limit):
+    """Without the line breaks that fill the picture up."""
+    return pixels(op, limit)[0].rstrip(b"\n")
+
+
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
@@ -164,6 +172,30 @@ def test_the_limit_counts_what_fills_the_picture_up():
     assert from_png(sent, 12) == b"x" * 10
     with pytest.raises(ProtocolError, match="at most 11 bytes, not 12"):
         from_png(sent, 11)
+
+
+@pytest.mark.parametrize("kind", [1, 2, 3, 4])
+def test_pixels_whose_restoring_takes_long_are_refused_before_it_begins(kind):
+    width = MOST_FILTERED // 3 // 64
+    large = op(header(width, 65), rows(kind, [bytes(3 * width)] * 65), END)
+    with pytest.raises(
+        ProtocolError, match=f"at most {MOST_FILTERED} bytes of it may stand in filtered rows"
+    ):
+        pixels(large, LIMIT)
+    small = op(header(width, 64), rows(kind, [bytes(3 * width)] * 64), END)
+    assert pixels(small, LIMIT)[1] == 3 * width * 64
+    plain = op(header(width, 650), rows(0, [bytes(3 * width)] * 650), END)
+    assert pixels(plain, 10 * LIMIT)[1] == 0
+
+
+def test_of_a_picture_no_more_is_unpacked_than_its_header_says():
+    bomb = rows(0, [bytes(30_000_000)])
+    tracemalloc.start()
+    with pytest.raises(ProtocolError, match="more or fewer pixels"):
+        pixels(op(header(), bomb, END), LIMIT)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 1_000_000
 
 
 @settings(max_examples=300, deadline=None)

@@ -352,7 +352,7 @@ def test_whose_goal_is_with_an_action_that_is_gone_is_told():
     session, op, _, ended = with_action()
     assert session.unadvertise_action(UnadvertiseAction(action="dock")) == "/dock"
     assert (ended, session.actions) == ([None], {})
-    assert not session.forget_goal(op.id)
+    assert not session.finished(ActionResult(id=op.id, action="/dock"))
     session.unadvertise_action(UnadvertiseAction(action="/never"))
 
 
