@@ -12,12 +12,14 @@ from msgspec import Raw
 from bridge.codec import shown, to_json
 from bridge.errors import BridgeError, Refused
 from bridge.exchange import Exchange, Party
+from bridge.goals import CANCELED, SUCCEEDED
 from bridge.lanes import Lane, Stream
 from bridge.msgs import Msg
 from bridge.offer import Action, Session
 from bridge.outgoing import Outgoing, said
 from bridge.outlet import Outlet
 from bridge.protocol import (
+    MISSING,
     ActionFeedback,
     ActionResult,
     CancelActionGoal,
@@ -34,9 +36,6 @@ from bridge.sockets import end
 __all__ = ["Errands"]
 
 log = logging.getLogger(__name__)
-
-SUCCEEDED, CANCELED = 4, 5
-"""As in action_msgs/GoalStatus."""
 
 
 class Errands:
@@ -83,6 +82,7 @@ class Errands:
     def _start(self, op: SendActionGoal) -> Callable[[], object]:
         name = absolute(op.action)
         action = self._actions.get(name)
+        told = msgspec.structs.replace(op, args=MISSING)  # which would keep all of its frame until it is over
         if action is None:
             if name not in self._exchange.actions:
                 raise Refused(f"This robot has no action {shown(name)}.")
@@ -90,10 +90,11 @@ class Errands:
                 self._client,
                 name,
                 op,
-                lambda news: self._tell(op, news.values),
-                lambda end: self._over(op, end),
+                lambda news: self._tell(told, news.values),
+                lambda end: self._over(told, end),
             )
         goal = arguments(op.args, action.goal)
+        op = told
         task = asyncio.create_task(self._carry_out(op, action, goal))
         self._tasks.add(task)
 

@@ -14,6 +14,7 @@ from bridge.errors import ProtocolError
 from bridge.lanes import Lane
 from bridge.msgs import TYPES, ros1_name
 from bridge.protocol import (
+    MISSING,
     ActionFeedback,
     ActionResult,
     AdvertiseAction,
@@ -101,6 +102,9 @@ class Exchange:
         provider = self.services[name]
         size = caller.remembered.answer_size(op)
         request = _request(provider, name, op)
+        op = msgspec.structs.replace(
+            op, args=MISSING
+        )  # which would keep all of its frame until it is answered
         key = object()
 
         def answer(response: ServiceResponse | None) -> None:

@@ -18,7 +18,7 @@ MOST_BYTES = 8_388_608
 """Bytes that may wait in order in one lane."""
 LONGEST = {2: 100, 3: 100, 4: 4}
 """How many messages of one topic may wait at most, whatever its `queue_length`, by lane."""
-PATIENCE = 8
+MOST_SAMPLES = 8
 """After so many samples one message of the bulk lane goes out before the next."""
 
 
@@ -123,7 +123,7 @@ class Lanes:
                     return None
                 self._bytes[lane] -= len(frames[0])
                 return frames.popleft()
-        order = _USUAL if self._passed < PATIENCE else _BULK_FIRST
+        order = _USUAL if self._passed < MOST_SAMPLES else _BULK_FIRST
         for lane in order:
             for stream in self._streams[lane]:
                 if stream.due <= now:

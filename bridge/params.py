@@ -43,7 +43,7 @@ class Params:
     def set(self, name: str, value: str) -> None:
         """Keep a value; ProtocolError when it is no JSON or there is no room for it."""
         try:
-            msgspec.json.decode(value)
+            msgspec.json.decode(value, type=msgspec.Raw)
         except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
             raise ProtocolError(f"The value of a parameter must be JSON, not {value[:60]!r}.") from error
         name = _resolved(name)

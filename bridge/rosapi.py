@@ -14,7 +14,7 @@ from bridge.full_text import full_text
 from bridge.msgs import ros1_name
 from bridge.msgs.std_msgs import Time
 from bridge.params import Params
-from bridge.protocol import absolute
+from bridge.protocol import LARGEST_ARGUMENTS, absolute
 from bridge.typedefs import typedefs
 
 __all__ = ["NODE", "Graph", "Node", "RosApi"]
@@ -195,7 +195,8 @@ def _listed(key: str, known: Mapping[str, str]) -> dict[str, Any]:
 
 def _of_type(known: Mapping[str, str], type: str) -> list[str]:
     wanted = ros1_name(type)
-    return [name for name, each in known.items() if ros1_name(each) == wanted]
+    ending = wanted.rpartition("/")[2]
+    return [name for name, each in known.items() if each.endswith(ending) and ros1_name(each) == wanted]
 
 
 def _details(type: str, half: str) -> dict[str, Any]:
@@ -204,6 +205,8 @@ def _details(type: str, half: str) -> dict[str, Any]:
 
 def _given(args: Raw, fields: tuple[str, ...]) -> dict[str, str]:
     """The texts among the arguments by name, an empty one for what is missing."""
+    if len(args) > LARGEST_ARGUMENTS:
+        raise ProtocolError(f"args may have at most {LARGEST_ARGUMENTS} bytes, not {len(args)}.")
     values = msgspec.json.decode(args)
     if isinstance(values, list):
         values = dict(zip(fields, values, strict=False))

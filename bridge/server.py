@@ -226,11 +226,11 @@ class BridgeServer:
                 await client.close()
 
     async def _beat(self) -> None:
-        """Ask the clients for signs of life."""
+        """Look after the clients."""
         while True:
             await asyncio.sleep(_BEAT)
             for client in list(self._clients.values()):
-                client.outlet.beat()
+                client.beat()
 
     async def _serve_camera(self, ws: ServerConnection, camera: str) -> None:
         watcher = CameraSocket(ws, coarsest=self._levels.coarsest)

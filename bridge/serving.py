@@ -24,6 +24,7 @@ from bridge.offer import Action, Service, Session
 from bridge.outgoing import Outgoing, said
 from bridge.outlet import Line, Outlet, Round
 from bridge.protocol import (
+    MISSING,
     ActionFeedback,
     ActionResult,
     Advertise,
@@ -68,6 +69,8 @@ MOST_CALLS = 256
 """So many of the robot's services may be at work for one client at a time; those of `FIRST` always may."""
 
 
+LARGEST_READ = 1_048_576
+"""The longest message of a client that is read and not passed on as it is [byte]; what is wrong is looked for in Python."""
 TURN = 0.005
 """After so long with one frame the others have their turn [s]; a frame may hold a thousand operations."""
 
@@ -154,6 +157,12 @@ class Client:
         except ProtocolError as error:
             self._complain(error, arrival)
 
+    def beat(self) -> None:
+        """Ask for a sign of life, and give up fragments whose rest did not come; to be called every second or so."""
+        for error in self.remembered.expire(self._clock()):
+            self._complain(error, error)
+        self.outlet.beat()
+
     def answered(self, content: bytes) -> None:
         """The client answered a ping."""
         self.outlet.answered(content)
@@ -208,6 +217,11 @@ class Client:
         channel = self._heard_on(op.topic)
         if channel.cls is not None:
             msg = unread(op.msg, channel.cls) if channel.entry is None else None
+            if msg is None and len(op.msg) > LARGEST_READ:
+                raise ProtocolError(
+                    f"A message on {channel.name} over {LARGEST_READ} bytes must have all fields of"
+                    f" {channel.type} and no other."
+                )
             self._published(channel, msg or from_json(op.msg, channel.cls), op.stamp, latch=bool(op.latch))
         elif bytes(op.msg)[:1] != b"{" or too_deep(bytes(op.msg)):
             raise ProtocolError(f"A message on {channel.name} must be an object, and not nested too deeply.")
@@ -307,6 +321,9 @@ class Client:
             if len(self._tasks) >= MOST_CALLS and name not in FIRST:
                 raise Refused(f"{MOST_CALLS} calls of this client wait for their answer already.")
             outcome = service.call(self.session, arguments(op.args, service.request))
+            op = msgspec.structs.replace(
+                op, args=MISSING
+            )  # which would keep all of its frame while it is at work
             if isinstance(outcome, Msg):
                 self._answer(op, name, id, to_json(outcome))
             else:

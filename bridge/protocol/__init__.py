@@ -41,6 +41,7 @@ from bridge.protocol.pending import Calls, Goals
 from bridge.protocol.png import MOST_FILTERED, pixels, to_png
 from bridge.protocol.server_session import LARGEST_HEARD, ServerSession
 from bridge.protocol.wire import (
+    LARGEST_ARGUMENTS,
     arguments,
     complaint,
     dump,
@@ -72,6 +73,7 @@ __all__ = [
     "Given",
     "Goals",
     "Id",
+    "LARGEST_ARGUMENTS",
     "LARGEST_HEARD",
     "LARGEST_TOLD",
     "LEVELS",

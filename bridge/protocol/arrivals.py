@@ -50,9 +50,10 @@ class Arrivals:
         except ProtocolError as error:
             found = parse_each(frame, error)
         else:
-            if type(op) not in _PACKED:
+            if type(op) not in _PACKED and not self._fragments:
                 return [op]
             found = [op]
+        self._fragments.expire(now)
         return _Unpacking(self._limit, self._filtered, self._fragments, self._lost, now).unpacked(found)
 
     def expire(self, now: float) -> list[ProtocolError]:

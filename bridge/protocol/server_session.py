@@ -13,7 +13,7 @@ from bridge.compat import Compat
 from bridge.errors import ProtocolError
 from bridge.protocol.arrivals import Arrival, Arrivals
 from bridge.protocol.merging import Subscribed, checked_size, merged, wish
-from bridge.protocol.names import absolute, checked_id, checked_name, spells_ros2, wrong
+from bridge.protocol.names import LONGEST_NAME, absolute, checked_id, checked_name, spells_ros2, wrong
 from bridge.protocol.ops import (
     LEVELS,
     MISSING,
@@ -111,10 +111,15 @@ class ServerSession:
             if self.compat.sticky_fragment_size and size != self.fragment_size:
                 self.fragment_size = size
                 self._stale = dict.fromkeys(self._asked)
-        if not self.ros2 and isinstance(op, SendActionGoal):
-            self.ros2 = spells_ros2(op.action_type)
-        elif not self.ros2 and isinstance(op, _TYPED):
-            self.ros2 = spells_ros2(op.type)
+        if isinstance(op, SendActionGoal):
+            self._note_type(op, op.action_type)
+        elif isinstance(op, _TYPED):
+            self._note_type(op, op.type)
+
+    def _note_type(self, op: Op, type: str | None) -> None:
+        if type is not None and len(type) > LONGEST_NAME:
+            raise wrong(op, f"A type's name has at most {LONGEST_NAME} characters, not {len(type)}.")
+        self.ros2 = self.ros2 or spells_ros2(type)
 
     def answer_size(self, op: Op) -> int | None:
         """Longest text frame [characters] of what answers `op`; None for no end."""
@@ -284,7 +289,7 @@ class ServerSession:
             raise wrong(op, f"A goal with the id {shown(None if id is UNSET else id)} is under way already.")
         if len(self.goals) >= MOST_GOALS:
             raise wrong(op, f"A client may have at most {MOST_GOALS} goals under way.")
-        self.goals[id] = op
+        self.goals[id] = msgspec.structs.replace(op, args=MISSING)
 
     def goal_to_cancel(self, op: CancelActionGoal) -> SendActionGoal:
         """The client's goal that it takes back. ProtocolError when it has none of that id with that action."""

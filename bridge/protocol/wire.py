@@ -16,6 +16,7 @@ from bridge.protocol.names import LONGEST_ID
 from bridge.protocol.ops import LEVELS, OPS, ActionResult, BinaryPublish, Op, Status
 
 __all__ = [
+    "LARGEST_ARGUMENTS",
     "MOST_OPERATIONS",
     "arguments",
     "complaint",

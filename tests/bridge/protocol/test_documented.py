@@ -9,8 +9,19 @@ from pathlib import Path
 import msgspec
 import pytest
 
+from bridge import server_connection, serving
 from bridge.compat import Compat
-from bridge.protocol import OPS, Op, Reduction
+from bridge.params import Params
+from bridge.protocol import (
+    LARGEST_ARGUMENTS,
+    LARGEST_HEARD,
+    LARGEST_TOLD,
+    MOST_FILTERED,
+    OPS,
+    Op,
+    Reduction,
+)
+from bridge.rosapi import Graph, RosApi
 
 TEXT = (Path(__file__).parents[3] / "docs" / "bridge.md").read_text()
 TABLE = TEXT.split("<!-- operations:")[1].split("<!-- end of operations -->")[0]
@@ -44,3 +55,24 @@ def test_its_fields_are_told_and_which_of_them_may_be_left_out(op):
 )
 def test_every_switch_and_every_reduction_has_its_row(name):
     assert re.search(rf"^\| [^|]*`{name}`", TEXT, re.MULTILINE)
+
+
+def test_every_service_of_rosapi_is_told_of():
+    rosapi = RosApi(Graph(dict, dict, dict, dict), Params(), float)
+    (row,) = re.findall(r"^\| `/rosapi/…` \| rosapi \| (.*) \|$", TEXT, re.MULTILINE)
+    assert {f"/rosapi/{name}" for name in re.findall(r"`(\w+)`", row)} == set(rosapi.types)
+
+
+@pytest.mark.parametrize(
+    ("words", "bound"),
+    [
+        ("frames and unfinished fragments of {} MiB", LARGEST_HEARD >> 20),
+        ("a frame to a client may have {}", LARGEST_TOLD >> 20),
+        ("{} kB of filtered rows", MOST_FILTERED >> 10),
+        ("{} MiB of arguments", LARGEST_ARGUMENTS >> 20),
+        ("takes longer than {} ms", int(server_connection.TURN * 1000)),
+        ("takes longer than {} ms", int(serving.TURN * 1000)),
+    ],
+)
+def test_bounds_are_those_of_the_code(words, bound):
+    assert words.format(bound) in " ".join(TEXT.split())
