@@ -272,7 +272,7 @@ def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
         return {"list": whole, "detail": whole, "strip": strip, "stop": stop, "notice": notice}
     wide = shape == "wide"
     stop = mission(body, shape, dp)["stop"]
-    left = min((420 if wide else 320) * dp, body.width * 0.42)
+    left = min(max(420 * dp, 0.3 * body.width) if wide else 320 * dp, body.width * 0.42)
     listed = Rect(body.x + gap, body.y + gap, left, body.height - 2 * gap)
     x, low = listed.right + gap, stop.top + gap
     detail = Rect(x, low, body.right - gap - x, body.top - gap - low)

@@ -149,12 +149,14 @@ Builder.load_string("""
         bar_inactive_color: theme.line
         Widget:
             id: sheet
-            size_hint: 1, None
+            size_hint: None, None
+            width: scroll.width - dp(6)  # the bar beside the rows
             height: root.length
     Text:
         text: root.notice
         role: 'muted'
         font_size: sp(15)
+        padding: dp(10), dp(8)
         pos_hint: {'x': 0, 'top': 1}
 """)
 

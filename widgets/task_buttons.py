@@ -21,6 +21,7 @@ from kivy.uix.widget import Widget
 import widgets.buttons  # noqa: F401 - its rules draw the buttons
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets.base import Control
+from widgets.theme import theme
 
 __all__ = ["COMMANDS", "TaskButtons"]
 
@@ -112,6 +113,12 @@ class TaskButtons(Control, BoxLayout):
     """Dispatches `on_command(name)`: `start`, `pause`, `resume`, `stop` or `home`. Says what `answer` was told."""
 
     accepts = (TaskStatus,)
+
+    def _veil(self) -> list[float]:
+        return [*theme.surface[:3], 0.0 if self.state == "disabled" else super()._veil()[3]]
+
+    veil = AliasProperty(_veil, bind=["state"])
+    """Buttons that cannot be pressed are drawn so one by one; the sentence, which says why, stays readable."""
 
     task_state = StringProperty("IDLE")
     """State of the robot's task, as in TaskStatus."""

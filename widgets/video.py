@@ -29,6 +29,8 @@ from widgets.theme import theme
 
 __all__ = ["Video", "samples"]
 
+LATE = 0.5
+"""A picture that comes to the glass later than this is said to be late [s]."""
 FADED = 0.45
 """Opacity of a picture that is old, 0 to 1."""
 
@@ -58,6 +60,7 @@ class Video(Drawing):
     accepts: ClassVar = (Detection2DArray,)
     drawn_from: ClassVar = (
         "frame_size", "taken_size", "fit", "boxes", "rate", "latency", "age", "show_chip", "corner", "insets",
+        "below",
     )  # fmt: skip
 
     frame_size = ListProperty([0, 0])
@@ -78,6 +81,8 @@ class Video(Drawing):
     """Radius of the frame's corners [px]; 0 for a picture that fills the glass."""
     insets = ListProperty([0, 0, 0, 0])
     """How much is covered by what lies over the picture [px]: left, bottom, right, top; the chip keeps clear of it."""
+    below = NumericProperty(math.inf)
+    """Lower edge of what lies over the picture for now [px]: the sentence stands under it where there is room."""
 
     def _veil(self) -> list[float]:
         return [*theme.surface[:3], 0.62 if self.state == "disabled" else 0.0]
@@ -226,7 +231,14 @@ class Video(Drawing):
             age = "" if math.isnan(self.age) else f" {self.age:.0f} s ago"
             words = f"Last picture{age}"
             size = fitting_size([words], sp(17), self.width - dp(16), bold=True)
-            yield Word(words, self.center_x, self.center_y, size, theme.text, bold=True)
+            low = min(self.center_y, self.below - dp(20))
+            middle = low if low >= self.y + dp(16) else self.center_y
+            yield Word(words, self.center_x, middle, size, theme.text, bold=True)
+
+    @property
+    def late(self) -> bool:
+        """The picture is too old to drive by."""
+        return self.latency > LATE
 
     def chip_text(self) -> str:
         """Size, rate and latency of the picture in words; what is not known is left out."""
@@ -234,7 +246,7 @@ class Video(Drawing):
         if not math.isnan(self.rate):
             parts.append(f"{self.rate:.0f} fps")
         if not math.isnan(self.latency):
-            parts.append(f"{self.latency * 1000:.0f} ms")
+            parts.append(f"{self.latency * 1000:.0f} ms{' late' if self.late else ''}")
         return " · ".join(parts)
 
     def _draw_chip(self) -> None:
@@ -250,7 +262,8 @@ class Video(Drawing):
         self._chip.pos, self._chip.size = (left, top - high - dp(5)), (wide + dp(14), high + dp(5))
         self._chip.radius = [dp(6)]
         middle = top - (high + dp(5)) / 2
-        self._chip_words.write([Word(text, left + dp(7), middle, size, theme.text, anchor=(0, 0.5))])
+        colour = theme.warn if self.late else theme.text
+        self._chip_words.write([Word(text, left + dp(7), middle, size, colour, anchor=(0, 0.5))])
 
 
 def _box(detection: Detection2D) -> tuple[str, float, float, float, float, float]:

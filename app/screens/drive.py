@@ -26,7 +26,7 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.vision_msgs import Detection2DArray
 from bridge.topics import topic
 from widgets import Joystick, Readout, Video
-from widgets.kit import Card, QuietButton
+from widgets.kit import Card, QuietButton, Text
 
 __all__ = ["DriveScreen"]
 
@@ -88,6 +88,7 @@ class DriveScreen(FloatLayout):
         self._build_controls()
         self.dashboard.bind(self.video, "/detections", fresh=False, empty=Detection2DArray())
         self._limited = False
+        self._tall = False
         self._arranged: dict[str, Rect] = {}
 
     def _build_instruments(self, layout: Layout) -> None:
@@ -151,6 +152,12 @@ class DriveScreen(FloatLayout):
             button.bind(on_release=act)
             self.ids[name] = button
             self.actions.add_widget(button)
+        self.no_tasks = Card(floating=True, padding=("10dp", "4dp"))
+        note = Text(text="This robot offers no tasks.", role="muted", font_size="14sp", halign="center")
+        note.size_hint_y, note.valign = 1, "middle"
+        note.bind(size=note.setter("text_size"))
+        self.no_tasks.add_widget(note)
+        self._buttons = tuple(reversed(self.actions.children))
         self.ids.update(
             {"stick": self.stick, "speed": self.speed, "fader": self.speed.ids.fader, "video": self.video}
         )
@@ -163,14 +170,13 @@ class DriveScreen(FloatLayout):
         for slot, found in self.places.items():
             for widget in found:
                 put(widget, places[slot])
-        tall = form == "tall"
-        self.actions.cols = 3 if tall else 1
+        tall = self._tall = form == "tall"
+        self._show_actions()
         roomy = form == "wide" or places["readouts"].width >= 330 * dp
         self.readouts.cols = 1 if form == "short" else 4 if roomy and tall else 2
         self._trim(roomy)
-        top, left = places["top"], places["top_left"]
-        self.video.insets = [0 if tall else left.right - body.x, 0, 0, body.top - top.y]
         self.notice = places["notice"]
+        self.video.insets = [self.notice.x - 8 * dp - body.x, 0, 0, body.top - places["top"].y]
         return places["stop"]
 
     def _trim(self, roomy: bool) -> None:
@@ -222,6 +228,17 @@ class DriveScreen(FloatLayout):
         pause.meaning = pause.text
         pause.disabled = not (mine and session.running) or (held and paused)
         self.ids.snapshot.disabled = self.app.records.frame is None
+        self._show_actions()
+
+    def _show_actions(self) -> None:
+        """Instead of two buttons that can never be pressed stands why."""
+        tasks = any(map(self.session.offers, ("/task/start", "/task/pause", "/task/go_home")))
+        wanted = self._buttons if tasks else (self._buttons[0], self.no_tasks)
+        if tuple(reversed(self.actions.children)) != wanted:
+            self.actions.clear_widgets()
+            for widget in wanted:
+                self.actions.add_widget(widget)
+        self.actions.cols = len(wanted) if self._tall else 1
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
         """A decoded camera frame; `rate` [Hz] and `latency` [s] are said on it, NaN for unknown."""

@@ -265,8 +265,7 @@ class Shell(FloatLayout):
         if self.screen:
             screen = self.screens[self.screen]
             put(screen, places["body"])
-            stop = screen.arrange(places["body"], self.form, dp)
-            put(self.stop, stop)
+            put(self.stop, screen.arrange(places["body"], self.form, dp))
         self._place_notices()
 
     def _arrange_bar(self) -> None:
@@ -308,11 +307,14 @@ class Shell(FloatLayout):
     def _place_notices(self, *_: object) -> None:
         notices = self.ids.notices
         if self.screen:
-            room = self.screens[self.screen].notice
+            screen = self.screens[self.screen]
+            room = screen.notice
             notices.width = min(560 * Metrics.density, room.width)
             # what is too much for its room goes up, never down over what can be touched
             low = max(room.y, room.top - notices.height)
             notices.pos = (room.x + (room.width - notices.width) / 2, low)
+            if screen.video is not None:
+                screen.video.below = low if notices.children else math.inf
 
     # what is heard
 
@@ -378,9 +380,8 @@ class Shell(FloatLayout):
         self.stop.phase = self.session.stop_phase
         self._tick_stop()
         self._show_rail()
-        for name, screen in self.screens.items():
-            if name == self.screen:
-                screen.tick()
+        if self.screen:
+            self.screens[self.screen].tick()
         self._place_notices()
 
     def _tick_banner(self) -> None:

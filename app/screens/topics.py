@@ -26,6 +26,8 @@ from widgets.base import age_text
 
 __all__ = ["TopicRow", "TopicsScreen"]
 
+LEGIBLE = 860
+"""Wider, a name and its value are too far apart for the eye [dp]."""
 LIST_EVERY = 4
 """The list is brought up to date in every so many ticks."""
 ICONS = {
@@ -55,7 +57,7 @@ Builder.load_string("""
     width: self.texture_size[0] if self.text else 0
 
 <TopicRow>:
-    padding: dp(14), 0, dp(12), 0
+    padding: dp(14), 0, dp(14), 0
     spacing: dp(12)
     canvas.before:
         Color:
@@ -70,6 +72,12 @@ Builder.load_string("""
             pos: self.x + root.edge, self.y + dp(4) + root.edge
             size: self.width - 2 * root.edge, self.height - dp(8) - 2 * root.edge
             radius: [theme.corner - root.edge]
+        Color:
+            rgba: theme.accent if root.chosen else (0, 0, 0, 0)  # a mark, and not a hue alone
+        RoundedRectangle:
+            pos: self.x + dp(4), self.y + dp(14)
+            size: dp(4), self.height - dp(28)
+            radius: [dp(2)]
         Color:
             rgba: theme.text[:3] + [.14 if root.state == 'down' else 0]
         SmoothRoundedRectangle:
@@ -115,15 +123,30 @@ Builder.load_string("""
 <TopicList>:
     orientation: 'vertical'
     spacing: dp(8)
-    TextField:
-        id: search
-        hint_text: 'Search names and types'
-        on_text: root.dispatch('on_search', self.text)
+    BoxLayout:
+        size_hint_y: None
+        height: search.height
+        TextField:
+            id: search
+            hint_text: 'Search names and types'
+            on_text: root.dispatch('on_search', self.text)
+        IconButton:
+            id: clear
+            icon: 'close'
+            role: 'muted'
+            bare: True
+            width: search.height if search.text else 0
+            opacity: 1 if search.text else 0
+            disabled: not search.text
+            on_release: search.text = ''
     FloatLayout:
+        id: frame
         RecycleView:
             id: view
             viewclass: 'TopicRow'
             pos_hint: {'x': 0, 'y': 0}
+            size_hint_x: None
+            width: frame.width + dp(8)  # the bar beside the cards
             bar_width: dp(3)
             bar_color: theme.muted
             bar_inactive_color: theme.line
@@ -132,6 +155,7 @@ Builder.load_string("""
                 orientation: 'vertical'
                 size_hint_y: None
                 height: self.minimum_height
+                padding: 0, 0, dp(8), 0
                 default_size: None, max(theme.target, dp(60)) + dp(8)
                 default_size_hint: 1, None
         Text:
@@ -143,7 +167,7 @@ Builder.load_string("""
 
 <TopicDetail>:
     orientation: 'vertical'
-    padding: dp(12), dp(10), dp(6), dp(8)
+    padding: dp(12), dp(10), dp(6), dp(10)
     spacing: dp(8)
     canvas.before:
         Color:
@@ -160,9 +184,10 @@ Builder.load_string("""
             radius: [theme.radius - theme.outline]
     BoxLayout:
         size_hint_y: None
-        height: max(theme.target, dp(54)) if root.name else 0
+        height: max(theme.target, titles.height + dp(6)) if root.name else 0
         opacity: 1 if root.name else 0
         spacing: dp(8)
+        padding: 0, 0, dp(6), 0
         IconButton:
             id: close
             icon: 'arrow_back' if root.alone else 'close'
@@ -172,26 +197,21 @@ Builder.load_string("""
             disabled: not root.name
             on_release: root.dispatch('on_close')
         BoxLayout:
+            id: titles
             orientation: 'vertical'
             size_hint_y: None
-            height: dp(48)
+            height: self.minimum_height
+            spacing: dp(2)
             pos_hint: {'center_y': .5}
-            Text:
+            Text:  # whole, on as many lines as it takes: here alone a long name can be read
+                id: title
                 text: root.name
                 bold: True
-                font_size: sp(18)
-                size_hint_y: 1
-                text_size: self.size
-                shorten: True
-                shorten_from: 'left'
+                font_size: sp(18) if len(root.name) < 22 else sp(16)
             Text:
                 text: root.type
                 role: 'muted'
                 font_size: sp(14)
-                size_hint_y: 1
-                text_size: self.size
-                shorten: True
-                shorten_from: 'left'
         Chip:
             id: pace
             icon: root.pace_icon
@@ -224,14 +244,14 @@ Builder.load_string("""
             role: 'muted'
             font_size: sp(34)
             center: ground.center_x, ground.center_y + dp(24)
-            opacity: 0 if root.name else 1
+            opacity: 0 if root.name or root.idle else 1
         Text:
             text: 'Choose a topic to see its fields.'
             role: 'muted'
             halign: 'center'
             pos_hint: {'center_x': .5}
             center_y: ground.center_y - dp(18)
-            opacity: 0 if root.name else 1
+            opacity: 0 if root.name or root.idle else 1
 
 <TopicsScreen>:
     Text:
@@ -299,6 +319,8 @@ class TopicDetail(BoxLayout):
     pace_role = StringProperty("muted")
     alone = BooleanProperty(False)
     """The list is not beside it."""
+    idle = BooleanProperty(False)
+    """There is no topic to choose."""
 
     def on_close(self) -> None:
         """The finger wants back to the list."""
@@ -316,7 +338,8 @@ class TopicsScreen(FloatLayout):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.topics = Topics(self.session)
-        self.list, self.detail, self.view = TopicList(), TopicDetail(), FieldView(aged=False)
+        self.list, self.detail = TopicList(), TopicDetail()
+        self.view = FieldView(aged=False, veil_radius=1, size_hint_max_x=LEGIBLE * Metrics.density)
         self.detail.ids.ground.add_widget(self.view)
         self.view.pos_hint = {"x": 0, "y": 0}
         self.list.bind(on_search=self._search)
@@ -395,6 +418,7 @@ class TopicsScreen(FloatLayout):
             self._rows = rows
             self.list.ids.view.data = rows
         self.list.sentence, self.summary = self.topics.sentence, self.topics.summary
+        self.detail.idle = bool(self.topics.sentence)
 
     def _row(self, line: Line) -> dict[str, Any]:
         live = line.state == "live"

@@ -125,6 +125,13 @@ def test_the_fields_of_a_type_that_nobody_knew_are_on_the_glass(glass: Handheld,
     glass.until(lambda: "/gripper" not in strange.listened(), "its subscription to end")
 
 
+def test_what_is_said_once_is_shown_as_no_fault(glass: Handheld) -> None:
+    glass.tap("Topics", "NavButton")
+    glass.tap("/robot_description")
+    glass.until(lambda: any(words.startswith("once, ") for words in glass.words()), "that it was said once")
+    assert glass.app.screens["topics"].view.state == "live"
+
+
 def test_what_it_does_not_offer_is_said_and_never_asked_for(glass: Handheld, strange: Strange) -> None:
     glass.tap("Mission", "NavButton")
     glass.until(
@@ -137,6 +144,10 @@ def test_what_it_does_not_offer_is_said_and_never_asked_for(glass: Handheld, str
     glass.until(lambda: any("knows no control" in words for words in glass.words()), "why")
     glass.tap("Drive", "PrimaryButton")
     glass.until(lambda: glass.app.shell.screen == "drive", "the screen that fits it")
+    glass.until(
+        lambda: "This robot offers no tasks." in glass.words(), "why it can neither pause nor go home"
+    )
+    assert not {"Pause", "Go home"} & set(glass.words())
     called = {str(op["service"]) for op in strange.operations("call_service")}
     assert {name for name in called if not name.startswith("/rosapi/")} == set()
 

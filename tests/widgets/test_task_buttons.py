@@ -183,3 +183,8 @@ def test_its_words_fit_into_its_buttons(stage, width, brief):
 
 def test_every_command_has_words_and_an_icon():
     assert set(COMMANDS) == {"start", "pause", "resume", "stop", "home"}
+
+
+def test_why_nothing_can_be_pressed_is_not_veiled(stage):
+    buttons = stage.show(TaskButtons(state="disabled", reason="It offers no tasks."), size=(380, 120))
+    assert (buttons.veil[3], buttons.disabled) == (0.0, True)

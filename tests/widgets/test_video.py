@@ -87,6 +87,27 @@ def test_the_chip_says_size_rate_and_latency(video):
     assert video.chip_text() == "64×48 · 15 fps · 61 ms"
 
 
+def test_a_picture_too_old_to_drive_by_is_said_to_be_late(video):
+    video.latency = 0.789
+    assert video.chip_text().endswith("789 ms late")
+    video.latency = 0.2
+    assert video.chip_text().endswith("200 ms")
+
+
+def test_how_old_the_last_picture_is_stands_under_what_lies_over_it(stage, video):
+    video.show_frame(64, 48, FRAME)
+    video.state, video.age = "stale", 9.0
+    stage.frames(1)
+    (sentence,) = video._sentence()
+    assert sentence.y == video.center_y
+    video.below = video.center_y - 10
+    (sentence,) = video._sentence()
+    assert video.y < sentence.y < video.below - 10
+    video.below = video.y - 5
+    (sentence,) = video._sentence()
+    assert sentence.y == video.center_y, "where there is no room under it, it stays where it is"
+
+
 def test_the_chip_leaves_out_what_is_not_known(video):
     assert video.chip_text() == ""
     video.show_frame(64, 48, FRAME)
