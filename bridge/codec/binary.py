@@ -2,30 +2,22 @@
 
 from __future__ import annotations
 
-import functools
 import struct
-import sys
 from array import array
-from collections.abc import Callable
 from typing import Any
 
 import cbor2
 import msgspec
 
-from bridge.codec.fields import CODES, Field, fields_of, is_time
-from bridge.codec.stamps import renamer
+from bridge.codec.cbor_writing import ARRAY, MAP, TAGS, head, little, message_writer
 from bridge.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.msgs.arrays import ARRAYS
 
 __all__ = ["from_cbor", "to_cbor"]
 
-_CODES = {64: "B", 69: "H", 70: "I", 71: "Q", 72: "b", 77: "h", 78: "i", 79: "q", 85: "f", 86: "d"}
-"""RFC 8746 tags of little-endian arrays and the matching type codes of `array.array`."""
-_TAGS = {code: tag for tag, code in _CODES.items()}
-_BUILTIN = (bytes, cbor2.CBORTag)
-Packer = Callable[[dict[str, Any]], None]
-"""Puts what CBOR says better into a message's dict, in place."""
+_CODES = {tag: code for code, tag in TAGS.items()}
+_NOT_CBOR = (cbor2.CBORError, OverflowError, UnicodeEncodeError, TypeError, AttributeError, struct.error)
 
 
 def to_cbor(obj: object, ros2: bool = False) -> bytes:
@@ -35,8 +27,8 @@ def to_cbor(obj: object, ros2: bool = False) -> bytes:
     have ROS 2's names.
     """
     try:
-        return cbor2.dumps(_plain(obj, ros2))
-    except (cbor2.CBORError, OverflowError, UnicodeEncodeError, TypeError, struct.error) as error:
+        return _written(obj, ros2)
+    except _NOT_CBOR as error:
         raise ProtocolError(f"This cannot be sent as CBOR: {error}.") from error
 
 
@@ -48,64 +40,20 @@ def from_cbor(raw: bytes) -> Any:
         raise ProtocolError(f"{len(raw)} bytes that are not CBOR ({error}).") from error
 
 
-def _plain(obj: object, ros2: bool) -> object:
+def _written(obj: object, ros2: bool) -> bytes:
     if isinstance(obj, Msg):
-        return _plain_message(obj, ros2)
+        return message_writer(type(obj), ros2)(obj)
     if isinstance(obj, dict):
-        return {key: _plain(value, ros2) for key, value in obj.items()}
+        pairs = [cbor2.dumps(key) + _written(value, ros2) for key, value in obj.items()]
+        return b"".join((head(MAP, len(pairs)), *pairs))
     if isinstance(obj, (list, tuple)):
-        return [_plain(value, ros2) for value in obj]
-    return msgspec.to_builtins(obj, builtin_types=_BUILTIN, enc_hook=_tagged)
-
-
-def _plain_message(msg: Msg, ros2: bool) -> dict[str, Any]:
-    found: dict[str, Any] = msgspec.to_builtins(msg, builtin_types=_BUILTIN, enc_hook=_tagged)
-    if pack := _packer(type(msg)):
-        pack(found)
-    if ros2 and (rename := renamer(type(msg))):
-        rename(found)
-    return found
-
-
-@functools.lru_cache(maxsize=1024)
-def _packer(cls: type[Msg]) -> Packer | None:
-    """What makes typed arrays of a `cls`'s lists of numbers; None when it has none."""
-    works = [work for field in fields_of(cls) if not is_time(field.type) and (work := _work(field))]
-    if not works:
-        return None
-
-    def pack(obj: dict[str, Any]) -> None:
-        for work in works:
-            work(obj)
-
-    return pack
-
-
-def _work(field: Field) -> Packer | None:
-    if field.type is not None:
-        inner = _packer(field.type)
-        return functools.partial(_pack_inner, field.key, field.array, inner) if inner else None
-    code = CODES.get(field.base)
-    if not field.array or code not in _TAGS:
-        return None
-    return functools.partial(_pack_list, field.key, code, _TAGS[code])
-
-
-def _pack_inner(key: str, several: bool, inner: Packer, obj: dict[str, Any]) -> None:
-    for each in obj[key] if several else (obj[key],):
-        inner(each)
-
-
-def _pack_list(key: str, code: str, tag: int, obj: dict[str, Any]) -> None:
-    values = obj[key]
-    if isinstance(values, list):
-        data = struct.pack(f"<{len(values)}{code}", *values)
-        obj[key] = data if code == "B" else cbor2.CBORTag(tag, data)
+        return b"".join((head(ARRAY, len(obj)), *[_written(value, ros2) for value in obj]))
+    return cbor2.dumps(msgspec.to_builtins(obj, builtin_types=(bytes, cbor2.CBORTag), enc_hook=_tagged))
 
 
 def _tagged(obj: object) -> cbor2.CBORTag:
-    if isinstance(obj, array) and obj.typecode in _TAGS:
-        return cbor2.CBORTag(_TAGS[obj.typecode], _little(obj).tobytes())
+    if isinstance(obj, array) and obj.typecode in TAGS:
+        return cbor2.CBORTag(TAGS[obj.typecode], little(obj).tobytes())
     raise TypeError(f"{obj.__class__.__name__} has no CBOR form")
 
 
@@ -117,11 +65,4 @@ def _cbor_tag(*told: Any) -> object:
     if code is None or not isinstance(tag.value, bytes):
         return tag
     cls = ARRAYS.get(tag.tag)
-    return _little(cls(tag.value) if cls else array(code, tag.value))
-
-
-def _little(values: array[Any]) -> array[Any]:
-    if sys.byteorder == "big":
-        values = values[:]
-        values.byteswap()
-    return values
+    return little(cls(tag.value) if cls else array(code, tag.value))

@@ -11,16 +11,17 @@ import msgspec
 from bridge.codec.fields import Field, fields_of, is_time
 from bridge.msgs import Msg
 
-__all__ = ["named_for_ros2", "renamer"]
+__all__ = ["ROS2_NAMES", "named_for_ros2"]
 
-_NAMES = (("secs", "sec"), ("nsecs", "nanosec"))
+ROS2_NAMES = {"secs": "sec", "nsecs": "nanosec"}
+"""Of the two numbers of a time, by their names in ROS 1."""
 Renamer = Callable[[dict[str, Any]], None]
 """Changes the names in a message's dict, in place."""
 
 
 def named_for_ros2(text: bytes, cls: type[Msg]) -> bytes:
     """A `cls` as JSON text, its times named as in ROS 2."""
-    rename = renamer(cls)
+    rename = _renamer(cls)
     if rename is None:
         return text
     if not _ambiguous(cls):
@@ -32,20 +33,20 @@ def named_for_ros2(text: bytes, cls: type[Msg]) -> bytes:
 
 
 @functools.lru_cache(maxsize=1024)
-def renamer(cls: type[Msg]) -> Renamer | None:
+def _renamer(cls: type[Msg]) -> Renamer | None:
     """What renames the times in a `cls` that was made a dict; None when it holds none."""
     if is_time(cls):
         return _rename_time
     works = [
         (field.key, field.array, found)
         for field in fields_of(cls)
-        if field.type and (found := renamer(field.type))
+        if field.type and (found := _renamer(field.type))
     ]
     return functools.partial(_rename_fields, works) if works else None
 
 
 def _rename_time(obj: dict[str, Any]) -> None:
-    for old, new in _NAMES:
+    for old, new in ROS2_NAMES.items():
         obj[new] = obj.pop(old)
 
 

@@ -1,0 +1,154 @@
+"""What writes messages of one class as CBOR, made once for each class; a message is gone through once.
+
+Its names and the heads of what lies within it stand ready, as the bytes that go before each of its values.
+"""
+
+from __future__ import annotations
+
+import functools
+import struct
+import sys
+from array import array
+from collections.abc import Callable, Iterator
+from operator import attrgetter
+from typing import Any
+
+import cbor2
+
+from bridge.codec.fields import CODES, Field, bare, fields_of, is_time
+from bridge.codec.stamps import ROS2_NAMES
+from bridge.msgs import Msg
+
+__all__ = ["ARRAY", "MAP", "TAGS", "Writer", "head", "little", "message_writer"]
+
+TAGS = {"B": 64, "H": 69, "I": 70, "Q": 71, "b": 72, "h": 77, "i": 78, "q": 79, "f": 85, "d": 86}
+"""RFC 8746 tags of little-endian arrays by the type codes of `array.array`."""
+UNSIGNED, NEGATIVE, BYTES, TEXT, ARRAY, MAP, TAG = range(0, 7 << 5, 1 << 5)
+"""The first byte of a value says of which kind it is, in its upper three bits."""
+_DOUBLE = b"\xfb"
+_AS_HEADS = ((1 << 8, ">BB", 24), (1 << 16, ">BH", 25), (1 << 32, ">BI", 26))
+
+Writer = Callable[[Any], bytes]
+"""Gives a value as CBOR. Raises TypeError, AttributeError, OverflowError, struct.error or UnicodeEncodeError for a value
+that is not of its kind."""
+
+
+@functools.lru_cache(maxsize=1024)
+def message_writer(cls: type[Msg], ros2: bool) -> Writer:
+    """What writes a `cls`; with `ros2` times have ROS 2's names. ProtocolError for a class that has no CBOR form."""
+    before, paths, writers = b"", [], []
+    for part in _parts(cls, "", ros2):
+        if isinstance(part, bytes):
+            before += part
+        else:
+            path, make = part
+            paths.append(path)
+            writers.append(make(before))
+            before = b""
+    return _joined(paths, writers, before)
+
+
+def head(kind: int, number: int) -> bytes:
+    """The first bytes of a value: its kind, and its value, length or tag; struct.error above 64 bits."""
+    if number < 24:
+        return bytes((kind | number,))
+    for end, layout, length in _AS_HEADS:
+        if number < end:
+            return struct.pack(layout, kind | length, number)
+    return struct.pack(">BQ", kind | 27, number)
+
+
+def _parts(
+    cls: type[Msg], prefix: str, ros2: bool
+) -> Iterator[bytes | tuple[str, Callable[[bytes], Writer]]]:
+    """What is the same in each `cls`, and for each value its path and what makes its writer of the bytes before it."""
+    fields = fields_of(cls)
+    names = ROS2_NAMES if ros2 and is_time(cls) else {}
+    yield head(MAP, len(fields))
+    for field in fields:
+        yield cbor2.dumps(names.get(field.key, field.key))
+        path = f"{prefix}{field.name}"
+        if field.type is not None and not field.array:
+            yield from _parts(field.type, f"{path}.", ros2)
+        else:
+            yield path, _maker(field, ros2)
+
+
+def _joined(paths: list[str], writers: list[Writer], end: bytes) -> Writer:
+    if not paths:
+        return lambda _: end
+    get = attrgetter(*paths)
+    if len(paths) == 1:
+        (write,) = writers
+        return lambda msg: write(get(msg)) + end
+    return lambda msg: b"".join([write(value) for write, value in zip(writers, get(msg), strict=True)]) + end
+
+
+def _maker(field: Field, ros2: bool) -> Callable[[bytes], Writer]:
+    """What makes the writer of a field's value."""
+    if field.type is not None:
+        return functools.partial(_messages, message_writer(field.type, ros2))
+    code = CODES.get(field.base)
+    if field.array and code in TAGS and bare(field.hint) is not bytes:
+        return functools.partial(_numbers, code)
+    return _SIMPLE.get(bare(field.hint), _anything)
+
+
+def _float(before: bytes) -> Writer:
+    return functools.partial(struct.Struct(f">{len(before) + 1}sd").pack, before + _DOUBLE)
+
+
+def _whole(before: bytes) -> Writer:
+    return lambda value: before + (head(UNSIGNED, value) if value >= 0 else head(NEGATIVE, -1 - value))
+
+
+def _text(before: bytes) -> Writer:
+    def write(value: str) -> bytes:
+        text = value.encode()
+        return before + head(TEXT, len(text)) + text
+
+    return write
+
+
+def _bytes(before: bytes) -> Writer:
+    return lambda value: b"".join((before, head(BYTES, len(value)), value))
+
+
+def _anything(before: bytes) -> Writer:
+    return lambda value: before + cbor2.dumps(value)
+
+
+def _numbers(code: str, before: bytes) -> Writer:
+    """A number array, of the field's own width where the message keeps a list."""
+
+    def write(values: Any) -> bytes:
+        if isinstance(values, array):
+            data = memoryview(little(values))
+            tag = _tag(values.typecode)
+        else:
+            data = memoryview(struct.pack(f"<{len(values)}{code}", *values))
+            tag = b"" if code == "B" else _tag(code)
+        return b"".join((before, tag, head(BYTES, data.nbytes), data))
+
+    return write
+
+
+def _messages(write: Writer, before: bytes) -> Writer:
+    return lambda values: b"".join((before, head(ARRAY, len(values)), *map(write, values)))
+
+
+def _tag(code: str) -> bytes:
+    if code not in TAGS:
+        raise TypeError(f"an array of {code!r} has no CBOR form")
+    return head(TAG, TAGS[code])
+
+
+def little(values: array[Any]) -> array[Any]:
+    """`values` with their bytes in the order of RFC 8746's little-endian arrays."""
+    if sys.byteorder == "big":
+        values = values[:]
+        values.byteswap()
+    return values
+
+
+_SIMPLE: dict[Any, Callable[[bytes], Writer]] = {float: _float, int: _whole, str: _text, bytes: _bytes}
