@@ -29,6 +29,8 @@ __all__ = [
 
 MOST_CORNERS = 200
 """Of one area of the fence."""
+MOST_CORNERS_IN_ALL = 1000
+"""Of the whole fence, which is looked at with every drive command."""
 MOST_AREAS = 50
 """Of each kind."""
 LARGEST_FILE = 1_000_000
@@ -254,6 +256,9 @@ def _limits_problem(limits: LimitSettings) -> str:
             problem = _ring_problem(ring)
             if problem:
                 return f"area {number} of limits.{name} {problem}."
+    corners = sum(map(len, (*limits.keep_in, *limits.keep_out)))
+    if corners > MOST_CORNERS_IN_ALL:
+        return f"the fence has {corners} corners; at most {MOST_CORNERS_IN_ALL} are allowed."
     return ""
 
 

@@ -17,7 +17,8 @@ SQUARE = "[[0, 0], [2, 0], [2, 2], [0, 2]]"
 def test_an_empty_file_leaves_everything_to_the_robot() -> None:
     assert parse("") == Config()
     assert Config().limits.max_speed is None
-    assert Config().control.follow_link and not Config().control.lost_link_stops_task
+    assert Config().control.follow_link
+    assert not Config().control.lost_link_stops_task
 
 
 def test_the_example_in_the_docs_can_be_used_as_it_is_and_shows_every_setting() -> None:
@@ -125,12 +126,25 @@ SETTINGS = [
 ]
 
 
+def refusal(text: str) -> str:
+    """Why `text` is refused; a good sentence when it is not."""
+    try:
+        parse(text)
+    except BadConfig as problem:
+        return str(problem)
+    return "Taken."
+
+
 @given(st.lists(st.tuples(st.sampled_from([*SETTINGS, "limits", "a.b"]), VALUES), max_size=4))
 def test_whatever_stands_in_the_file_it_is_taken_or_refused_in_one_line(
     settings: list[tuple[str, str]],
 ) -> None:
-    try:
-        parse("\n".join(f"{name} = {value}" for name, value in settings))
-    except BadConfig as problem:
-        assert str(problem).endswith(".")
-        assert "\n" not in str(problem)
+    said = refusal("\n".join(f"{name} = {value}" for name, value in settings))
+    assert said.endswith(".")
+    assert "\n" not in said
+
+
+def test_a_fence_has_a_bounded_number_of_corners() -> None:
+    ring = "[" + ", ".join(f"[{x}, {x * x}]" for x in range(MOST_CORNERS)) + "]"
+    with pytest.raises(BadConfig, match=r"the fence has 1200 corners; at most 1000 are allowed\."):
+        parse(f"[limits]\nkeep_out = [{', '.join([ring] * 6)}]")
