@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,15 +95,15 @@ class Fence:
         far = math.hypot(dx, dy) * (1.0 if self.allows(here)[0] else -1.0)
         return (dx / far, dy / far) if far else (0.0, 0.0)
 
-    def marked(self, grid: Grid) -> Grid:
-        """The same map with every cell whose centre lies where one may not be occupied, for planning."""
+    def marked(self, grid: Grid, margin: float = 0.0) -> Grid:
+        """The same map with every cell occupied whose centre has less than `margin` [m] of clearance."""
         rows, columns = grid.occupied.shape
         x = grid.x + (np.arange(columns) + 0.5) * grid.resolution
         occupied = grid.occupied.copy()
         for row in range(rows if self else 0):
             y = grid.y + (row + 0.5) * grid.resolution
-            occupied[row] |= ~self.allows(np.column_stack([x, np.full(columns, y)]))
-        return Grid(occupied, grid.resolution, grid.x, grid.y)
+            occupied[row] |= self.clearance(np.column_stack([x, np.full(columns, y)])) < margin
+        return replace(grid, occupied=occupied)
 
     def _pieces(self) -> Border:
         """The pieces of all edges on whose two sides different things hold."""

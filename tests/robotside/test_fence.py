@@ -83,6 +83,9 @@ def test_a_map_is_marked_wherever_one_may_not_be_so_that_plans_lead_round_it() -
     assert not marked.occupied[marked.cell(3.0, 3.0)]
     assert marked.occupied[marked.cell(5.0, 3.0)]
     assert marked.occupied[marked.cell(-0.6, 3.0)]
+    assert not marked.occupied[marked.cell(0.2, 3.0)]
+    wider = Fence([HALL], [HOLE]).marked(Grid(np.zeros((16, 24), dtype=np.bool_), 0.5, -1.0, -1.0), 0.3)
+    assert wider.occupied[wider.cell(0.2, 3.0)]
     grid = Grid.unknown()
     assert (Fence().marked(grid).occupied == grid.occupied).all()
 
