@@ -18,6 +18,7 @@ from pathlib import Path
 from bridge.address import BadAddress
 from bridge.errors import BridgeError
 from robotside.clock import RobotClock
+from robotside.config import NOTHING_SET, BadConfig, Config, load
 from robotside.foreign import ForeignRobot
 from robotside.robot import Robot
 from robotside.serving import Addresses, Serving
@@ -42,7 +43,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         options = _options(argv)
         return _serve(options, lambda: not options.with_parent or os.getppid() == parent)
-    except (UserMistake, BridgeError) as problem:
+    except (UserMistake, BadConfig, BridgeError) as problem:
         print(f"robotside: {problem}", file=sys.stderr)
         return 2
 
@@ -68,7 +69,13 @@ def _options(argv: Sequence[str] | None) -> argparse.Namespace:
     add("--protocols", default="", help="rosbridge and http, which are always up")
     add("--seed", type=int, default=0, help="of the simulation's and the patrol's random numbers")
     add("--speed", type=float, default=1.0, help="simulated seconds per second; commands expire in real time")
-    add("--config", default="", help="a settings file; not read yet, so it is refused")
+    add(
+        "--config",
+        type=Path,
+        default=None,
+        metavar="ROBOT.TOML",
+        help="limits, fence, safe state, database, name; docs/robot.toml.example has every setting",
+    )
     add("--state", type=Path, default=None, help="directory where the mission is kept")
     add("--name", default="", help="what people call the robot")
     add("--with-parent", action="store_true", help="end when the program that started it is gone")
@@ -89,21 +96,24 @@ def _check(options: argparse.Namespace) -> None:
     unknown = set(filter(None, options.protocols.split(","))) - {"rosbridge", "http"}
     if unknown:
         raise UserMistake(f"There is no protocol {', '.join(sorted(unknown))}; there are rosbridge and http.")
-    if options.config:
-        raise UserMistake(f"Settings files are not read yet, so {options.config!r} would have no effect.")
 
 
 def _serve(options: argparse.Namespace, wanted: Callable[[], bool]) -> int:
+    config = load(options.config) if options.config else NOTHING_SET
     robot = _robot(options)
     began, steady = time.time(), time.monotonic()
     try:
-        return asyncio.run(_run(options, robot, lambda: began + time.monotonic() - steady, wanted))
+        return asyncio.run(_run(options, config, robot, lambda: began + time.monotonic() - steady, wanted))
     finally:
         robot.close()
 
 
 async def _run(
-    options: argparse.Namespace, robot: Robot, wall: Callable[[], float], wanted: Callable[[], bool]
+    options: argparse.Namespace,
+    config: Config,
+    robot: Robot,
+    wall: Callable[[], float],
+    wanted: Callable[[], bool],
 ) -> int:
     clock = RobotClock(wall(), options.speed)
     station = Station(
@@ -114,6 +124,7 @@ async def _run(
         rng=random.Random(options.seed),
         boot=secrets.token_hex(4),
         name=options.name,
+        config=config,
     )
     addresses = Addresses(options.host, options.port, options.http_port)
     serving = Serving(station, clock, wall, addresses, wanted=wanted)

@@ -17,6 +17,7 @@ import msgspec
 __all__ = [
     "BadConfig",
     "Config",
+    "NOTHING_SET",
     "ControlSettings",
     "DatabaseSettings",
     "LimitSettings",
@@ -120,6 +121,10 @@ class Config(_Section, frozen=True):
     safe_state: SafeStateSettings = SafeStateSettings()
     control: ControlSettings = ControlSettings()
     database: DatabaseSettings = DatabaseSettings()
+
+
+NOTHING_SET = Config()
+"""What there is without a file."""
 
 
 def load(path: Path) -> Config:

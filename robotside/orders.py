@@ -95,6 +95,7 @@ class _Orders:
 
         def call(client: Session, asked: CommandRequest) -> CommandResponse:
             self._station.controls.introduce(client, asked.client_id, asked.client_name)
+            self._station.told_time(asked.stamp)
             answer = self._commands.run(name, asked, lambda: action(client, asked), ageless=ageless)
             self._station.show_control()
             return answer
@@ -235,8 +236,8 @@ class _Orders:
         self._need_control(client)
         if self._station.unfit:
             raise Refusal(self._station.unfit)
-        if self._station.autonomy.whereabouts.pose is None:
-            raise Refusal("The robot does not know yet where it is; place it on the map.")
+        if self._station.lost:
+            raise Refusal(self._station.lost)
 
     def _check_idle(self) -> None:
         engine = self._station.autonomy.engine
@@ -255,7 +256,7 @@ class _Orders:
     def _check_place(self, name: str, place: Waypoint) -> None:
         if not self._station.autonomy.has_map:
             raise Refusal(NO_MAP)
-        problem = self._station.autonomy.guide.planner.fault(name, place.x, place.y)
+        problem = self._station.fault(name, place.x, place.y)
         if problem:
             raise Refusal(problem)
 

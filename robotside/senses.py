@@ -34,9 +34,10 @@ class Senses:
         if topic in _NEEDED or topic in _MORE:
             self._heard[topic] = now
         if isinstance(msg, Odometry):
-            v, turn = msg.twist.twist.linear, msg.twist.twist.angular.z
-            height = msg.pose.pose.position.z
-            self._measured = replace(self._measured, moving=Moving(v.x, v.y, turn), height=height)
+            v, height = msg.twist.twist.linear, msg.pose.pose.position.z
+            moving = Moving(v.x, v.y, msg.twist.twist.angular.z)
+            if all(map(math.isfinite, (*moving, height))):
+                self._measured = replace(self._measured, moving=moving, height=height)
         elif isinstance(msg, Imu) and msg.orientation_covariance[0] >= 0:
             turned = msg.orientation
             self._measured = replace(self._measured, roll=turned.roll, pitch=turned.pitch)

@@ -19,16 +19,28 @@ from bridge.msgs import Msg
 from bridge.msgs.diagnostic_msgs import DiagnosticArray, DiagnosticStatus
 from bridge.msgs.geometry_msgs import PoseStamped, PoseWithCovarianceStamped, Twist
 from bridge.msgs.nav_msgs import OccupancyGrid
-from bridge.msgs.pilothouse_msgs import ControlStatus, Event, IntruderArray, Mission, Waypoint
+from bridge.msgs.pilothouse_msgs import (
+    Check,
+    Checklist,
+    ControlStatus,
+    Event,
+    IntruderArray,
+    Mission,
+    Waypoint,
+)
 from bridge.msgs.std_msgs import Header, Time
 from robotside.autonomy import LOW_BELOW, Autonomy
 from robotside.bus import Bus
+from robotside.checklist import Looked, checks
+from robotside.config import NOTHING_SET, Config
 from robotside.controls import STOP_SENTENCE, Controls, Operator
 from robotside.demand import Demand
 from robotside.events import Events
 from robotside.guarded import Guarded
+from robotside.limits import Keeper
 from robotside.pose2 import Pose2
 from robotside.robot import Robot
+from robotside.senses import Senses
 from robotside.store import Left, Store
 
 __all__ = ["NO_MAP", "Station"]
@@ -57,14 +69,18 @@ class Station:
         rng: random.Random,
         boot: str,
         name: str = "",
+        config: Config = NOTHING_SET,
     ) -> None:
-        """`now` is the robot's clock at the start [s]."""
+        """`now` is the robot's clock at the start [s]; `name` goes before that of `config`."""
         self.clock, self.now = clock, now
-        self.info = msgspec.structs.replace(robot.info, name=name or robot.info.name)
+        self.keeper = Keeper(config.limits, robot.info)
+        """Keeps the robot to its limits."""
+        name = name or config.robot.name or robot.info.name
+        self.info = msgspec.structs.replace(self.keeper.info, name=name)
         self.bus = Bus()
         self.demand = Demand(robot.want)
         self.controls = Controls(max_speed=self.info.max_speed, max_yaw_rate=self.info.max_yaw_rate)
-        self.robot = Guarded(robot, lambda: self.controls.stopped)
+        self.robot = Guarded(robot, lambda: self.controls.stopped, self._clamp, self.keeper.info)
         """The only way to the robot's wheels."""
         self.events = Events(boot, clock, lambda event: self.bus.publish("/events", event))
         self._store = store
@@ -73,11 +89,17 @@ class Station:
         self._next_diagnostics = now
         self._next_fault = -math.inf
         self._trouble = ""
+        self._senses = Senses()
+        self._held = False
+        self._checks: list[Check] = []
+        self._offset = math.nan
+        self._stopping = False
         first = list(robot.read(now))
         chart = next(
             (msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None
         )
         self.bus.publish("/robot/info", self.info)
+        self.bus.publish("/limits", self.keeper.message)
         self.autonomy = Autonomy(
             self.robot,
             chart,
@@ -86,6 +108,7 @@ class Station:
             demand=self.demand,
             clock=clock,
             rng=rng,
+            fit=self.keeper.marked,
         )
         self.bus.publish("/intruders", IntruderArray(Header(Time.at(now), "map")))
         self.bus.publish("/control/status", self._control)
@@ -112,9 +135,12 @@ class Station:
         if now >= self._next_diagnostics:
             self._next_diagnostics = now + 1.0
             self.bus.publish("/diagnostics", self._diagnostics())
+            self._look_through()
 
     def hear(self, client: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
         """A client published `msg`; `stamp` is when it meant it [s, operators' clock], None when it does not say."""
+        if stamp is not None:
+            self.told_time(stamp)
         if isinstance(msg, Twist):
             self._drive(client, msg, stamp)
         elif isinstance(msg, PoseWithCovarianceStamped):
@@ -136,6 +162,7 @@ class Station:
         if not self.controls.stopped:
             self.events.say("stop", f"STOP pressed by {name}.", "alarm")
         self.controls.stop(name)
+        self._stopping = True
         self.autonomy.engine.pause(f"Stopped by {name}.", "alarm")
 
     def release_stop(self, name: str) -> None:
@@ -175,6 +202,23 @@ class Station:
     def unfit(self) -> str:
         """Why the robot can do nothing by itself whatever is asked, as one sentence; empty when it can."""
         return self.robot.trouble or ("" if self.autonomy.has_map else NO_MAP)
+
+    @property
+    def lost(self) -> str:
+        """Why the robot cannot set out from where it is, as one sentence; empty when it can."""
+        pose = self.autonomy.whereabouts.pose
+        if pose is None:
+            return "The robot does not know yet where it is; place it on the map."
+        return self.keeper.outside(pose)
+
+    def fault(self, name: str, x: float, y: float) -> str:
+        """Why the robot cannot or may not stand at a place, as one sentence that calls it `name`; empty when it can."""
+        return self.keeper.fault(name, x, y) or self.autonomy.guide.planner.fault(name, x, y)
+
+    def told_time(self, stamp: float) -> None:
+        """Somebody stamped something with `stamp` [s], of what is supposed to be the operators' clock."""
+        if math.isfinite(stamp):
+            self._offset = stamp - self.clock()
 
     @property
     def at_rest(self) -> bool:
@@ -222,7 +266,10 @@ class Station:
                 self.events.say(msg.kind, msg.text, msg.level)
                 continue
             self.bus.publish(topic, msg)
+            self._senses.take(topic, msg, self.now)
             self._mind(partial(self.autonomy.take, topic, msg, self.now))
+            if topic == "/odom":
+                self._mind(self.robot.again)
 
     def _mind_trouble(self) -> None:
         """Hold everything while the robot cannot be reached; on its return nothing moves until somebody says so."""
@@ -278,14 +325,41 @@ class Station:
     def _go_to(self, client: Operator, pose: Pose2) -> None:
         problem = STOP_SENTENCE if self.controls.stopped else self.controls.acquire(client, self.clock())
         problem = problem or self.unfit
-        problem = problem or self.autonomy.guide.planner.fault("The goal", pose.x, pose.y)
-        if not problem and self.autonomy.whereabouts.pose is None:
-            problem = "The robot does not know yet where it is; place it on the map."
+        problem = problem or self.fault("The goal", pose.x, pose.y)
+        problem = problem or self.lost
         if problem:
             self.events.say("command", problem, "warn")
             return
         self.controls.hold()
         self.autonomy.start_goal(Waypoint(pose.x, pose.y, pose.yaw), self.now)
+
+    def _clamp(self, twist: Twist) -> Twist:
+        done, why = self.keeper.clamp(twist, self._senses.measured(self.autonomy.whereabouts.pose))
+        now = self.clock()
+        if why and not self._held and now >= self._next_remark.get("limits", -math.inf):
+            self._next_remark["limits"] = now + REMARK_PERIOD
+            self.events.say("command", why, "warn")
+        self._held = bool(why)
+        return done
+
+    def _look_through(self) -> None:
+        """Tell everyone the check list, if it has changed."""
+        where = self.autonomy.whereabouts
+        found = checks(
+            Looked(
+                battery=self.autonomy.battery,
+                low_below=LOW_BELOW,
+                silent=self._senses.silent(self.now),
+                placed=where.pose is not None,
+                sure=where.sure,
+                stop_tested=self._control.stop_tested.seconds > 0,
+                offset=self._offset,
+                trouble=self.robot.trouble,
+            )
+        )
+        if found != self._checks:
+            self._checks = found
+            self.bus.publish("/checklist", Checklist(Time.at(self.clock()), found))
 
     def _remark(self, client: Operator, said: str) -> None:
         now = self.clock()
@@ -302,7 +376,15 @@ class Station:
             stopped=self.controls.stopped,
             stopped_by=self.controls.stopped_by,
             at_rest=self._at_rest(),
+            stop_tested=self._stop_tested(),
         )
+
+    def _stop_tested(self) -> Time:
+        """When STOP, pressed since the start, last brought the robot to rest."""
+        if not (self._stopping and self.controls.stopped and self._at_rest()):
+            return self._control.stop_tested
+        self._stopping = False
+        return Time.at(self.clock())
 
     def _mode(self) -> str:
         engine = self.autonomy.engine

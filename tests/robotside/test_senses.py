@@ -35,6 +35,14 @@ def test_odometry_tells_speed_and_height_and_the_imu_how_it_is_tilted() -> None:
     assert found.pose == (1.0, 2.0, 3.0)
 
 
+def test_what_is_no_number_changes_nothing() -> None:
+    senses = Senses()
+    senses.take("/odom", ODOM, 1.0)
+    wild = TwistWithCovariance(Twist(Vector3(math.inf), Vector3(0.0, 0.0, math.nan)))
+    senses.take("/odom", Odometry(twist=wild), 1.1)
+    assert senses.measured(None).moving == Moving(0.3, 0.1, 0.2)
+
+
 def test_an_imu_without_orientation_says_nothing_of_it() -> None:
     senses = Senses()
     covariance = [-1.0, *[0.0] * 8]

@@ -204,8 +204,8 @@ def test_a_state_directory_that_cannot_be_made_is_one_sentence_and_lets_go_of_th
         ("serve --payloads arm", "There is no payload 'arm'; this robot has none to choose."),
         ("serve --protocols mqtt", "There is no protocol mqtt; there are rosbridge and http."),
         (
-            "serve --config robot.toml",
-            "Settings files are not read yet, so 'robot.toml' would have no effect.",
+            "serve --config /nowhere/robot.toml",
+            "The settings cannot be read from '/nowhere/robot.toml': no such file or directory.",
         ),
         (
             "serve --robot rover",
