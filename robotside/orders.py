@@ -95,7 +95,7 @@ class _Orders:
 
         def call(client: Session, asked: CommandRequest) -> CommandResponse:
             self._station.controls.introduce(client, asked.client_id, asked.client_name)
-            self._station.told_time(asked.stamp)
+            self._station.readiness.told_time(asked.stamp)
             answer = self._commands.run(name, asked, lambda: action(client, asked), ageless=ageless)
             self._station.show_control()
             return answer

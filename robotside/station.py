@@ -20,8 +20,6 @@ from bridge.msgs.diagnostic_msgs import DiagnosticArray, DiagnosticStatus
 from bridge.msgs.geometry_msgs import PoseStamped, PoseWithCovarianceStamped, Twist
 from bridge.msgs.nav_msgs import OccupancyGrid
 from bridge.msgs.pilothouse_msgs import (
-    Check,
-    Checklist,
     ControlStatus,
     Event,
     IntruderArray,
@@ -31,7 +29,6 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.std_msgs import Header, Time
 from robotside.autonomy import LOW_BELOW, Autonomy
 from robotside.bus import Bus
-from robotside.checklist import Looked, checks
 from robotside.config import NOTHING_SET, Config
 from robotside.controls import STOP_SENTENCE, Controls, Operator
 from robotside.demand import Demand
@@ -39,8 +36,8 @@ from robotside.events import Events
 from robotside.guarded import Guarded
 from robotside.limits import Keeper
 from robotside.pose2 import Pose2
+from robotside.readiness import Readiness
 from robotside.robot import Robot
-from robotside.senses import Senses
 from robotside.store import Left, Store
 
 __all__ = ["NO_MAP", "Station"]
@@ -83,26 +80,20 @@ class Station:
         self.robot = Guarded(robot, lambda: self.controls.stopped, self._clamp, self.keeper.info)
         """The only way to the robot's wheels."""
         self.events = Events(boot, clock, lambda event: self.bus.publish("/events", event))
+        self.readiness = Readiness(clock, self.bus.publish)
+        """What is looked through before the first motion."""
         self._store = store
         self._control = ControlStatus()
         self._next_remark: dict[str, float] = {}
         self._next_diagnostics = now
         self._next_fault = -math.inf
         self._trouble = ""
-        self._senses = Senses()
-        self._held = False
-        self._checks: list[Check] = []
-        self._offset = math.nan
-        self._stopping = False
         first = list(robot.read(now))
-        chart = next(
-            (msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None
-        )
         self.bus.publish("/robot/info", self.info)
         self.bus.publish("/limits", self.keeper.message)
         self.autonomy = Autonomy(
             self.robot,
-            chart,
+            next((msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None),
             bus=self.bus,
             events=self.events,
             demand=self.demand,
@@ -112,15 +103,14 @@ class Station:
         )
         self.bus.publish("/intruders", IntruderArray(Header(Time.at(now), "map")))
         self.bus.publish("/control/status", self._control)
-        self.mission, problem = store.load()
-        self.bus.publish("/mission", self.mission)
-        if problem:
-            self.events.say("mission", problem, "warn")
         self._left = store.left()
-        self._ending = False
+        self._load()
         self._take_up(self._left)
         self._pass_on(first)
         self.show_control()
+
+    _held = False
+    _ending = False
 
     def step(self, now: float) -> None:
         """Bring everything up to `now` [s, robot clock]; call it often."""
@@ -135,12 +125,12 @@ class Station:
         if now >= self._next_diagnostics:
             self._next_diagnostics = now + 1.0
             self.bus.publish("/diagnostics", self._diagnostics())
-            self._look_through()
+            self.readiness.look(self.autonomy, self.robot.trouble, now)
 
     def hear(self, client: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
         """A client published `msg`; `stamp` is when it meant it [s, operators' clock], None when it does not say."""
         if stamp is not None:
-            self.told_time(stamp)
+            self.readiness.told_time(stamp)
         if isinstance(msg, Twist):
             self._drive(client, msg, stamp)
         elif isinstance(msg, PoseWithCovarianceStamped):
@@ -162,7 +152,7 @@ class Station:
         if not self.controls.stopped:
             self.events.say("stop", f"STOP pressed by {name}.", "alarm")
         self.controls.stop(name)
-        self._stopping = True
+        self.readiness.stop_pressed()
         self.autonomy.engine.pause(f"Stopped by {name}.", "alarm")
 
     def release_stop(self, name: str) -> None:
@@ -215,11 +205,6 @@ class Station:
         """Why the robot cannot or may not stand at a place, as one sentence that calls it `name`; empty when it can."""
         return self.keeper.fault(name, x, y) or self.autonomy.guide.planner.fault(name, x, y)
 
-    def told_time(self, stamp: float) -> None:
-        """Somebody stamped something with `stamp` [s], of what is supposed to be the operators' clock."""
-        if math.isfinite(stamp):
-            self._offset = stamp - self.clock()
-
     @property
     def at_rest(self) -> bool:
         """The wheels stand still, as measured."""
@@ -237,6 +222,13 @@ class Station:
         """Bring the robot to rest and let go of it."""
         self.robot.stop()
         self.robot.close()
+
+    def _load(self) -> None:
+        """Show the stored mission, or say why there is none."""
+        self.mission, problem = self._store.load()
+        self.bus.publish("/mission", self.mission)
+        if problem:
+            self.events.say("mission", problem, "warn")
 
     def _take_up(self, left: Left) -> None:
         """Go on from how it was left: STOP stays pressed, a task has ended."""
@@ -266,7 +258,7 @@ class Station:
                 self.events.say(msg.kind, msg.text, msg.level)
                 continue
             self.bus.publish(topic, msg)
-            self._senses.take(topic, msg, self.now)
+            self.readiness.senses.take(topic, msg, self.now)
             self._mind(partial(self.autonomy.take, topic, msg, self.now))
             if topic == "/odom":
                 self._mind(self.robot.again)
@@ -334,32 +326,14 @@ class Station:
         self.autonomy.start_goal(Waypoint(pose.x, pose.y, pose.yaw), self.now)
 
     def _clamp(self, twist: Twist) -> Twist:
-        done, why = self.keeper.clamp(twist, self._senses.measured(self.autonomy.whereabouts.pose))
+        measured = self.readiness.senses.measured(self.autonomy.whereabouts.pose)
+        done, why = self.keeper.clamp(twist, measured)
         now = self.clock()
         if why and not self._held and now >= self._next_remark.get("limits", -math.inf):
             self._next_remark["limits"] = now + REMARK_PERIOD
             self.events.say("command", why, "warn")
         self._held = bool(why)
         return done
-
-    def _look_through(self) -> None:
-        """Tell everyone the check list, if it has changed."""
-        where = self.autonomy.whereabouts
-        found = checks(
-            Looked(
-                battery=self.autonomy.battery,
-                low_below=LOW_BELOW,
-                silent=self._senses.silent(self.now),
-                placed=where.pose is not None,
-                sure=where.sure,
-                stop_tested=self._control.stop_tested.seconds > 0,
-                offset=self._offset,
-                trouble=self.robot.trouble,
-            )
-        )
-        if found != self._checks:
-            self._checks = found
-            self.bus.publish("/checklist", Checklist(Time.at(self.clock()), found))
 
     def _remark(self, client: Operator, said: str) -> None:
         now = self.clock()
@@ -368,23 +342,18 @@ class Station:
             self.events.say("command", said, "warn")
 
     def _control_now(self) -> ControlStatus:
-        driver = self.controls.driver
+        driver, at_rest = self.controls.driver, self._at_rest()
+        if at_rest:
+            self.readiness.rests(stopped=self.controls.stopped)
         return ControlStatus(
             mode=self._mode(),
             driver=driver.name if driver else "",
             driver_id=driver.client_id if driver else "",
             stopped=self.controls.stopped,
             stopped_by=self.controls.stopped_by,
-            at_rest=self._at_rest(),
-            stop_tested=self._stop_tested(),
+            at_rest=at_rest,
+            stop_tested=self.readiness.stop_tested,
         )
-
-    def _stop_tested(self) -> Time:
-        """When STOP, pressed since the start, last brought the robot to rest."""
-        if not (self._stopping and self.controls.stopped and self._at_rest()):
-            return self._control.stop_tested
-        self._stopping = False
-        return Time.at(self.clock())
 
     def _mode(self) -> str:
         engine = self.autonomy.engine
