@@ -100,13 +100,17 @@ class Keeper:
         if not self._fence:
             return ""
         where = place_sentence(name, x, y)
-        room = float(self._fence.clearance(np.array([[x, y]]))[0])
+        room = self.room(x, y)
         if not room > 0:
             return f"{where} is outside the robot's fence."
         need = self._radius + GOAL_ROOM
         if room < need:
             return f"{where} is {room:.2f} m from the robot's fence; the robot needs {need:.2f} m."
         return ""
+
+    def room(self, x: float, y: float) -> float:
+        """From a place to the fence [m]; negative outside, infinite without one."""
+        return float(self._fence.clearance(np.array([[x, y]]))[0])
 
     def outside(self, pose: Pose2 | None) -> str:
         """Why the robot cannot start by itself from where it is, as one sentence; empty when it can."""

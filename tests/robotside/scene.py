@@ -20,6 +20,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskStatus,
     Waypoint,
 )
+from robotside.config import NOTHING_SET, Config
 from robotside.orders import services
 from robotside.station import Station
 from robotside.store import Store
@@ -37,14 +38,22 @@ class Scene:
     `now` is the robot's clock, which runs `speed` times as fast as the operators', `clock`.
     """
 
-    def __init__(self, robot: FakeRobot, state: Path, speed: float = 1.0) -> None:
+    def __init__(
+        self, robot: FakeRobot, state: Path, speed: float = 1.0, config: Config = NOTHING_SET
+    ) -> None:
         self.now = self.clock = 1000.0
         self._speed = speed
         self.robot = robot
         self.clients: list[FakeClient] = []
         self.anna = self.client("anna")
         self.station = Station(
-            robot, Store(state), now=self.now, clock=lambda: self.clock, rng=random.Random(1), boot="b1"
+            robot,
+            Store(state),
+            now=self.now,
+            clock=lambda: self.clock,
+            rng=random.Random(1),
+            boot="b1",
+            config=config,
         )
         self.said: list[tuple[str, Msg]] = []
         self.station.bus.subscribe(None, lambda topic, msg: self.said.append((topic, msg)))
