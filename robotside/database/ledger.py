@@ -85,6 +85,29 @@ class Ledger:
         if facts:
             self._hand_in(Job(facts=facts))
 
+    def end(self) -> None:
+        """Write what could not be written, and with it that this was an orderly end."""
+        put = Put("facts", "clean", "1")
+        self.memory.see(put)
+        self._hand_in(Job(facts=[*self.memory.again(), put]))
+
+    def rebuild(self, write: Callable[[list[Put], Callable[[str, str], None]], bool]) -> None:
+        """Have everything written anew, since the database is broken."""
+        puts = self.memory.everything()
+
+        def told(said: str, problem: str) -> None:
+            if problem:
+                self._trust(problem)
+                return
+            self.memory.written_anew(puts)
+            self.on_trouble(said)
+
+        write(puts, told)
+
+    def say(self, sentence: str) -> None:
+        """Tell of trouble that is no job's."""
+        self.on_trouble(sentence)
+
     def _hand_in(self, job: Job) -> None:
         if not job.puts:
             job.settle("")
@@ -98,13 +121,16 @@ class Ledger:
             self.memory.failed(job)
         else:
             self.memory.succeeded(job)
-        if bool(problem) != bool(self._trouble):
-            self._trouble = problem
-            self.on_trouble(problem)
+        self._trust(problem)
         if not problem:
             for table in dict.fromkeys(put.table for put in job.puts):
                 self.on_change(table)
         job.settle(problem)
+
+    def _trust(self, problem: str) -> None:
+        if bool(problem) != bool(self._trouble):
+            self._trouble = problem
+            self.on_trouble(problem)
 
 
 def within(number: int, most: int, what: str) -> None:

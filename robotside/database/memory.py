@@ -59,6 +59,13 @@ class Memory:
         """The rows to try again, as they are now."""
         return [Put(table, key, self.current[table].get(key)) for table, key in sorted(self.dirty, key=str)]
 
+    def written_anew(self, puts: Iterable[Put]) -> None:
+        """The disk has these rows and no others."""
+        self.stored = {table: {} for table in self.current}
+        for put in puts:
+            _set(self.stored, put)
+            self.dirty.discard((put.table, put.key))
+
     def everything(self) -> list[Put]:
         """All rows as they will be."""
         return list(_rows(self.current))

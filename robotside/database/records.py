@@ -14,18 +14,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 
-from sqlalchemy import create_engine
-from sqlalchemy.pool import StaticPool
-
 from robotside.database.eventlog import EventLog
 from robotside.database.jobs import Job
 from robotside.database.ledger import Ledger, Writer
 from robotside.database.missions import Missions
 from robotside.database.places import Places
 from robotside.database.plans import Queue, Timetable
-from robotside.database.rows import Content
+from robotside.database.rows import Content, Put, empty
 from robotside.database.runs import Runs
-from robotside.database.storage import NotWritten, Storage
+from robotside.database.storage import Storage
+from robotside.database.writer import AtOnce
 
 __all__ = ["Records"]
 
@@ -54,10 +52,8 @@ class Records:
     @classmethod
     def in_memory(cls) -> Records:
         """Records that are gone with the process and write at once, in the caller's step: for tests."""
-        engine = create_engine("sqlite://", poolclass=StaticPool, connect_args={"check_same_thread": False})
-        storage = Storage(engine)
-        storage.make()
-        return cls(storage.load(), AtOnce(storage), storage.close)
+        storage = Storage.in_memory()
+        return cls(empty(), AtOnce(storage.write), storage.close)
 
     def together(self) -> AbstractContextManager[Job]:
         """Have all changes within written as one, or none of them; the job tells what came of it."""
@@ -93,23 +89,15 @@ class Records:
         """Write the facts that could not be written; to be called now and then."""
         self._ledger.try_again()
 
+    def say_trouble(self, sentence: str) -> None:
+        """Tell whoever watches of trouble that no change has caused, as of a backup."""
+        self._ledger.say(sentence)
+
+    def rebuild(self, write: Callable[[list[Put], Callable[[str, str], None]], bool]) -> None:
+        """Have everything written anew by `write`, since the database is broken."""
+        self._ledger.rebuild(write)
+
     def close(self) -> None:
-        """Write what waits and let go of the database."""
+        """Write what waits and let go of the database. Nothing can be kept afterwards."""
+        self._ledger.end()
         self._close()
-
-
-class AtOnce:
-    """Writes in the caller's step."""
-
-    def __init__(self, storage: Storage) -> None:
-        self._storage = storage
-
-    def submit(self, job: Job, told: Callable[[Job, str], None]) -> bool:
-        """Write `job` and tell."""
-        try:
-            self._storage.write(job.puts)
-        except NotWritten as problem:
-            told(job, str(problem))
-        else:
-            told(job, "")
-        return True

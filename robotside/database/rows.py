@@ -12,6 +12,7 @@ from sqlalchemy import delete, select
 from sqlalchemy.orm import Session
 
 from bridge.codec import from_json, to_json
+from bridge.errors import BridgeError
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event, Mission, Place, ScheduledTask, TaskOrder, TaskRun
 from bridge.msgs.std_msgs import Time
@@ -69,12 +70,23 @@ def empty() -> Content:
     return {name: {} for name in TABLES}
 
 
-def read_all(session: Session) -> Content:
-    """Everything there is."""
-    return {
-        name: {getattr(row, table.key): table.from_row(row) for row in session.scalars(select(table.model))}
-        for name, table in TABLES.items()
-    }
+def read_all(session: Session) -> tuple[Content, list[str]]:
+    """Everything there is, and a sentence for each table of which rows could not be read; they are left where they are."""
+    content, problems = empty(), []
+    for name, table in TABLES.items():
+        bad: list[Key] = []
+        for row in session.scalars(select(table.model)):
+            key = getattr(row, table.key)
+            try:
+                content[name][key] = table.from_row(row)
+            except (BridgeError, ValueError, TypeError):
+                bad.append(key)
+        if bad:
+            shown = ", ".join(map(repr, bad[:3]))
+            problems.append(
+                f"{len(bad)} of the {name} in the database cannot be read ({shown}) and are left out."
+            )
+    return content, problems
 
 
 def write(session: Session, puts: Iterable[Put]) -> None:
