@@ -48,7 +48,9 @@ EXTENDS = {
 ALSO: dict[str, dict[str, tuple[str, ...]]] = {
     "std_msgs": {"bridge.msgs.builtin_interfaces": ("Duration", "Time")},
     "geometry_msgs": {"bridge.msgs.additions": ("zeros36",)},
-    "pilothouse_msgs": {"bridge.msgs.additions": ("LONGEST_DWELL", "MOST_LAPS", "MOTIONS")},
+    "pilothouse_msgs": {
+        "bridge.msgs.additions": ("LONGEST_DWELL", "MOST_LAPS", "MOTIONS", "REACTIONS", "TASKS")
+    },
 }
 """Names that a package has from elsewhere."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bridge.msgs.additions import LONGEST_DWELL, MOST_LAPS, MOTIONS
+from bridge.msgs.additions import LONGEST_DWELL, MOST_LAPS, MOTIONS, REACTIONS, TASKS
 from bridge.msgs.pilothouse_msgs.part1 import (
     AcknowledgeEventsRequest,
     AcknowledgeEventsResponse,
@@ -24,13 +24,13 @@ from bridge.msgs.pilothouse_msgs.part1 import (
     GetHistoryResponse,
     GetMissionRequest,
     GetMissionResponse,
-    GetMissionsRequest,
     Mission,
     TaskOrder,
     TaskRun,
     Waypoint,
 )
 from bridge.msgs.pilothouse_msgs.part2 import (
+    GetMissionsRequest,
     GetMissionsResponse,
     Intruder,
     IntruderArray,
@@ -53,11 +53,11 @@ from bridge.msgs.pilothouse_msgs.part2 import (
     SetOptionResponse,
     SetPlaceRequest,
     SetPlaceResponse,
-    SetQueueRequest,
     StartTaskRequest,
     TaskProgress,
 )
 from bridge.msgs.pilothouse_msgs.part3 import (
+    SetQueueRequest,
     SetQueueResponse,
     SetScheduleRequest,
     SetScheduleResponse,
@@ -99,6 +99,7 @@ __all__ = [
     "Mission",
     "Place",
     "PlaceArray",
+    "REACTIONS",
     "RecallMissionRequest",
     "RecallMissionResponse",
     "RobotInfo",
@@ -121,6 +122,7 @@ __all__ = [
     "SetScheduleResponse",
     "StartTaskRequest",
     "StartTaskResponse",
+    "TASKS",
     "TagRead",
     "TaskOrder",
     "TaskProgress",

@@ -34,7 +34,6 @@ __all__ = [
     "GetHistoryResponse",
     "GetMissionRequest",
     "GetMissionResponse",
-    "GetMissionsRequest",
     "Mission",
     "TaskOrder",
     "TaskRun",
@@ -326,8 +325,8 @@ class TaskOrder(Msg, frozen=True, gc=False):
     task: str = ""
     """patrol, deliver, guide, go_to, go_home, hold, follow_heading or dock."""
     places: list[str] = []
-    """Names. Patrol: none takes the stored mission. Deliver: from, to. Guide: in this order. Go_to and
-    dock: one.
+    """Names. Patrol: none takes the stored mission. Deliver: from, to and, if it shall go on to one then,
+    a third. Guide: in this order. Go_to and dock: one.
     """
     goals: list[Waypoint] = []
     """Instead of places, for go_to: points in the map frame."""
@@ -407,6 +406,7 @@ class Mission(Msg, frozen=True, gc=False):
         "int32",
         "bool",
         "string",
+        "string",
     )
     stamp: Time = Time()
     """When the robot stored it; 0 when it never was."""
@@ -421,9 +421,11 @@ class Mission(Msg, frozen=True, gc=False):
     laps: int32 = 0
     """Rounds to make; 0 goes on until stopped."""
     stop_on_intruder: bool = False
-    """Pause when an intruder is found."""
+    """Pause when an intruder is found, whatever `on_intruder` says."""
     name: str = ""
     """What it is kept as; empty for a mission without a name."""
+    on_intruder: str = ""
+    """stop, report or circle when an intruder is found; empty reports it."""
 
 
 class GetMissionResponse(Msg, frozen=True, gc=False):
@@ -437,10 +439,3 @@ class GetMissionResponse(Msg, frozen=True, gc=False):
     """One sentence when none was stored yet, else empty."""
     mission: Mission = field(default_factory=Mission)
     """The stored mission."""
-
-
-class GetMissionsRequest(CommandRequest, frozen=True, gc=False):
-    """Ask for the names of the missions that are kept."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionsRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string")

@@ -14,6 +14,7 @@ from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse, M
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "GetMissionsRequest",
     "GetMissionsResponse",
     "Intruder",
     "IntruderArray",
@@ -36,12 +37,18 @@ __all__ = [
     "SetOptionResponse",
     "SetPlaceRequest",
     "SetPlaceResponse",
-    "SetQueueRequest",
     "StartTaskRequest",
     "TaskProgress",
 ]
 
 _Boolx7: TypeAlias = Annotated[list[bool], Meta(min_length=7, max_length=7)]
+
+
+class GetMissionsRequest(CommandRequest, frozen=True, gc=False):
+    """Ask for the names of the missions that are kept."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionsRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string")
 
 
 class GetMissionsResponse(CommandResponse, frozen=True, gc=False):
@@ -422,22 +429,3 @@ class SetPlaceResponse(CommandResponse, frozen=True, gc=False):
     ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "int32")
     id: int32 = 0
     """Of the place; 0 when it was not accepted."""
-
-
-class SetQueueRequest(CommandRequest, frozen=True, gc=False):
-    """Replace what comes after the task that runs."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetQueueRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "string",
-        "float64",
-        "float64",
-        "string",
-        "string",
-        "int32",
-        "pilothouse_msgs/TaskOrder[]",
-    )
-    revision: int32 = 0
-    """That of the TaskQueue it was made from; refused when the queue has changed since."""
-    orders: list[TaskOrder] = []
-    """Waiting, the next one first; those with an id stay what they were."""

@@ -13,6 +13,7 @@ from bridge.msgs.pilothouse_msgs.part2 import ScheduledTask
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "SetQueueRequest",
     "SetQueueResponse",
     "SetScheduleRequest",
     "SetScheduleResponse",
@@ -21,6 +22,25 @@ __all__ = [
     "TaskQueue",
     "TaskStatus",
 ]
+
+
+class SetQueueRequest(CommandRequest, frozen=True, gc=False):
+    """Replace what comes after the task that runs."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetQueueRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "int32",
+        "pilothouse_msgs/TaskOrder[]",
+    )
+    revision: int32 = 0
+    """That of the TaskQueue it was made from; refused when the queue has changed since."""
+    orders: list[TaskOrder] = []
+    """Waiting, the next one first; those with an id stay what they were."""
 
 
 class SetQueueResponse(CommandResponse, frozen=True, gc=False):
