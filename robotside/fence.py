@@ -141,17 +141,13 @@ def _inside(ring: _Array, points: Points) -> NDArray[np.bool_]:
 def _cut(start: _Array, end: _Array, starts: _Array, ends: _Array) -> _Array:
     """The edge from `start` to `end` as corners of pieces: cut wherever one of the edges meets it."""
     along = end - start
-    length = float(along @ along)
     other = ends - starts
     cross = along[0] * other[:, 1] - along[1] * other[:, 0]
     apart = starts - start
     with np.errstate(divide="ignore", invalid="ignore"):
         here = (apart[:, 0] * other[:, 1] - apart[:, 1] * other[:, 0]) / cross
         there = (apart[:, 0] * along[1] - apart[:, 1] * along[0]) / cross
-    meets = (there >= 0.0) & (there <= 1.0) & np.isfinite(here)
-    # edges in one line have no one point in common: their corners cut
-    off = np.abs(along[0] * apart[:, 1] - along[1] * apart[:, 0]) / math.sqrt(length)
-    corners = (apart[off < _ASIDE] @ along) / length
-    found = np.concatenate([here[meets], corners])
-    cuts = np.unique(np.concatenate(([0.0, 1.0], found[(found > 0.0) & (found < 1.0)])))
+    # an edge in the same line meets it nowhere in particular, but the next one of its ring does at the corner
+    meets = (there > -_ASIDE) & (there < 1.0 + _ASIDE) & np.isfinite(here)
+    cuts = np.unique(np.concatenate(([0.0, 1.0], here[meets & (here > 0.0) & (here < 1.0)])))
     return np.asarray(start + cuts[:, None] * along)

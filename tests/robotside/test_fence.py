@@ -63,10 +63,25 @@ def test_areas_that_meet_have_no_border_between_them(rooms: tuple[Ring, ...]) ->
     assert clearance(fence, 4.5, 3.0) == pytest.approx(3.0)
 
 
+def test_areas_that_meet_askew_have_no_border_between_them_either() -> None:
+    c, s = math.cos(0.3), math.sin(0.3)
+    turned = [
+        tuple((c * x - s * y, s * x + c * y) for x, y in ring)
+        for ring in (
+            box(0.0, 0.0, 5.0, 6.0),
+            box(5.0, 0.0, 10.0, 1.7),
+            box(5.0, 1.7, 10.0, 3.1),
+            box(5.0, 3.1, 10.0, 6.0),
+        )
+    ]
+    assert clearance(Fence(turned), 5 * c - 3 * s, 5 * s + 3 * c) == pytest.approx(3.0)
+
+
 def test_a_hole_across_the_edge_moves_the_border_inwards() -> None:
     fence = Fence([HALL], [box(8.0, -1.0, 12.0, 7.0)])
     assert clearance(fence, 7.0, 3.0) == pytest.approx(1.0)
     assert clearance(fence, 9.0, 3.0) == pytest.approx(-1.0)
+    assert clearance(fence, 9.0, 0.2) == pytest.approx(-1.0)
     assert clearance(fence, 11.0, 3.0) == pytest.approx(-3.0)
 
 

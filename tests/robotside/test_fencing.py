@@ -99,6 +99,22 @@ def test_along_away_and_on_the_spot_it_is_free() -> None:
     assert fencing.slowed(Pose2(close.x, 0.0, math.pi / 2), REST, along) == along
 
 
+def test_a_turn_towards_the_fence_is_put_off_until_it_is_slow_enough() -> None:
+    fencing = Fencing(YARD, RADIUS, WHEELS)
+    close = Pose2(-4.0 + RADIUS + GAP + 0.02, -1.5, math.pi / 2)
+    turn = Moving(0.05, 0.0, 1.9)
+    assert fencing.slowed(close, REST, turn) == turn
+    assert fencing.slowed(close, Moving(1.5, 0.0, 0.0), turn) == REST
+
+
+def test_a_turn_that_has_not_died_away_yet_is_counted_in() -> None:
+    fencing = Fencing(YARD, RADIUS, WHEELS)
+    close = Pose2(-4.0 + RADIUS + GAP + 0.02, -1.5, math.pi / 2)
+    straight = Moving(0.7, 0.0, 0.0)
+    assert fencing.slowed(close, straight, straight) == straight
+    assert fencing.slowed(close, Moving(0.7, 0.0, 1.5), straight) != straight
+
+
 def test_one_that_can_go_sideways_slides_along_the_fence() -> None:
     fencing = Fencing(YARD, RADIUS, HANDLING["quadrotor"])
     slid = fencing.slowed(Pose2(-4.0 + RADIUS + GAP, 0.0, math.pi), REST, Moving(0.5, 0.5, 0.0))

@@ -154,6 +154,12 @@ def test_a_bow_that_points_down_counts_as_going_down() -> None:
     assert why
 
 
+def test_far_from_both_ends_a_command_is_left_as_it_is() -> None:
+    keeper = Keeper(LimitSettings(max_depth=20.0), AQUA)
+    wanted = twist(x=0.37, z=0.11)
+    assert keeper.clamp(wanted, at(-10.0, pitch=0.3)).twist == wanted
+
+
 def test_without_a_height_that_is_measured_nothing_is_known_to_be_kept() -> None:
     assert Keeper(LimitSettings(max_height=10.0), DRONE).clamp(twist(z=1.0), HOME).twist.linear.z == 1.0
 
