@@ -144,7 +144,7 @@ class Keeper:
         v, nose = twist.linear, measured.pitch
         rise = v.z * math.cos(nose) - v.x * math.sin(nose)
         allowed = max(-self._speed_within(z - self._deepest), min(rise, self._speed_within(self._height - z)))
-        if allowed == rise or abs(math.cos(nose)) < 0.1:
+        if abs(math.cos(nose)) < 0.1:
             return Clamped(twist)
         fitted = Vector3(v.x, v.y, (allowed + v.x * math.sin(nose)) / math.cos(nose))
         why = ""

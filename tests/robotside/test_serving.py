@@ -9,6 +9,7 @@ import time
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from pathlib import Path
+from typing import ClassVar
 
 import httpx
 import msgspec
@@ -193,6 +194,50 @@ def test_a_state_directory_that_cannot_be_made_is_one_sentence_and_lets_go_of_th
     said = f"The mission cannot be kept in '{state}': not a directory; --state names another directory."
     assert capsys.readouterr().err == f"robotside: {said}\n"
     assert robot.closed
+
+
+class Glance:
+    """Serves for no time at all, and keeps the station that it was to serve."""
+
+    stations: ClassVar[list[Station]] = []
+
+    def __init__(self, station: Station, *_: object, **__: object) -> None:
+        self.stations.append(station)
+
+    def end(self) -> None:
+        """Never called."""
+
+    async def run(self, ready: Callable[[Addresses], None]) -> None:
+        ready(Addresses("127.0.0.1", 1, 2))
+
+
+@pytest.mark.parametrize(("more", "name"), [([], "Slow-1"), (["--name", "Rex"], "Rex")])
+def test_a_settings_file_says_what_the_robot_is_called_and_may_do(
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    more: list[str],
+    name: str,
+) -> None:
+    monkeypatch.setattr("robotside.__main__._robot", lambda _: FakeRobot())
+    monkeypatch.setattr("robotside.__main__.Serving", Glance)
+    settings = tmp_path / "robot.toml"
+    settings.write_text("[robot]\nname = 'Slow-1'\n[limits]\nmax_speed = 0.2\n")
+    assert main(["serve", "--state", str(tmp_path), "--config", str(settings), *more]) == 0
+    station = Glance.stations.pop()
+    assert (station.info.name, station.info.max_speed) == (name, 0.2)
+    assert f"robot={name}" in capsys.readouterr().out
+
+
+def test_a_mistake_in_the_settings_file_is_one_sentence_and_no_robot_is_made(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    monkeypatch.setattr("robotside.__main__._robot", lambda _: pytest.fail("a robot was made"))
+    settings = tmp_path / "robot.toml"
+    settings.write_text("[limits]\nmax_sped = 1")
+    assert main(["serve", "--config", str(settings)]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"robotside: {settings}: limits has no 'max_sped'; there are max_speed,")
 
 
 @pytest.mark.parametrize(
