@@ -49,7 +49,14 @@ ALSO: dict[str, dict[str, tuple[str, ...]]] = {
     "std_msgs": {"bridge.msgs.builtin_interfaces": ("Duration", "Time")},
     "geometry_msgs": {"bridge.msgs.additions": ("zeros36",)},
     "pilothouse_msgs": {
-        "bridge.msgs.additions": ("LONGEST_DWELL", "MOST_LAPS", "MOTIONS", "REACTIONS", "TASKS")
+        "bridge.msgs.additions": (
+            "LONGEST_DWELL",
+            "MOST_LAPS",
+            "MOTIONS",
+            "PLACE_KINDS",
+            "REACTIONS",
+            "TASKS",
+        )
     },
 }
 """Names that a package has from elsewhere."""

@@ -6,14 +6,14 @@ import math
 
 import msgspec
 
-from bridge.msgs.pilothouse_msgs import Place
+from bridge.msgs.pilothouse_msgs import PLACE_KINDS, Place
 from robotside.database.jobs import NotRecorded
 from robotside.database.ledger import Ledger, within
 from robotside.words import plain
 
 __all__ = ["KINDS", "Places"]
 
-KINDS = ("place", "office", "home", "dock", "reception", "lab", "hall")
+KINDS = PLACE_KINDS
 MOST = 1000
 """Places that are kept."""
 LONGEST = {"name": 60, "floor": 20, "tag": 64, "note": 300}

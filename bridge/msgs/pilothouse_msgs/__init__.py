@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bridge.msgs.additions import LONGEST_DWELL, MOST_LAPS, MOTIONS, REACTIONS, TASKS
+from bridge.msgs.additions import LONGEST_DWELL, MOST_LAPS, MOTIONS, PLACE_KINDS, REACTIONS, TASKS
 from bridge.msgs.pilothouse_msgs.part1 import (
     AcknowledgeEventsRequest,
     AcknowledgeEventsResponse,
@@ -97,6 +97,7 @@ __all__ = [
     "MOST_LAPS",
     "MOTIONS",
     "Mission",
+    "PLACE_KINDS",
     "Place",
     "PlaceArray",
     "REACTIONS",
