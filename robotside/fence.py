@@ -46,6 +46,14 @@ class Border:
         """Squared distances, shape (points, pieces) [m2]."""
         return np.asarray(((points[:, None, :] - self._feet(points)) ** 2).sum(axis=2))
 
+    def sampled(self, step: float) -> Points:
+        """Places on it, at most `step` [m] apart, shape (n, 2)."""
+        places = [np.empty((0, 2))]
+        for start, end in zip(self.starts, self.ends, strict=True):
+            count = math.ceil(math.hypot(*(end - start)) / step) + 1
+            places.append(start + np.linspace(0.0, 1.0, count)[:, None] * (end - start))
+        return np.concatenate(places)
+
     def _feet(self, points: Points) -> _Array:
         """The place on each piece that is nearest to each of `points`, shape (points, pieces, 2)."""
         along = self.ends - self.starts
@@ -96,14 +104,24 @@ class Fence:
         return (dx / far, dy / far) if far else (0.0, 0.0)
 
     def marked(self, grid: Grid, margin: float = 0.0) -> Grid:
-        """The same map with every cell occupied whose centre has less than `margin` [m] of clearance."""
+        """The same map with every cell occupied that is forbidden, on the border or within `margin` [m] of either."""
+        if not self:
+            return grid
+        barred = replace(grid, occupied=~self._raster(grid)).marked(self._border.sampled(grid.resolution / 2))
+        return replace(grid, occupied=grid.occupied | (barred.distance < margin))
+
+    def _raster(self, grid: Grid) -> NDArray[np.bool_]:
+        """Whether the robot may be at the centre of each cell, row by row: far quicker than cell by cell."""
         rows, columns = grid.occupied.shape
-        x = grid.x + (np.arange(columns) + 0.5) * grid.resolution
-        occupied = grid.occupied.copy()
-        for row in range(rows if self else 0):
+        x = np.asarray(grid.x + (np.arange(columns) + 0.5) * grid.resolution, dtype=np.float64)
+        allowed = np.full((rows, columns), not self._keep_in)
+        for row in range(rows):
             y = grid.y + (row + 0.5) * grid.resolution
-            occupied[row] |= self.clearance(np.column_stack([x, np.full(columns, y)])) < margin
-        return replace(grid, occupied=occupied)
+            for ring in self._keep_in:
+                allowed[row] |= _inside_row(ring, x, y)
+            for ring in self._keep_out:
+                allowed[row] &= ~_inside_row(ring, x, y)
+        return allowed
 
     def _pieces(self) -> Border:
         """The pieces of all edges on whose two sides different things hold."""
@@ -126,6 +144,16 @@ class Fence:
 def _closed(ring: Ring) -> _Array:
     """The corners with the first one repeated at the end."""
     return np.array([*ring, ring[0]], dtype=np.float64)
+
+
+def _inside_row(ring: _Array, x: _Array, y: float) -> NDArray[np.bool_]:
+    """Whether each place of a row at height `y` lies within `ring`."""
+    (ax, ay), (bx, by) = ring[:-1].T, ring[1:].T
+    spans = (ay > y) != (by > y)
+    if not spans.any():
+        return np.zeros(len(x), dtype=np.bool_)
+    meets = ax[spans] + (y - ay[spans]) / (by[spans] - ay[spans]) * (bx[spans] - ax[spans])
+    return np.asarray(np.searchsorted(np.sort(meets), x) % 2 == 1)
 
 
 def _inside(ring: _Array, points: Points) -> NDArray[np.bool_]:
