@@ -8,7 +8,6 @@ import math
 import os
 import random
 import re
-import secrets
 import signal
 import sys
 import time
@@ -19,11 +18,12 @@ from bridge.address import BadAddress
 from bridge.errors import BridgeError
 from robotside.clock import RobotClock
 from robotside.config import NOTHING_SET, BadConfig, Config, load
+from robotside.database import Records
+from robotside.database.opening import open_records
 from robotside.foreign import ForeignRobot
 from robotside.robot import Robot
 from robotside.serving import Addresses, Serving
 from robotside.station import Station
-from robotside.store import Store
 
 __all__ = ["main"]
 
@@ -76,7 +76,7 @@ def _options(argv: Sequence[str] | None) -> argparse.Namespace:
         metavar="ROBOT.TOML",
         help="limits, fence, safe state, database, name; docs/robot.toml.example has every setting",
     )
-    add("--state", type=Path, default=None, help="directory where the mission is kept")
+    add("--state", type=Path, default=None, help="directory of the database")
     add("--name", default="", help="what people call the robot")
     add("--with-parent", action="store_true", help="end when the program that started it is gone")
     options = parser.parse_args(argv)
@@ -116,13 +116,29 @@ async def _run(
     wanted: Callable[[], bool],
 ) -> int:
     clock = RobotClock(wall(), options.speed)
+    loop = asyncio.get_running_loop()
+    records = open_records(_state(options), config.database.url, loop.call_soon_threadsafe)
+    try:
+        return await _serve_station(options, config, robot, records, clock, wall, wanted)
+    finally:
+        records.close()
+
+
+async def _serve_station(
+    options: argparse.Namespace,
+    config: Config,
+    robot: Robot,
+    records: Records,
+    clock: RobotClock,
+    wall: Callable[[], float],
+    wanted: Callable[[], bool],
+) -> int:
     station = Station(
         robot,
-        _store(_state(options)),
+        records,
         now=clock.now,
         clock=wall,
         rng=random.Random(options.seed),
-        boot=secrets.token_hex(4),
         name=options.name,
         config=config,
     )
@@ -147,15 +163,6 @@ def _state(options: argparse.Namespace) -> Path:
     kind = re.sub(r"[^\w.-]+", "-", options.robot)
     place = "" if options.robot.startswith("ros:") else f"-{options.world}"
     return Path(base) / "pilothouse" / f"{kind}{place}"
-
-
-def _store(directory: Path) -> Store:
-    try:
-        return Store(directory)
-    except OSError as problem:
-        why = (problem.strerror or str(problem)).lower()
-        said = f"The mission cannot be kept in {str(directory)!r}: {why}; --state names another directory."
-        raise UserMistake(said) from problem
 
 
 def _robot(options: argparse.Namespace) -> Robot:

@@ -24,6 +24,7 @@ from bridge.msgs.pilothouse_msgs import (
     Event,
     IntruderArray,
     Mission,
+    TaskStatus,
     Waypoint,
 )
 from bridge.msgs.std_msgs import Header, Time
@@ -31,14 +32,16 @@ from robotside.autonomy import LOW_BELOW, Autonomy
 from robotside.bus import Bus
 from robotside.config import NOTHING_SET, Config
 from robotside.controls import STOP_SENTENCE, Controls, Operator
+from robotside.database import Records
 from robotside.demand import Demand
 from robotside.events import Events
 from robotside.guarded import Guarded
+from robotside.history import History
 from robotside.limits import Keeper
 from robotside.pose2 import Pose2
 from robotside.readiness import Readiness
 from robotside.robot import Robot
-from robotside.store import Left, Store
+from robotside.shown import Shown
 
 __all__ = ["NO_MAP", "Station"]
 
@@ -59,12 +62,11 @@ class Station:
     def __init__(
         self,
         robot: Robot,
-        store: Store,
+        records: Records,
         *,
         now: float,
         clock: Callable[[], float],
         rng: random.Random,
-        boot: str,
         name: str = "",
         config: Config = NOTHING_SET,
     ) -> None:
@@ -79,10 +81,11 @@ class Station:
         self.controls = Controls(max_speed=self.info.max_speed, max_yaw_rate=self.info.max_yaw_rate)
         self.robot = Guarded(robot, lambda: self.controls.stopped, self._clamp, self.keeper.info)
         """The only way to the robot's wheels."""
-        self.events = Events(boot, clock, lambda event: self.bus.publish("/events", event))
+        self.records = records
+        """What it keeps while it is switched off."""
+        self.events = Events(records.events, clock, lambda event: self.bus.publish("/events", event))
         self.readiness = Readiness(clock, self.bus.publish)
         """What is looked through before the first motion."""
-        self._store = store
         self._control = ControlStatus()
         self._next_remark: dict[str, float] = {}
         self._next_diagnostics = now
@@ -103,9 +106,8 @@ class Station:
         )
         self.bus.publish("/intruders", IntruderArray(Header(Time.at(now), "map")))
         self.bus.publish("/control/status", self._control)
-        self._left = store.left()
-        self._load()
-        self._take_up(self._left)
+        Shown(records, self.bus.publish, self.events.say, clock)
+        self._take_up()
         self._pass_on(first)
         self.show_control()
 
@@ -169,12 +171,10 @@ class Station:
         return problem
 
     def keep(self, mission: Mission) -> None:
-        """Store `mission` and tell everyone; OSError when it cannot be written."""
-        self._store.save(mission)
-        self.mission = mission
-        self.bus.publish("/mission", mission)
+        """Store `mission`; everyone is told once it is on the disk. NotRecorded when it cannot be kept."""
         count = len(mission.waypoints)
-        self.events.say("mission", f"Mission stored: {count} {'point' if count == 1 else 'points'}.", "ok")
+        said = f"Mission stored: {count} {'point' if count == 1 else 'points'}."
+        self.records.missions.set(mission, lambda: self.events.say("mission", said, "ok"))
 
     def show_control(self) -> None:
         """Tell everyone who steers, if that has changed, and note what a restart must know."""
@@ -187,6 +187,11 @@ class Station:
             self.events.say("control", said)
         self._control = fresh
         self.bus.publish("/control/status", msgspec.structs.replace(fresh, stamp=Time.at(self.clock())))
+
+    @property
+    def mission(self) -> Mission:
+        """The stored mission."""
+        return self.records.missions.current
 
     @property
     def unfit(self) -> str:
@@ -223,34 +228,26 @@ class Station:
         self.robot.stop()
         self.robot.close()
 
-    def _load(self) -> None:
-        """Show the stored mission, or say why there is none."""
-        self.mission, problem = self._store.load()
-        self.bus.publish("/mission", self.mission)
-        if problem:
-            self.events.say("mission", problem, "warn")
-
-    def _take_up(self, left: Left) -> None:
+    def _take_up(self) -> None:
         """Go on from how it was left: STOP stays pressed, a task has ended."""
-        if left.stopped_by:
-            self.controls.stop(left.stopped_by)
-            said = f"STOP, pressed by {left.stopped_by} before the restart, is still pressed."
-            self.events.say("stop", said, "alarm")
-        if left.task:
-            said = f"The robot's computer restarted; the {left.task.lower()} has ended."
+        by, cut = self.records.stopped_by, self.records.runs.under_way
+        if by:
+            self.controls.stop(by)
+            self.events.say("stop", f"STOP, pressed by {by} before the restart, is still pressed.", "alarm")
+        if cut:
+            said = f"The robot's computer restarted; the {cut.run.order.task.replace('_', ' ')} has ended."
+            ended = msgspec.structs.replace(cut.run, state="FAILED", reason=said, ended=Time.at(self.clock()))
+            self.records.runs.note(ended)
             self.events.say("task", said, "warn")
+        self.autonomy.engine.status = TaskStatus(task_id=self.records.runs.last)
+        history = History(self.records.runs, self.clock, lambda: self._control.driver)
+        for topic in ("/task/status", "/task/progress"):
+            self.bus.subscribe(topic, history.hear)
 
     def _note(self) -> None:
-        """Note how it would be left, if that has changed; its own STOP at the end is not a person's."""
-        left = Left(self.controls.stopped_by, self.autonomy.engine.title)
-        if left == self._left or self._ending:
-            return
-        self._left = left
-        try:
-            self._store.leave(left)
-        except OSError as error:
-            said = f"A restart will not know of STOP and the task: {error.strerror}."
-            self.events.say("stop", said, "warn")
+        """Note whether STOP is pressed; its own STOP at the end is not a person's."""
+        if not self._ending:
+            self.records.note_stop(self.controls.stopped_by)
 
     def _pass_on(self, messages: Iterable[tuple[str, Msg]]) -> None:
         for topic, msg in messages:

@@ -23,20 +23,27 @@ class Job:
     """What somebody asked for: given up and told when it cannot be written."""
     facts: list[Put] = field(default_factory=list)
     """What is so whatever the disk says: stays in memory and is tried again."""
-    then: list[Callable[[], None]] = field(default_factory=list)
+    then: list[Callable[[], object]] = field(default_factory=list)
     """Called once the orders are on the disk; never when they are not."""
-    after: list[Callable[[], None]] = field(default_factory=list)
+    after: list[Callable[[], object]] = field(default_factory=list)
     """Called once it was tried, whatever came of it."""
     done: bool = False
     """It was tried."""
     problem: str = ""
     """Why the orders are not on the disk, as one sentence; empty when they are or there were none."""
+    urgent: bool = False
+    """Who caused it waits for it, though it has no orders."""
     _waiting: list[asyncio.Future[None]] = field(default_factory=list)
 
     @property
     def puts(self) -> list[Put]:
         """All rows."""
         return self.orders + self.facts
+
+    @property
+    def binding(self) -> bool:
+        """Nothing may be answered before it was tried."""
+        return self.urgent or bool(self.orders)
 
     def settle(self, problem: str) -> None:
         """Note what came of it and tell who waits."""

@@ -28,8 +28,8 @@ class Ledger:
 
     def __init__(self, stored: Content, writer: Writer) -> None:
         self.memory = Memory(stored)
-        self.on_change: Callable[[str], None] = lambda _: None
-        """Called with the table's name when what is on the disk of it has changed."""
+        self.watchers: dict[str, list[Callable[[], None]]] = {}
+        """Of each table who is called when what is on the disk of it has changed."""
         self.on_trouble: Callable[[str], None] = lambda _: None
         """Called when writing begins to fail, and with an empty sentence when it succeeds again."""
         self._writer = writer
@@ -57,7 +57,7 @@ class Ledger:
         """Values by key as they are on the disk."""
         return self.memory.stored[table]
 
-    def order(self, table: str, key: Key, value: Any, then: Callable[[], None] | None = None) -> None:
+    def order(self, table: str, key: Key, value: Any, then: Callable[[], object] | None = None) -> None:
         """Change a row because somebody asks for it, None deletes it; `then` is called once it is on the disk."""
         with self.together() as job:
             job.orders.append(Put(table, key, value))
@@ -65,7 +65,7 @@ class Ledger:
             if then:
                 job.then.append(then)
 
-    def fact(self, table: str, key: Key, value: Any, after: Callable[[], None] | None = None) -> None:
+    def fact(self, table: str, key: Key, value: Any, after: Callable[[], object] | None = None) -> None:
         """Change a row because it is so; `after` is called once it is on the disk or cannot be just now."""
         with self.together() as job:
             job.facts.append(Put(table, key, value))
@@ -124,7 +124,8 @@ class Ledger:
         self._trust(problem)
         if not problem:
             for table in dict.fromkeys(put.table for put in job.puts):
-                self.on_change(table)
+                for call in self.watchers.get(table, ()):
+                    call()
         job.settle(problem)
 
     def _trust(self, problem: str) -> None:

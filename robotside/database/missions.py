@@ -54,7 +54,7 @@ class Missions:
         rows = self._ledger.rows("missions")
         return [rows[key] for key in sorted(rows) if rows[key].name == name]
 
-    def set(self, mission: Mission, then: Callable[[], None] | None = None) -> Mission:
+    def set(self, mission: Mission, then: Callable[[], object] | None = None) -> Mission:
         """Make `mission` the stored one, a new revision under its name; `then` is called once it is on the disk.
 
         NotRecorded says what is wrong with it.

@@ -50,22 +50,29 @@ class Records:
         """What had to be done to open it, one sentence each, for the operator."""
 
     @classmethod
-    def in_memory(cls) -> Records:
-        """Records that are gone with the process and write at once, in the caller's step: for tests."""
+    def in_memory(cls, stored: Content | None = None) -> Records:
+        """Records that are gone with the process and write at once, in the caller's step: for tests.
+
+        `stored` is what is there at first; it is brought up to date with each write.
+        """
         storage = Storage.in_memory()
-        return cls(empty(), AtOnce(storage.write), storage.close)
+        return cls(empty() if stored is None else stored, AtOnce(storage), storage.close)
 
     def together(self) -> AbstractContextManager[Job]:
         """Have all changes within written as one, or none of them; the job tells what came of it."""
         return self._ledger.together()
 
-    def watch(self, change: Callable[[str], None], trouble: Callable[[str], None]) -> None:
-        """Have `change` called with a table's name when what is on the disk of it has changed, and `trouble` with a
-        sentence when writing begins to fail, empty when it succeeds again.
+    def watch(self, table: str, change: Callable[[], None]) -> None:
+        """Have `change` called when what is on the disk of a table has changed.
 
-        The tables: places, missions, settings, schedule, queue, runs, events, facts.
+        The tables: places, missions, settings, schedule, queue, runs, events; facts for the queue's revision, for
+        which mission is the stored one and for STOP.
         """
-        self._ledger.on_change, self._ledger.on_trouble = change, trouble
+        self._ledger.watchers.setdefault(table, []).append(change)
+
+    def on_trouble(self, tell: Callable[[str], None]) -> None:
+        """Have `tell` called with a sentence when writing begins to fail, with an empty one when it succeeds again."""
+        self._ledger.on_trouble = tell
 
     def setting(self, name: str, default: str = "") -> str:
         """A setting that an operator changed; `default` when nobody did."""

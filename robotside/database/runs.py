@@ -35,7 +35,8 @@ class Runs:
     def begin(self, run: TaskRun, course: str = "") -> TaskRun:
         """Note that a task began; returns it with its number."""
         ledger = self._ledger
-        with ledger.together():
+        with ledger.together() as job:
+            job.urgent = True
             run = msgspec.structs.replace(run, id=ledger.count("last run"))
             self.note(run, course)
             rows = ledger.rows("runs")

@@ -12,7 +12,7 @@ from typing import TypeAlias
 
 from robotside.database.jobs import Job
 from robotside.database.rows import Put
-from robotside.database.storage import NotWritten
+from robotside.database.storage import NotWritten, Storage
 
 __all__ = ["AtOnce", "CallSoon", "Keeper", "Threaded"]
 
@@ -219,13 +219,13 @@ class Threaded:
 class AtOnce:
     """Writes in the caller's step."""
 
-    def __init__(self, write: Callable[[list[Put]], None]) -> None:
-        self._write = write
+    def __init__(self, storage: Storage) -> None:
+        self._storage = storage
 
     def submit(self, job: Job, told: Told) -> bool:
         """Write `job` and tell."""
         try:
-            self._write(job.puts)
+            self._storage.write(job.puts)
         except NotWritten as problem:
             told(job, str(problem))
         else:

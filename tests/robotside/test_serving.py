@@ -25,8 +25,8 @@ from robotside.__main__ import main
 from robotside.clock import RobotClock
 from robotside.serving import Addresses, Serving
 from robotside.station import Station
-from robotside.store import Store
 from tests.fakes import FakeRobot
+from tests.robotside.scene import records_at
 
 
 @asynccontextmanager
@@ -37,9 +37,7 @@ async def serving(state: Path, robot: FakeRobot) -> AsyncIterator[Serving]:
     def wall() -> float:
         return began + time.monotonic()
 
-    station = Station(
-        robot, Store(state), now=clock.now, clock=wall, rng=random.Random(1), boot="b1", name="Rex"
-    )
+    station = Station(robot, records_at(state), now=clock.now, clock=wall, rng=random.Random(1), name="Rex")
     serves = Serving(station, clock, wall, Addresses("127.0.0.1", 0, 0))
     ready = asyncio.Event()
     running = asyncio.create_task(serves.run(lambda _: ready.set()))
@@ -77,7 +75,7 @@ async def test_a_client_is_told_who_the_robot_is_and_drives_it(tmp_path: Path) -
 async def test_one_that_is_no_longer_wanted_ends_by_itself(tmp_path: Path) -> None:
     clock, robot = RobotClock(time.time()), FakeRobot()
     station = Station(
-        robot, Store(tmp_path), now=clock.now, clock=time.time, rng=random.Random(1), boot="b1", name="Rex"
+        robot, records_at(tmp_path), now=clock.now, clock=time.time, rng=random.Random(1), name="Rex"
     )
     answers = iter([True, False])
     serves = Serving(
@@ -173,9 +171,7 @@ async def test_a_picture_is_made_for_whoever_asks_and_only_then(tmp_path: Path) 
 async def test_a_port_that_is_taken_is_said_and_nothing_is_left_open(tmp_path: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]
-        station = Station(
-            FakeRobot(), Store(tmp_path), now=0.0, clock=lambda: 0.0, rng=random.Random(1), boot="b1"
-        )
+        station = Station(FakeRobot(), records_at(tmp_path), now=0.0, clock=lambda: 0.0, rng=random.Random(1))
         serves = Serving(station, RobotClock(0.0), lambda: 0.0, Addresses("127.0.0.1", port, 0))
         with pytest.raises(BridgeError, match=f"Port {port} on 127.0.0.1 is taken"):
             await serves.run(lambda _: None)
@@ -191,7 +187,7 @@ def test_a_state_directory_that_cannot_be_made_is_one_sentence_and_lets_go_of_th
     state.parent.write_text("no directory")
     monkeypatch.setattr("robotside.__main__._robot", lambda _: robot)
     assert main(["serve", "--state", str(state)]) == 2
-    said = f"The mission cannot be kept in '{state}': not a directory; --state names another directory."
+    said = f"Nothing can be kept in '{state}': not a directory; --state names another directory."
     assert capsys.readouterr().err == f"robotside: {said}\n"
     assert robot.closed
 
