@@ -13,9 +13,9 @@ from bridge.msgs.geometry_msgs import Twist
 from robotside.config import Config, LimitSettings
 from robotside.fence import Fence
 from robotside.station import Station
-from robotside.store import Store
 from sim.robot import SimRobot, make
 from tests.fakes import FakeClient
+from tests.robotside.scene import records_at
 
 TICK = 1 / 60
 PAD = ((-19.0, -14.0), (-15.0, -14.0), (-15.0, -9.0), (-19.0, -9.0))
@@ -34,7 +34,7 @@ def test_a_wild_stick_never_gets_the_body_over_the_fence(robot: SimRobot, tmp_pa
     now, rng, fence = 1000.0, random.Random(5), Fence([PAD], [KERB])
     config = Config(limits=LimitSettings(keep_in=(PAD,), keep_out=(KERB,)))
     anna = FakeClient("anna", now)
-    station = Station(robot, Store(tmp_path), now=now, clock=lambda: now, rng=rng, boot="b1", config=config)
+    station = Station(robot, records_at(tmp_path), now=now, clock=lambda: now, rng=rng, config=config)
     rooms, wanted, until, silent = [], Twist(), 0.0, 0.0
     for step in range(60 * 60):
         now += TICK
