@@ -9,11 +9,9 @@ sockets and camera, on a clock that waits for nobody, until 100 m are driven.
 from __future__ import annotations
 
 import random
-import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
-from pathlib import Path
 
 from app.feeds import Mailbox
 from app.link import Link
@@ -24,9 +22,9 @@ from bridge.frames import Frame
 from bridge.msgs.pilothouse_msgs import Mission, SetMissionRequest, StartTaskRequest, TaskProgress
 from bridge.network import NetworkThread
 from bridge.server import Session
+from robotside.database import Records
 from robotside.orders import services
 from robotside.station import Station
-from robotside.store import Store
 from sim.robot import make
 from sim.vehicles.patrol import PARAMETERS
 
@@ -102,11 +100,9 @@ def handheld(url: str, camera: str) -> Iterator[list[float]]:
 def fast() -> dict[str, float]:
     """A patrol as fast as this machine can."""
     robot = make("patrol", "parking_lot", camera=False)
-    with tempfile.TemporaryDirectory() as folder, closing(robot):
+    with closing(robot):
         clock = Clock()
-        station = Station(
-            robot, Store(Path(folder)), now=0.0, clock=clock, rng=random.Random(0), boot="bench"
-        )
+        station = Station(robot, Records.in_memory(), now=0.0, clock=clock, rng=random.Random(0))
         driven = Odometer()
         station.bus.subscribe("/task/progress", driven)
         run(station, clock, 2.0)

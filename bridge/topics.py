@@ -85,6 +85,15 @@ TOPICS: tuple[Topic, ...] = (
     Topic(
         "/control/status", pilothouse_msgs.ControlStatus, 0, "handheld", "who steers and whether it may move"
     ),
+    Topic("/task/queue", pilothouse_msgs.TaskQueue, 0, "handheld", "what it does after this"),
+    Topic("/schedule", pilothouse_msgs.Schedule, 0, "handheld", "what it starts by itself, and when"),
+    Topic("/places", pilothouse_msgs.PlaceArray, 0, "handheld", "the places that have names"),
+    Topic("/limits", pilothouse_msgs.Limits, 0, "handheld", "how fast and where it may go"),
+    Topic("/checklist", pilothouse_msgs.Checklist, 0, "handheld", "what is looked at before it first moves"),
+    Topic("/tag", pilothouse_msgs.TagRead, 0, "handheld", "the card at its reader"),
+    Topic(
+        "/following", pilothouse_msgs.Following, 5, "handheld", "whether somebody whom it leads comes along"
+    ),
     Topic("/events", pilothouse_msgs.Event, 0, "handheld", "what happened, each once", once=True),
     Topic("/diagnostics", diagnostic_msgs.DiagnosticArray, 1, "handheld", "the robot's opinion of its parts"),
     Topic("/tf", tf2_msgs.TFMessage, 20, "handheld", "map, odom and base_link"),

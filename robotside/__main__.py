@@ -8,7 +8,6 @@ import math
 import os
 import random
 import re
-import secrets
 import signal
 import sys
 import time
@@ -18,11 +17,13 @@ from pathlib import Path
 from bridge.address import BadAddress, host_and_port
 from bridge.errors import BridgeError
 from robotside.clock import RobotClock
+from robotside.config import NOTHING_SET, BadConfig, Config, load
+from robotside.database import Records
+from robotside.database.opening import open_records
 from robotside.foreign import ForeignRobot
 from robotside.robot import Robot
 from robotside.serving import Addresses, Serving
 from robotside.station import Station
-from robotside.store import Store
 
 __all__ = ["main"]
 
@@ -44,7 +45,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         options = _options(argv)
         return _serve(options, lambda: not options.with_parent or os.getppid() == parent)
-    except (UserMistake, BridgeError) as problem:
+    except (UserMistake, BadConfig, BridgeError) as problem:
         print(f"robotside: {problem}", file=sys.stderr)
         return 2
 
@@ -74,8 +75,14 @@ def _options(argv: Sequence[str] | None) -> argparse.Namespace:
     add("--protocols", default="", help="rosbridge and http, which are always up")
     add("--seed", type=int, default=0, help="of the simulation's and the patrol's random numbers")
     add("--speed", type=float, default=1.0, help="simulated seconds per second; commands expire in real time")
-    add("--config", default="", help="a settings file; not read yet, so it is refused")
-    add("--state", type=Path, default=None, help="directory where the mission is kept")
+    add(
+        "--config",
+        type=Path,
+        default=None,
+        metavar="ROBOT.TOML",
+        help="limits, fence, safe state, database, name; docs/robot.toml.example has every setting",
+    )
+    add("--state", type=Path, default=None, help="directory of the database")
     add("--name", default="", help="what people call the robot")
     add("--with-parent", action="store_true", help="end when the program that started it is gone")
     options = parser.parse_args(words)
@@ -95,31 +102,51 @@ def _check(options: argparse.Namespace) -> None:
     unknown = set(filter(None, options.protocols.split(","))) - {"rosbridge", "http"}
     if unknown:
         raise UserMistake(f"There is no protocol {', '.join(sorted(unknown))}; there are rosbridge and http.")
-    if options.config:
-        raise UserMistake(f"Settings files are not read yet, so {options.config!r} would have no effect.")
 
 
 def _serve(options: argparse.Namespace, wanted: Callable[[], bool]) -> int:
+    config = load(options.config) if options.config else NOTHING_SET
     robot = _robot(options)
     began, steady = time.time(), time.monotonic()
     try:
-        return asyncio.run(_run(options, robot, lambda: began + time.monotonic() - steady, wanted))
+        return asyncio.run(_run(options, config, robot, lambda: began + time.monotonic() - steady, wanted))
     finally:
         robot.close()
 
 
 async def _run(
-    options: argparse.Namespace, robot: Robot, wall: Callable[[], float], wanted: Callable[[], bool]
+    options: argparse.Namespace,
+    config: Config,
+    robot: Robot,
+    wall: Callable[[], float],
+    wanted: Callable[[], bool],
 ) -> int:
     clock = RobotClock(wall(), options.speed)
+    loop = asyncio.get_running_loop()
+    records = open_records(_state(options), config.database.url, loop.call_soon_threadsafe)
+    try:
+        return await _serve_station(options, config, robot, records, clock, wall, wanted)
+    finally:
+        records.close()
+
+
+async def _serve_station(
+    options: argparse.Namespace,
+    config: Config,
+    robot: Robot,
+    records: Records,
+    clock: RobotClock,
+    wall: Callable[[], float],
+    wanted: Callable[[], bool],
+) -> int:
     station = Station(
         robot,
-        _store(_state(options)),
+        records,
         now=clock.now,
         clock=wall,
         rng=random.Random(options.seed),
-        boot=secrets.token_hex(4),
         name=options.name,
+        config=config,
     )
     addresses = Addresses(options.host, options.port, options.http_port)
     serving = Serving(station, clock, wall, addresses, wanted=wanted)
@@ -142,15 +169,6 @@ def _state(options: argparse.Namespace) -> Path:
     kind = re.sub(r"[^\w.-]+", "-", options.robot)
     place = "" if options.robot.startswith("ros:") else f"-{options.world}"
     return Path(base) / "pilothouse" / f"{kind}{place}"
-
-
-def _store(directory: Path) -> Store:
-    try:
-        return Store(directory)
-    except OSError as problem:
-        why = (problem.strerror or str(problem)).lower()
-        said = f"The mission cannot be kept in {str(directory)!r}: {why}; --state names another directory."
-        raise UserMistake(said) from problem
 
 
 def _robot(options: argparse.Namespace) -> Robot:

@@ -59,10 +59,14 @@ class Autonomy:
         demand: Demand,
         clock: Callable[[], float],
         rng: random.Random,
+        fit: Callable[[Grid], Grid] = lambda grid: grid,
     ) -> None:
-        """`chart` is the map, None or of no use while there is none; `clock` is the operators' [s], by which the task's messages are stamped."""
+        """`chart` is the map, None or of no use while there is none; `clock` is the operators' [s], by which the task's messages are stamped.
+
+        `fit` makes of the map the one to plan on, with all occupied where the robot may not go.
+        """
         info = robot.info
-        self._bus, self._events, self._demand, self._rng = bus, events, demand, rng
+        self._bus, self._events, self._demand, self._rng, self._fit = bus, events, demand, rng, fit
         self._now = 0.0
         self._heard = {"odometry": -math.inf, "laser": -math.inf}
         self._laser = Laser()
@@ -183,7 +187,7 @@ class Autonomy:
             self._events.say("localisation", problem, "warn")
 
     def _use(self, grid: Grid) -> None:
-        self.guide.take_map(grid)
+        self.guide.take_map(self._fit(grid))
         self.whereabouts.take_map(grid)
         self.has_map = True
 

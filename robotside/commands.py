@@ -40,26 +40,28 @@ class Commands:
         self,
         service: str,
         request: CommandRequest,
-        action: Callable[[], str],
+        action: Callable[[], str | CommandResponse],
         *,
         sender: str = "",
         ageless: bool = False,
+        response: type[CommandResponse] = CommandResponse,
     ) -> CommandResponse:
-        """Do `action` and answer with the sentence it returns, or with the refusal it raises.
+        """Do `action` and answer with the sentence or the answer it returns, or with the refusal it raises.
 
         A request with a `command_id` that its `sender` has used on that service gets its first answer again. `ageless`
         ones are done whenever and however often they come: STOP is as right late as in time.
         """
         if ageless:
-            return _answer(action)
+            return _answer(action, response)
         if len(request.command_id) > LONGEST_ID:
             said = f"A command_id has at most {LONGEST_ID} characters, not {len(request.command_id)}."
-            return CommandResponse(False, said)
+            return response(False, said)
         key, now = (sender, service, request.command_id), self._now()
         given, known = self._answers.get(key, (-math.inf, None))
         if known is not None and abs(now - given) <= KEPT_FOR:
             return known
-        answer = self._untimely(request) or _answer(action)
+        untimely = self._untimely(request)
+        answer = response(False, untimely) if untimely else _answer(action, response)
         if request.command_id:
             self._answers[key] = now, answer
             self._answers.move_to_end(key)
@@ -67,23 +69,28 @@ class Commands:
                 self._answers.popitem(last=False)
         return answer
 
-    def _untimely(self, request: CommandRequest) -> CommandResponse | None:
+    def amend(self, sender: str, service: str, command_id: str, answer: CommandResponse) -> None:
+        """Answer so from now on to a command that was done: it came to something else."""
+        key = (sender, service, command_id)
+        if key in self._answers:
+            self._answers[key] = self._answers[key][0], answer
+
+    def _untimely(self, request: CommandRequest) -> str:
+        """Why it is not done, empty when it is in time."""
         if math.isnan(request.stamp):
-            return None
+            return ""
         age = self._now() - request.stamp
         if age < -AHEAD:
             ahead, allowed = f"{number(-age)} s ahead of the robot's", f"at most {AHEAD:.0f} s is allowed"
-            return CommandResponse(False, f"The command is not done: its clock is {ahead}; {allowed}.")
+            return f"The command is not done: its clock is {ahead}; {allowed}."
         if age <= request.valid_for:
-            return None
-        allowed = f"{number(request.valid_for)} s"
-        return CommandResponse(
-            False, f"The command is too old: given {number(age)} s ago, valid for {allowed}."
-        )
+            return ""
+        return f"The command is too old: given {number(age)} s ago, valid for {number(request.valid_for)} s."
 
 
-def _answer(action: Callable[[], str]) -> CommandResponse:
+def _answer(action: Callable[[], str | CommandResponse], response: type[CommandResponse]) -> CommandResponse:
     try:
-        return CommandResponse(True, action())
+        done = action()
     except Refusal as refusal:
-        return CommandResponse(False, plain(str(refusal), LONGEST))
+        return response(False, plain(str(refusal), LONGEST))
+    return done if isinstance(done, CommandResponse) else response(True, done)

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections import deque
 from collections.abc import Callable
 from typing import Protocol
 
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
+from robotside.database.eventlog import EventLog
 from robotside.words import plain
 
-__all__ = ["KEPT", "Events", "Say"]
-
-KEPT = 500
-"""Events that can still be asked for."""
+__all__ = ["Events", "Say"]
 
 LONGEST = 300
 """Characters kept of an event's sentence."""
@@ -31,16 +28,16 @@ class Say(Protocol):
 
 
 class Events:
-    """Numbers events from 1, keeps the newest and passes each on once."""
+    """Keeps events and passes each on once, as soon as it is on the disk."""
 
-    def __init__(self, boot: str, now: Callable[[], float], publish: Callable[[Event], None]) -> None:
+    def __init__(self, kept: EventLog, now: Callable[[], float], publish: Callable[[Event], None]) -> None:
         """`now` is the operators' clock [s], by which events are stamped."""
-        self.boot = boot
-        """Identity of this run of the robot side."""
-        self._now = now
-        self._publish = publish
-        self._kept: deque[Event] = deque(maxlen=KEPT)
-        self._count = 0
+        self._log, self._now, self._publish = kept, now, publish
+
+    @property
+    def boot(self) -> str:
+        """Identity of the log, over restarts."""
+        return self._log.identity
 
     def say(
         self,
@@ -51,15 +48,11 @@ class Events:
         at: tuple[float, float] | None = None,
     ) -> Event:
         """Record one sentence; `at` is where in `map` [m], None when it has no place."""
-        self._count += 1
         position = Point(at[0], at[1], 0.0) if at else Point(math.nan, math.nan, math.nan)
         said = plain(text, LONGEST)
-        event = Event(self._count, self.boot, Time.at(self._now()), level, kind, said, position)
-        self._kept.append(event)
-        self._publish(event)
-        return event
+        event = Event(0, "", Time.at(self._now()), level, kind, said, position)
+        return self._log.add(event, self._publish)
 
     def since(self, number: int, boot: str) -> list[Event]:
-        """The kept events after `number`, oldest first; all of them when `boot` is another run's."""
-        after = number if boot == self.boot else 0
-        return [event for event in self._kept if event.id > after]
+        """The kept events after `number`, oldest first; the newest when `boot` is another log's, or `number` 0."""
+        return self._log.since(number, boot)

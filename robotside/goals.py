@@ -9,7 +9,14 @@ import msgspec
 
 from bridge.errors import Refused
 from bridge.msgs import Msg
-from bridge.msgs.pilothouse_msgs import RunTaskFeedback, RunTaskGoal, RunTaskResult, TaskProgress, TaskStatus
+from bridge.msgs.pilothouse_msgs import (
+    CommandResponse,
+    RunTaskFeedback,
+    RunTaskGoal,
+    RunTaskResult,
+    TaskProgress,
+    TaskStatus,
+)
 from bridge.server import Action, Session
 from robotside.orders import runner
 from robotside.station import Station
@@ -40,8 +47,6 @@ class _Goals:
         Raises Refused with the sentence for the client: why it was not begun, or why it did not succeed.
         """
         begun = self._begin(client, goal)
-        if not begun.success:
-            raise Refused(begun.message)
         task_id, name = self._station.autonomy.engine.status.task_id, self._station.controls.name(client)
         end: asyncio.Future[TaskStatus] = asyncio.get_running_loop().create_future()
 
@@ -53,6 +58,9 @@ class _Goals:
 
         leave = [self._station.bus.subscribe(topic, watch) for topic in ("/task/progress", "/task/status")]
         try:
+            answer = begun if isinstance(begun, Msg) else await begun
+            if not (isinstance(answer, CommandResponse) and answer.success):
+                raise Refused(answer.message if isinstance(answer, CommandResponse) else "It was not begun.")
             return _result(await end)
         except asyncio.CancelledError:
             self._take_back(client, name, task_id)

@@ -1,4 +1,4 @@
-"""The robot's port behind STOP: whoever asks, nothing moves while it is pressed."""
+"""The robot's port behind STOP and limits: whoever asks, nothing moves while STOP is pressed, nor farther than it may."""
 
 from __future__ import annotations
 
@@ -6,19 +6,33 @@ from collections.abc import Callable, Iterable
 
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.robot import Robot
 
 __all__ = ["Guarded"]
+
+_REST = Twist()
 
 
 class Guarded:
     """A `Robot` that brakes instead of driving while STOP is pressed; the one way by which twists reach the port."""
 
-    def __init__(self, robot: Robot, stopped: Callable[[], bool]) -> None:
-        """`stopped` tells whether STOP is pressed at this moment."""
-        self.info = robot.info
-        """Who it is and what it can do."""
-        self._robot, self._stopped = robot, stopped
+    def __init__(
+        self,
+        robot: Robot,
+        stopped: Callable[[], bool],
+        clamp: Callable[[Twist], Twist] = lambda twist: twist,
+        info: RobotInfo | None = None,
+    ) -> None:
+        """`stopped` tells whether STOP is pressed at this moment, `clamp` what may be done of a twist just now.
+
+        `info` is what the robot may do, None for all that it can.
+        """
+        self.info = info or robot.info
+        """Who it is and what it may do."""
+        self._robot, self._stopped, self._clamp = robot, stopped, clamp
+        self._wanted: Twist | None = None
+        self._given: Twist | None = None
 
     @property
     def trouble(self) -> str:
@@ -26,15 +40,32 @@ class Guarded:
         return self._robot.trouble
 
     def drive(self, twist: Twist) -> None:
-        """Move with `twist` in `base_link` until the next `drive` or `stop`; brake while STOP is pressed."""
+        """Move with `twist` in `base_link`, as far as it may, until the next `drive` or `stop`; brake while STOP is pressed."""
         if self._stopped():
-            self._robot.stop()
-        else:
-            self._robot.drive(twist)
+            self.stop()
+            return
+        self._wanted = twist
+        self._give(self._clamp(twist))
+
+    def again(self) -> None:
+        """Look anew at the twist that it moves with: the robot is elsewhere now. Call it whenever that is measured."""
+        if self._wanted is None:
+            return
+        twist = self._clamp(self._wanted)
+        if twist != self._given:
+            self._give(twist)
 
     def stop(self) -> None:
         """Brake to rest and stay there."""
+        self._wanted = self._given = None
         self._robot.stop()
+
+    def _give(self, twist: Twist) -> None:
+        self._given = twist
+        if twist == _REST != self._wanted:
+            self._robot.stop()  # brakes harder than driving with no speed
+        else:
+            self._robot.drive(twist)
 
     def read(self, now: float) -> Iterable[tuple[str, Msg]]:
         """Topic and message of everything measured up to `now` [s, robot clock] since the last call."""

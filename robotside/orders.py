@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Awaitable, Callable, Iterable
 from typing import Any
 
 import msgspec
@@ -14,12 +14,13 @@ from bridge.msgs.pilothouse_msgs import (
     MOST_LAPS,
     MOTIONS,
     CommandRequest,
-    CommandResponse,
     GetEventsRequest,
     GetEventsResponse,
     GetMissionRequest,
     GetMissionResponse,
     Mission,
+    RecallMissionRequest,
+    RecallMissionResponse,
     RunTaskGoal,
     SetMissionRequest,
     StartTaskRequest,
@@ -27,9 +28,11 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from bridge.msgs.std_msgs import Time
 from bridge.server import Service, Session
+from robotside.answering import Answering
 from robotside.autonomy import LOW_BELOW
-from robotside.commands import Commands, Refusal
+from robotside.commands import Refusal
 from robotside.controls import STOP_SENTENCE, Operator
+from robotside.keeping import kept_services
 from robotside.station import NO_MAP, Station
 from robotside.words import plain
 
@@ -44,7 +47,8 @@ LONGEST_NAME = 60
 
 def services(station: Station) -> Iterable[Service]:
     """What the bridge offers for `station`."""
-    orders = _Orders(station)
+    orders, answering = _Orders(station), Answering(station)
+    service = answering.service
     plain: dict[str, Callable[[Operator, CommandRequest], str]] = {
         "/stop/release": orders.release_stop,
         "/task/pause": orders.pause,
@@ -54,19 +58,22 @@ def services(station: Station) -> Iterable[Service]:
         "/control/acquire": orders.acquire,
         "/control/release": orders.release,
     }
-    yield orders.service("/stop", orders.stop, ageless=True)
+    yield service("/stop", orders.stop, ageless=True)
     for name, action in plain.items():
-        yield orders.service(name, action)
-    yield orders.service("/task/start", orders.start, "StartTask", StartTaskRequest)
-    yield orders.service("/mission/set", orders.set_mission, "SetMission", SetMissionRequest)
+        yield service(name, action)
+    yield service("/task/start", orders.start, "StartTask", StartTaskRequest)
+    yield service("/mission/set", orders.set_mission, "SetMission", SetMissionRequest)
+    yield service(
+        "/mission/recall", orders.recall, "RecallMission", RecallMissionRequest, RecallMissionResponse
+    )
+    yield from kept_services(station, answering)
     yield _service("/mission/get", "GetMission", GetMissionRequest, GetMissionResponse, orders.mission)
     yield _service("/events/get", "GetEvents", GetEventsRequest, GetEventsResponse, orders.events)
 
 
-def runner(station: Station) -> Callable[[Session, RunTaskGoal], CommandResponse]:
+def runner(station: Station) -> Callable[[Session, RunTaskGoal], Msg | Awaitable[Msg]]:
     """What begins a task for whoever wants to hear its end: refused while another one has not ended."""
-    orders = _Orders(station)
-    return orders.service("/task/run", orders.run, request=RunTaskGoal).call  # type: ignore[return-value]
+    return Answering(station).service("/task/run", _Orders(station).run, request=RunTaskGoal).call
 
 
 def _service(
@@ -80,29 +87,6 @@ class _Orders:
 
     def __init__(self, station: Station) -> None:
         self._station = station
-        self._commands = Commands(station.clock)
-
-    def service(
-        self,
-        name: str,
-        action: Callable[[Operator, Any], str],
-        kind: str = "Command",
-        request: type[CommandRequest] = CommandRequest,
-        *,
-        ageless: bool = False,
-    ) -> Service:
-        """A service that runs `action` as a command: once, and not when it is too old."""
-
-        def call(client: Session, asked: CommandRequest) -> CommandResponse:
-            controls = self._station.controls
-            controls.introduce(client, asked.client_id, asked.client_name)
-            answer = self._commands.run(
-                name, asked, lambda: action(client, asked), sender=controls.id(client), ageless=ageless
-            )
-            self._station.show_control()
-            return answer
-
-        return _service(name, kind, request, CommandResponse, call)
 
     def stop(self, client: Operator, _: CommandRequest) -> str:
         """Latch STOP; it is not done while the robot cannot be reached, so that whoever pressed it goes on asking."""
@@ -205,20 +189,28 @@ class _Orders:
         problem = self._station.controls.objection(client)
         if problem:
             raise Refusal(problem)
-        mission = asked.mission
+        self._store(asked.mission)
+        count = len(asked.mission.waypoints)
+        later = "; the patrol that is under way keeps its own" if self._station.autonomy.engine.active else ""
+        return f"Stored {count} {'point' if count == 1 else 'points'}{later}."
+
+    def recall(self, client: Operator, asked: RecallMissionRequest) -> str:
+        """Make a kept mission the stored one, as if it was set anew."""
+        problem = self._station.controls.objection(client)
+        if problem:
+            raise Refusal(problem)
+        mission = self._station.records.missions.recall(asked.name)
+        self._store(mission)
+        return f"{mission.name} is the mission now."
+
+    def _store(self, mission: Mission) -> None:
         _check_words(mission)
         mission = _named(mission)
         self._check_places(mission)
         if mission.home:
             self._check_place("Home", mission.home[0])
         stamp = Time.at(self._station.clock())
-        try:
-            self._station.keep(msgspec.structs.replace(mission, stamp=stamp, home=mission.home[:1]))
-        except OSError as error:
-            raise Refusal(f"The mission cannot be stored: {error.strerror}.") from error
-        count = len(mission.waypoints)
-        later = "; the patrol that is under way keeps its own" if self._station.autonomy.engine.active else ""
-        return f"Stored {count} {'point' if count == 1 else 'points'}{later}."
+        self._station.keep(msgspec.structs.replace(mission, stamp=stamp, home=mission.home[:1]))
 
     def mission(self, _: Operator, __: GetMissionRequest) -> GetMissionResponse:
         """Give the stored mission."""
@@ -241,8 +233,8 @@ class _Orders:
         self._need_control(client)
         if self._station.unfit:
             raise Refusal(self._station.unfit)
-        if self._station.autonomy.whereabouts.pose is None:
-            raise Refusal("The robot does not know yet where it is; place it on the map.")
+        if self._station.lost:
+            raise Refusal(self._station.lost)
 
     def _check_idle(self) -> None:
         engine = self._station.autonomy.engine
@@ -261,7 +253,7 @@ class _Orders:
     def _check_place(self, name: str, place: Waypoint) -> None:
         if not self._station.autonomy.has_map:
             raise Refusal(NO_MAP)
-        problem = self._station.autonomy.guide.planner.fault(name, place.x, place.y)
+        problem = self._station.fault(name, place.x, place.y)
         if problem:
             raise Refusal(problem)
 

@@ -19,17 +19,29 @@ from bridge.msgs import Msg
 from bridge.msgs.diagnostic_msgs import DiagnosticArray, DiagnosticStatus
 from bridge.msgs.geometry_msgs import PoseStamped, PoseWithCovarianceStamped, Twist
 from bridge.msgs.nav_msgs import OccupancyGrid
-from bridge.msgs.pilothouse_msgs import ControlStatus, Event, IntruderArray, Mission, Waypoint
+from bridge.msgs.pilothouse_msgs import (
+    ControlStatus,
+    Event,
+    IntruderArray,
+    Mission,
+    TaskStatus,
+    Waypoint,
+)
 from bridge.msgs.std_msgs import Header, Time
 from robotside.autonomy import LOW_BELOW, Autonomy
 from robotside.bus import Bus
+from robotside.config import NOTHING_SET, Config
 from robotside.controls import STOP_SENTENCE, Controls, Operator
+from robotside.database import Records
 from robotside.demand import Demand
 from robotside.events import Events
 from robotside.guarded import Guarded
+from robotside.history import History
+from robotside.limits import Keeper
 from robotside.pose2 import Pose2
+from robotside.readiness import Readiness
 from robotside.robot import Robot
-from robotside.store import Left, Store
+from robotside.shown import Shown
 
 __all__ = ["NO_MAP", "Station"]
 
@@ -40,9 +52,6 @@ NO_MAP = "There is no map of where the robot is: it can be driven by hand only."
 REMARK_PERIOD = 3.0
 """Bad drive commands of a client, and faults of the program, are told at most this often [s]."""
 
-NOTE_AGAIN = 1.0
-"""What could not be noted for a restart is tried again so often [s]."""
-
 AT_REST = (0.01, 0.03)
 """Measured speeds below which the wheels stand still [m/s, rad/s]; three times as much means that they do not."""
 
@@ -52,60 +61,61 @@ class Station:
 
     _turned = -math.inf
     """When trouble began or ended last [s]: what was measured before says nothing of the time since."""
-    _unnoted = ""
-    _next_note = -math.inf
 
     def __init__(
         self,
         robot: Robot,
-        store: Store,
+        records: Records,
         *,
         now: float,
         clock: Callable[[], float],
         rng: random.Random,
-        boot: str,
         name: str = "",
+        config: Config = NOTHING_SET,
     ) -> None:
-        """`now` is the robot's clock at the start [s]."""
+        """`now` is the robot's clock at the start [s]; `name` goes before that of `config`."""
         self.clock, self.now = clock, now
-        self.info = msgspec.structs.replace(robot.info, name=name or robot.info.name)
+        self.keeper = Keeper(config.limits, robot.info)
+        """Keeps the robot to its limits."""
+        name = name or config.robot.name or robot.info.name
+        self.info = msgspec.structs.replace(self.keeper.info, name=name)
         self.bus = Bus()
         self.demand = Demand(robot.want)
         self.controls = Controls(max_speed=self.info.max_speed, max_yaw_rate=self.info.max_yaw_rate)
-        self.robot = Guarded(robot, lambda: self.controls.stopped)
+        self.robot = Guarded(robot, lambda: self.controls.stopped, self._clamp, self.keeper.info)
         """The only way to the robot's wheels."""
-        self.events = Events(boot, clock, lambda event: self.bus.publish("/events", event))
-        self._store = store
+        self.records = records
+        """What it keeps while it is switched off."""
+        self.events = Events(records.events, clock, lambda event: self.bus.publish("/events", event))
+        self.readiness = Readiness(clock, self.bus.publish)
+        """What is looked through before the first motion."""
         self._control = ControlStatus()
         self._next_remark: dict[str, float] = {}
         self._next_diagnostics = now
         self._next_fault = -math.inf
         self._trouble = ""
         first = list(robot.read(now))
-        chart = next(
-            (msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None
-        )
         self.bus.publish("/robot/info", self.info)
+        self.bus.publish("/limits", self.keeper.message)
         self.autonomy = Autonomy(
             self.robot,
-            chart,
+            next((msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None),
             bus=self.bus,
             events=self.events,
             demand=self.demand,
             clock=clock,
             rng=rng,
+            fit=self.keeper.marked,
         )
         self.bus.publish("/intruders", IntruderArray(Header(Time.at(now), "map")))
         self.bus.publish("/control/status", self._control)
-        self.mission, problem = store.load()
-        self.bus.publish("/mission", self.mission)
-        if problem:
-            self.events.say("mission", problem, "warn")
-        self._left = store.left()
-        self._ending = False
-        self._take_up(self._left)
+        Shown(records, self.bus.publish, self.events.say, clock)
+        self._take_up()
         self._pass_on(first)
         self.show_control()
+
+    _held = False
+    _ending = False
 
     def step(self, now: float) -> None:
         """Bring everything up to `now` [s, robot clock]; call it often."""
@@ -120,9 +130,12 @@ class Station:
         if now >= self._next_diagnostics:
             self._next_diagnostics = now + 1.0
             self.bus.publish("/diagnostics", self._diagnostics())
+            self.readiness.look(self.autonomy, self.robot.trouble, now)
 
     def hear(self, client: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
         """A client published `msg`; `stamp` is when it meant it [s, operators' clock], None when it does not say."""
+        if stamp is not None:
+            self.readiness.told_time(stamp)
         if isinstance(msg, Twist):
             self._drive(client, msg, stamp)
         elif isinstance(msg, PoseWithCovarianceStamped):
@@ -144,6 +157,7 @@ class Station:
         if not self.controls.stopped:
             self.events.say("stop", f"STOP pressed by {name}.", "alarm")
         self.controls.stop(name)
+        self.readiness.stop_pressed()
         self.autonomy.engine.pause(f"Stopped by {name}.", "alarm")
 
     def release_stop(self, name: str) -> None:
@@ -160,12 +174,10 @@ class Station:
         return problem
 
     def keep(self, mission: Mission) -> None:
-        """Store `mission` and tell everyone; OSError when it cannot be written."""
-        self._store.save(mission)
-        self.mission = mission
-        self.bus.publish("/mission", mission)
+        """Store `mission`; everyone is told once it is on the disk. NotRecorded when it cannot be kept."""
         count = len(mission.waypoints)
-        self.events.say("mission", f"Mission stored: {count} {'point' if count == 1 else 'points'}.", "ok")
+        said = f"Mission stored: {count} {'point' if count == 1 else 'points'}."
+        self.records.missions.set(mission, lambda: self.events.say("mission", said, "ok"))
 
     def show_control(self) -> None:
         """Tell everyone who steers, if that has changed, and note what a restart must know."""
@@ -180,7 +192,12 @@ class Station:
         self.bus.publish("/control/status", msgspec.structs.replace(fresh, stamp=Time.at(self.clock())))
 
     @property
-    def lost(self) -> str:
+    def mission(self) -> Mission:
+        """The stored mission."""
+        return self.records.missions.current
+
+    @property
+    def mapless(self) -> str:
         """Why the robot cannot be placed on a map, as one sentence; empty when it can."""
         return self.robot.trouble or ("" if self.autonomy.has_map else NO_MAP)
 
@@ -188,7 +205,19 @@ class Station:
     def unfit(self) -> str:
         """Why the robot can do nothing by itself whatever is asked, as one sentence; empty when it can."""
         silence = self.autonomy.silence(self.now)
-        return self.lost or (silence and f"It can be driven by hand only: {silence}.")
+        return self.mapless or (silence and f"It can be driven by hand only: {silence}.")
+
+    @property
+    def lost(self) -> str:
+        """Why the robot cannot set out from where it is, as one sentence; empty when it can."""
+        pose = self.autonomy.whereabouts.pose
+        if pose is None:
+            return "The robot does not know yet where it is; place it on the map."
+        return self.keeper.outside(pose)
+
+    def fault(self, name: str, x: float, y: float) -> str:
+        """Why the robot cannot or may not stand at a place, as one sentence that calls it `name`; empty when it can."""
+        return self.keeper.fault(name, x, y) or self.autonomy.guide.planner.fault(name, x, y)
 
     @property
     def at_rest(self) -> bool:
@@ -213,34 +242,26 @@ class Station:
         self.robot.stop()
         self.robot.close()
 
-    def _take_up(self, left: Left) -> None:
+    def _take_up(self) -> None:
         """Go on from how it was left: STOP stays pressed, a task has ended."""
-        if left.stopped_by:
-            self.controls.stop(left.stopped_by)
-            said = f"STOP, pressed by {left.stopped_by} before the restart, is still pressed."
-            self.events.say("stop", said, "alarm")
-        if left.task:
-            said = f"The robot's computer restarted; the {left.task.lower()} has ended."
+        by, cut = self.records.stopped_by, self.records.runs.under_way
+        if by:
+            self.controls.stop(by)
+            self.events.say("stop", f"STOP, pressed by {by} before the restart, is still pressed.", "alarm")
+        if cut:
+            said = f"The robot's computer restarted; the {cut.run.order.task.replace('_', ' ')} has ended."
+            ended = msgspec.structs.replace(cut.run, state="FAILED", reason=said, ended=Time.at(self.clock()))
+            self.records.runs.note(ended)
             self.events.say("task", said, "warn")
+        self.autonomy.engine.status = TaskStatus(task_id=self.records.runs.last)
+        history = History(self.records.runs, self.clock, lambda: self._control.driver)
+        for topic in ("/task/status", "/task/progress"):
+            self.bus.subscribe(topic, history.hear)
 
     def _note(self) -> None:
-        """Note how it would be left, if that has changed; its own STOP at the end is not a person's."""
-        left = Left(self.controls.stopped_by, self.autonomy.engine.title)
-        if left == self._left or self._ending or self.now < self._next_note:
-            return
-        try:
-            self._store.leave(left)
-        except OSError as error:
-            self._next_note = self.now + NOTE_AGAIN
-            said = f"A restart will not know of STOP and the task: {error.strerror}."
-            if said != self._unnoted:
-                self.events.say("stop", said, "warn")
-            self._unnoted = said
-            return
-        self._left, self._next_note = left, -math.inf
-        if self._unnoted:
-            self.events.say("stop", "A restart will know of STOP and the task again.", "ok")
-        self._unnoted = ""
+        """Note whether STOP is pressed; its own STOP at the end is not a person's."""
+        if not self._ending:
+            self.records.note_stop(self.controls.stopped_by)
 
     def _pass_on(self, messages: Iterable[tuple[str, Msg]]) -> None:
         for topic, msg in messages:
@@ -248,7 +269,10 @@ class Station:
                 self.events.say(msg.kind, msg.text, msg.level)
                 continue
             self.bus.publish(topic, msg)
+            self.readiness.senses.take(topic, msg, self.now)
             self._mind(partial(self.autonomy.take, topic, msg, self.now))
+            if topic == "/odom":
+                self._mind(self.robot.again)
 
     def _mind_trouble(self) -> None:
         """Hold everything while the robot cannot be reached; on its return nothing moves until somebody says so."""
@@ -292,7 +316,7 @@ class Station:
         problem = self.controls.objection(client)
         if not all(map(math.isfinite, pose)):
             problem = "The pose to place the robot at is not all numbers."
-        problem = problem or self.lost
+        problem = problem or self.mapless
         problem = problem or self.autonomy.guide.planner.off_map("The place", pose.x, pose.y)
         if problem:
             self.events.say("command", problem, "warn")
@@ -305,14 +329,23 @@ class Station:
     def _go_to(self, client: Operator, pose: Pose2) -> None:
         problem = STOP_SENTENCE if self.controls.stopped else self.controls.acquire(client, self.clock())
         problem = problem or self.unfit
-        problem = problem or self.autonomy.guide.planner.fault("The goal", pose.x, pose.y)
-        if not problem and self.autonomy.whereabouts.pose is None:
-            problem = "The robot does not know yet where it is; place it on the map."
+        problem = problem or self.fault("The goal", pose.x, pose.y)
+        problem = problem or self.lost
         if problem:
             self.events.say("command", problem, "warn")
             return
         self.controls.hold()
         self.autonomy.start_goal(Waypoint(pose.x, pose.y, pose.yaw), self.now)
+
+    def _clamp(self, twist: Twist) -> Twist:
+        measured = self.readiness.senses.measured(self.autonomy.whereabouts.pose)
+        done, why = self.keeper.clamp(twist, measured)
+        now = self.clock()
+        if why and not self._held and now >= self._next_remark.get("limits", -math.inf):
+            self._next_remark["limits"] = now + REMARK_PERIOD
+            self.events.say("command", why, "warn")
+        self._held = bool(why)
+        return done
 
     def _remark(self, client: Operator, said: str) -> None:
         now = self.clock()
@@ -321,14 +354,17 @@ class Station:
             self.events.say("command", said, "warn")
 
     def _control_now(self) -> ControlStatus:
-        driver = self.controls.driver
+        driver, at_rest = self.controls.driver, self._at_rest()
+        if at_rest:
+            self.readiness.rests(stopped=self.controls.stopped)
         return ControlStatus(
             mode=self._mode(),
             driver=driver.name if driver else "",
             driver_id=driver.client_id if driver else "",
             stopped=self.controls.stopped,
             stopped_by=self.controls.stopped_by,
-            at_rest=self._at_rest(),
+            at_rest=at_rest,
+            stop_tested=self.readiness.stop_tested,
         )
 
     def _mode(self) -> str:

@@ -20,13 +20,44 @@ EXTENDS = {
     "pilothouse_msgs/RunTaskFeedback": "pilothouse_msgs/TaskProgress",
     "pilothouse_msgs/SetMissionRequest": "pilothouse_msgs/CommandRequest",
     "pilothouse_msgs/SetMissionResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/SetPlaceRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/SetPlaceResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/DeletePlaceRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/DeletePlaceResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/SetQueueRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/SetQueueResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/SetScheduleRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/SetScheduleResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/DeleteScheduleRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/DeleteScheduleResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/GetHistoryRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/GetHistoryResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/AcknowledgeEventsRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/AcknowledgeEventsResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/SetModeRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/SetModeResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/SetOptionRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/SetOptionResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/GetMissionsRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/GetMissionsResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/RecallMissionRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/RecallMissionResponse": "pilothouse_msgs/CommandResponse",
 }
 """Classes that begin with all fields of another one, whose subclass they are."""
 
 ALSO: dict[str, dict[str, tuple[str, ...]]] = {
     "std_msgs": {"bridge.msgs.builtin_interfaces": ("Duration", "Time")},
     "geometry_msgs": {"bridge.msgs.additions": ("zeros36",)},
-    "pilothouse_msgs": {"bridge.msgs.additions": ("LONGEST_DWELL", "MOST_LAPS", "MOTIONS")},
+    "pilothouse_msgs": {
+        "bridge.msgs.additions": (
+            "LONGEST_DWELL",
+            "MOST_LAPS",
+            "MOTIONS",
+            "PLACE_KINDS",
+            "REACTIONS",
+            "TASKS",
+        )
+    },
 }
 """Names that a package has from elsewhere."""
 
@@ -39,6 +70,12 @@ DEFAULTS = {
     "pilothouse_msgs/CommandRequest": {"stamp": "math.nan"},
     "pilothouse_msgs/StartTaskRequest": {"stamp": "math.nan"},
     "pilothouse_msgs/SetMissionRequest": {"stamp": "math.nan"},
+    "pilothouse_msgs/Place": {"yaw": "math.nan"},
+    "pilothouse_msgs/TaskOrder": dict.fromkeys(("heading", "speed", "duration"), "math.nan"),
+    "pilothouse_msgs/Limits": dict.fromkeys(
+        ("max_speed", "max_yaw_rate", "min_depth", "max_depth", "max_height", "max_slope"), "math.nan"
+    ),
+    "pilothouse_msgs/Following": {"distance": "math.nan"},
     "pilothouse_msgs/RunTaskGoal": {"stamp": "math.nan"},
     "pilothouse_msgs/RunTaskFeedback": dict.fromkeys(
         ("progress", "distance_to_next", "time_left"), "math.nan"

@@ -13,13 +13,29 @@ from bridge.msgs.base import Msg
 if TYPE_CHECKING:
     from bridge.msgs.geometry_msgs import Vector3
 
-__all__ = ["LONGEST_DWELL", "MOST_LAPS", "MOTIONS", "Quaternion", "Twist", "zeros36"]
+__all__ = [
+    "LONGEST_DWELL",
+    "MOST_LAPS",
+    "MOTIONS",
+    "PLACE_KINDS",
+    "REACTIONS",
+    "TASKS",
+    "Quaternion",
+    "Twist",
+    "zeros36",
+]
 
 MOTIONS = ("loop", "random", "intermittent")
 """In what order and with which pauses a mission's points are visited."""
 LONGEST_DWELL = 600.0
 """Longest stay at a point in intermittent motion [s]."""
 MOST_LAPS = 999
+PLACE_KINDS = ("place", "office", "home", "dock", "reception", "lab", "hall")
+"""What a named place may be."""
+REACTIONS = ("stop", "report", "circle")
+"""What a patrol may do about an intruder: halt, only tell of it, or go once round it looking at it, and then on."""
+TASKS = ("patrol", "deliver", "guide", "go_to", "go_home", "hold", "follow_heading", "dock")
+"""What a robot may be asked to do."""
 
 
 def zeros36() -> list[float]:

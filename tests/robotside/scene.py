@@ -20,15 +20,25 @@ from bridge.msgs.pilothouse_msgs import (
     TaskStatus,
     Waypoint,
 )
+from robotside.config import NOTHING_SET, Config
+from robotside.database import Records
+from robotside.database.rows import Content, empty
 from robotside.orders import services
 from robotside.station import Station
-from robotside.store import Store
 from tests.fakes import FakeClient, FakeRobot
 
-__all__ = ["SQUARE", "Scene"]
+__all__ = ["SQUARE", "Scene", "records_at"]
 
 TICK = 1 / 60
 SQUARE = [Waypoint(4.0, 0.0), Waypoint(4.0, 3.0), Waypoint(-2.0, 3.0)]
+
+
+_KEPT: dict[Path, Content] = {}
+
+
+def records_at(state: Path) -> Records:
+    """What is kept in the memory of this process under a path: the same for every start of a robot side there."""
+    return Records.in_memory(_KEPT.setdefault(state, empty() | {"facts": {"log": "b1"}}))
 
 
 class Scene:
@@ -37,14 +47,23 @@ class Scene:
     `now` is the robot's clock, which runs `speed` times as fast as the operators', `clock`.
     """
 
-    def __init__(self, robot: FakeRobot, state: Path, speed: float = 1.0) -> None:
+    def __init__(
+        self, robot: FakeRobot, state: Path, speed: float = 1.0, config: Config = NOTHING_SET
+    ) -> None:
         self.now = self.clock = 1000.0
         self._speed = speed
         self.robot = robot
         self.clients: list[FakeClient] = []
         self.anna = self.client("anna")
+        records = records_at(state)
+        self._known = max((event.id for event in records.events.since(0, "")), default=0)
         self.station = Station(
-            robot, Store(state), now=self.now, clock=lambda: self.clock, rng=random.Random(1), boot="b1"
+            robot,
+            records,
+            now=self.now,
+            clock=lambda: self.clock,
+            rng=random.Random(1),
+            config=config,
         )
         self.said: list[tuple[str, Msg]] = []
         self.station.bus.subscribe(None, lambda topic, msg: self.said.append((topic, msg)))
@@ -94,6 +113,10 @@ class Scene:
 
     def events(self, kind: str = "") -> list[str]:
         return [msg.text for _, msg in self.said if isinstance(msg, Event) and (not kind or msg.kind == kind)]
+
+    def since_start(self) -> list[str]:
+        """Everything that was said since this robot side was started."""
+        return [event.text for event in self.station.events.since(0, "b1") if event.id > self._known]
 
     def of(self, topic: str) -> list[Msg]:
         return [msg for name, msg in self.said if name == topic]

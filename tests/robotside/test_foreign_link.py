@@ -34,10 +34,10 @@ from robotside.pose2 import ORIGIN
 from robotside.robot import Robot
 from robotside.serving import Addresses, Serving
 from robotside.station import Station
-from robotside.store import Store
 from tests.bridge.foreign_server import ForeignServer, foreign
 from tests.bridge.wires import wire
 from tests.fakes import FakeRobot
+from tests.robotside.scene import records_at
 from tests.robotside.test_serving import connected
 
 SPEED = Twist.planar(0.3, 0.1)
@@ -214,7 +214,7 @@ def test_an_address_that_can_never_work_is_said_at_once() -> None:
 @asynccontextmanager
 async def served(state: Path, robot: Robot, name: str = "") -> AsyncIterator[Serving]:
     wall = time.time
-    station = Station(robot, Store(state), now=wall(), clock=wall, rng=random.Random(1), boot="b2", name=name)
+    station = Station(robot, records_at(state), now=wall(), clock=wall, rng=random.Random(1), name=name)
     serves = Serving(station, RobotClock(wall()), wall, Addresses("127.0.0.1", 0, 0))
     ready = asyncio.Event()
     running = asyncio.create_task(serves.run(lambda _: ready.set()))

@@ -12,9 +12,9 @@ import pytest
 from bridge.msgs.pilothouse_msgs import CommandRequest, Mission, SetMissionRequest, StartTaskRequest, Waypoint
 from robotside.orders import services
 from robotside.station import Station
-from robotside.store import Store
 from sim.robot import SimRobot, make
 from tests.fakes import FakeClient
+from tests.robotside.scene import records_at
 
 TICK = 1 / 30
 HOME = Waypoint(-17.5, -12.0, math.pi / 2)
@@ -37,7 +37,7 @@ class Run:
         self.now = 1000.0
         self.anna = FakeClient("anna", self.now)
         self.station = Station(
-            robot, Store(state), now=self.now, clock=lambda: self.now, rng=random.Random(1), boot="b1"
+            robot, records_at(state), now=self.now, clock=lambda: self.now, rng=random.Random(1)
         )
         self._services = {service.name: service for service in services(self.station)}
         self.until(lambda: self.station.autonomy.whereabouts.pose is not None, 10.0)

@@ -10,6 +10,7 @@ import time
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from pathlib import Path
+from typing import ClassVar
 
 import httpx
 import msgspec
@@ -25,8 +26,8 @@ from robotside.__main__ import main
 from robotside.clock import RobotClock
 from robotside.serving import Addresses, Serving
 from robotside.station import Station
-from robotside.store import Store
 from tests.fakes import FakeRobot
+from tests.robotside.scene import records_at
 
 
 @asynccontextmanager
@@ -37,9 +38,7 @@ async def serving(state: Path, robot: FakeRobot) -> AsyncIterator[Serving]:
     def wall() -> float:
         return began + time.monotonic()
 
-    station = Station(
-        robot, Store(state), now=clock.now, clock=wall, rng=random.Random(1), boot="b1", name="Rex"
-    )
+    station = Station(robot, records_at(state), now=clock.now, clock=wall, rng=random.Random(1), name="Rex")
     serves = Serving(station, clock, wall, Addresses("127.0.0.1", 0, 0))
     ready = asyncio.Event()
     running = asyncio.create_task(serves.run(lambda _: ready.set()))
@@ -77,7 +76,7 @@ async def test_a_client_is_told_who_the_robot_is_and_drives_it(tmp_path: Path) -
 async def test_one_that_is_no_longer_wanted_ends_by_itself(tmp_path: Path) -> None:
     clock, robot = RobotClock(time.time()), FakeRobot()
     station = Station(
-        robot, Store(tmp_path), now=clock.now, clock=time.time, rng=random.Random(1), boot="b1", name="Rex"
+        robot, records_at(tmp_path), now=clock.now, clock=time.time, rng=random.Random(1), name="Rex"
     )
     answers = iter([True, False])
     serves = Serving(
@@ -190,9 +189,7 @@ async def test_a_picture_is_made_for_whoever_asks_and_only_then(tmp_path: Path) 
 async def test_a_port_that_is_taken_is_said_and_nothing_is_left_open(tmp_path: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]
-        station = Station(
-            FakeRobot(), Store(tmp_path), now=0.0, clock=lambda: 0.0, rng=random.Random(1), boot="b1"
-        )
+        station = Station(FakeRobot(), records_at(tmp_path), now=0.0, clock=lambda: 0.0, rng=random.Random(1))
         serves = Serving(station, RobotClock(0.0), lambda: 0.0, Addresses("127.0.0.1", port, 0))
         with pytest.raises(BridgeError, match=f"Port {port} on 127.0.0.1 is taken"):
             await serves.run(lambda _: None)
@@ -208,9 +205,53 @@ def test_a_state_directory_that_cannot_be_made_is_one_sentence_and_lets_go_of_th
     state.parent.write_text("no directory")
     monkeypatch.setattr("robotside.__main__._robot", lambda _: robot)
     assert main(["serve", "--state", str(state)]) == 2
-    said = f"The mission cannot be kept in '{state}': not a directory; --state names another directory."
+    said = f"Nothing can be kept in '{state}': not a directory; --state names another directory."
     assert capsys.readouterr().err == f"robotside: {said}\n"
     assert robot.closed
+
+
+class Glance:
+    """Serves for no time at all, and keeps the station that it was to serve."""
+
+    stations: ClassVar[list[Station]] = []
+
+    def __init__(self, station: Station, *_: object, **__: object) -> None:
+        self.stations.append(station)
+
+    def end(self) -> None:
+        """Never called."""
+
+    async def run(self, ready: Callable[[Addresses], None]) -> None:
+        ready(Addresses("127.0.0.1", 1, 2))
+
+
+@pytest.mark.parametrize(("more", "name"), [([], "Slow-1"), (["--name", "Rex"], "Rex")])
+def test_a_settings_file_says_what_the_robot_is_called_and_may_do(
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    more: list[str],
+    name: str,
+) -> None:
+    monkeypatch.setattr("robotside.__main__._robot", lambda _: FakeRobot())
+    monkeypatch.setattr("robotside.__main__.Serving", Glance)
+    settings = tmp_path / "robot.toml"
+    settings.write_text("[robot]\nname = 'Slow-1'\n[limits]\nmax_speed = 0.2\n")
+    assert main(["serve", "--state", str(tmp_path), "--config", str(settings), *more]) == 0
+    station = Glance.stations.pop()
+    assert (station.info.name, station.info.max_speed) == (name, 0.2)
+    assert f"robot={name}" in capsys.readouterr().out
+
+
+def test_a_mistake_in_the_settings_file_is_one_sentence_and_no_robot_is_made(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    monkeypatch.setattr("robotside.__main__._robot", lambda _: pytest.fail("a robot was made"))
+    settings = tmp_path / "robot.toml"
+    settings.write_text("[limits]\nmax_sped = 1")
+    assert main(["serve", "--config", str(settings)]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"robotside: {settings}: limits has no 'max_sped'; there are max_speed,")
 
 
 @pytest.mark.parametrize(
@@ -222,8 +263,8 @@ def test_a_state_directory_that_cannot_be_made_is_one_sentence_and_lets_go_of_th
         ("serve --payloads arm", "There is no payload 'arm'; this robot has none to choose."),
         ("serve --protocols mqtt", "There is no protocol mqtt; there are rosbridge and http."),
         (
-            "serve --config robot.toml",
-            "Settings files are not read yet, so 'robot.toml' would have no effect.",
+            "serve --config /nowhere/robot.toml",
+            "The settings cannot be read from '/nowhere/robot.toml': no such file or directory.",
         ),
         (
             "serve --robot rover",

@@ -29,7 +29,7 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from bridge.topics import TOPICS
 from robotside.controls import STOP_SENTENCE
-from robotside.store import Left, Store
+from robotside.database.storage import NotWritten, Storage
 from tests.fakes import FakeRobot
 from tests.robotside.scene import SQUARE, Scene
 
@@ -200,9 +200,7 @@ def test_stop_is_still_pressed_after_the_computer_died_and_says_so(scene: Scene,
     scene.ask("/stop", CommandRequest(client_name="Anna"))
     again = Scene(FakeRobot(), tmp_path)
     assert (again.control.mode, again.control.stopped_by) == ("STOPPED", "Anna")
-    assert [event.text for event in again.station.events.since(0, "b1")] == [
-        "STOP, pressed by Anna before the restart, is still pressed."
-    ]
+    assert again.since_start() == ["STOP, pressed by Anna before the restart, is still pressed."]
     again.run(4.0)
     again.drive(Twist.planar(0.3, 0.0))
     assert again.robot.at_rest
@@ -217,9 +215,9 @@ def test_a_patrol_that_ran_when_the_computer_died_has_ended_and_that_is_said_onc
     scene.start()
     again = Scene(FakeRobot(), tmp_path)
     said = "The robot's computer restarted; the patrol has ended."
-    assert [event.text for event in again.station.events.since(0, "b1")] == [said]
+    assert again.since_start() == [said]
     assert again.task.state == "IDLE"
-    assert Scene(FakeRobot(), tmp_path).station.events.since(0, "b1") == []
+    assert Scene(FakeRobot(), tmp_path).since_start() == []
 
 
 def test_after_a_clean_end_nothing_but_a_persons_stop_is_left(scene: Scene, tmp_path: Path) -> None:
@@ -228,7 +226,7 @@ def test_after_a_clean_end_nothing_but_a_persons_stop_is_left(scene: Scene, tmp_
     scene.station.end()
     scene.run(0.5)
     again = Scene(FakeRobot(), tmp_path)
-    assert (again.control.stopped, again.station.events.since(0, "b1")) == (False, [])
+    assert (again.control.stopped, again.since_start()) == (False, [])
     again.ask("/stop", CommandRequest(client_name="Anna"))
     again.station.end()
     assert Scene(FakeRobot(), tmp_path).control.stopped_by == "Anna"
@@ -238,44 +236,13 @@ def test_stop_is_obeyed_when_it_cannot_be_noted_and_that_is_said(
     scene: Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(*_: object) -> None:
-        raise OSError(28, "No space left on device")
+        raise NotWritten("The disk is full.")
 
-    monkeypatch.setattr(Store, "leave", full)
+    monkeypatch.setattr(Storage, "write", full)
     scene.drive(Twist.planar(0.3, 0.0))
     assert scene.ask("/stop").success
     assert scene.robot.at_rest
-    assert scene.events("stop")[-1] == (
-        "A restart will not know of STOP and the task: No space left on device."
-    )
-
-
-def test_what_could_not_be_noted_is_noted_as_soon_as_it_can_be(
-    scene: Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    left, tried = Store.leave, []
-
-    def full(_: Store, left: Left) -> None:
-        tried.append(left)
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(Store, "leave", full)
-    scene.ask("/stop", CommandRequest(client_name="Anna"))
-    scene.run(5.0)
-    assert 4 <= len(tried) <= 6
-    assert len([text for text in scene.events("stop") if "No space left" in text]) == 1
-    monkeypatch.setattr(Store, "leave", left)
-    scene.run(1.1)
-    assert Store(tmp_path).left().stopped_by == "Anna"
-    assert scene.events("stop")[-1] == "A restart will know of STOP and the task again."
-    assert len(tried) <= 6
-
-
-def test_a_map_with_a_damaged_mission_file_starts_empty_and_says_so(tmp_path: Path) -> None:
-    (tmp_path / "mission.json").write_text('{"waypoints": [{"x": "left"}]')
-    scene = Scene(FakeRobot(), tmp_path)
-    assert scene.station.mission == Mission()
-    assert "set aside as mission.damaged.json" in scene.station.events.since(0, "b1")[0].text
-    assert (tmp_path / "mission.damaged.json").exists()
+    assert scene.events("database") == ["The disk is full."]
 
 
 def test_only_who_has_control_may_place_the_robot_while_somebody_has_it(scene: Scene) -> None:

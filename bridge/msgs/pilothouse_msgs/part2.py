@@ -1,0 +1,431 @@
+"""pilothouse_msgs: made by `python -m bridge.generate`; change the ROS text, not this file."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, ClassVar, TypeAlias
+
+from msgspec import Meta, field
+
+from bridge.msgs.base import Msg, int32
+from bridge.msgs.builtin_interfaces import Time
+from bridge.msgs.geometry_msgs import Point, Polygon
+from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse, Mission, TaskOrder
+from bridge.msgs.std_msgs import Header
+
+__all__ = [
+    "GetMissionsRequest",
+    "GetMissionsResponse",
+    "Intruder",
+    "IntruderArray",
+    "Limits",
+    "Place",
+    "PlaceArray",
+    "RecallMissionRequest",
+    "RecallMissionResponse",
+    "RobotInfo",
+    "RunTaskFeedback",
+    "RunTaskGoal",
+    "RunTaskResult",
+    "Schedule",
+    "ScheduledTask",
+    "SetMissionRequest",
+    "SetMissionResponse",
+    "SetModeRequest",
+    "SetModeResponse",
+    "SetOptionRequest",
+    "SetOptionResponse",
+    "SetPlaceRequest",
+    "SetPlaceResponse",
+    "StartTaskRequest",
+    "TaskProgress",
+]
+
+_Boolx7: TypeAlias = Annotated[list[bool], Meta(min_length=7, max_length=7)]
+
+
+class GetMissionsRequest(CommandRequest, frozen=True, gc=False):
+    """Ask for the names of the missions that are kept."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionsRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string")
+
+
+class GetMissionsResponse(CommandResponse, frozen=True, gc=False):
+    """What `GetMissions` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionsResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string[]")
+    names: list[str] = []
+    """In the order of the alphabet."""
+
+
+class Intruder(Msg, frozen=True, gc=False):
+    """A thing that does not belong here."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Intruder"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string", "geometry_msgs/Point", "time", "int32")
+    id: int32 = 0
+    """Counts from 1 for each run of the robot side."""
+    class_id: str = "cone"
+    """What it is."""
+    position: Point = Point()
+    """In map [m]."""
+    first_seen: Time = Time()
+    """When it was seen first."""
+    sightings: int32 = 1
+    """How often it was seen."""
+
+
+class IntruderArray(Msg, frozen=True, gc=False):
+    """All intruders known; latched on /intruders, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/IntruderArray"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "pilothouse_msgs/Intruder[]")
+    header: Header = Header()
+    """Frame map."""
+    intruders: list[Intruder] = []
+    """In the order of their ids."""
+
+
+class Limits(Msg, frozen=True, gc=False):
+    """What the robot's own configuration allows; latched on /limits, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Limits"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "geometry_msgs/Polygon[]",
+        "geometry_msgs/Polygon[]",
+    )
+    max_speed: float = math.nan
+    """Greatest speed, along any direction [m/s]; NaN for none beside RobotInfo's."""
+    max_yaw_rate: float = math.nan
+    """Greatest turn rate [rad/s], either way; NaN for none beside RobotInfo's."""
+    min_depth: float = math.nan
+    """Least depth, positive down from the surface [m]; NaN for none."""
+    max_depth: float = math.nan
+    """Greatest depth, positive down from the surface [m]; NaN for none."""
+    max_height: float = math.nan
+    """Greatest height above the map's origin [m]; NaN for none."""
+    max_slope: float = math.nan
+    """Steepest ground or greatest tilt [rad]; NaN for none."""
+    keep_in: list[Polygon] = []
+    """Areas in map [m], of which it stays in at least one; none for everywhere."""
+    keep_out: list[Polygon] = []
+    """Areas in map [m] that it never enters, holes of the others included."""
+
+
+class Place(Msg, frozen=True, gc=False):
+    """A named pose, so that people say Office 12 and never coordinates."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Place"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "int32",
+        "string",
+        "string",
+        "string",
+        "float64",
+        "float64",
+        "float64",
+        "string",
+        "string",
+    )
+    id: int32 = 0
+    """Given by the robot and never used again; 0 asks for a new place."""
+    name: str = ""
+    """What people call it; two places never have the same."""
+    kind: str = "place"
+    """place, office, home, dock, reception, lab or hall."""
+    floor: str = "0"
+    """The floor that it is on, as people call it."""
+    x: float = 0.0
+    """East of the map's origin [m]."""
+    y: float = 0.0
+    """North of the map's origin [m]."""
+    yaw: float = math.nan
+    """Direction to stand in [rad], 0 east, anticlockwise; NaN when any will do."""
+    tag: str = ""
+    """What the robot's reader reads of the card of who belongs here; empty when nobody has one."""
+    note: str = ""
+    """What to tell people who are led here; empty when there is nothing to tell."""
+
+
+class PlaceArray(Msg, frozen=True, gc=False):
+    """All places known; latched on /places, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/PlaceArray"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "pilothouse_msgs/Place[]")
+    stamp: Time = Time()
+    """When it changed, operators' clock."""
+    places: list[Place] = []
+    """In the order of their ids."""
+
+
+class RecallMissionRequest(CommandRequest, frozen=True, gc=False):
+    """Make a kept mission the stored one."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RecallMissionRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
+    name: str = ""
+    """What it was stored as."""
+
+
+class RecallMissionResponse(CommandResponse, frozen=True, gc=False):
+    """What `RecallMission` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RecallMissionResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+
+
+class RobotInfo(Msg, frozen=True, gc=False):
+    """Who this robot is and what it can do; latched on /robot/info."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RobotInfo"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "string",
+        "string",
+        "string",
+        "string",
+        "float64",
+        "float64",
+        "float64",
+        "string[]",
+        "float64",
+        "float64",
+        "float64",
+    )
+    name: str = ""
+    """What people call it, as in Patrol-1."""
+    kind: str = ""
+    """wheels, ackermann, boat, hexapod or quadrotor."""
+    model: str = ""
+    """What the --robot option calls it, as in patrol."""
+    description: str = ""
+    """The kind in plain words, as in Differential drive."""
+    world: str = ""
+    """Name of the place or simulated world."""
+    max_speed: float = 0.0
+    """Greatest speed, along any direction [m/s]."""
+    max_yaw_rate: float = 0.0
+    """Greatest turn rate [rad/s], either way."""
+    radius: float = 0.0
+    """Of the circle that the body fits in [m]."""
+    cameras: list[str] = []
+    """Names of the camera streams; each is served at ws://HOST:PORT/camera/NAME."""
+    latitude: float = math.nan
+    """Of the map frame's origin [deg]; NaN when the map has no place on earth."""
+    longitude: float = math.nan
+    """Of the map frame's origin [deg]."""
+    camera_fov: float = math.nan
+    """Horizontal field of view of the first camera [rad]."""
+
+
+class TaskProgress(Msg, frozen=True, gc=False):
+    """How far the running task is; /task/progress at 2 Hz, only while one runs."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskProgress"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
+    stamp: Time = Time()
+    """When it was reckoned."""
+    task_id: int32 = 0
+    """That of TaskStatus."""
+    progress: float = math.nan
+    """Of this lap, or of the whole where laps are counted: 0 to 1."""
+    distance_to_next: float = math.nan
+    """Along the path [m]."""
+    time_left: float = math.nan
+    """Estimate to the end of this lap, or of the whole where laps are counted [s]."""
+    distance_driven: float = 0.0
+    """In this run [m]."""
+
+
+class RunTaskFeedback(TaskProgress, frozen=True, gc=False):
+    """How far `RunTask` is."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskFeedback"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
+
+
+class StartTaskRequest(CommandRequest, frozen=True, gc=False):
+    """Start a task."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/StartTaskRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "string",
+        "pilothouse_msgs/TaskOrder",
+    )
+    task: str = "patrol"
+    """patrol or go_home; counts only while the order's own task is empty."""
+    order: TaskOrder = field(default_factory=TaskOrder)
+    """What to do; with its task empty, the field `task` says it."""
+
+
+class RunTaskGoal(StartTaskRequest, frozen=True, gc=False):
+    """Run a task and be told what became of it. Taking the goal back ends the task."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskGoal"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "string",
+        "pilothouse_msgs/TaskOrder",
+    )
+
+
+class RunTaskResult(Msg, frozen=True, gc=False):
+    """What `RunTask` came to."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskResult"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string", "string", "int32")
+    task_id: int32 = 0
+    """Number of this run, as in TaskStatus."""
+    state: str = ""
+    """SUCCEEDED; whatever else became of it is told as a failure with its reason."""
+    message: str = ""
+    """One sentence: what was done."""
+    visited: int32 = 0
+    """Waypoints reached."""
+
+
+class ScheduledTask(Msg, frozen=True, gc=False):
+    """A task that starts by itself, at a time of day or every so often."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/ScheduledTask"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "int32",
+        "bool",
+        "pilothouse_msgs/TaskOrder",
+        "string",
+        "bool[7]",
+        "float64",
+        "time",
+    )
+    id: int32 = 0
+    """Given by the robot; 0 asks for a new one."""
+    enabled: bool = True
+    """It starts when its time comes; kept and not started otherwise."""
+    order: TaskOrder = field(default_factory=TaskOrder)
+    """What to do."""
+    at: str = ""
+    """Time of day as HH:MM, local time of the robot; empty when `every` says it."""
+    days: _Boolx7 = field(default_factory=lambda: [True, True, True, True, True, True, True])
+    """Days on which `at` counts, Monday first."""
+    every: float = 0.0
+    """From one start to the next [s]; 0 when `at` says it."""
+    next: Time = Time()
+    """When it starts next, operators' clock, told by the robot; 0 for never."""
+
+
+class Schedule(Msg, frozen=True, gc=False):
+    """All that starts by itself; latched on /schedule, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Schedule"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "pilothouse_msgs/ScheduledTask[]")
+    stamp: Time = Time()
+    """When it changed, operators' clock."""
+    tasks: list[ScheduledTask] = []
+    """In the order of their ids."""
+
+
+class SetMissionRequest(CommandRequest, frozen=True, gc=False):
+    """Store a mission on the robot."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetMissionRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "pilothouse_msgs/Mission",
+    )
+    mission: Mission = field(default_factory=Mission)
+    """Replaces what was stored."""
+
+
+class SetMissionResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetMission` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetMissionResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+
+
+class SetModeRequest(CommandRequest, frozen=True, gc=False):
+    """Give the robot to a person or to its task."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetModeRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
+    mode: str = ""
+    """MANUAL pauses the task, AUTO goes on with it."""
+
+
+class SetModeResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetMode` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetModeResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+
+
+class SetOptionRequest(CommandRequest, frozen=True, gc=False):
+    """Change one of the robot's settings; it is kept over restarts."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "string",
+        "string",
+    )
+    name: str = ""
+    """follow_link or lost_link_stops_task."""
+    value: str = ""
+    """on or off."""
+
+
+class SetOptionResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetOption` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+
+
+class SetPlaceRequest(CommandRequest, frozen=True, gc=False):
+    """Store a place, or change the one with its id."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetPlaceRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "pilothouse_msgs/Place",
+    )
+    place: Place = Place()
+    """Replaces what was stored under its id; 0 makes a new one."""
+
+
+class SetPlaceResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetPlace` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetPlaceResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "int32")
+    id: int32 = 0
+    """Of the place; 0 when it was not accepted."""

@@ -1,0 +1,161 @@
+"""pilothouse_msgs: made by `python -m bridge.generate`; change the ROS text, not this file."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from msgspec import field
+
+from bridge.msgs.base import Msg, int32
+from bridge.msgs.builtin_interfaces import Time
+from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse, TaskOrder
+from bridge.msgs.pilothouse_msgs.part2 import ScheduledTask
+from bridge.msgs.std_msgs import Header
+
+__all__ = [
+    "SetQueueRequest",
+    "SetQueueResponse",
+    "SetScheduleRequest",
+    "SetScheduleResponse",
+    "StartTaskResponse",
+    "TagRead",
+    "TaskQueue",
+    "TaskStatus",
+]
+
+
+class SetQueueRequest(CommandRequest, frozen=True, gc=False):
+    """Replace what comes after the task that runs."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetQueueRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "int32",
+        "pilothouse_msgs/TaskOrder[]",
+    )
+    revision: int32 = 0
+    """That of the TaskQueue it was made from; refused when the queue has changed since."""
+    orders: list[TaskOrder] = []
+    """Waiting, the next one first; those with an id stay what they were."""
+
+
+class SetQueueResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetQueue` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetQueueResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+
+
+class SetScheduleRequest(CommandRequest, frozen=True, gc=False):
+    """Store a scheduled task, or change the one with its id."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetScheduleRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "pilothouse_msgs/ScheduledTask",
+    )
+    task: ScheduledTask = field(default_factory=ScheduledTask)
+    """Replaces what was stored under its id; 0 makes a new one."""
+
+
+class SetScheduleResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetSchedule` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetScheduleResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "int32")
+    id: int32 = 0
+    """Of the scheduled task; 0 when it was not accepted."""
+
+
+class StartTaskResponse(CommandResponse, frozen=True, gc=False):
+    """What `StartTask` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/StartTaskResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+
+
+class TagRead(Msg, frozen=True, gc=False):
+    """A card at the robot's reader; /tag, once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TagRead"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "string")
+    header: Header = Header()
+    """When it was read, robot's clock."""
+    tag: str = ""
+    """What was read; empty when the card is gone."""
+
+
+class TaskQueue(Msg, frozen=True, gc=False):
+    """What comes after the task that runs; latched on /task/queue, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskQueue"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "pilothouse_msgs/TaskOrder[]")
+    stamp: Time = Time()
+    """When it changed, operators' clock."""
+    revision: int32 = 0
+    """Counts every change; /task/queue/set names the one that it was made from."""
+    orders: list[TaskOrder] = []
+    """Waiting, the next one first."""
+
+
+class TaskStatus(Msg, frozen=True, gc=False):
+    """What the robot is doing for the operator; latched on /task/status, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskStatus"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "time",
+        "int32",
+        "string",
+        "string",
+        "string",
+        "string",
+        "int32",
+        "int32",
+        "int32",
+        "int32",
+        "int32",
+        "string",
+        "string",
+        "string",
+        "string[]",
+    )
+    stamp: Time = Time()
+    """When it changed."""
+    task_id: int32 = 0
+    """Number of this run; 0 before the first."""
+    task: str = ""
+    """patrol, deliver, guide, go_to, go_home, hold, follow_heading, dock or empty."""
+    state: str = "IDLE"
+    """IDLE, RUNNING, PAUSED, SUCCEEDED, CANCELED, FAILED or INTERRUPTED (a restart cut it; resume or
+    cancel it).
+    """
+    reason: str = ""
+    """One sentence for the operator: what it does and why."""
+    motion: str = ""
+    """loop, random or intermittent; empty without a patrol."""
+    waypoint: int32 = 0
+    """Number of the waypoint it is heading for, from 1; 0 for none."""
+    waypoints: int32 = 0
+    """How many waypoints there are."""
+    lap: int32 = 0
+    """From 1."""
+    laps: int32 = 0
+    """0 until stopped."""
+    visited: int32 = 0
+    """Waypoints reached in this run."""
+    phase: str = ""
+    """driving, waiting, dwelling, holding, turning, docking or circling; empty when it does none of them."""
+    asks: str = ""
+    """A question that /task/confirm answers, as in: Has it been picked up at Office 12? Empty for none."""
+    place: str = ""
+    """Name of the place it heads for or stands at; empty for none."""
+    places: list[str] = []
+    """Names of the places of this task, in their order."""

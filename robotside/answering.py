@@ -1,0 +1,99 @@
+"""Makes services of what can be done: done once, not when too old, and answered only when what it changed is on the disk."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
+from bridge.server import Service, Session
+from robotside.commands import Commands, Refusal
+from robotside.controls import Operator
+from robotside.database import Job, NotRecorded
+from robotside.station import Station
+
+__all__ = ["Action", "Answering"]
+
+PATIENCE = 10.0
+"""How long an answer waits for the disk [s]."""
+
+Action = Callable[[Operator, Any], str | CommandResponse]
+"""Does it and returns the sentence of success or the whole answer; raises Refusal or NotRecorded."""
+
+_Key = tuple[str, str, str]
+"""The sender's id, the service and the `command_id` of a command."""
+
+
+class Answering:
+    """The answers of one station."""
+
+    def __init__(self, station: Station) -> None:
+        self._station = station
+        self._commands = Commands(station.clock)
+        self._unwritten: dict[_Key, Job] = {}
+
+    def service(
+        self,
+        name: str,
+        action: Action,
+        kind: str = "Command",
+        request: type[CommandRequest] = CommandRequest,
+        response: type[CommandResponse] = CommandResponse,
+        *,
+        ageless: bool = False,
+    ) -> Service:
+        """A service that runs `action` as a command. One that is `ageless` never waits for the disk."""
+
+        def call(client: Session, asked: CommandRequest) -> CommandResponse | Awaitable[CommandResponse]:
+            station = self._station
+            station.controls.introduce(client, asked.client_id, asked.client_name)
+            sender = station.controls.id(client)
+            station.readiness.told_time(asked.stamp)
+            with station.records.together() as job:
+                answer = self._commands.run(
+                    name,
+                    asked,
+                    lambda: _done(action, client, asked),
+                    sender=sender,
+                    ageless=ageless,
+                    response=response,
+                )
+                station.show_control()
+            if ageless:
+                return answer
+            return self._answer((sender, name, asked.command_id), answer, job)
+
+        return Service(name, f"pilothouse_msgs/{kind}", request, response, call)
+
+    def _answer(
+        self, key: _Key, answer: CommandResponse, job: Job
+    ) -> CommandResponse | Awaitable[CommandResponse]:
+        """Answer at once if nobody has to wait; a command that is sent again waits with the first one."""
+        job = self._unwritten.get(key, job)
+        if job.done:
+            return self._judged(key, answer, job.problem)
+        if not job.binding:
+            return answer
+        if key[2]:
+            self._unwritten[key] = job
+        return self._when_kept(key, answer, job)
+
+    async def _when_kept(self, key: _Key, answer: CommandResponse, job: Job) -> CommandResponse:
+        problem = await job.kept(PATIENCE)
+        if job.done:
+            self._unwritten.pop(key, None)
+        return self._judged(key, answer, problem)
+
+    def _judged(self, key: _Key, answer: CommandResponse, problem: str) -> CommandResponse:
+        if not problem or not answer.success:
+            return answer
+        refused = type(answer)(False, problem)
+        self._commands.amend(*key, refused)
+        return refused
+
+
+def _done(action: Action, client: Operator, asked: CommandRequest) -> str | CommandResponse:
+    try:
+        return action(client, asked)
+    except NotRecorded as problem:
+        raise Refusal(str(problem)) from problem

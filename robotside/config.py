@@ -1,0 +1,308 @@
+"""The robot's own configuration, `--config robot.toml`: limits, fence, safe state, database, names.
+
+Whatever is wrong with it is one sentence that names the file, the setting, its value and what is allowed; a robot whose
+limits cannot be read does not start. docs/robot.toml.example has every setting.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeAlias
+
+import msgspec
+
+__all__ = [
+    "BadConfig",
+    "Config",
+    "NOTHING_SET",
+    "ControlSettings",
+    "DatabaseSettings",
+    "LimitSettings",
+    "RobotSettings",
+    "Ring",
+    "SafeStateSettings",
+    "load",
+    "parse",
+]
+
+MOST_CORNERS = 200
+"""Of one area of the fence."""
+MOST_CORNERS_IN_ALL = 1000
+"""Of the whole fence, which is looked at with every drive command."""
+MOST_AREAS = 50
+"""Of each kind."""
+LARGEST_FILE = 1_000_000
+"""[bytes]; nobody writes a longer one on purpose."""
+
+Ring: TypeAlias = tuple[tuple[float, float], ...]
+"""Corners of an area in `map` [m], in either direction, the first one not repeated."""
+
+_Above = Annotated[float, msgspec.Meta(gt=0.0)]
+_NotBelow = Annotated[float, msgspec.Meta(ge=0.0)]
+_Degrees = Annotated[float, msgspec.Meta(gt=0.0, le=90.0)]
+_Name = Annotated[str, msgspec.Meta(min_length=1, max_length=40)]
+
+
+class BadConfig(Exception):
+    """The configuration cannot be used; the text is one sentence."""
+
+
+class _Section(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Settings that belong together."""
+
+
+class RobotSettings(_Section, frozen=True):
+    """`[robot]`: who it is."""
+
+    name: _Name | None = None
+    """What people call it; None for the robot's own."""
+
+
+class LimitSettings(_Section, frozen=True):
+    """`[limits]`: how fast and where it may go. None is no limit beside the robot's own."""
+
+    max_speed: _Above | None = None
+    """Along any direction [m/s]."""
+    max_yaw_rate: _Above | None = None
+    """Either way [rad/s]."""
+    min_depth: _NotBelow | None = None
+    """Positive down from the surface [m]."""
+    max_depth: _Above | None = None
+    """Positive down from the surface [m]."""
+    max_height: _Above | None = None
+    """Above the map's origin [m]."""
+    max_slope_degrees: _Degrees | None = None
+    """Of the ground, as the robot's own tilt tells it [deg]."""
+    braking: _Above | None = None
+    """Deceleration that can be counted on [m/s2]; None for that of the robot's kind."""
+    keep_in: tuple[Ring, ...] = ()
+    """The robot stays in at least one of these; none for everywhere."""
+    keep_out: tuple[Ring, ...] = ()
+    """It never enters one of these; within one of `keep_in` it is a hole."""
+
+
+class SafeStateSettings(_Section, frozen=True):
+    """`[safe_state]`: what it does when the link or the driver is lost. None is what its kind does."""
+
+    action: Literal["brake", "brake_straight", "hold_heading", "hold_depth", "hover"] | None = None
+    """At once."""
+    hold_for: _NotBelow | None = None
+    """How long it holds depth, heading or place before `then` [s]."""
+    then: Literal["stay", "surface", "land", "return"] | None = None
+    """Afterwards."""
+
+
+class ControlSettings(_Section, frozen=True):
+    """`[control]`: what the settings are until an operator changes them."""
+
+    follow_link: bool = True
+    """The speed falls with the driver's link."""
+    lost_link_stops_task: bool = False
+    """A task is paused when the handheld of who has control is lost."""
+
+
+class DatabaseSettings(_Section, frozen=True):
+    """`[database]`: where places, missions, history and settings are kept."""
+
+    url: str | None = None
+    """As SQLAlchemy writes it, as in `postgresql+psycopg://robot@db/patrol`; None for a SQLite file beside the state."""
+    backups: Annotated[int, msgspec.Meta(ge=0, le=100)] = 5
+    """Of a SQLite file, as many are kept."""
+
+
+class Config(_Section, frozen=True):
+    """All that the file says; without a file, all that it leaves out."""
+
+    robot: RobotSettings = RobotSettings()
+    limits: LimitSettings = LimitSettings()
+    safe_state: SafeStateSettings = SafeStateSettings()
+    control: ControlSettings = ControlSettings()
+    database: DatabaseSettings = DatabaseSettings()
+
+
+NOTHING_SET = Config()
+"""What there is without a file."""
+
+
+def load(path: Path) -> Config:
+    """What the file says; BadConfig when it cannot be read or used."""
+    try:
+        if path.stat().st_size > LARGEST_FILE:
+            raise BadConfig(f"{path}: a settings file has at most {LARGEST_FILE:,} bytes.")
+        return parse(path.read_bytes().decode(), str(path))
+    except OSError as error:
+        why = (error.strerror or str(error)).lower()
+        raise BadConfig(f"The settings cannot be read from {str(path)!r}: {why}.") from error
+    except UnicodeDecodeError as error:
+        raise BadConfig(f"{path}: the file is no UTF-8 text.") from error
+
+
+def parse(text: str, name: str = "robot.toml") -> Config:
+    """What `text` says; BadConfig, whose sentence begins with `name`, when it cannot be used."""
+    try:
+        told = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise BadConfig(f"{name}: this is no TOML: {_lowered(str(error))}.") from error
+    try:
+        config = msgspec.convert(told, Config)
+    except msgspec.ValidationError as error:
+        raise BadConfig(f"{name}: {_sentence(str(error), told)}") from error
+    problem = _infinite(told) or _limits_problem(config.limits)
+    if problem:
+        raise BadConfig(f"{name}: {problem}")
+    return config
+
+
+def _lowered(text: str) -> str:
+    return text[:1].lower() + text[1:].rstrip(".")
+
+
+_PLACE = re.compile(r"^(.*) - at `\$(.*)`$", re.DOTALL)
+_KINDS = {
+    "float": "a number",
+    "int": "a whole number",
+    "str": "a text in quotes",
+    "bool": "true or false",
+    "object": "a section",
+    "array": "a list",
+}
+
+
+def _sentence(said: str, told: Any) -> str:
+    """What msgspec `said` about what the file `told`, in the words of the file."""
+    found = _PLACE.match(said)
+    what, where = (found[1], found[2].lstrip(".")) if found else (said, "")
+    unknown = re.match(r"Object contains unknown field `(.*)`", what, re.DOTALL)
+    if unknown:
+        allowed = ", ".join(_known(where))
+        return f"{where or 'the file'} has no {unknown[1]!r}; there are {allowed}."
+    value = _shown(_at(told, where))
+    choices = re.match(r"Invalid enum value", what)
+    if choices:
+        names = ", ".join(_choices(where))
+        return f"{where} must be one of {names}, not {value}."
+    return f"{where} must be {_wanted(what)}, not {value}."
+
+
+def _wanted(what: str) -> str:
+    """What was expected, in plain words."""
+    size = re.search(r"Expected `array` of length (<=|>=|==)? ?(\d+)", what)
+    if size:
+        return f"a list of {size[2]}" + (" numbers" if size[2] == "2" else "")
+    length = re.search(r"Expected `str` of length (<=|>=) (\d+)", what)
+    if length:
+        return f"a text of at {'most' if length[1] == '<=' else 'least'} {length[2]} characters"
+    bound = re.search(r"Expected `(\w+)` (<=|>=|<|>) ([\d.]+)", what)
+    if bound:
+        words = {"<=": "at most", ">=": "at least", "<": "below", ">": "above"}[bound[2]]
+        return f"{_KINDS.get(bound[1], bound[1])} {words} {float(bound[3]):g}"
+    kind = re.search(r"Expected `(\w+)", what)
+    return _KINDS.get(kind[1], kind[1]) if kind else _lowered(what)
+
+
+def _known(where: str) -> list[str]:
+    """The names that the section `where` has; those of the whole file when it is empty."""
+    struct: Any = Config
+    for part in filter(None, where.split(".")):
+        struct = {each.name: each.type for each in msgspec.structs.fields(struct)}[part]
+    return [each.encode_name for each in msgspec.structs.fields(struct)]
+
+
+def _choices(where: str) -> list[str]:
+    section, _, name = where.rpartition(".")
+    holder = {each.name: each.type for each in msgspec.structs.fields(Config)}[section]
+    field = next(each for each in msgspec.structs.fields(holder) if each.name == name)
+    choice = msgspec.inspect.type_info(field.type)
+    types = choice.types if isinstance(choice, msgspec.inspect.UnionType) else (choice,)
+    return [
+        str(value) for each in types if isinstance(each, msgspec.inspect.LiteralType) for value in each.values
+    ]
+
+
+def _at(told: Any, where: str) -> Any:
+    """The value at a path as in `limits.keep_in[0][2]`; None when a part of it does not say which one."""
+    value = told
+    for name, index in re.findall(r"([^.\[\]]+)|\[([^\]]*)\]", where):
+        try:
+            value = value[name] if name else value[int(index)]
+        except (KeyError, IndexError, TypeError, ValueError):
+            return None
+    return value
+
+
+def _shown(value: Any) -> str:
+    shown = str(value).lower() if isinstance(value, bool) else repr(value)
+    return shown if len(shown) <= 60 else f"{shown[:57]}..."
+
+
+def _infinite(told: Any, where: str = "") -> str:
+    """The first number that is none, as a sentence; empty when all are."""
+    items: list[tuple[str, Any]] = []
+    if isinstance(told, dict):
+        items = [(f"{where}.{key}" if where else key, value) for key, value in told.items()]
+    elif isinstance(told, list):
+        items = [(f"{where}[{index}]", value) for index, value in enumerate(told)]
+    elif isinstance(told, float) and not math.isfinite(told):
+        return f"{where} must be a number, not {told}."
+    return next(filter(None, (_infinite(value, name) for name, value in items)), "")
+
+
+def _limits_problem(limits: LimitSettings) -> str:
+    least, most = limits.min_depth, limits.max_depth
+    if least is not None and most is not None and least >= most:
+        return f"limits.min_depth must be less than max_depth, {most:g} m, not {least:g} m."
+    for name, rings in (("keep_in", limits.keep_in), ("keep_out", limits.keep_out)):
+        if len(rings) > MOST_AREAS:
+            return f"limits.{name} has {len(rings)} areas; at most {MOST_AREAS} are allowed."
+        for number, ring in enumerate(rings, 1):
+            problem = _ring_problem(ring)
+            if problem:
+                return f"area {number} of limits.{name} {problem}."
+    corners = sum(map(len, (*limits.keep_in, *limits.keep_out)))
+    if corners > MOST_CORNERS_IN_ALL:
+        return f"the fence has {corners} corners; at most {MOST_CORNERS_IN_ALL} are allowed."
+    return ""
+
+
+def _ring_problem(ring: Ring) -> str:
+    """Why `ring` encloses nothing that could be kept to, as the end of a sentence; empty when it does."""
+    if not 3 <= len(ring) <= MOST_CORNERS:
+        return f"must have 3 to {MOST_CORNERS} corners, not {len(ring)}"
+    sides = list(zip(ring, (*ring[1:], ring[0]), strict=True))
+    for number, (start, end) in enumerate(sides, 1):
+        if start == end:
+            return f"has its corner {number}, ({start[0]:g}, {start[1]:g}), twice in a row"
+    for first, one in enumerate(sides):
+        for second in range(first + 2, len(sides)):
+            if (first, second) != (0, len(sides) - 1) and _cross(one, sides[second]):
+                return f"crosses itself: its side {first + 1} and its side {second + 1} meet"
+    if abs(sum(a[0] * b[1] - a[1] * b[0] for a, b in sides)) < 1e-6:
+        return "has no inside: its corners lie on one line"
+    return ""
+
+
+_Point: TypeAlias = tuple[float, float]
+_Side: TypeAlias = tuple[_Point, _Point]
+
+
+def _cross(one: _Side, other: _Side) -> bool:
+    """Two sides have a point in common."""
+    (a, b), (c, d) = one, other
+    turns = _turn(a, b, c), _turn(a, b, d), _turn(c, d, a), _turn(c, d, b)
+    if turns[0] != turns[1] and turns[2] != turns[3]:
+        return True
+    return any(
+        turn == 0
+        and min(p[0], q[0]) <= r[0] <= max(p[0], q[0])
+        and min(p[1], q[1]) <= r[1] <= max(p[1], q[1])
+        for turn, (p, q, r) in zip(turns, ((a, b, c), (a, b, d), (c, d, a), (c, d, b)), strict=True)
+    )
+
+
+def _turn(a: _Point, b: _Point, c: _Point) -> int:
+    """1 when a, b, c turn to the left, -1 to the right, 0 on one line."""
+    area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    return (area > 0) - (area < 0)

@@ -1,0 +1,83 @@
+"""What happened, numbered over restarts, and who has seen to it."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Callable, Iterable
+
+import msgspec
+
+from bridge.msgs.pilothouse_msgs import Event
+from bridge.msgs.std_msgs import Time
+from robotside.database.jobs import NotRecorded
+from robotside.database.ledger import Ledger
+
+__all__ = ["AT_FIRST", "KEPT", "EventLog"]
+
+KEPT = 5000
+"""Events that can still be asked for."""
+AT_FIRST = 500
+"""Events for somebody who knows none of them."""
+
+
+class EventLog:
+    """All events. A number is never given twice in one log, and who was told of an event finds it here again."""
+
+    def __init__(self, ledger: Ledger) -> None:
+        self._ledger = ledger
+        self._oldest = min(ledger.rows("events"), default=0)
+        if not ledger.rows("facts").get("log"):
+            ledger.fact("facts", "log", secrets.token_hex(4))
+
+    @property
+    def identity(self) -> str:
+        """Of the log; a new one when the log was started fresh."""
+        return str(self._ledger.rows("facts")["log"])
+
+    def add(self, event: Event, publish: Callable[[Event], None]) -> Event:
+        """Number `event` and keep it; `publish` is called once it is on the disk, or cannot be just now."""
+        ledger = self._ledger
+        with ledger.together():
+            event = msgspec.structs.replace(event, id=ledger.count("last event"), boot=self.identity)
+            ledger.fact("events", event.id, event, lambda: publish(event))
+            self._prune()
+        return event
+
+    def since(self, number: int, identity: str) -> list[Event]:
+        """The events on the disk after `number`, oldest first; the newest ones when it is of another log or 0."""
+        rows = self._ledger.stored("events")
+        known = number if identity == self.identity else 0
+        found = [
+            msgspec.structs.replace(rows[key], boot=self.identity) for key in sorted(rows) if key > known
+        ]
+        return found if known > 0 else found[-AT_FIRST:]
+
+    def acknowledge(
+        self, ids: Iterable[int], by: str, stamp: Time, publish: Callable[[Event], None]
+    ) -> list[Event]:
+        """Note who has seen to events, of which the first who did counts; returns those that are new.
+
+        `publish` is called with each once it is on the disk. NotRecorded for a number that no event has.
+        """
+        rows = self._ledger.rows("events")
+        wanted = list(dict.fromkeys(ids))
+        strange = [id for id in wanted if id not in rows]
+        if strange:
+            raise NotRecorded(f"There is no event with the number {strange[0]}.")
+        fresh = [
+            msgspec.structs.replace(rows[id], acknowledged_by=by, acknowledged=stamp, boot=self.identity)
+            for id in wanted
+            if not rows[id].acknowledged_by
+        ]
+        with self._ledger.together():
+            for event in fresh:
+                self._ledger.order("events", event.id, event, lambda event=event: publish(event))  # type: ignore[misc]
+        return fresh
+
+    def _prune(self) -> None:
+        rows = self._ledger.rows("events")
+        while len(rows) > KEPT:
+            oldest = self._oldest
+            self._oldest += 1
+            if oldest in rows:
+                self._ledger.fact("events", oldest, None)

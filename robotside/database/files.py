@@ -1,0 +1,163 @@
+"""The SQLite file of the records: who may have it, whether it is whole, its backups."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import sqlite3
+import time
+from collections.abc import Callable
+from contextlib import closing, suppress
+from datetime import UTC, datetime
+from pathlib import Path
+
+__all__ = ["Files", "Taken"]
+
+DAMAGED_KEPT = 3
+"""Broken files that are kept for whoever wants to look into them."""
+NEWEST_KEPT, DAYS_KEPT = 4, 7
+"""Backups that are kept: the newest ones, and of each of the last days the newest."""
+_PARTS = ("", "-wal", "-shm", "-journal")
+
+
+class Taken(Exception):
+    """Another process has the records."""
+
+
+class Files:
+    """The records in one file, and what lies beside it."""
+
+    def __init__(self, path: Path, now: Callable[[], float] = time.time) -> None:
+        """`path` is the database, which need not be there; `now` names backups and broken files.
+
+        Raises OSError when its directory cannot be made.
+        """
+        path.parent.mkdir(parents=True, exist_ok=True)
+        self.path = path
+        """The database."""
+        self.backups_in = path.parent / "backups"
+        """Where its backups are."""
+        self._now = now
+        self._lock = -1
+
+    def take(self, patience: float) -> None:
+        """Have the records to ourselves until `let_go` or the end of the process, whatever ends it.
+
+        Taken when another process does not let go of them within `patience` [s].
+        """
+        lock = os.open(
+            self.path.with_name(f"{self.path.name}.lock"), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o644
+        )
+        end = time.monotonic() + patience
+        while True:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                if time.monotonic() > end:
+                    os.close(lock)
+                    raise Taken from None
+                time.sleep(0.05)
+            else:
+                self._lock = lock
+                return
+
+    def let_go(self) -> None:
+        """Let others have the records."""
+        if self._lock >= 0:
+            os.close(self._lock)
+            self._lock = -1
+
+    def fault(self, path: Path | None = None) -> str:
+        """What is broken in a database, this one by default; empty when it is whole or not there.
+
+        Raises sqlite3.OperationalError when that cannot be found out: it is locked, or may not be read.
+        """
+        path = path or self.path
+        if not path.exists():
+            return ""
+        try:
+            with closing(sqlite3.connect(path, timeout=5.0)) as database:
+                found = database.execute("PRAGMA quick_check(1)").fetchone()
+        except sqlite3.OperationalError as error:
+            if "malformed" in str(error):
+                return str(error)
+            raise
+        except sqlite3.DatabaseError as error:
+            return str(error)
+        return "" if found and found[0] == "ok" else str(found[0] if found else "nothing found")
+
+    def set_aside(self) -> Path:
+        """Move the broken database out of the way; returns where it is now."""
+        aside = self.path.with_name(f"{self.path.stem}-damaged-{self._stamp()}.sqlite3")
+        for part in _PARTS:
+            with suppress(FileNotFoundError):
+                Path(f"{self.path}{part}").rename(f"{aside}{part}")
+        for old in sorted(self.path.parent.glob(f"{self.path.stem}-damaged-*.sqlite3"))[:-DAMAGED_KEPT]:
+            for part in _PARTS:
+                Path(f"{old}{part}").unlink(missing_ok=True)
+        _sync(self.path.parent)
+        return aside
+
+    def restore(self) -> Path | None:
+        """Put the newest backup that is whole in the place of the database; None when there is none."""
+        for backup in reversed(self.backups()):
+            try:
+                if self.fault(backup):
+                    continue
+            except sqlite3.Error:
+                continue
+            _copy(backup, self.path)
+            return backup
+        return None
+
+    def backups(self) -> list[Path]:
+        """All backups, oldest first."""
+        return sorted(self.backups_in.glob(f"{self.path.stem}-*.sqlite3"))
+
+    def back_up(self) -> Path:
+        """Copy the database as it is to a backup while it goes on being used, and let go of old backups.
+
+        Raises OSError or sqlite3.Error when that cannot be done; nothing half is left.
+        """
+        self.backups_in.mkdir(exist_ok=True)
+        fresh = self.backups_in / "fresh.new"
+        try:
+            _copy(self.path, fresh)
+            backup = self.backups_in / f"{self.path.stem}-{self._stamp()}.sqlite3"
+            fresh.replace(backup)
+        finally:
+            for part in _PARTS:
+                Path(f"{fresh}{part}").unlink(missing_ok=True)
+        _sync(self.backups_in)
+        self._thin()
+        return backup
+
+    def _thin(self) -> None:
+        backups = self.backups()
+        newest_of_day = {backup.name.rsplit("-", 2)[0]: backup for backup in backups}
+        keep = {*backups[-NEWEST_KEPT:], *sorted(newest_of_day.values())[-DAYS_KEPT:]}
+        for backup in backups:
+            if backup not in keep:
+                backup.unlink(missing_ok=True)
+
+    def _stamp(self) -> str:
+        return datetime.fromtimestamp(self._now(), UTC).strftime("%Y%m%d-%H%M%S-%f")
+
+
+def _copy(source: Path, target: Path) -> None:
+    """Copy a database to a whole file that is on the disk when this returns."""
+    target.unlink(missing_ok=True)
+    with closing(sqlite3.connect(source, timeout=5.0)) as old, closing(sqlite3.connect(target)) as new:
+        old.backup(new)
+        new.execute("PRAGMA journal_mode=DELETE")
+    with target.open("rb") as file:
+        os.fsync(file.fileno())
+    _sync(target.parent)
+
+
+def _sync(directory: Path) -> None:
+    opened = os.open(directory, os.O_RDONLY)
+    try:
+        os.fsync(opened)
+    finally:
+        os.close(opened)

@@ -1,0 +1,16 @@
+"""How alembic runs the migrations: over the connection it is handed, each migration whole or not at all where it can."""
+
+from __future__ import annotations
+
+from alembic import context
+
+from robotside.database.tables import Base
+
+connection = context.config.attributes.get("connection")
+if connection is None:
+    raise RuntimeError("These migrations are run by robotside.database.opening, which hands in a connection.")
+context.configure(
+    connection=connection, target_metadata=Base.metadata, transactional_ddl=connection.dialect.name != "mysql"
+)
+with context.begin_transaction():
+    context.run_migrations()

@@ -1,0 +1,71 @@
+"""The first tables."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sqlalchemy as sa
+from alembic import op
+
+revision = "0001"
+down_revision = None
+branch_labels = None
+depends_on = None
+
+
+def upgrade() -> None:
+    """Bring the tables to this revision."""
+    _table("facts", _name(), _text("value"))
+    _table("settings", _name(), _text("value"))
+    _table(
+        "places",
+        _id(),
+        *map(_text, ("name", "kind", "floor")),
+        sa.Column("x", sa.Double(), nullable=False),
+        sa.Column("y", sa.Double(), nullable=False),
+        sa.Column("yaw", sa.Double(), nullable=True),
+        *map(_text, ("tag", "note")),
+    )
+    _table("missions", _id(), *map(_text, ("name", "content")))
+    _table("schedule", _id(), sa.Column("enabled", sa.Boolean(), nullable=False), _text("content"))
+    _table("queue", _id(), sa.Column("position", sa.Integer(), nullable=False), _text("content"))
+    _table(
+        "runs",
+        _id(),
+        _text("task"),
+        *map(_instant, ("started", "ended")),
+        *map(_text, ("state", "reason")),
+        sa.Column("distance", sa.Double(), nullable=False),
+        sa.Column("visited", sa.Integer(), nullable=False),
+        *map(_text, ("started_by", "content")),
+    )
+    _table(
+        "events",
+        _id(),
+        _instant("stamp"),
+        *map(_text, ("level", "kind", "text")),
+        *(sa.Column(axis, sa.Double(), nullable=True) for axis in "xyz"),
+        _text("acknowledged_by"),
+        _instant("acknowledged"),
+    )
+
+
+def _table(name: str, *columns: sa.Column[Any]) -> None:
+    # MariaDB makes tables outside of transactions: after a cut some may be there already
+    op.create_table(name, *columns, if_not_exists=True, mysql_charset="utf8mb4")
+
+
+def _id() -> sa.Column[int]:
+    return sa.Column("id", sa.Integer(), primary_key=True, autoincrement=False)
+
+
+def _name() -> sa.Column[str]:
+    return sa.Column("name", sa.String(64), primary_key=True)
+
+
+def _text(name: str) -> sa.Column[str]:
+    return sa.Column(name, sa.Text(), nullable=False)
+
+
+def _instant(name: str) -> sa.Column[int]:
+    return sa.Column(name, sa.BigInteger(), nullable=False)

@@ -1,0 +1,279 @@
+"""Opens the records: makes or mends the database, brings its tables up to date and takes over what older programs left."""
+
+from __future__ import annotations
+
+import secrets
+import sqlite3
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+from alembic import command
+from alembic.config import Config
+from alembic.migration import MigrationContext
+from alembic.script import ScriptDirectory
+from alembic.util import CommandError
+from sqlalchemy import Engine
+from sqlalchemy.engine import URL, make_url
+from sqlalchemy.exc import ArgumentError, NoSuchModuleError, SQLAlchemyError
+
+from bridge.errors import BridgeError
+from robotside.database.files import Files, Taken
+from robotside.database.legacy import left_behind, put_away
+from robotside.database.records import Records
+from robotside.database.rows import Content, Put
+from robotside.database.storage import PATIENCE, NotWritten, Storage, engine_of, not_written
+from robotside.database.writer import CallSoon, Keeper, Threaded
+
+__all__ = ["CannotOpen", "open_records", "upgrade"]
+
+AFTER_CRASH, AFTER_RESTORE = 1_000, 100_000
+"""Numbers of events left out: some may have been told to somebody and are not on the disk."""
+
+
+class CannotOpen(BridgeError):
+    """There are no records to work with; the text is one sentence."""
+
+
+class _Opened(NamedTuple):
+    storage: Storage
+    content: Content
+    problems: list[str]
+    skip: int
+
+
+def open_records(
+    directory: Path,
+    url: str | None,
+    call_soon: CallSoon,
+    *,
+    patience: float = PATIENCE,
+    now: Callable[[], float] = time.time,
+) -> Records:
+    """Open what is kept in `directory`, or at `url` as SQLAlchemy writes it; CannotOpen says why it cannot be.
+
+    `call_soon` brings what the writing thread tells to the thread of the records, as a loop's `call_soon_threadsafe`
+    does. `patience` [s] is waited for another program that has the records. Anything unusual is in `problems`.
+    """
+    keeper = _keeper(directory, url, patience, now)
+    try:
+        opened = keeper.open()
+        puts, said = _first_words(opened, directory)
+        opened.storage.write(puts)
+        for put in puts:
+            opened.content[put.table][put.key] = put.value
+        put_away(directory)
+    except NotWritten as problem:
+        keeper.close()
+        raise CannotOpen(str(problem)) from problem
+    except BaseException:
+        keeper.close()
+        raise
+    writer = Threaded(keeper, call_soon)
+    records = Records(opened.content, writer, writer.close)
+    records.problems += [*opened.problems, *said]
+    writer.on_idle = records.try_again
+    writer.on_trouble = records.say_trouble
+    writer.on_damage = lambda: records.rebuild(writer.rebuild)
+    writer.start()
+    return records
+
+
+def _keeper(directory: Path, url: str | None, patience: float, now: Callable[[], float]) -> _Local | _Server:
+    if not url:
+        return _Local(directory / "records.sqlite3", patience, now)
+    parsed = _parsed(url)
+    if parsed.get_backend_name() != "sqlite":
+        return _Server(parsed, patience)
+    if not parsed.database or parsed.database == ":memory:":
+        raise CannotOpen(
+            f"The database {url!r} would be gone with the process; name a file, as sqlite:///FILE."
+        )
+    return _Local(Path(parsed.database), patience, now)
+
+
+def _first_words(opened: _Opened, directory: Path) -> tuple[list[Put], list[str]]:
+    """What is written before anything else, and what there is to say about it."""
+    facts = opened.content["facts"]
+    skip = max(opened.skip, AFTER_CRASH if facts.get("clean") == "0" else 0)
+    puts = [Put("facts", "clean", "0")]
+    if "log" not in facts:
+        puts.append(Put("facts", "log", secrets.token_hex(4)))
+    if skip:
+        puts.append(Put("facts", "last event", str(int(facts.get("last event", 0)) + skip)))
+    if "taken over" in facts:
+        return puts, []
+    left = left_behind(directory)
+    puts.append(Put("facts", "taken over", "1"))
+    if left.stopped_by:
+        puts.append(Put("facts", "stopped by", left.stopped_by))
+    if left.mission is not None:
+        puts += [
+            Put("missions", 1, left.mission),
+            Put("facts", "mission", "1"),
+            Put("facts", "last mission", "1"),
+        ]
+    return puts, left.problems
+
+
+def upgrade(engine: Engine, before: Callable[[], object] = lambda: None) -> None:
+    """Bring the tables up to date; `before` is called when there is an older database to change.
+
+    CannotOpen when it was made by a newer program, NotWritten when it cannot be changed.
+    """
+    config = Config()
+    config.set_main_option("script_location", str(Path(__file__).with_name("migrations")))
+    script = ScriptDirectory.from_config(config)
+    try:
+        with engine.connect() as connection:
+            revision = MigrationContext.configure(connection).get_current_revision()
+        if revision == script.get_current_head():
+            return
+        _check_known(script, revision)
+        if revision is not None:
+            before()
+        with engine.begin() as connection:
+            config.attributes["connection"] = connection
+            command.upgrade(config, "head")
+    except SQLAlchemyError as error:
+        raise not_written(error) from error
+
+
+def _check_known(script: ScriptDirectory, revision: str | None) -> None:
+    if revision is None:
+        return
+    try:
+        script.get_revision(revision)
+    except CommandError as error:
+        said = (
+            f"The database is of a newer program (its tables are of revision {revision!r}, this program knows"
+        )
+        raise CannotOpen(f"{said} up to {script.get_current_head()!r}); start that one.") from error
+
+
+def _parsed(url: str) -> URL:
+    try:
+        parsed = make_url(url)
+        parsed.get_dialect()
+    except (ArgumentError, NoSuchModuleError) as error:
+        allowed = "sqlite:///FILE, postgresql+psycopg://USER@HOST/NAME and mariadb+pymysql://USER@HOST/NAME"
+        raise CannotOpen(f"There is no database {_shown(url)!r}; allowed are {allowed}.") from error
+    return parsed
+
+
+def _shown(url: str) -> str:
+    """Without what may be a password."""
+    head, _, tail = url.rpartition("@")
+    return f"{head.partition('://')[0]}://...@{tail}" if head else url
+
+
+class _Local(Keeper):
+    """A SQLite file, that is mended when it is broken and backed up."""
+
+    def __init__(self, path: Path, patience: float, now: Callable[[], float]) -> None:
+        self._patience = patience
+        directory = path.parent
+        try:
+            self._files = Files(path, now)
+            self._files.take(patience)
+        except OSError as error:
+            why = (error.strerror or str(error)).lower()
+            said = f"Nothing can be kept in {str(directory)!r}: {why}; --state names another directory."
+            raise CannotOpen(said) from error
+        except Taken:
+            said = (
+                f"Another robot side keeps its records in {str(directory)!r}; end it or name another --state."
+            )
+            raise CannotOpen(said) from None
+        self._storage: Storage | None = None
+
+    def open(self) -> _Opened:
+        """Everything it has; broken, what its newest backup has."""
+        problems, skip = [], 0
+        try:
+            fault = self._files.fault()
+        except sqlite3.Error as error:
+            raise not_written(error) from error
+        if fault:
+            problems.append(self._mend(fault))
+            skip = AFTER_RESTORE
+        storage = self._connect()
+        content, unread = storage.load()
+        return _Opened(storage, content, problems + unread, skip)
+
+    def write(self, puts: list[Put]) -> None:
+        """Write rows, all or none."""
+        if self._storage is None:
+            raise NotWritten("The database is damaged: nothing was stored.", damaged=True)
+        self._storage.write(puts)
+
+    def rebuild(self, puts: list[Put]) -> str:
+        """Set the broken file aside and write a new one."""
+        if self._storage is not None:
+            self._storage.close()
+            self._storage = None
+        try:
+            aside = self._files.set_aside()
+        except OSError as error:
+            raise NotWritten(f"The broken database cannot be moved aside: {error.strerror}.") from error
+        self._connect().write(puts)
+        return f"The database was damaged and is set aside as {aside.name}; a new one was written, nothing is lost."
+
+    def back_up(self) -> None:
+        """Copy it beside itself."""
+        try:
+            self._files.back_up()
+        except (OSError, sqlite3.Error) as error:
+            raise not_written(error) from error
+
+    def close(self) -> None:
+        """Let go of the file."""
+        if self._storage is not None:
+            self._storage.close()
+            self._storage = None
+        self._files.let_go()
+
+    def _connect(self) -> Storage:
+        engine = engine_of(URL.create("sqlite", database=str(self._files.path)), self._patience)
+        self._storage = Storage(engine)
+        upgrade(engine, self.back_up)
+        return self._storage
+
+    def _mend(self, fault: str) -> str:
+        try:
+            aside = self._files.set_aside()
+            backup = self._files.restore()
+        except (OSError, sqlite3.Error) as error:
+            raise CannotOpen(
+                f"The database is damaged ({fault}) and cannot be moved aside: {error}."
+            ) from error
+        said = f"The database was damaged ({fault[:80]}) and is set aside as {aside.name}"
+        if backup is None:
+            return f"{said}; there was no backup, so it starts empty."
+        return f"{said}; the backup {backup.name} was put in its place, what was stored after it is lost."
+
+
+class _Server(Keeper):
+    """A database on a server, whose owner mends and backs up."""
+
+    def __init__(self, url: URL, patience: float) -> None:
+        try:
+            self._storage = Storage(engine_of(url, patience))
+        except ImportError as missing:
+            said = f"For {url.drivername} the package {missing.name!r} is needed, which is not installed."
+            raise CannotOpen(said) from missing
+
+    def open(self) -> _Opened:
+        """Everything it has."""
+        upgrade(self._storage.engine)
+        content, unread = self._storage.load()
+        return _Opened(self._storage, content, unread, 0)
+
+    def write(self, puts: list[Put]) -> None:
+        """Write rows, all or none."""
+        self._storage.write(puts)
+
+    def close(self) -> None:
+        """Let go of the server."""
+        self._storage.close()

@@ -1,0 +1,88 @@
+"""Keeping a moving robot within its fence: a command is made slower until its way, braking included, stays inside."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from robotside.fence import Fence
+from robotside.pose2 import Points, Pose2
+from robotside.tracks import REST, Handling, Moving, reach, track
+
+__all__ = ["GAP", "SLACK", "Fencing"]
+
+GAP = 0.10
+"""Kept between the body and the fence on the way of a command that is obeyed at once [m]."""
+SLACK = 0.02
+"""Kept on the way that the robot takes from how it moves now [m]: it lags behind what it was told before."""
+_HALVINGS = 6
+
+
+class Fencing:
+    """Keeps one robot, a disc of `radius` [m], within `fence`."""
+
+    def __init__(self, fence: Fence, radius: float, handling: Handling) -> None:
+        self._fence, self._radius, self._handling = fence, radius, handling
+
+    def room(self, pose: Pose2) -> float:
+        """From the body to the fence [m]; negative when a part of it is outside."""
+        return float(self._fence.clearance(np.array([[pose.x, pose.y]]))[0]) - self._radius
+
+    def slowed(self, pose: Pose2, moving: Moving, wanted: Moving) -> Moving:
+        """`wanted` as it may be obeyed at `pose` by a robot that is `moving`.
+
+        Where a part of the body is outside already, every way that leads no farther out is allowed.
+        """
+        room = self.room(pose)
+        if room > reach(moving, wanted, self._handling) + GAP:
+            return wanted
+        test = self._test(pose, moving, wanted, room)
+        if test(wanted):
+            return wanted
+        steers = self._handling.steers
+        if self._handling.sideways and (slid := self._slid(pose, wanted, test)) is not None:
+            return slid
+        if not test(wanted.scaled(0.0, 0.0 if steers else 1.0)):
+            return REST
+        return _greatest(lambda part: wanted.scaled(part, part if steers else 1.0), test)
+
+    def _test(self, pose: Pose2, moving: Moving, wanted: Moving, room: float) -> Callable[[Moving], bool]:
+        """Whether a command keeps to the fence."""
+        far = reach(moving, wanted, self._handling) + self._radius + GAP
+        near = self._fence.around(pose.x, pose.y, far)
+        # from inside, nothing gets to the other side of the border without coming near to it
+        distance: Callable[[Points], Points] = near.distance if room > SLACK else self._fence.clearance
+
+        def kept(start: Moving, command: Moving, gap: float, *, swings: bool = False) -> bool:
+            way = track(pose, start, command, self._handling, swings=swings)
+            return bool(distance(way).min() - self._radius >= min(gap, room) - 1e-6)
+
+        return lambda command: (
+            kept(command, command, GAP)
+            and kept(moving, command, SLACK)
+            and kept(moving, command, SLACK, swings=True)
+        )
+
+    def _slid(self, pose: Pose2, wanted: Moving, test: Callable[[Moving], bool]) -> Moving | None:
+        """As much of the part towards the fence as can be, and all of the part along it; None when that is too much."""
+        x, y = self._fence.inward(pose.x, pose.y)
+        c, s = math.cos(pose.yaw), math.sin(pose.yaw)
+        in_x, in_y = c * x + s * y, c * y - s * x
+        out = min(0.0, wanted.x * in_x + wanted.y * in_y)
+
+        def less(part: float) -> Moving:
+            spare = (1.0 - part) * out
+            return Moving(wanted.x - spare * in_x, wanted.y - spare * in_y, wanted.turn)
+
+        return _greatest(less, test) if test(less(0.0)) else None
+
+
+def _greatest(command: Callable[[float], Moving], test: Callable[[Moving], bool]) -> Moving:
+    """The command of the greatest part, 0 to 1, that passes; that of 0 is known to."""
+    low, high = 0.0, 1.0
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if test(command(middle)) else (low, middle)
+    return command(low)

@@ -1,0 +1,230 @@
+"""What the robot's own configuration allows: drive commands are clamped to it, goals outside are refused.
+
+Pure: what the robot measures is passed in. Speeds are limited to what it may, height and depth so that it comes to rest
+before they are exceeded, and `robotside.fencing` does the same for the fence.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import msgspec
+import numpy as np
+
+from bridge.msgs.geometry_msgs import Point32, Polygon, Twist, Vector3
+from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
+from robotside.config import LimitSettings, Ring
+from robotside.fence import Fence
+from robotside.fencing import Fencing
+from robotside.grid import Grid
+from robotside.planner import place_sentence
+from robotside.pose2 import Pose2
+from robotside.tracks import HANDLING, REACTION, REST, Handling, Moving
+
+__all__ = ["GOAL_ROOM", "PATH_ROOM", "Clamped", "Keeper", "Measured"]
+
+GOAL_ROOM = 0.35
+"""Kept between the body and the fence at a goal [m]: following a path is not exact."""
+PATH_ROOM = 0.15
+"""Of the map, what is nearer than this to the fence is no place to plan through [m]."""
+STEEP_FROM, STEEP_SLOWEST = 0.8, 0.3
+"""From this part of the greatest slope on it goes slower, down to this part of the speed."""
+NOT_PLACED = "The robot does not know where it is, so it cannot keep to its fence; place it on the map."
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """What the robot knows of itself; NaN and None for what it does not measure."""
+
+    pose: Pose2 | None = None
+    """In `map`."""
+    moving: Moving = REST
+    """As its wheels tell."""
+    height: float = math.nan
+    """Above the map's origin, which for boats is the water [m]."""
+    roll: float = 0.0
+    """[rad]"""
+    pitch: float = 0.0
+    """[rad], positive is nose down."""
+
+
+class Clamped(NamedTuple):
+    """A drive command as it may be done."""
+
+    twist: Twist
+    why: str = ""
+    """What holds it back by more than half, as one sentence; empty when nothing does."""
+
+
+class Keeper:
+    """Keeps one robot to its limits."""
+
+    def __init__(self, settings: LimitSettings, info: RobotInfo) -> None:
+        """`settings` are the configuration's, `info` what the robot says of itself."""
+        self._settings = settings
+        self._radius = info.radius
+        known = HANDLING.get(info.kind, HANDLING["wheels"])
+        self._handling: Handling = replace(known, braking=settings.braking or known.braking)
+        self._height = _highest(settings)
+        self._deepest = -settings.max_depth if settings.max_depth is not None else -math.inf
+        self._slope = math.radians(settings.max_slope_degrees or 0.0) or math.inf
+        self._came: tuple[float, float] | None = None
+        self._fence = Fence(settings.keep_in, settings.keep_out)
+        self._fencing = Fencing(self._fence, info.radius, self._handling)
+        self.info: RobotInfo = msgspec.structs.replace(
+            info,
+            max_speed=min(info.max_speed, settings.max_speed or math.inf),
+            max_yaw_rate=min(info.max_yaw_rate, settings.max_yaw_rate or math.inf),
+        )
+        """Who it is, with the speeds that it is allowed."""
+
+    @property
+    def message(self) -> Limits:
+        """For `/limits`."""
+        told = self._settings
+        return Limits(
+            max_speed=_or_nan(told.max_speed),
+            max_yaw_rate=_or_nan(told.max_yaw_rate),
+            min_depth=_or_nan(told.min_depth),
+            max_depth=_or_nan(told.max_depth),
+            max_height=_or_nan(told.max_height),
+            max_slope=math.radians(_or_nan(told.max_slope_degrees)),
+            keep_in=[_polygon(ring) for ring in told.keep_in],
+            keep_out=[_polygon(ring) for ring in told.keep_out],
+        )
+
+    def fault(self, name: str, x: float, y: float) -> str:
+        """Why the robot may not be sent to a place, as one sentence; empty when it may."""
+        if not self._fence:
+            return ""
+        where = place_sentence(name, x, y)
+        room = self.room(x, y)
+        if not room > 0:
+            return f"{where} is outside the robot's fence."
+        need = self._radius + GOAL_ROOM
+        if room < need:
+            return f"{where} is {room:.2f} m from the robot's fence; the robot needs {need:.2f} m."
+        return ""
+
+    def room(self, x: float, y: float) -> float:
+        """From a place to the fence [m]; negative outside, infinite without one."""
+        return float(self._fence.clearance(np.array([[x, y]]))[0])
+
+    def outside(self, pose: Pose2 | None) -> str:
+        """Why the robot cannot start by itself from where it is, as one sentence; empty when it can."""
+        if pose is None or not self._fence or self._fence.allows(np.array([pose[:2]]))[0]:
+            return ""
+        return f"{place_sentence('The robot', pose.x, pose.y)} is outside its fence; drive it back by hand first."
+
+    def marked(self, grid: Grid) -> Grid:
+        """The map to plan on: where one may not be counts as occupied."""
+        return self._fence.marked(grid, PATH_ROOM)
+
+    def clamp(self, twist: Twist, measured: Measured) -> Clamped:
+        """`twist` as it may be done now; call it again whenever something new is measured."""
+        fitted = self._upright(self._fast(twist), measured)
+        level = self._level(fitted.twist, measured)
+        fenced = self._fenced(level.twist, measured)
+        return Clamped(fenced.twist, fitted.why or level.why or fenced.why)
+
+    def _fast(self, twist: Twist) -> Twist:
+        v, w, turn = twist.linear, twist.angular, self.info.max_yaw_rate
+        speed = math.hypot(v.x, v.y, v.z)
+        scale = self.info.max_speed / speed if speed > self.info.max_speed else 1.0
+        spin = (max(-turn, min(turn, rate)) for rate in (w.x, w.y, w.z))
+        return Twist(Vector3(v.x * scale, v.y * scale, v.z * scale), Vector3(*spin))
+
+    def _upright(self, twist: Twist, measured: Measured) -> Clamped:
+        """Slower up and down, so that height and depth are kept when it brakes."""
+        z = measured.height
+        if math.isnan(z) or not (self._height < math.inf or self._deepest > -math.inf):
+            return Clamped(twist)
+        v, nose = twist.linear, measured.pitch
+        rise = v.z * math.cos(nose) - v.x * math.sin(nose)
+        allowed = max(-self._speed_within(z - self._deepest), min(rise, self._speed_within(self._height - z)))
+        if abs(math.cos(nose)) < 0.1:
+            return Clamped(twist)
+        fitted = Vector3(v.x, v.y, (allowed + v.x * math.sin(nose)) / math.cos(nose))
+        why = ""
+        if abs(allowed) < abs(rise) / 2:
+            limit = self._height if rise > 0 else self._deepest
+            why = f"The robot goes no {'higher' if rise > 0 else 'deeper'} than {_level_words(limit)}."
+        return Clamped(Twist(fitted, twist.angular), why)
+
+    def _speed_within(self, room: float) -> float:
+        """The speed from which it comes to rest within `room` [m], reaction included [m/s]; 0 beyond it."""
+        if room <= 0:
+            return 0.0
+        lag = self._handling.braking * REACTION
+        return math.sqrt(lag * lag + 2 * self._handling.braking * room) - lag
+
+    def _level(self, twist: Twist, measured: Measured) -> Clamped:
+        """Slower where it is steep; too steep, only back to where it came from."""
+        tilt = math.acos(max(-1.0, min(1.0, math.cos(measured.roll) * math.cos(measured.pitch))))
+        if tilt < STEEP_FROM * self._slope:
+            self._came = None
+            return Clamped(twist)
+        v = twist.linear
+        if tilt < self._slope:
+            part = (self._slope - tilt) / (self._slope * (1 - STEEP_FROM))
+            return Clamped(_scaled(twist, max(STEEP_SLOWEST, part), self._handling))
+        if self._came is None:
+            self._came = _direction(measured)
+        if v.x * self._came[0] + v.y * self._came[1] <= 0:
+            return Clamped(_scaled(twist, STEEP_SLOWEST, self._handling))
+        said = f"It is steeper here, {math.degrees(tilt):.0f} degrees, than the {math.degrees(self._slope):.0f} allowed"
+        return Clamped(_scaled(twist, 0.0, self._handling), f"{said}; drive back.")
+
+    def _fenced(self, twist: Twist, measured: Measured) -> Clamped:
+        """Slower towards the fence."""
+        v, w = twist.linear, twist.angular
+        if not self._fence or not (v.x or v.y):
+            return Clamped(twist)
+        if measured.pose is None:
+            return Clamped(_scaled(twist, 0.0, self._handling), NOT_PLACED)
+        wanted = Moving(v.x, v.y, w.z)
+        done = self._fencing.slowed(measured.pose, measured.moving, wanted)
+        if done is wanted:
+            return Clamped(twist)
+        kept = Twist(Vector3(done.x, done.y, v.z), Vector3(w.x, w.y, done.turn))
+        if done.speed > wanted.speed / 2:
+            return Clamped(kept)
+        room = self._fencing.room(measured.pose)
+        where = f"is {room:.1f} m away" if room > 0.05 else "is here"
+        return Clamped(kept, f"The robot's fence {where}: it goes no nearer.")
+
+
+def _scaled(twist: Twist, part: float, handling: Handling) -> Twist:
+    """`part` of the speed; one that steers stays on its arc."""
+    v, w = twist.linear, twist.angular
+    turn = part if handling.steers else 1.0
+    return Twist(Vector3(part * v.x, part * v.y, v.z), Vector3(w.x, w.y, turn * w.z))
+
+
+def _direction(measured: Measured) -> tuple[float, float]:
+    """Where it was going, of length 1 in `base_link`; uphill when it stands."""
+    x, y = measured.moving.x, measured.moving.y
+    if math.hypot(x, y) < 0.02:
+        x, y = -math.sin(measured.pitch), math.sin(measured.roll)
+    far = max(math.hypot(x, y), 1e-9)
+    return x / far, y / far
+
+
+def _highest(settings: LimitSettings) -> float:
+    """[m] above the map's origin; a least depth is one below it."""
+    shallowest = -settings.min_depth if settings.min_depth is not None else math.inf
+    return min(settings.max_height if settings.max_height is not None else math.inf, shallowest)
+
+
+def _level_words(height: float) -> str:
+    return f"{height:g} m" if height >= 0 else f"{-height:g} m of depth"
+
+
+def _or_nan(value: float | None) -> float:
+    return math.nan if value is None else value
+
+
+def _polygon(ring: Ring) -> Polygon:
+    return Polygon([Point32(x, y) for x, y in ring])

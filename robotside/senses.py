@@ -1,0 +1,52 @@
+"""What the robot last measured of itself, and which of its sensors are alive."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from bridge.msgs import Msg
+from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.sensor_msgs import Imu
+from robotside.limits import Measured
+from robotside.pose2 import Pose2
+from robotside.tracks import Moving
+
+__all__ = ["PATIENCE", "Senses"]
+
+_NEEDED = {"/odom": "odometry", "/scan": "laser"}
+_MORE = {"/imu/data": "IMU", "/bumper": "bumper", "/joint_states": "encoders"}
+"""Sensors that a robot may have; they count once they were heard."""
+
+PATIENCE = 1.0
+"""A sensor that was silent for longer than this is not alive [s]."""
+
+
+class Senses:
+    """Takes the robot's messages; times are of the robot's clock [s]."""
+
+    def __init__(self) -> None:
+        self._measured = Measured()
+        self._heard = dict.fromkeys(_NEEDED, -math.inf)
+
+    def take(self, topic: str, msg: Msg, now: float) -> None:
+        """Take in one message of the robot."""
+        if topic in _NEEDED or topic in _MORE:
+            self._heard[topic] = now
+        if isinstance(msg, Odometry):
+            v, height = msg.twist.twist.linear, msg.pose.pose.position.z
+            moving = Moving(v.x, v.y, msg.twist.twist.angular.z)
+            if all(map(math.isfinite, (*moving, height))):
+                self._measured = replace(self._measured, moving=moving, height=height)
+        elif isinstance(msg, Imu) and msg.orientation_covariance[0] >= 0:
+            turned = msg.orientation
+            self._measured = replace(self._measured, roll=turned.roll, pitch=turned.pitch)
+
+    def measured(self, pose: Pose2 | None) -> Measured:
+        """All of it, with the pose in `map` that was made of it."""
+        return replace(self._measured, pose=pose)
+
+    def silent(self, now: float) -> list[str]:
+        """What people call the sensors that are not alive."""
+        names = _NEEDED | _MORE
+        return [names[topic] for topic, heard in self._heard.items() if now - heard > PATIENCE]

@@ -1,0 +1,62 @@
+"""What the robot measures of itself, and which sensors are alive."""
+
+from __future__ import annotations
+
+import math
+
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Pose,
+    PoseWithCovariance,
+    Quaternion,
+    Twist,
+    TwistWithCovariance,
+    Vector3,
+)
+from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.sensor_msgs import Imu, LaserScan
+from robotside.pose2 import Pose2
+from robotside.senses import PATIENCE, Senses
+from robotside.tracks import Moving
+
+MOVING = Twist(Vector3(0.3, 0.1), Vector3(0.0, 0.0, 0.2))
+ODOM = Odometry(pose=PoseWithCovariance(Pose(Point(0.0, 0.0, -2.0))), twist=TwistWithCovariance(MOVING))
+
+
+def test_odometry_tells_speed_and_height_and_the_imu_how_it_is_tilted() -> None:
+    senses = Senses()
+    assert math.isnan(senses.measured(None).height)
+    senses.take("/odom", ODOM, 1.0)
+    senses.take("/imu/data", Imu(orientation=Quaternion.from_rpy(0.1, -0.2, 3.0)), 1.0)
+    found = senses.measured(Pose2(1.0, 2.0, 3.0))
+    assert (found.moving, found.height) == (Moving(0.3, 0.1, 0.2), -2.0)
+    assert math.isclose(found.roll, 0.1)
+    assert math.isclose(found.pitch, -0.2)
+    assert found.pose == (1.0, 2.0, 3.0)
+
+
+def test_what_is_no_number_changes_nothing() -> None:
+    senses = Senses()
+    senses.take("/odom", ODOM, 1.0)
+    wild = TwistWithCovariance(Twist(Vector3(math.inf), Vector3(0.0, 0.0, math.nan)))
+    senses.take("/odom", Odometry(twist=wild), 1.1)
+    assert senses.measured(None).moving == Moving(0.3, 0.1, 0.2)
+
+
+def test_an_imu_without_orientation_says_nothing_of_it() -> None:
+    senses = Senses()
+    covariance = [-1.0, *[0.0] * 8]
+    tilted = Quaternion.from_rpy(0.5, 0.5, 0.0)
+    senses.take("/imu/data", Imu(orientation=tilted, orientation_covariance=covariance), 1.0)
+    assert senses.measured(None).roll == 0.0
+
+
+def test_what_it_drives_with_is_missed_from_the_start_and_the_rest_once_it_was_there() -> None:
+    senses = Senses()
+    assert senses.silent(0.0) == ["odometry", "laser"]
+    senses.take("/odom", ODOM, 0.0)
+    senses.take("/scan", LaserScan(), 0.0)
+    assert senses.silent(PATIENCE) == []
+    senses.take("/imu/data", Imu(), 0.0)
+    senses.take("/odom", ODOM, 2.0)
+    assert senses.silent(2.0) == ["laser", "IMU"]
