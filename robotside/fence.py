@@ -162,7 +162,8 @@ def _inside(ring: _Array, points: Points) -> NDArray[np.bool_]:
     (ax, ay), (bx, by) = ring[:-1].T, ring[1:].T
     spans = (ay > y) != (by > y)
     rise = np.where(by == ay, 1.0, by - ay)
-    crosses = spans & (x < ax + (y - ay) / rise * (bx - ax))
+    with np.errstate(over="ignore", invalid="ignore"):  # of sides as good as level, which span nothing
+        crosses = spans & (x < ax + (y - ay) / rise * (bx - ax))
     return np.asarray(crosses.sum(axis=1) % 2 == 1)
 
 
@@ -172,7 +173,7 @@ def _cut(start: _Array, end: _Array, starts: _Array, ends: _Array) -> _Array:
     other = ends - starts
     cross = along[0] * other[:, 1] - along[1] * other[:, 0]
     apart = starts - start
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         here = (apart[:, 0] * other[:, 1] - apart[:, 1] * other[:, 0]) / cross
         there = (apart[:, 0] * along[1] - apart[:, 1] * along[0]) / cross
     # an edge in the same line meets it nowhere in particular, but the next one of its ring does at the corner

@@ -45,13 +45,13 @@ class Guarded:
             self.stop()
             return
         self._wanted = twist
-        self._give(self._clamp(twist))
+        self._give(self._allowed(twist))
 
     def again(self) -> None:
         """Look anew at the twist that it moves with: the robot is elsewhere now. Call it whenever that is measured."""
         if self._wanted is None:
             return
-        twist = self._clamp(self._wanted)
+        twist = self._allowed(self._wanted)
         if twist != self._given:
             self._give(twist)
 
@@ -59,6 +59,14 @@ class Guarded:
         """Brake to rest and stay there."""
         self._wanted = self._given = None
         self._robot.stop()
+
+    def _allowed(self, twist: Twist) -> Twist:
+        """What may be done of it; when that cannot be told for a fault of the program, it brakes first."""
+        try:
+            return self._clamp(twist)
+        except Exception:
+            self.stop()
+            raise
 
     def _give(self, twist: Twist) -> None:
         self._given = twist

@@ -49,13 +49,21 @@ class Leg(Enum):
 class Goal:
     """A place to go to."""
 
-    def __init__(self, name: str, x: float, y: float, yaw: float = math.nan) -> None:
+    def __init__(self, name: str, x: float, y: float, yaw: float = math.nan, place: str = "") -> None:
         self.name = name
         """As a sentence begins with it: `Point 3`."""
+        self.place = place
+        """The name that people gave to it; empty when it has none."""
         self.x, self.y = x, y
         """In `map` [m]."""
         self.yaw = yaw
         """Direction to stand in [rad]; NaN when any will do."""
+
+    @property
+    def spoken(self) -> str:
+        """As it stands within a sentence: `point 3`, but `Office 12`."""
+        name = self.name.rstrip(",")
+        return name if name == self.place else f"{name[0].lower()}{name[1:]}"
 
 
 class Guide:
@@ -75,6 +83,7 @@ class Guide:
         """Why the way is blocked, as one sentence; empty when it is not."""
         self.sure = True
         """The position is trusted; otherwise it creeps."""
+        self._turning = False
         self._speed = 0.0
         self._planned = self._moved = -math.inf
         self._best = math.inf
@@ -93,6 +102,25 @@ class Guide:
         return self._left
 
     _left = math.nan
+
+    @property
+    def cruise(self) -> float:
+        """The speed that it travels with [m/s]."""
+        return self._cruise
+
+    @property
+    def radius(self) -> float:
+        """Of the robot [m]."""
+        return self._radius
+
+    @property
+    def turning(self) -> bool:
+        """It is there and turns to the direction asked for."""
+        return self._turning
+
+    def move(self, twist: Twist) -> None:
+        """Move so until the next `move`, `update` or `rest`, with nobody looking for obstacles but the caller."""
+        self._robot.drive(twist)
 
     def head_for(self, goal: Goal) -> None:
         """Begin a new leg; the path is planned with the next `update`."""
@@ -114,6 +142,7 @@ class Guide:
     def update(self, pose: Pose2, points: Points, now: float) -> Leg:
         """Drive on from `pose`, with the laser seeing `points` (in `base_link`); call it often."""
         goal = self._goal
+        self._turning = False
         if goal is None:
             return Leg.ARRIVED
         if self._follower is None and not self._plan(pose, goal, now):
@@ -168,6 +197,7 @@ class Guide:
             self._left = 0.0
             return Leg.ARRIVED
         rate = math.copysign(min(0.6 * self._turn, max(0.15, 1.5 * abs(error))), error)
+        self._turning, self._left = True, 0.0
         self._robot.drive(Twist.planar(0.0, rate))
         return Leg.UNDER_WAY
 

@@ -124,6 +124,13 @@ class Keeper:
 
     def clamp(self, twist: Twist, measured: Measured) -> Clamped:
         """`twist` as it may be done now; call it again whenever something new is measured."""
+        if self._last[:2] != (twist, measured):
+            self._last = twist, measured, self._clamped(twist, measured)
+        return self._last[2]
+
+    _last: tuple[Twist, Measured, Clamped] = (Twist(), Measured(), Clamped(Twist()))
+
+    def _clamped(self, twist: Twist, measured: Measured) -> Clamped:
         fitted = self._upright(self._fast(twist), measured)
         level = self._level(fitted.twist, measured)
         fenced = self._fenced(level.twist, measured)

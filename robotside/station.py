@@ -310,7 +310,7 @@ class Station:
             self._remark(client, ruling.said)
             return
         engine.pause(f"Paused: {self.controls.name(client)} took the stick.", "warn")
-        self.robot.drive(ruling.twist)
+        self._mind(partial(self.robot.drive, ruling.twist))
 
     def _place(self, client: Operator, pose: Pose2) -> None:
         problem = self.controls.objection(client)

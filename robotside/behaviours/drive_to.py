@@ -2,24 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from robotside.behaviours.course import Course
 from robotside.behaviours.situation import Situation
-from robotside.guide import Guide, Leg
+from robotside.guide import Goal, Guide, Leg
 
-__all__ = ["DriveTo"]
+__all__ = ["LEG_STATUS", "DriveTo"]
 
-_STATUS = {Leg.UNDER_WAY: Status.RUNNING, Leg.ARRIVED: Status.SUCCESS, Leg.BLOCKED: Status.FAILURE}
+LEG_STATUS = {Leg.UNDER_WAY: Status.RUNNING, Leg.ARRIVED: Status.SUCCESS, Leg.BLOCKED: Status.FAILURE}
 
 
 class DriveTo(Behaviour):
     """Succeeds at the point, fails when there is no way; `feedback_message` says how far it is or why not."""
 
-    def __init__(self, course: Course, guide: Guide, situation: Situation) -> None:
+    def __init__(
+        self,
+        course: Course,
+        guide: Guide,
+        situation: Situation,
+        words: Callable[[Goal], str] = lambda goal: f"Heading for {goal.spoken}.",
+    ) -> None:
+        """`words` say where it goes, as one sentence."""
         super().__init__("drive to point")
-        self._course, self._guide, self._situation = course, guide, situation
+        self._course, self._guide, self._situation, self._words = course, guide, situation, words
 
     def initialise(self) -> None:
         """Set out for the course's point."""
@@ -27,19 +36,20 @@ class DriveTo(Behaviour):
 
     def update(self) -> Status:
         """Drive on."""
-        now = self._situation
+        now, goal = self._situation, self._course.goal
         leg = self._guide.update(now.pose, now.points, now.now)
         self.feedback_message = self._sentence(leg)
-        return _STATUS[leg]
+        now.tell("turning" if self._guide.turning else "driving", self._words(goal), place=goal.place)
+        return LEG_STATUS[leg]
 
     def terminate(self, new_status: Status) -> None:
         """Stand still, whatever the reason."""
         self._guide.rest()
 
     def _sentence(self, leg: Leg) -> str:
-        name = self._course.goal.name
+        goal = self._course.goal
         if leg is Leg.BLOCKED:
             return self._guide.reason
         if leg is Leg.ARRIVED:
-            return f"{name} reached."
-        return f"Heading for {name[0].lower()}{name[1:]}, {self._guide.remaining:.0f} m to go."
+            return f"{goal.name} reached."
+        return f"Heading for {goal.name[0].lower()}{goal.name[1:]}, {self._guide.remaining:.0f} m to go."

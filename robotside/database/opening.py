@@ -28,6 +28,8 @@ from robotside.database.writer import CallSoon, Keeper, Threaded
 
 __all__ = ["CannotOpen", "open_records", "upgrade"]
 
+_BACKENDS = ("sqlite", "postgresql", "mysql", "mariadb")
+
 AFTER_CRASH, AFTER_RESTORE = 1_000, 100_000
 """Numbers of events left out: some may have been told to somebody and are not on the disk."""
 
@@ -155,6 +157,8 @@ def _check_known(script: ScriptDirectory, revision: str | None) -> None:
 def _parsed(url: str) -> URL:
     try:
         parsed = make_url(url)
+        if parsed.get_backend_name() not in _BACKENDS:
+            raise NoSuchModuleError(parsed.drivername)
         parsed.get_dialect()
     except (ArgumentError, NoSuchModuleError) as error:
         allowed = "sqlite:///FILE, postgresql+psycopg://USER@HOST/NAME and mariadb+pymysql://USER@HOST/NAME"

@@ -24,7 +24,7 @@ LONGEST_KEY = 64
 class Base(DeclarativeBase):
     """All tables."""
 
-    __table_args__ = {"mysql_charset": "utf8mb4"}
+    __table_args__ = {"mysql_charset": "utf8mb4", "mariadb_charset": "utf8mb4"}
 
 
 class PlaceRow(Base):

@@ -143,9 +143,11 @@ def test_its_sign_says_whether_one_may_be_there(x: float, y: float) -> None:
         assert (found > 0) == (within and not (4 < x < 6 and 2 < y < 4))
 
 
-@given(st.lists(st.tuples(PLACES, PLACES), min_size=3, max_size=8))
-def test_a_whole_map_is_marked_as_each_of_its_cells_would_be(corners: list[tuple[float, float]]) -> None:
-    fence, grid = Fence([HALL], [tuple(corners)]), open_map(0.5)
+@given(PLACES, PLACES, st.lists(st.floats(0.3, 6.0), min_size=3, max_size=9))
+def test_a_whole_map_is_marked_as_each_of_its_cells_would_be(x: float, y: float, reach: list[float]) -> None:
+    turns = [math.tau * number / len(reach) for number in range(len(reach))]
+    star = tuple((x + r * math.cos(a), y + r * math.sin(a)) for r, a in zip(reach, turns, strict=True))
+    fence, grid = Fence([HALL], [star]), open_map(0.5)
     marked = fence.marked(grid)
     centres = np.array([grid.centre(row, column) for row in range(32) for column in range(32)])
     clear = np.abs(fence.clearance(centres)) > grid.resolution

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from bridge.msgs.geometry_msgs import Twist
 from robotside.guarded import Guarded
 from tests.fakes import FakeRobot
@@ -55,6 +57,27 @@ def test_stop_ends_what_was_wanted_even_when_a_twist_comes_while_it_is_pressed()
     pressed = False
     guarded.again()
     assert robot.commands[-1] is None
+
+
+def test_a_fault_in_the_limits_brakes_the_robot() -> None:
+    robot, broken = FakeRobot(), False
+
+    def clamp(twist: Twist) -> Twist:
+        if broken:
+            raise ZeroDivisionError
+        return twist
+
+    guarded = Guarded(robot, lambda: False, clamp)
+    guarded.drive(AHEAD)
+    broken = True
+    with pytest.raises(ZeroDivisionError):
+        guarded.again()
+    with pytest.raises(ZeroDivisionError):
+        guarded.drive(AHEAD)
+    assert robot.commands == [AHEAD, None, None]
+    broken = False
+    guarded.again()
+    assert robot.at_rest
 
 
 def test_everything_but_driving_passes_through() -> None:

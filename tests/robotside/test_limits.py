@@ -15,6 +15,7 @@ from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
 from robotside.config import LimitSettings
 from robotside.grid import Grid
 from robotside.limits import NOT_PLACED, Keeper, Measured
+from robotside.planner import Planner
 from robotside.pose2 import Pose2
 from robotside.tracks import Moving
 
@@ -123,6 +124,17 @@ def test_plans_are_made_within_the_fence() -> None:
     assert marked.occupied[marked.cell(4.5, 0.0)]
     assert marked.occupied[marked.cell(3.9, 0.0)]
     assert not marked.occupied[marked.cell(3.7, 0.0)]
+
+
+ROOMY = Planner(
+    Keeper(FENCED, WHEELS).marked(Grid(np.zeros((120, 120), dtype=np.bool_), 0.1, -6.0, -6.0)), WHEELS.radius
+)
+
+
+@given(st.floats(-5.0, 5.0), st.floats(-5.0, 5.0))
+def test_a_goal_that_is_allowed_is_one_that_can_be_planned_to(x: float, y: float) -> None:
+    if not Keeper(FENCED, WHEELS).fault("The goal", x, y):
+        assert ROOMY.fault("The goal", x, y) == ""
 
 
 # height and depth

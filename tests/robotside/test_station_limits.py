@@ -112,6 +112,18 @@ def test_a_speed_limit_holds_for_the_hand_and_for_the_task_and_is_told_in_the_ro
     assert 0.1 < max(twist.linear.x for twist in driven) <= 0.2
 
 
+def test_a_fault_in_the_limits_is_said_and_the_robot_stands(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene.drive(AHEAD)
+    monkeypatch.setattr(scene.station.keeper, "clamp", lambda *_: 1 / 0)
+    scene.run(0.1)
+    assert scene.robot.at_rest
+    scene.drive(AHEAD)
+    assert scene.robot.at_rest
+    assert len(scene.events("task")) == 1
+
+
 # tasks
 
 

@@ -10,7 +10,9 @@ connection = context.config.attributes.get("connection")
 if connection is None:
     raise RuntimeError("These migrations are run by robotside.database.opening, which hands in a connection.")
 context.configure(
-    connection=connection, target_metadata=Base.metadata, transactional_ddl=connection.dialect.name != "mysql"
+    connection=connection,
+    target_metadata=Base.metadata,
+    transactional_ddl=connection.dialect.name not in ("mysql", "mariadb"),
 )
 with context.begin_transaction():
     context.run_migrations()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 
@@ -136,6 +137,21 @@ OTHERS = {
 def test_what_the_parser_has_no_copy_of_has_the_fields_that_its_package_publishes(name):
     fields = ", ".join(f"{each.kind.rostype} {each.name}" for each in LIBRARY.parts[name].fields)
     assert fields == OTHERS[name]
+
+
+UNKNOWN = {
+    "Place": "yaw",
+    "TaskOrder": "heading, speed, duration",
+    "Limits": "max_speed, max_yaw_rate, min_depth, max_depth, max_height, max_slope",
+    "Following": "distance",
+    "SetQueueRequest": "stamp",
+}
+
+
+@pytest.mark.parametrize("name", UNKNOWN)
+def test_what_nobody_told_or_measured_is_nan_and_not_zero(name):
+    made = TYPES[f"pilothouse_msgs/{name}"]()
+    assert all(math.isnan(getattr(made, field)) for field in UNKNOWN[name].split(", "))
 
 
 def test_every_field_of_our_own_messages_says_what_it_means():

@@ -8,49 +8,19 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from bridge.msgs.pilothouse_msgs import Mission, Waypoint
 from robotside.behaviours.course import Course
 from robotside.behaviours.drive_to import DriveTo
 from robotside.behaviours.dwell import Dwell
-from robotside.behaviours.patrol import patrol, patrol_course, single
-from robotside.behaviours.situation import Situation
-from robotside.grid import Grid
-from robotside.guide import Goal, Guide
-from robotside.pose2 import Pose2
-from tests.fakes import Box, FakeRobot
+from robotside.behaviours.patrol import patrol_course, patrol_route, single
+from robotside.behaviours.situation import Seen, Situation
+from robotside.guide import Goal
+from tests.fakes import Box
+from tests.robotside.behaviours.stage import Stage
 
 POINTS = [Waypoint(2.0, 0.0), Waypoint(2.0, 2.0), Waypoint(-1.0, 2.0)]
-
-
-class Stage:
-    def __init__(self, *boxes: Box) -> None:
-        self.robot = FakeRobot(boxes=boxes)
-        self.situation = Situation()
-        self.guide = Guide(self.robot, Grid.from_msg(self.robot.map()), lambda _: None)
-        self.said: list[str] = []
-        list(self.robot.read(0.0))
-
-    def say(
-        self, kind: str, text: str, level: str = "info", *, at: tuple[float, float] | None = None
-    ) -> None:
-        self.said.append(text)
-
-    def patrol(self, mission: Mission) -> tuple[Course, Behaviour]:
-        course = patrol_course(mission, random.Random(3))
-        return course, patrol(course, self.guide, self.situation, self.say)
-
-    def tick(self, tree: Behaviour, seconds: float = 0.05) -> Status:
-        for _ in range(round(seconds / 0.05)):
-            self.situation.pose = Pose2(*self.robot.pose)
-            tree.tick_once()
-            self.situation.now += 0.05
-            list(self.robot.read(self.situation.now))
-            if tree.status is not Status.RUNNING:
-                break
-        return tree.status
 
 
 def test_a_patrol_of_two_laps_visits_every_point_twice_and_succeeds_at_rest() -> None:
@@ -172,3 +142,87 @@ def test_progress_counts_the_points_and_the_part_of_the_leg() -> None:
     assert course.time_left(10.0, 0.5) == pytest.approx((10.0 + 20.0) / 0.4)
     assert math.isnan(course.time_left(math.nan, 0.5))
     assert np.isfinite(course.progress(0.0))
+
+
+def test_new_points_count_from_the_next_choice_on_and_it_is_said() -> None:
+    stage = Stage()
+    course, tree = stage.patrol(Mission(waypoints=POINTS))
+    while course.visited < 1:
+        stage.tick(tree)
+    course.edit(patrol_route(Mission(waypoints=[POINTS[0], Waypoint(0.0, -2.0), POINTS[1]], laps=1)))
+    assert course.count == 3
+    assert course.goal.x == POINTS[0].x
+    assert stage.tick(tree, 60.0) is Status.SUCCESS
+    assert stage.said[1] == "The patrol goes on with the new mission of 3 points."
+    assert stage.said[2:] == ["Point 2 of 3 reached.", "Point 3 of 3 reached."]
+
+
+def test_a_point_taken_out_while_the_patrol_stands_at_it_gives_way_to_the_one_in_its_place() -> None:
+    course = patrol_course(Mission(waypoints=POINTS), random.Random(1))
+    course.advance()
+    course.reached()
+    course.advance()
+    course.reached()
+    course.edit(patrol_route(Mission(waypoints=[POINTS[0], POINTS[2]])))
+    assert course.take_over()
+    assert (course.advance().x, course.lap) == (POINTS[2].x, 1)
+    assert not course.take_over()
+
+
+def test_fewer_laps_than_were_made_end_the_patrol() -> None:
+    course = Course([Goal("a", 0.0, 0.0), Goal("b", 1.0, 0.0)], laps=0)
+    for _ in range(4):
+        course.advance()
+        course.reached()
+    assert not course.finished
+    course.edit(patrol_route(Mission(waypoints=POINTS, laps=2)))
+    course.take_over()
+    assert course.finished
+
+
+def test_a_patrol_that_is_taken_up_again_heads_for_the_point_that_it_headed_for() -> None:
+    before = patrol_course(Mission(waypoints=POINTS, laps=2), random.Random(1))
+    before.advance()
+    before.reached()
+    before.advance()
+    after = patrol_course(Mission(waypoints=POINTS, laps=2), random.Random(1))
+    after.take_up(before.noted())
+    assert (after.advance().x, after.visited, after.lap) == (POINTS[1].x, 1, 1)
+    fewer = patrol_course(Mission(waypoints=POINTS[:1]), random.Random(1))
+    fewer.take_up(before.noted())
+    assert fewer.advance().x == POINTS[0].x
+
+
+def test_an_intruder_is_gone_round_once_from_every_side_and_the_patrol_goes_on() -> None:
+    stage = Stage()
+    course, tree = stage.patrol(Mission(waypoints=[Waypoint(6.0, 0.0)], laps=1))
+    stage.tick(tree, 1.0)
+    stage.situation.intruders.append(Seen(3, 4.0, 0.5))
+    nearest, sides = math.inf, set()
+    while stage.tick(tree) is Status.RUNNING:
+        x, y, _ = stage.robot.pose
+        if stage.phase == "circling":
+            nearest = min(nearest, math.hypot(x - 4.0, y - 0.5))
+            sides.add(round(math.atan2(y - 0.5, x - 4.0) / (math.pi / 3)))
+            assert stage.situation.doing.text == "Going round intruder 3 and looking at it."
+    assert nearest > 1.0
+    assert len(sides) >= 6
+    assert stage.said == ["Intruder 3 was gone round; going on.", "Point 1 of 1 reached."]
+    assert course.visited == 1
+
+
+def test_sides_of_an_intruder_that_cannot_be_reached_are_left_out_and_counted() -> None:
+    stage = Stage()
+    _, tree = stage.patrol(Mission(waypoints=[Waypoint(6.0, 4.0)], laps=1))
+    stage.situation.intruders.append(Seen(1, 4.0, 5.4))
+    assert stage.tick(tree, 200.0) is Status.SUCCESS
+    assert stage.said[0] == "Intruder 1 was looked at from 4 of 6 sides; going on."
+
+
+def test_there_may_be_no_room_to_go_round_an_intruder() -> None:
+    stage = Stage()
+    stage.fault = lambda x, y: "outside the fence"
+    _, tree = stage.patrol(Mission(waypoints=[Waypoint(2.0, 0.0)], laps=1))
+    stage.situation.intruders.append(Seen(1, 4.0, 0.0))
+    assert stage.tick(tree, 60.0) is Status.SUCCESS
+    assert stage.said[0] == "There is no room to go round intruder 1; going on."

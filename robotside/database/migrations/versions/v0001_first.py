@@ -52,7 +52,7 @@ def upgrade() -> None:
 
 def _table(name: str, *columns: sa.Column[Any]) -> None:
     # MariaDB makes tables outside of transactions: after a cut some may be there already
-    op.create_table(name, *columns, if_not_exists=True, mysql_charset="utf8mb4")
+    op.create_table(name, *columns, if_not_exists=True, mysql_charset="utf8mb4", mariadb_charset="utf8mb4")
 
 
 def _id() -> sa.Column[int]:
