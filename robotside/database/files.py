@@ -11,7 +11,10 @@ from contextlib import closing, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 
-__all__ = ["Files", "Taken"]
+__all__ = ["PATIENCE", "Files", "Taken"]
+
+PATIENCE = 5.0
+"""How long to wait for another program that has the database [s]."""
 
 DAMAGED_KEPT = 3
 """Broken files that are kept for whoever wants to look into them."""
@@ -27,8 +30,10 @@ class Taken(Exception):
 class Files:
     """The records in one file, and what lies beside it."""
 
-    def __init__(self, path: Path, now: Callable[[], float] = time.time) -> None:
+    def __init__(self, path: Path, now: Callable[[], float] = time.time, patience: float = PATIENCE) -> None:
         """`path` is the database, which need not be there; `now` names backups and broken files.
+
+        `patience` [s] is waited for another process that has it.
 
         Raises OSError when its directory cannot be made.
         """
@@ -37,18 +42,18 @@ class Files:
         """The database."""
         self.backups_in = path.parent / "backups"
         """Where its backups are."""
-        self._now = now
+        self._now, self._patience = now, patience
         self._lock = -1
 
-    def take(self, patience: float) -> None:
+    def take(self) -> None:
         """Have the records to ourselves until `let_go` or the end of the process, whatever ends it.
 
-        Taken when another process does not let go of them within `patience` [s].
+        Taken when another process does not let go of them in time.
         """
         lock = os.open(
             self.path.with_name(f"{self.path.name}.lock"), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o644
         )
-        end = time.monotonic() + patience
+        end = time.monotonic() + self._patience
         while True:
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -76,7 +81,7 @@ class Files:
         if not path.exists():
             return ""
         try:
-            with closing(sqlite3.connect(path, timeout=5.0)) as database:
+            with closing(sqlite3.connect(path, timeout=self._patience)) as database:
                 found = database.execute("PRAGMA quick_check(1)").fetchone()
         except sqlite3.OperationalError as error:
             if "malformed" in str(error):
@@ -147,7 +152,7 @@ class Files:
 def _copy(source: Path, target: Path) -> None:
     """Copy a database to a whole file that is on the disk when this returns."""
     target.unlink(missing_ok=True)
-    with closing(sqlite3.connect(source, timeout=5.0)) as old, closing(sqlite3.connect(target)) as new:
+    with closing(sqlite3.connect(source, timeout=PATIENCE)) as old, closing(sqlite3.connect(target)) as new:
         old.backup(new)
         new.execute("PRAGMA journal_mode=DELETE")
     with target.open("rb") as file:

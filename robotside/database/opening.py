@@ -19,11 +19,11 @@ from sqlalchemy.engine import URL, make_url
 from sqlalchemy.exc import ArgumentError, NoSuchModuleError, SQLAlchemyError
 
 from bridge.errors import BridgeError
-from robotside.database.files import Files, Taken
+from robotside.database.files import PATIENCE, Files, Taken
 from robotside.database.legacy import left_behind, put_away
 from robotside.database.records import Records
 from robotside.database.rows import Content, Put
-from robotside.database.storage import PATIENCE, NotWritten, Storage, engine_of, not_written
+from robotside.database.storage import NotWritten, Storage, engine_of, not_written
 from robotside.database.writer import CallSoon, Keeper, Threaded
 
 __all__ = ["CannotOpen", "open_records", "upgrade"]
@@ -179,8 +179,8 @@ class _Local(Keeper):
         self._patience = patience
         directory = path.parent
         try:
-            self._files = Files(path, now)
-            self._files.take(patience)
+            self._files = Files(path, now, patience)
+            self._files.take()
         except OSError as error:
             why = (error.strerror or str(error)).lower()
             said = f"Nothing can be kept in {str(directory)!r}: {why}; --state names another directory."
