@@ -8,14 +8,32 @@ from __future__ import annotations
 import asyncio
 import math
 import threading
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Hashable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from bridge.errors import BridgeError, NoReply, NotConnected, Refused
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, SetMissionRequest, StartTaskRequest
+from bridge.msgs.pilothouse_msgs import (
+    CommandRequest,
+    CommandResponse,
+    DeletePlaceRequest,
+    DeletePlaceResponse,
+    DeleteScheduleRequest,
+    DeleteScheduleResponse,
+    GetHistoryRequest,
+    GetHistoryResponse,
+    SetMissionRequest,
+    SetPlaceRequest,
+    SetPlaceResponse,
+    SetQueueRequest,
+    SetQueueResponse,
+    SetScheduleRequest,
+    SetScheduleResponse,
+    StartTaskRequest,
+)
+from widgets.task_words import title
 
 __all__ = ["COMMANDS", "Commands", "DriveSlot", "Kind", "Outcome"]
 
@@ -137,9 +155,12 @@ class Kind:
     """What a one-shot command is made of."""
 
     service: str
-    request: type[CommandRequest]
+    request: type[Msg]
     label: str
     """In the operator's words, as in `start patrol`."""
+    response: type[Msg] = CommandResponse
+    about: Callable[[Mapping[str, Any]], Hashable] = lambda _: None
+    """Which one of several things it changes; commands about different things do not wait for each other."""
 
 
 COMMANDS: dict[str, Kind] = {
@@ -147,8 +168,39 @@ COMMANDS: dict[str, Kind] = {
     "pause": Kind("/task/pause", CommandRequest, "pause"),
     "resume": Kind("/task/resume", CommandRequest, "resume"),
     "cancel": Kind("/task/cancel", CommandRequest, "end the task"),
+    "confirm": Kind("/task/confirm", CommandRequest, "confirm"),
     "home": Kind("/task/go_home", CommandRequest, "go home"),
     "mission": Kind("/mission/set", SetMissionRequest, "send the mission"),
+    "place": Kind(
+        "/places/set",
+        SetPlaceRequest,
+        "keep the place",
+        SetPlaceResponse,
+        lambda fields: (fields["place"].id, fields["place"].id or fields["place"].name),
+    ),
+    "place_delete": Kind(
+        "/places/delete",
+        DeletePlaceRequest,
+        "delete the place",
+        DeletePlaceResponse,
+        lambda fields: fields["id"],
+    ),
+    "queue": Kind("/task/queue/set", SetQueueRequest, "change the queue", SetQueueResponse),
+    "schedule": Kind(
+        "/schedule/set",
+        SetScheduleRequest,
+        "schedule the task",
+        SetScheduleResponse,
+        lambda fields: fields["task"].id,
+    ),
+    "schedule_delete": Kind(
+        "/schedule/delete",
+        DeleteScheduleRequest,
+        "take it off the schedule",
+        DeleteScheduleResponse,
+        lambda fields: fields["id"],
+    ),
+    "history": Kind("/history/get", GetHistoryRequest, "read the history", GetHistoryResponse),
     "acquire": Kind("/control/acquire", CommandRequest, "take control"),
     "release": Kind("/control/release", CommandRequest, "release control"),
     "stop": Kind("/stop", CommandRequest, "STOP"),
@@ -172,10 +224,16 @@ class Outcome:
     """From the touch to the answer [s]; NaN without one."""
     fields: dict[str, Any] = field(default_factory=dict)
     """What was asked for, beyond the name."""
+    answer: Any = None
+    """The robot's whole answer, as of `Kind.response`; None without one."""
 
     @property
     def label(self) -> str:
         """The command in the operator's words."""
+        order = self.fields.get("order")
+        if self.name == "start" and order is not None and order.task:
+            words = title(order)
+            return f"start {words[0].lower()}{words[1:]}"
         return COMMANDS[self.name].label
 
     @property
@@ -188,6 +246,11 @@ class Outcome:
         if self.phase == "refused":
             return f"Refused: {self.label}. {self.reason}"
         return f"No reply: {self.label}. {self.reason}"
+
+
+def _alike(one: object, other: object) -> bool:
+    """Ask for the same; NaN is like NaN, and a place that is written alike is the same place."""
+    return repr(one) == repr(other)
 
 
 Call = Callable[..., Awaitable[Any]]
@@ -212,9 +275,10 @@ class Commands:
         self._call, self._report = call, report
         self._now, self._robot_time, self._new_id = now, robot_time, new_id
         self._who = {"client_id": client_id, "client_name": client_name}
-        self._under_way: dict[str, Outcome] = {}
-        self._next: dict[str, dict[str, Any]] = {}
-        """What to ask for, by command, once the one that is under way is answered."""
+        self._under_way: dict[Hashable, Outcome] = {}
+        """By command and what it is about."""
+        self._next: dict[Hashable, dict[str, Any]] = {}
+        """What to ask for, in the same way, once the one that is under way is answered."""
         self._stopping = False
         self._stop_confirmed = False
         self._stop_void = False
@@ -227,33 +291,34 @@ class Commands:
     async def send(self, name: str, **fields: Any) -> Outcome:
         """Send a command and wait for what becomes of it; KeyError for a name not in `COMMANDS`.
 
-        While one of the same name is under way, its state is the answer. One that asks for something else is sent
-        after it, the newest only; one that asks for the same is not sent again.
+        While one of the same name about the same thing is under way, its state is the answer. One that asks for
+        something else is sent after it, the newest only; one that asks for the same is not sent again.
         """
-        under_way = self._under_way.get(name)
+        what: Hashable = (name, COMMANDS[name].about(fields))
+        under_way = self._under_way.get(what)
         if under_way is not None:
-            self._next.pop(name, None)
-            if fields != under_way.fields:
-                self._next[name] = fields
+            self._next.pop(what, None)
+            if not _alike(fields, under_way.fields):
+                self._next[what] = fields
             return under_way
         try:
-            outcome = await self._send_one(name, fields)
-            while name in self._next:
-                outcome = await self._send_one(name, self._next.pop(name))
+            outcome = await self._send_one(name, what, fields)
+            while what in self._next:
+                outcome = await self._send_one(name, what, self._next.pop(what))
         finally:
-            self._next.pop(name, None)
+            self._next.pop(what, None)
         return outcome
 
-    async def _send_one(self, name: str, fields: dict[str, Any]) -> Outcome:
+    async def _send_one(self, name: str, what: Hashable, fields: dict[str, Any]) -> Outcome:
         started = self._now()
         outcome = Outcome(name, self._new_id(), "sent", fields=fields)
         request = self._request(outcome, VALID_FOR, fields)
-        self._under_way[name] = outcome
+        self._under_way[what] = outcome
         self._report(outcome)
         try:
             outcome = await self._ask(outcome, request, started)
         finally:
-            del self._under_way[name]
+            del self._under_way[what]
         self._report(outcome)
         return outcome
 
@@ -268,13 +333,11 @@ class Commands:
 
     async def _ask(self, outcome: Outcome, request: Msg, started: float) -> Outcome:
         """Ask with the same id until there is an answer or the command is too old."""
-        deadline = started + VALID_FOR
+        deadline, kind = started + VALID_FOR, COMMANDS[outcome.name]
         while True:
             timeout = min(TRY, deadline - self._now())
             try:
-                answer = await self._call(
-                    COMMANDS[outcome.name].service, request, CommandResponse, timeout=timeout
-                )
+                answer = await self._call(kind.service, request, kind.response, timeout=timeout)
             except (NoReply, NotConnected) as problem:
                 if self._now() + PAUSE >= deadline:
                     return replace(outcome, phase="no_reply", reason=str(problem))
@@ -285,7 +348,8 @@ class Commands:
                 return replace(outcome, phase="no_reply", reason=str(problem))
             else:
                 phase = "accepted" if answer.success else "refused"
-                return replace(outcome, phase=phase, reason=answer.message, latency=self._now() - started)
+                took = self._now() - started
+                return replace(outcome, phase=phase, reason=answer.message, latency=took, answer=answer)
 
     async def stop(self) -> None:
         """Send STOP until the robot confirms it, however long that takes and over reconnects.

@@ -12,7 +12,14 @@ import pytest
 from app.commands import COMMANDS, Commands, DriveSlot, Outcome
 from bridge.errors import NoReply, NotConnected, Refused
 from bridge.msgs.geometry_msgs import Twist, Vector3
-from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Mission
+from bridge.msgs.pilothouse_msgs import (
+    CommandRequest,
+    CommandResponse,
+    Mission,
+    Place,
+    SetPlaceResponse,
+    TaskOrder,
+)
 from tests.app import virtual
 
 AHEAD, TURN, ZERO = Twist.planar(0.4, 0.0), Twist.planar(0.0, 1.0), Twist()
@@ -276,6 +283,34 @@ def test_a_return_to_the_mission_that_is_under_way_sends_nothing_else() -> None:
 
     run(robot, what)
     assert [request.mission.laps for _, request, _ in robot.calls] == [1]
+
+
+def test_two_taps_on_start_send_one_order_though_it_leaves_the_speed_open() -> None:
+    robot = Robot(0.2, YES)
+
+    async def what(commands: Commands) -> None:
+        orders = [TaskOrder(task="deliver", places=["Office 12", "Lab"]) for _ in range(2)]
+        await asyncio.gather(*(commands.send("start", order=order) for order in orders))
+
+    run(robot, what)
+    assert len(robot.calls) == 1
+    assert robot.reports[-1].sentence.startswith("Accepted: start deliver: Office 12 → Lab")
+
+
+def test_no_place_takes_the_turn_of_another() -> None:
+    robot = Robot(0.2, YES, YES, YES)
+
+    async def what(commands: Commands) -> None:
+        await asyncio.gather(*(commands.send("place_delete", id=number) for number in (4, 7, 9)))
+
+    run(robot, what)
+    assert sorted(request.id for _, request, _ in robot.calls) == [4, 7, 9]
+
+
+def test_an_answer_that_says_more_is_handed_on() -> None:
+    robot = Robot(SetPlaceResponse(success=True, message="Lab is kept.", id=12))
+    outcome = run(robot, lambda commands: commands.send("place", place=Place(name="Lab")))
+    assert outcome.answer.id == 12
 
 
 def test_a_command_tells_who_when_and_how_long_it_is_valid() -> None:

@@ -1,0 +1,230 @@
+"""Tasks in words: what each is called, what it needs, and the sentence that says what will happen. Knows no Kivy.
+
+will(TaskOrder(task="go_to", places=["Lab"]))  # 'Goes to Lab and stays there.'
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from bridge.msgs.pilothouse_msgs import Mission, ScheduledTask, TaskOrder
+
+__all__ = [
+    "KINDS",
+    "STATES",
+    "TASKS",
+    "TaskWords",
+    "distance_words",
+    "heading_of",
+    "lacking",
+    "rhythm",
+    "span_words",
+    "title",
+    "will",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class TaskWords:
+    """How a task looks and reads."""
+
+    name: str
+    """As on a button."""
+    icon: str
+    doing: str
+    """As in `AUTO · patrol`."""
+    fields: tuple[str, ...]
+    """What the operator may say about it, in the order of the form."""
+    about: str
+    """What it is for, in a few words."""
+
+
+TASKS: dict[str, TaskWords] = {
+    "patrol": TaskWords(
+        "Patrol", "route", "patrol", ("points", "reaction"), "Round the points, watching for intruders"
+    ),
+    "deliver": TaskWords(
+        "Deliver",
+        "local_shipping",
+        "delivery",
+        ("from", "to", "then", "message", "recipient"),
+        "Fetch from one place, bring to another",
+    ),
+    "guide": TaskWords("Guide", "group", "guiding", ("stops", "message"), "Lead a person along places"),
+    "go_to": TaskWords("Go to", "near_me", "going", ("to",), "Drive to a place and stay"),
+    "go_home": TaskWords("Go home", "home", "going home", (), "Return to where it lives"),
+    "hold": TaskWords("Hold", "pause_circle", "holding", ("duration",), "Stand still where it is"),
+    "follow_heading": TaskWords(
+        "Heading", "explore", "heading", ("heading", "speed", "duration"), "Drive straight in one direction"
+    ),
+    "dock": TaskWords("Dock", "battery_charging_full", "docking", ("dock",), "Onto the charger"),
+}
+"""Every task in the order of the chooser."""
+
+KINDS: dict[str, tuple[str, str, str]] = {
+    "place": ("place", "Place", "Places"),
+    "office": ("door_front", "Office", "Offices"),
+    "home": ("home", "Home", "Home"),
+    "dock": ("battery_charging_full", "Dock", "Docks"),
+    "reception": ("person", "Reception", "Reception"),
+    "lab": ("build", "Lab", "Labs"),
+    "hall": ("crop_free", "Hall", "Halls"),
+}
+"""Kind of a place to icon, word and word for several."""
+
+STATES: dict[str, tuple[str, str, str]] = {
+    "IDLE": ("info", "muted", "idle"),
+    "RUNNING": ("play_arrow_fill", "accent", "runs"),
+    "PAUSED": ("pause_fill", "warn", "paused"),
+    "SUCCEEDED": ("check_circle", "ok", "done"),
+    "CANCELED": ("cancel", "muted", "canceled"),
+    "FAILED": ("error", "danger", "failed"),
+    "INTERRUPTED": ("warning", "warn", "cut short"),
+}
+"""State of a task to icon, role and word."""
+
+NEEDS = {
+    "deliver": ((2, "Choose where to fetch it."), (1, "Choose where to bring it.")),
+    "guide": ((1, "Choose at least one place to lead to."),),
+    "go_to": ((1, "Choose where to go."),),
+}
+DAYS = ("Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun")
+REACTS = {
+    "stop": "Stops when it finds an intruder.",
+    "report": "Reports intruders and goes on.",
+    "circle": "Goes once round each intruder, then on.",
+}
+
+
+def title(order: TaskOrder) -> str:
+    """An order in a few words, as in `Deliver: Office 12 → Lab`."""
+    words = TASKS.get(order.task)
+    name = words.name if words else order.task or "No task"
+    places = [place for place in order.places if place]
+    if order.task == "follow_heading":
+        return f"{name} {heading_of(order.heading)}"
+    if order.task == "hold" and math.isfinite(order.duration):
+        return f"{name} for {span_words(order.duration)}"
+    if order.task == "go_to" and places:
+        return f"{name} {places[0]}"
+    if not places:
+        return name
+    shown = places if len(places) <= 3 else [places[0], f"{len(places) - 2} more", places[-1]]
+    return f"{name}: {' → '.join(shown)}"
+
+
+def lacking(order: TaskOrder, mission: Mission | None = None) -> str:
+    """What must still be said before the order can be given, as one sentence; empty when nothing."""
+    places = order.places
+    if order.task == "patrol" and not places and mission is not None and not mission.waypoints:
+        return "The mission has no points: set some on the map, or choose places here."
+    if order.task == "deliver":
+        start, end = [*places, "", ""][:2]
+        if not start or not end:
+            return NEEDS["deliver"][0 if not start else 1][1]
+        if start == end:
+            return f"It cannot bring from {start} to {end}: choose two places."
+        return ""
+    for least, sentence in NEEDS.get(order.task, ()):
+        if len([place for place in places if place]) < least and not order.goals:
+            return sentence
+    return "" if order.task in TASKS else "Choose a task."
+
+
+def will(order: TaskOrder, mission: Mission | None = None) -> str:
+    """What will happen when the order is given, as a sentence or two; what is lacking when it cannot be given."""
+    missing = lacking(order, mission)
+    if missing:
+        return missing
+    says = {"patrol": lambda: _patrols(order, mission or Mission())}
+    says |= {"deliver": lambda: _delivers(order), "guide": lambda: _guides(order), "dock": lambda: _docks(order)}
+    if order.task in says:
+        return says[order.task]()
+    how_long = f"for {span_words(order.duration)}" if math.isfinite(order.duration) else "until you stop it"
+    if order.task == "hold":
+        return f"Stands still where it is {how_long}."
+    if order.task == "follow_heading":
+        speed = f" at {order.speed:.1f} m/s" if math.isfinite(order.speed) else ""
+        where = heading_of(order.heading)
+        towards = "where it points now" if math.isnan(order.heading) else where
+        return f"Drives straight towards {towards}{speed} {how_long}."
+    if order.task == "go_home":
+        return "Goes home and stays there."
+    goal = order.places[0] if order.places else "the goal"
+    return f"Goes to {goal} and stays there."
+
+
+def _patrols(order: TaskOrder, mission: Mission) -> str:
+    count = len(order.places) or len(mission.waypoints)
+    what = _listed(order.places) if order.places else f"{count} point{'' if count == 1 else 's'}"
+    laps = f", {mission.laps} lap{'' if mission.laps == 1 else 's'}" if mission.laps else ", until you stop it"
+    how = {"loop": "in order", "random": "in any order", "intermittent": f"with {mission.dwell:g} s at each"}
+    react = "stop" if mission.stop_on_intruder else mission.on_intruder or "report"
+    return f"Visits {what} {how.get(mission.motion, mission.motion)}{laps}. {REACTS.get(react, '')}"
+
+
+def _delivers(order: TaskOrder) -> str:
+    start, end, then = [*order.places, "", "", ""][:3]
+    who = "a tap here or the addressee's tag" if order.recipient_tag else "a tap here or the tag of the place"
+    after = f" Then goes on to {then}." if then else ""
+    return f"Fetches at {start}, brings it to {end}; waits at each for {who}.{after}"
+
+
+def _guides(order: TaskOrder) -> str:
+    names = [place for place in order.places if place]
+    return f"Leads a person to {_listed(names)}, waits when nobody follows, and tells what is there."
+
+
+def _docks(order: TaskOrder) -> str:
+    return f"Drives onto {order.places[0] if order.places else 'its dock'} and charges."
+
+
+def _listed(names: Sequence[str]) -> str:
+    """As in `A, B and C`."""
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+
+
+def heading_of(yaw: float) -> str:
+    """A yaw [rad] as the heading that people steer by, as in `090°`; `ahead` for NaN."""
+    if not math.isfinite(yaw):
+        return "ahead"
+    return f"{round(90 - math.degrees(yaw)) % 360:03d}°"
+
+
+def span_words(seconds: float) -> str:
+    """A length of time [s] in words, as in `1 h 30 min`; a dash for NaN."""
+    if not math.isfinite(seconds):
+        return "—"
+    if seconds < 60:
+        return f"{seconds:.0f} s"
+    minutes = round(seconds / 60)
+    if minutes < 60:
+        return f"{minutes} min"
+    hours, minutes = divmod(minutes, 60)
+    if hours < 24:
+        return f"{hours} h {minutes} min" if minutes else f"{hours} h"
+    days, hours = divmod(hours, 24)
+    return f"{days} d {hours} h" if hours else f"{days} d"
+
+
+def distance_words(metres: float) -> str:
+    """A distance [m] in words; a dash for NaN."""
+    if not math.isfinite(metres):
+        return "—"
+    return f"{metres / 1000:.1f} km" if metres >= 1000 else f"{metres:.0f} m"
+
+
+def rhythm(task: ScheduledTask) -> str:
+    """When a scheduled task starts, as in `22:00, Mon to Fri`."""
+    if not task.at:
+        return f"every {span_words(task.every)}"
+    days = [index for index, on in enumerate(task.days) if on]
+    if len(days) == 7:
+        return f"{task.at}, every day"
+    if not days:
+        return f"{task.at}, on no day"
+    if len(days) > 2 and days == list(range(days[0], days[-1] + 1)):
+        return f"{task.at}, {DAYS[days[0]]} to {DAYS[days[-1]]}"
+    return f"{task.at}, {', '.join(DAYS[day] for day in days)}"
