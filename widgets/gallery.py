@@ -28,6 +28,7 @@ KIT = {
     "Stepper": "widgets.stepper",
     "Amounts": "widgets.amounts",
     "TextField": "widgets.text_field",
+    "Rows": "widgets.rows",
 }
 """The kit's modules, shown after the robot widgets."""
 

@@ -7,6 +7,7 @@ from widgets.buttons import IconButton, NavButton, PrimaryButton, PushButton, Qu
 from widgets.cards import Banner, Card, Sheet, Toast
 from widgets.choices import Segmented, Toggle
 from widgets.labels import Chip, Icon, SectionLabel, Text, ValueUnit, spaced
+from widgets.rows import DragHandle, ListRow, Roll
 from widgets.stepper import Stepper
 from widgets.text_field import TextField
 
@@ -14,14 +15,17 @@ __all__ = [
     "Banner",
     "Card",
     "Chip",
+    "DragHandle",
     "Fader",
     "Icon",
     "IconButton",
+    "ListRow",
     "NavButton",
     "PrimaryButton",
     "Progress",
     "PushButton",
     "QuietButton",
+    "Roll",
     "SectionLabel",
     "Segmented",
     "Sheet",

@@ -139,7 +139,11 @@ def will(order: TaskOrder, mission: Mission | None = None) -> str:
     if missing:
         return missing
     says = {"patrol": lambda: _patrols(order, mission or Mission())}
-    says |= {"deliver": lambda: _delivers(order), "guide": lambda: _guides(order), "dock": lambda: _docks(order)}
+    says |= {
+        "deliver": lambda: _delivers(order),
+        "guide": lambda: _guides(order),
+        "dock": lambda: _docks(order),
+    }
     if order.task in says:
         return says[order.task]()
     how_long = f"for {span_words(order.duration)}" if math.isfinite(order.duration) else "until you stop it"
@@ -159,7 +163,9 @@ def will(order: TaskOrder, mission: Mission | None = None) -> str:
 def _patrols(order: TaskOrder, mission: Mission) -> str:
     count = len(order.places) or len(mission.waypoints)
     what = _listed(order.places) if order.places else f"{count} point{'' if count == 1 else 's'}"
-    laps = f", {mission.laps} lap{'' if mission.laps == 1 else 's'}" if mission.laps else ", until you stop it"
+    laps = (
+        f", {mission.laps} lap{'' if mission.laps == 1 else 's'}" if mission.laps else ", until you stop it"
+    )
     how = {"loop": "in order", "random": "in any order", "intermittent": f"with {mission.dwell:g} s at each"}
     react = "stop" if mission.stop_on_intruder else mission.on_intruder or "report"
     return f"Visits {what} {how.get(mission.motion, mission.motion)}{laps}. {REACTS.get(react, '')}"

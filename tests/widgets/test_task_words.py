@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from bridge.msgs.pilothouse_msgs import TASKS as KNOWN
 from bridge.msgs.pilothouse_msgs import PLACE_KINDS, Mission, ScheduledTask, TaskOrder, Waypoint
+from bridge.msgs.pilothouse_msgs import TASKS as KNOWN
 from widgets.task_words import KINDS, TASKS, heading_of, lacking, rhythm, span_words, title, will
 
 SIX = Mission(waypoints=[Waypoint(float(x), 0.0) for x in range(6)], on_intruder="circle")

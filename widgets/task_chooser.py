@@ -1,0 +1,137 @@
+"""What the robot can be asked to do, one tile each.
+
+chooser = TaskChooser()
+chooser.bind(on_command=lambda _, task: form.begin(task))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from kivy.lang import Builder
+from kivy.metrics import dp
+from kivy.properties import AliasProperty, BooleanProperty, ListProperty, StringProperty
+from kivy.uix.behaviors import ButtonBehavior
+from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.gridlayout import GridLayout
+from kivy.uix.widget import Widget
+
+import widgets.labels  # noqa: F401 - its rules draw the icons
+from bridge.msgs.pilothouse_msgs import TaskOrder
+from widgets.base import Control
+from widgets.task_words import TASKS
+
+__all__ = ["TaskChooser"]
+
+Builder.load_string("""
+<TaskChooser>:
+    size_hint_y: None
+    height: self.minimum_height
+    cols: root.across
+    spacing: dp(8)
+
+<TaskTile>:
+    orientation: 'vertical'
+    size_hint_y: None
+    height: max(theme.target, dp(66))
+    padding: dp(2), dp(9), dp(2), dp(7)
+    spacing: dp(2)
+    canvas.before:
+        Color:
+            rgba: theme.roles['plan' if root.chosen else 'line']
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.corner]
+        Color:
+            rgba: theme.roles['plan' if root.chosen else 'raised']
+        SmoothRoundedRectangle:
+            pos: self.x + theme.outline, self.y + theme.outline
+            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
+            radius: [theme.corner - theme.outline]
+        Color:
+            rgba: theme.text[:3] + [.14 if self.state == 'down' else 0]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.corner]
+    Icon:
+        name: root.icon
+        role: 'ink_plan' if root.chosen else 'plan'
+        pos_hint: {'center_x': .5}
+    Label:
+        text: root.text
+        font_name: theme.font
+        font_size: sp(13.5)
+        bold: root.chosen
+        color: theme.roles['ink_plan' if root.chosen else 'text']
+        disabled_color: self.color
+""")
+
+
+class TaskTile(ButtonBehavior, BoxLayout):
+    """One task."""
+
+    icon = StringProperty("route")
+    text = StringProperty("")
+    chosen = BooleanProperty(False)
+
+
+class TaskChooser(Control, GridLayout):
+    """Dispatches `on_command(task)` with the name that TaskOrder has for it."""
+
+    accepts = (TaskOrder,)
+
+    tasks = ListProperty(list(TASKS))
+    """Those that are offered."""
+    chosen = StringProperty("")
+    """The task that stands out; empty for none."""
+
+    def _across(self) -> int:
+        return 4 if self.width < dp(700) else 8
+
+    across = AliasProperty(_across, bind=["width"], cache=True)
+    """How many tiles stand side by side."""
+
+    def __init__(self, **kwargs: object) -> None:
+        self._tiles: dict[str, TaskTile] = {}
+        super().__init__(**kwargs)
+        self.bind(tasks=self._build, chosen=self._mark)
+        self._build()
+
+    def show(self, msg: TaskOrder) -> None:
+        """Mark the task of an order; nothing is dispatched."""
+        self.chosen = msg.task
+
+    def choose(self, task: str) -> None:
+        """Choose as a finger would; KeyError for a task that is not offered."""
+        self.chosen = task if self._tiles[task] else ""
+        self.dispatch("on_command", task)
+
+    def _build(self, *_: object) -> None:
+        self.clear_widgets()
+        self._tiles = {}
+        for task in self.tasks:
+            words = TASKS[task]
+            tile = self._tiles[task] = TaskTile(icon=words.icon, text=words.name)
+            tile.bind(on_release=lambda _, task=task: self.choose(task))
+            self.add_widget(tile)
+        self._mark()
+
+    def _mark(self, *_: object) -> None:
+        for task, tile in self._tiles.items():
+            tile.chosen = task == self.chosen
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """None chosen, one chosen, in one row."""
+
+    def make(width: str = "388dp", **kwargs: object) -> Callable[[], Widget]:
+        return lambda: TaskChooser(size_hint_x=None, width=width, **kwargs)
+
+    return {
+        "none": make(),
+        "one": make(chosen="deliver"),
+        "row": make("760dp", chosen="guide"),
+        "disabled": make(chosen="patrol", state="disabled"),
+    }
