@@ -9,7 +9,7 @@ from typing import Any
 
 import msgspec
 
-from bridge.msgs.pilothouse_msgs import LONGEST_DWELL, MOST_LAPS, MOTIONS, Mission, Waypoint
+from bridge.msgs.pilothouse_msgs import LONGEST_DWELL, MOST_LAPS, MOTIONS, REACTIONS, Mission, Waypoint
 
 __all__ = ["Draft", "MissionEditor"]
 
@@ -32,14 +32,18 @@ class Draft:
     """Stay at each point in intermittent motion [s]."""
     laps: int = 0
     """Rounds to make; 0 goes on until stopped."""
-    stop_on_intruder: bool = False
+    on_intruder: str = "report"
+    """`stop`, `report` or `circle` when one is found."""
+    name: str = ""
+    """What the robot keeps the mission as; empty for none."""
 
     @classmethod
     def of(cls, mission: Mission) -> Draft:
         """The draft that a robot's mission was sent as."""
         home = (mission.home[0].x, mission.home[0].y) if mission.home else None
         points = tuple((point.x, point.y) for point in mission.waypoints)
-        return cls(points, home, mission.motion, mission.dwell, mission.laps, mission.stop_on_intruder)
+        reaction = "stop" if mission.stop_on_intruder else mission.on_intruder or "report"
+        return cls(points, home, mission.motion, mission.dwell, mission.laps, reaction, mission.name)
 
     def message(self) -> Mission:
         """The same for the robot."""
@@ -51,7 +55,9 @@ class Draft:
             motion=self.motion,
             dwell=self.dwell,
             laps=self.laps,
-            stop_on_intruder=self.stop_on_intruder,
+            stop_on_intruder=self.on_intruder == "stop",
+            on_intruder=self.on_intruder,
+            name=self.name,
         )
 
     def same_as(self, other: Draft) -> bool:
@@ -168,12 +174,16 @@ class MissionEditor:
         motion: str | None = None,
         dwell: float | None = None,
         laps: int | None = None,
-        stop_on_intruder: bool | None = None,
+        on_intruder: str | None = None,
     ) -> None:
-        """Change what is given; numbers beyond their bounds are brought to them. ValueError for an unknown motion."""
-        if motion is not None and motion not in MOTIONS:
-            raise ValueError(f"The motion is one of {', '.join(MOTIONS)}, not {motion!r}.")
-        changes: dict[str, Any] = {"motion": motion, "stop_on_intruder": stop_on_intruder}
+        """Change what is given; numbers beyond their bounds are brought to them.
+
+        ValueError for an unknown motion or reaction to an intruder.
+        """
+        for what, value, known in (("motion", motion, MOTIONS), ("reaction", on_intruder, REACTIONS)):
+            if value is not None and value not in known:
+                raise ValueError(f"The {what} is one of {', '.join(known)}, not {value!r}.")
+        changes: dict[str, Any] = {"motion": motion, "on_intruder": on_intruder}
         changes["dwell"] = None if dwell is None else min(max(dwell, 0.0), LONGEST_DWELL)
         changes["laps"] = None if laps is None else min(max(laps, 0), MOST_LAPS)
         changes = {name: value for name, value in changes.items() if value is not None}
@@ -243,7 +253,8 @@ class MissionEditor:
         except msgspec.ValidationError:
             return False
         numbers = [value for place in (*draft.points, draft.home or ()) for value in _flat(place)]
-        if draft.motion not in MOTIONS or not all(map(math.isfinite, [*numbers, draft.dwell])):
+        known = draft.motion in MOTIONS and draft.on_intruder in REACTIONS
+        if not known or not all(map(math.isfinite, [*numbers, draft.dwell])):
             return False
         self.draft = draft
         self._undo.clear()

@@ -17,7 +17,7 @@ from kivy.uix.widget import Widget
 
 import widgets.choices
 import widgets.stepper  # noqa: F401 - same
-from bridge.msgs.pilothouse_msgs import LONGEST_DWELL, MOST_LAPS, MOTIONS, Mission
+from bridge.msgs.pilothouse_msgs import LONGEST_DWELL, MOST_LAPS, MOTIONS, REACTIONS, Mission
 from widgets.base import Control
 
 __all__ = ["MotionSelector"]
@@ -57,12 +57,12 @@ Builder.load_string("""
             maximum: root.most_laps
             pos_hint: {'center_y': .5}
             on_change: root.choose('laps', int(args[1]))
-    MotionRow:
-        title: 'Stop when an intruder is seen'
-        Toggle:
-            active: root.stop_on_intruder
-            pos_hint: {'center_y': .5}
-            on_change: root.choose('stop_on_intruder', args[1])
+    SectionLabel:
+        title: 'When it finds an intruder'
+    Segmented:
+        options: root.reactions
+        value: root.reaction
+        on_choose: root.choose('on_intruder', args[1])
 
 <MotionRow@BoxLayout>:
     title: ''
@@ -92,7 +92,10 @@ class MotionSelector(Control, BoxLayout):
     """How long it stands at each point in intermittent motion [s]."""
     laps = NumericProperty(0)
     """0 goes on until stopped."""
-    stop_on_intruder = BooleanProperty(False)
+    reactions = [("report", "Report"), ("stop", "Stop"), ("circle", "Circle it")]
+    """Each reaction to an intruder and its word."""
+    reaction = OptionProperty("report", options=list(REACTIONS))
+    """What it does when it finds an intruder; a property called `on_intruder` would be an event to Kivy."""
     brief = BooleanProperty(False)
     """Leaves its name away, for a phone."""
 
@@ -107,11 +110,12 @@ class MotionSelector(Control, BoxLayout):
         self.motion_name = msg.motion
         self.dwell = msg.dwell
         self.laps = msg.laps
-        self.stop_on_intruder = msg.stop_on_intruder
+        known = msg.on_intruder if msg.on_intruder in REACTIONS else "report"
+        self.reaction = "stop" if msg.stop_on_intruder else known
 
     def choose(self, name: str, value: Any) -> None:
-        """Change `motion`, `dwell`, `laps` or `stop_on_intruder` as a finger would."""
-        setattr(self, "motion_name" if name == "motion" else name, value)
+        """Change `motion`, `dwell`, `laps` or `on_intruder` as a finger would."""
+        setattr(self, {"motion": "motion_name", "on_intruder": "reaction"}.get(name, name), value)
         self.dispatch("on_command", {name: value})
 
 
@@ -128,7 +132,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
 
     return {
         "loop": make(Mission(stop_on_intruder=True)),
-        "random": make(Mission(motion="random", laps=3)),
+        "random": make(Mission(motion="random", laps=3, on_intruder="circle")),
         "intermittent": make(Mission(motion="intermittent", dwell=8.0)),
         "disabled": make(Mission(), state="disabled"),
     }

@@ -195,15 +195,31 @@ def test_the_robots_rounding_does_not_make_a_draft_of_a_stored_mission(editor: M
 
 def test_a_saved_draft_comes_back_whole(editor: MissionEditor) -> None:
     editor.set_home(1.5, 2.5)
-    editor.set_motion(motion="intermittent", dwell=7.5, laps=3, stop_on_intruder=True)
+    editor.set_motion(motion="intermittent", dwell=7.5, laps=3, on_intruder="circle")
     other = MissionEditor()
     assert other.load(editor.save())
     assert other.draft == editor.draft
 
 
+@pytest.mark.parametrize("reaction", ["stop", "report", "circle"])
+def test_what_an_intruder_brings_about_goes_to_the_robot_and_back(editor: MissionEditor, reaction: str) -> None:
+    editor.set_motion(on_intruder=reaction)
+    told = editor.sending()
+    assert (told.on_intruder, told.stop_on_intruder) == (reaction, reaction == "stop")
+    editor.robot_has(told)
+    assert editor.state == "stored"
+
+
+def test_the_name_of_a_kept_mission_is_not_lost_by_an_edit() -> None:
+    editor = MissionEditor()
+    editor.robot_has(Mission(waypoints=[Waypoint(1.0, 1.0)], name="Night"))
+    editor.add(2.0, 2.0)
+    assert editor.sending().name == "Night"
+
+
 @pytest.mark.parametrize(
     "saved",
-    [None, [], {"points": "x"}, {"points": [[1]]}, {"points": [[math.nan, 1.0]]}, {"motion": "zigzag"}],
+    [None, [], {"points": "x"}, {"points": [[1]]}, {"points": [[math.nan, 1.0]]}, {"motion": "zigzag"}, {"on_intruder": "eat"}],
 )
 def test_a_damaged_draft_is_not_loaded(editor: MissionEditor, saved: object) -> None:
     assert not editor.load(saved)

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from bridge.msgs.pilothouse_msgs import Mission
-from widgets.choices import Segment, Toggle
+from widgets.choices import Segment
 from widgets.motion_selector import MotionSelector
 from widgets.stepper import StepperEnd
 
@@ -27,18 +27,18 @@ def tap(stage, widget):
 
 
 def test_showing_a_mission_commands_nothing(selector):
-    selector.show(Mission(motion="random", dwell=8.0, laps=3, stop_on_intruder=True))
-    assert (selector.motion_name, selector.dwell, selector.laps, selector.stop_on_intruder) == (
+    selector.show(Mission(motion="random", dwell=8.0, laps=3, on_intruder="circle"))
+    assert (selector.motion_name, selector.dwell, selector.laps, selector.reaction) == (
         "random",
         8.0,
         3,
-        True,
+        "circle",
     )
     assert selector.heard == []
 
 
 def test_a_finger_chooses_the_motion(stage, selector):
-    for segment in parts(selector, Segment)[1:]:
+    for segment in parts(selector, Segment)[1:3]:
         tap(stage, segment)
     assert selector.heard == [{"motion": "random"}, {"motion": "intermittent"}]
 
@@ -60,13 +60,19 @@ def test_laps_go_from_until_stopped_upward(stage, selector):
     assert selector.heard == [{"laps": 1}, {"laps": 2}]
 
 
-def test_an_intruder_can_be_made_to_stop_it(stage, selector):
-    tap(stage, parts(selector, Toggle)[0])
-    assert selector.heard == [{"stop_on_intruder": True}]
+def test_what_an_intruder_makes_it_do_is_chosen(stage, selector):
+    for segment in parts(selector, Segment)[4:]:
+        tap(stage, segment)
+    assert selector.heard == [{"on_intruder": "stop"}, {"on_intruder": "circle"}]
+
+
+def test_a_robot_that_only_knows_to_stop_is_understood(selector):
+    selector.show(Mission(stop_on_intruder=True))
+    assert selector.reaction == "stop"
 
 
 def test_disabled_it_changes_nothing(stage, selector):
     selector.state = "disabled"
-    for part in [*parts(selector, Segment), *parts(selector, StepperEnd), *parts(selector, Toggle)]:
+    for part in [*parts(selector, Segment), *parts(selector, StepperEnd)]:
         tap(stage, part)
     assert selector.heard == []

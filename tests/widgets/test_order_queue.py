@@ -49,7 +49,7 @@ def test_the_others_make_room_while_one_is_dragged(stage, queue):
     touch = stage.touch(x, y)
     touch.touch_down()
     touch.touch_move(x, y - 80)
-    assert [row.title for row in rows(queue)][0] == "Patrol"
+    assert rows(queue)[0].title == "Patrol"
     queue.show(TaskQueue(orders=THREE[1:]))  # what the robot says waits for the finger
     assert len(rows(queue)) == 3
     touch.touch_up()

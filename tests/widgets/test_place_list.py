@@ -1,15 +1,11 @@
 from __future__ import annotations
 
-import math
-
 import pytest
 
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
 from bridge.msgs.pilothouse_msgs import Place, PlaceArray
 from widgets.place_list import MOST, SOME, PlaceList, found, grouped
 from widgets.rows import ListRow
-
-NOWHERE = (math.nan, math.nan)
 
 
 def at(x, y):
@@ -40,7 +36,7 @@ def test_the_nearest_group_comes_first_and_in_it_the_nearest_place(stage, places
     places.show(at(2.0, 1.0))
     stage.frames(3)
     assert names(places)[:2] == ["Office 12", "Office 9"]
-    assert [title for title, _ in grouped(SOME, (0.0, 0.5))][0] == "Floor 0 · Reception"
+    assert grouped(SOME, (0.0, 0.5))[0][0] == "Floor 0 · Reception"
 
 
 def test_the_rows_stay_under_the_finger_while_the_robot_drives_and_tell_the_new_distance(stage, places):
