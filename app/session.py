@@ -17,6 +17,7 @@ from app.local_stop import LocalStop
 from app.mission import Draft, MissionEditor
 from app.offer import CAMERA, Offer
 from app.settings import Settings
+from app.tasking import Tasking
 from bridge.client import LinkState, Phase
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, Mission, RobotInfo, TaskStatus
@@ -54,6 +55,7 @@ class Session:
         self.client_id, self.client_name = client_id, client_name
         self.wants_control = wants_control
         self.mission = MissionEditor(on_change=self._mission_changed)
+        self.tasking = Tasking(self)
         self.outcomes: dict[str, Outcome] = {}
         """The last outcome of each command by its name."""
         self.listeners: list[Callable[[str, Post], None]] = []
@@ -207,6 +209,7 @@ class Session:
             LINK: self._link_changed,
             OFFER: self._offered,
             OUTCOME: self._outcome,
+            "/task/queue": self.tasking.queue.robot_has,
         }
         if channel in takes:
             takes[channel](post.value)
@@ -250,6 +253,7 @@ class Session:
             link.stop()
         if self.mission.sent is not None:
             self.mission.answered(self.mission.sent, False, "No reply: the link was closed.")
+        self.tasking.dropped()
         self._link_changed(link.state)
 
     def _offered(self, offer: Offer) -> None:
@@ -272,6 +276,7 @@ class Session:
         if outcome.name == "mission" and outcome.phase != "sent":
             sent = Draft.of(outcome.fields["mission"])
             self.mission.answered(sent, outcome.phase == "accepted", outcome.sentence)
+        self.tasking.answered(outcome)
 
     def _introduced(self) -> None:
         if not self._known:

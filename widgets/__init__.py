@@ -25,6 +25,7 @@ CATALOGUE: dict[str, str] = {
     "MotionSelector": "widgets.motion_selector",
     "OrderForm": "widgets.order_form",
     "OrderQueue": "widgets.order_queue",
+    "PlaceForm": "widgets.place_form",
     "PlaceList": "widgets.place_list",
     "QuestionCard": "widgets.question_card",
     "Readout": "widgets.readout",

@@ -12,10 +12,11 @@ from kivy.properties import BooleanProperty, ListProperty, NumericProperty, Opti
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
+import widgets.buttons  # noqa: F401 - its rules draw what can be done about a toast
 from widgets.labels import SectionLabel, Text, ValueUnit
 from widgets.theme import theme
 
-__all__ = ["Banner", "Card", "Sheet", "Toast"]
+__all__ = ["ActionToast", "Banner", "Card", "Sheet", "Toast"]
 
 MOTION = 0.15
 """Time of a movement on the glass [s]."""
@@ -79,6 +80,17 @@ Builder.load_string("""
         text: root.text
         font_size: sp(15)
         pos_hint: {'center_y': .5}
+
+<ActionToast>:
+    height: max(theme.target + dp(8), self.minimum_height)
+    padding: dp(14), 0, dp(4), 0
+    QuietButton:
+        text: root.action
+        icon: 'undo'
+        size_hint_x: None
+        width: dp(112)
+        pos_hint: {'center_y': .5}
+        on_release: root.act()
 
 <Sheet>:
     orientation: 'vertical'
@@ -178,6 +190,25 @@ class Toast(Banner):
             self._leaving.cancel()
 
 
+class ActionToast(Toast):
+    """A toast with one thing to do about it, as to undo; dispatches `on_act` and leaves."""
+
+    __events__ = ("on_act",)
+
+    action = StringProperty("Undo")
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**{"closable": False, **kwargs})
+
+    def act(self) -> None:
+        """Do it as a finger would."""
+        self.dispatch("on_act")
+        self.close()
+
+    def on_act(self) -> None:
+        """A finger asked for it."""
+
+
 class SheetGrip(Widget):
     """The bar that says a sheet can be pulled."""
 
@@ -271,5 +302,6 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "floating": lambda: _card(floating=True),
         "alarmed": lambda: _card(outline="danger"),
         **{f"banner {level}": banner(level) for level in sentences},
+        "undo": lambda: ActionToast(text="Deleted: Office 12.", size_hint_x=None, width="400dp"),
         "sheet": _sheet,
     }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from widgets.amounts import Fader, Progress
 from widgets.buttons import IconButton, NavButton, PrimaryButton, PushButton, QuietButton
-from widgets.cards import Banner, Card, Sheet, Toast
+from widgets.cards import ActionToast, Banner, Card, Sheet, Toast
 from widgets.choices import Segmented, Toggle
 from widgets.labels import Chip, Icon, SectionLabel, Text, ValueUnit, spaced
 from widgets.rows import DragHandle, ListRow, Roll
@@ -12,6 +12,7 @@ from widgets.stepper import Stepper
 from widgets.text_field import TextField
 
 __all__ = [
+    "ActionToast",
     "Banner",
     "Card",
     "Chip",

@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from kivy.clock import Clock
 from kivy.input import MotionEvent
 from kivy.metrics import dp
 from kivy.properties import ListProperty, NumericProperty, ObjectProperty, OptionProperty
@@ -22,6 +23,8 @@ __all__ = ["Grip", "MapGestures"]
 
 SLOP = 8
 """How far a finger may slip and still tap [dp]."""
+HELD = 0.6
+"""A finger that stays so long [s] asks for a new place."""
 WHEEL = 1.2
 """Zoom of one step of the wheel."""
 
@@ -48,20 +51,31 @@ class MapGestures(Widget):
 
     view = ObjectProperty(View())
     """How the world lies on the screen, a `View`."""
-    mode = OptionProperty("view", options=("view", "points", "home", "place_robot"))
-    """What a tap or a drag means: look only; add, select and move waypoints; set home; say where the robot is."""
+    mode = OptionProperty("view", options=("view", "points", "home", "place", "place_robot"))
+    """What a tap or a drag means: look only; add, select and move waypoints; set home; make and open named places;
+    say where the robot is."""
     waypoints = ListProperty()
     """Places to pass in order, (x, y) in `map` [m]."""
     selected = NumericProperty(-1)
     """Index of the selected waypoint; -1 for none."""
     home = ListProperty()
     """The place to return to, (x, y) in `map` [m]; empty when it is not set."""
+    places = ListProperty()
+    """Places that have names: x, y in `map` [m], name, kind."""
     placed = ListProperty()
     """Where the operator is putting the robot: x, y [m], yaw [rad]; empty unless `mode` is `place_robot`."""
     grip = ObjectProperty(None, allownone=True)
     """What a finger holds just now, a `Grip`, or None."""
 
-    __events__ = ("on_add", "on_move", "on_select", "on_set_home", "on_place_robot")
+    __events__ = (
+        "on_add",
+        "on_move",
+        "on_select",
+        "on_set_home",
+        "on_place_robot",
+        "on_new_place",
+        "on_open_place",
+    )
 
     may_turn = True
     """Two fingers may turn the map."""
@@ -70,6 +84,7 @@ class MapGestures(Widget):
         self._fingers: dict[int, complex] = {}
         self._start = 0j
         self._tapping = False
+        self._held = Clock.create_trigger(lambda _: self._hold(), HELD)
         super().__init__(**kwargs)
 
     def on_add(self, x: float, y: float) -> None:
@@ -87,6 +102,12 @@ class MapGestures(Widget):
     def on_place_robot(self, x: float, y: float, yaw: float) -> None:
         """The operator says that the robot is at (x, y), turned to `yaw` [rad]."""
 
+    def on_new_place(self, x: float, y: float) -> None:
+        """A finger that stayed, or a tap in the mode for it, asks for a new place at (x, y)."""
+
+    def on_open_place(self, index: int) -> None:
+        """A tap in the mode for it asks for the place at `index` of `places`."""
+
     def look(self, view: View) -> None:
         """Change the view as the operator wishes."""
         raise NotImplementedError
@@ -94,6 +115,7 @@ class MapGestures(Widget):
     def let_go(self) -> None:
         """Forget all fingers; what they held goes back to where it was."""
         self._fingers.clear()
+        self._held.cancel()
         self._tapping, self.grip = False, None
 
     def on_touch_down(self, touch: MotionEvent) -> bool:
@@ -112,7 +134,16 @@ class MapGestures(Widget):
         if self._tapping:
             self._start = complex(*touch.pos)
             self.grip = self._grip_at(*touch.pos)
+        self._held.cancel()
+        if self._tapping and self.grip is None and self.mode in ("view", "points", "place"):
+            self._held()
         return True
+
+    def _hold(self) -> None:
+        """A finger has stayed where it came down."""
+        if self._tapping and len(self._fingers) == 1:
+            self._tapping = False
+            self.dispatch("on_new_place", *self.view.to_world(self._start.real, self._start.imag))
 
     def on_touch_move(self, touch: MotionEvent) -> bool:
         """Follow the map's own fingers."""
@@ -133,6 +164,7 @@ class MapGestures(Widget):
         if touch.grab_current is not self or touch.uid not in self._fingers:
             return super().on_touch_up(touch)
         touch.ungrab(self)
+        self._held.cancel()
         del self._fingers[touch.uid]
         grip = self.grip
         if grip is not None and not self._fingers:
@@ -153,6 +185,7 @@ class MapGestures(Widget):
 
     def _drag(self, before: complex, after: complex) -> None:
         self._tapping = False
+        self._held.cancel()
         if self.grip is None:
             self.look(self.view.moved(after.real - before.real, after.imag - before.imag))
             return
@@ -219,8 +252,18 @@ class MapGestures(Widget):
             self._select(grip.index)
         elif self.mode == "points":
             self.dispatch("on_add", x, y)
+        elif self.mode == "place":
+            self._tap_place(touch)
         elif self.mode == "view":
             self._tap_to_look(touch)
+
+    def _tap_place(self, touch: MotionEvent) -> None:
+        seen = [self.view.to_screen(*place[:2]) for place in self.places]
+        index = nearest(seen, *touch.pos, theme.target / 2)
+        if index < 0:
+            self.dispatch("on_new_place", *self.view.to_world(*touch.pos))
+        else:
+            self.dispatch("on_open_place", index)
 
     def _tap_to_look(self, touch: MotionEvent) -> None:
         seen = [self.view.to_screen(*place[:2]) for place in self.waypoints]

@@ -17,6 +17,7 @@ from widgets.geometry import Points, View, length_text, nice_floor, thinned
 from widgets.icons import icon
 from widgets.ink import Word, ground, tint
 from widgets.shapes import Shapes
+from widgets.task_words import KINDS
 from widgets.theme import theme
 
 __all__ = [
@@ -28,6 +29,7 @@ __all__ = [
     "outlined",
     "handle_reach",
     "place_handle",
+    "place_marks",
     "plan_line",
     "robot_mark",
     "route_line",
@@ -45,6 +47,8 @@ RANGE = 4.5
 """How far the camera's view is drawn [robot disc radii]."""
 ARROW = ((0.60, 0.0), (-0.42, 0.44), (-0.22, 0.0), (-0.42, -0.44))
 """Corners of the robot's arrow, which points along x, in disc radii."""
+SHORT = 16
+"""Letters of a place's name on the map."""
 GAP = 1.0
 """Nothing drives so far between two poses [m]: it was carried, restarted, or not heard for a while."""
 
@@ -101,6 +105,27 @@ def waypoint_marks(
             shapes.ring(x, y, radius - dp(1.8), dp(3.6), theme.plan)
         ink = theme.ink_plan if filled else theme.plan
         yield Word(str(index + 1), x, y, radius * 1.05, ink, bold=True)
+
+
+def place_marks(
+    shapes: Shapes, view: View, places: Sequence[tuple[float, float, str, str]], size: float
+) -> Iterator[Word]:
+    """Places that have names: the sign of their kind in a square, and the name under it; `places` are x, y, name, kind."""
+    for x, y, name, kind in places:
+        px, py = view.to_screen(x, y)
+        corners = [
+            (px - size, py - size),
+            (px + size, py - size),
+            (px + size, py + size),
+            (px - size, py + size),
+        ]
+        shapes.polygon(corners, theme.accent)
+        inner = [(px + (cx - px) * 0.84, py + (cy - py) * 0.84) for cx, cy in corners]
+        shapes.polygon(inner, theme.bg)
+        sign = KINDS.get(kind, KINDS["place"])[0]
+        yield Word(icon(sign), px, py, size * 1.35, theme.accent, font=theme.icons)
+        label = name if len(name) <= SHORT else f"{name[: SHORT - 1]}…"
+        yield from outlined(Word(label, px, py - size - dp(9), sp(13), theme.text, True))
 
 
 def home_mark(shapes: Shapes, view: View, home: Place, radius: float) -> Word:

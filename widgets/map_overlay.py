@@ -51,7 +51,7 @@ class MapOverlay(MapGestures, Drawing):
     accepts: ClassVar = (PoseWithCovarianceStamped, Path, IntruderArray, LaserScan)
     drawn_from: ClassVar = (
         "view", "waypoints", "selected", "home", "placed", "grip", "mode", "robot", "robot_radius", "camera_fov",
-        "plan", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets",
+        "plan", "places", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets",
     )  # fmt: skip
 
     robot = ListProperty([math.nan] * 3)
@@ -216,7 +216,7 @@ class MapOverlay(MapGestures, Drawing):
 
     def extent(self) -> Points:
         """Everything worth seeing, shape (n, 2) [m]."""
-        places = [*self.waypoints, self.home, self.robot[:2], *self.intruders]
+        places = [*self.waypoints, self.home, self.robot[:2], *self.intruders, *self.places]
         return spread(tuple(place[:2]) for place in places if place)
 
     def _centre(self, x: float, y: float) -> None:
@@ -270,6 +270,7 @@ class MapOverlay(MapGestures, Drawing):
             marks.route_line(shapes, view, places, closed=True)
         if self.show_laser:
             marks.laser_dots(shapes, view, self.laser)
+        yield from marks.place_marks(shapes, view, self.places, self.mark_radius * 0.66)
         if home:
             yield marks.home_mark(shapes, view, home, self.mark_radius * 0.9)
         yield from marks.waypoint_marks(

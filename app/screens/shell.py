@@ -18,36 +18,21 @@ from app.commands import Outcome
 from app.dashboard import Dashboard
 from app.feeds import Post
 from app.link import EVENT, OFFER, OUTCOME
+from app.screens import standing
 from app.screens.connect import THEMES
 from app.screens.placing import put
 from app.session import Session
-from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
-from bridge.msgs.sensor_msgs import NavSatFix
-from widgets import StopButton
-from widgets.kit import Banner, NavButton, Toast
+from widgets import QuestionCard, StopButton
+from widgets.kit import ActionToast, Banner, NavButton, Toast
 from widgets.theme import theme
 
 __all__ = ["Shell"]
 
-MODES = {
-    "MANUAL": ("sports_esports", "accent"),
-    "AUTO": ("autorenew", "plan"),
-    "PAUSED": ("pause_fill", "warn"),
-    "STOPPED": ("front_hand", "danger"),
-}
-"""Mode of the robot to icon and role."""
-CONTROLS = {
-    "mine": ("person", "accent", "you have control", "you"),
-    "free": ("lock_open", "text", "take control", "free"),
-    "unknown": ("help", "muted", "control unknown", "unknown"),
-    "none": ("lock_open", "muted", "anyone may drive", "anyone"),
-}
-"""Who has control to icon, role, words of the chip, and its words where there is little room."""
 BRIEF, LONG = 4.0, 10.0
 """How long a sentence stays over the screen, and one that is said once of a robot [s]."""
 BAR = ("back", "name", "mode", "battery", "link", "satellites", "gap", "control")
 """What the top bar holds, from left to right; a narrow one only the first five."""
-RAIL = ("drive", "mission", "topics", "control_nav", "record", "theme")
+RAIL = ("drive", "mission", "tasks", "topics", "control_nav", "record", "theme")
 """Buttons of the navigation; elsewhere than on a phone the third from the end is in the bar."""
 Builder.load_string("""
 <Shell>:
@@ -160,7 +145,7 @@ class Shell(FloatLayout):
     form = OptionProperty("wide", options=["wide", "short", "tall"])
     """Shape of the window, as in `app.arrange.form`."""
     screen = StringProperty("")
-    """Name of the screen on the glass: `mission` or `drive`."""
+    """Name of the screen on the glass, as in `screens`."""
     robot_name = StringProperty("")
     mode_text = StringProperty("—")
     mode_icon = StringProperty("help")
@@ -191,9 +176,13 @@ class Shell(FloatLayout):
             banner.bind(height=self._place_notices)
         self.ids.notices.bind(height=self._place_notices)
         self._greeted = ""
+        self.question = QuestionCard()
+        self.question.bind(on_command=lambda _, name: self.session.command(name), height=self._place_notices)
+        self.session.tasking.on_forgotten = self._offer_undo
         self._build_rail()
         self._dashboard = Dashboard(self.session.feeds)
         self._dashboard.bind(self.ids.battery, "/battery_state")
+        self._dashboard.bind(self.question, "/task/status", fresh=False)
         self._dashboard.enter()
         self.session.listeners.append(self._hear)
         self._greet()
@@ -216,6 +205,7 @@ class Shell(FloatLayout):
         entries: list[tuple[str, str, str, Callable[[], object]]] = [
             ("drive", "sports_esports", "Drive", lambda: self.app.show("drive")),
             ("mission", "map", "Mission", lambda: self.app.show("mission")),
+            ("tasks", "list", "Tasks", lambda: self.app.show("tasks")),
             ("topics", "data_object", "Topics", lambda: self.app.show("topics")),
             ("control_nav", "person", "Control", self.toggle_control),
             ("record", "fiber_manual_record", "Record", self.app.toggle_recording),
@@ -296,7 +286,7 @@ class Shell(FloatLayout):
             if tall:
                 button.pos = (rect.x + step * index + (step - button.width) / 2, rect.y)
             else:
-                low = index >= 3
+                low = index >= 4
                 y = (
                     rect.y + 12 * dp + (len(buttons) - 1 - index) * step
                     if low
@@ -346,6 +336,8 @@ class Shell(FloatLayout):
 
     def _show_outcome(self, outcome: Outcome) -> None:
         """What went wrong is said over every screen; what went well is said where it was asked."""
+        if outcome.name in ("confirm", "resume", "cancel"):
+            self.question.answer(outcome.label, outcome.phase, outcome.reason)
         if outcome.phase in ("refused", "no_reply") and outcome.name != "stop":
             self.say(outcome.sentence, "warn", about=outcome.name)
         elif outcome.phase == "accepted":
@@ -358,21 +350,26 @@ class Shell(FloatLayout):
         self.ids.notices.add_widget(Toast(text=text, level=level, stay=stay))
         self._place_notices()
 
+    def _offer_undo(self, words: str, undo: Callable[[], None]) -> None:
+        toast = ActionToast(text=f"Deleted: {words}.", action="Undo", stay=LONG)
+        toast.bind(on_act=lambda _: undo())
+        self.ids.notices.add_widget(toast)
+        self._place_notices()
+
     def unsay(self, about: str) -> None:
         """Take the sentence away that was said about something: it is no longer true."""
         if about != self._said:
             return
         for child in list(self.ids.notices.children):
-            if isinstance(child, Toast):
+            if isinstance(child, Toast) and not isinstance(child, ActionToast):
                 self.ids.notices.remove_widget(child)
 
     def tick(self) -> None:
         """Bring everything up to date that time changes; ten times a second."""
         self._tick_banner()
-        self._tick_mode()
+        self._tick_bar()
         self._dashboard.tick()
-        self._tick_link()
-        self._tick_control()
+        self._tick_question()
         if self.stop.phase == "stopped" != self.session.stop_phase:
             for kind in ("stop", "task"):
                 self.unsay(kind)
@@ -411,50 +408,27 @@ class Shell(FloatLayout):
         elif not text and banner.parent is not None:
             self.ids.notices.remove_widget(banner)
 
-    def _tick_mode(self) -> None:
-        self.robot_name = self.session.name
-        status: ControlStatus | None = self.session.feeds.latest("/control/status")
-        if self.session.foreign and self.session.connected:
-            held = self.session.local_stop.latched
-            self.mode_text, (self.mode_icon, self.mode_role) = (
-                ("STOP" if held else "MANUAL"),
-                MODES["STOPPED" if held else "MANUAL"],
-            )
-            return
-        if status is None or not self.session.connected:
-            self.mode_text = "no link" if not self.session.connected else "—"
-            self.mode_icon, self.mode_role = "signal_disconnected", "muted"
-            return
-        self.mode_icon, self.mode_role = MODES.get(status.mode, ("help", "muted"))
-        task: TaskStatus | None = self.session.feeds.latest("/task/status")
-        words = {"patrol": "patrol", "go_home": "going home"}.get(task.task, "") if task is not None else ""
-        busy = status.mode in ("AUTO", "PAUSED") and words and self.form != "tall"
-        self.mode_text = f"{status.mode} · {words}" if busy else status.mode
-
-    def _tick_link(self) -> None:
-        session, chip = self.session, self.ids.link
+    def _tick_bar(self) -> None:
+        session = self.session
+        self.robot_name = session.name
+        self.mode_text, self.mode_icon, self.mode_role = standing.mode(session, brief=self.form == "tall")
+        self.fix_text, self.fix_role = standing.fix(session)
+        self.control_text, self.control_icon, self.control_role = standing.control(
+            session, brief=self.form != "wide"
+        )
+        chip = self.ids.link
         chip.state = "live"
         chip.rtt, chip.lost = session.link.rtt, session.link.lost
         chip.silence = session.link.silence if session.connected and session.link.silent else 0.0
         chip.sentence = "" if session.connected else "no link"
-        fix: NavSatFix | None = session.feeds.latest("/fix")
-        live = session.feeds.state("/fix") == "live"
-        good = fix is not None and fix.status.status >= 0
-        self.fix_role = "ok" if good and live else "muted"
-        self.fix_text = "—" if fix is None else _accuracy(fix) if good else "no fix"
 
-    def _tick_control(self) -> None:
-        control = self.session.control
-        if control == "other":
-            driver = self.session.feeds.latest("/control/status").driver
-            self.control_icon, self.control_role = "person", "warn"
-            self.control_text = f"driven by {driver}" if self.form == "wide" else driver
-        else:
-            self.control_icon, self.control_role, *words = CONTROLS[control]
-            self.control_text = words[self.form != "wide"]
-        asked = self.session.outcomes.get("acquire")
-        if control == "free" and asked is not None and asked.phase == "sent":
-            self.control_text = "asking …"
+    def _tick_question(self) -> None:
+        """What the task asks is over every screen until it is answered."""
+        card, notices = self.question, self.ids.notices
+        card.blocked = not self.session.connected or self.session.control == "other"
+        card.held = self.session.stop_latched
+        if card.open == (card.parent is None):
+            (notices.add_widget if card.open else notices.remove_widget)(card)
 
     # what is asked
 
@@ -488,10 +462,3 @@ class Shell(FloatLayout):
         for screen in self.screens.values():
             screen.rest()
         self.stop.rest()
-
-
-def _accuracy(fix: NavSatFix) -> str:
-    """How far off the position may be, as in `±1.2 m`; the bare fact where the receiver does not say."""
-    if not fix.position_covariance_type or not fix.position_covariance:
-        return "fix"
-    return f"±{math.sqrt(max(0.0, fix.position_covariance[0])):.1f} m"

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import asyncio
+import itertools
 import threading
 import time
 from collections.abc import Callable
 from typing import Any
+
+import msgspec
 
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
@@ -14,20 +17,39 @@ from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
     CommandResponse,
     ControlStatus,
+    DeletePlaceRequest,
+    DeletePlaceResponse,
+    DeleteScheduleRequest,
+    DeleteScheduleResponse,
     Event,
     GetEventsRequest,
     GetEventsResponse,
+    GetHistoryRequest,
+    GetHistoryResponse,
     Mission,
+    Place,
+    PlaceArray,
     RobotInfo,
+    Schedule,
+    ScheduledTask,
     SetMissionRequest,
+    SetPlaceRequest,
+    SetPlaceResponse,
+    SetQueueRequest,
+    SetQueueResponse,
+    SetScheduleRequest,
+    SetScheduleResponse,
     StartTaskRequest,
+    TaskOrder,
+    TaskQueue,
+    TaskRun,
 )
 from bridge.network import NetworkThread
 from bridge.server import BridgeServer, Service, Session
 
 __all__ = ["FakeRobot"]
 
-REQUESTS = {
+REQUESTS: dict[str, type[Msg]] = {
     "/stop": CommandRequest,
     "/stop/release": CommandRequest,
     "/task/pause": CommandRequest,
@@ -38,7 +60,23 @@ REQUESTS = {
     "/control/release": CommandRequest,
     "/task/start": StartTaskRequest,
     "/mission/set": SetMissionRequest,
+    "/task/confirm": CommandRequest,
+    "/places/set": SetPlaceRequest,
+    "/places/delete": DeletePlaceRequest,
+    "/task/queue/set": SetQueueRequest,
+    "/schedule/set": SetScheduleRequest,
+    "/schedule/delete": DeleteScheduleRequest,
+    "/history/get": GetHistoryRequest,
 }
+RESPONSES: dict[str, type[CommandResponse]] = {
+    "/places/set": SetPlaceResponse,
+    "/places/delete": DeletePlaceResponse,
+    "/task/queue/set": SetQueueResponse,
+    "/schedule/set": SetScheduleResponse,
+    "/schedule/delete": DeleteScheduleResponse,
+    "/history/get": GetHistoryResponse,
+}
+"""Of the services that answer with more than a sentence, or in a class of their own."""
 
 
 class FakeRobot:
@@ -57,6 +95,12 @@ class FakeRobot:
         self.objection: Callable[[str, Any], str | None] = lambda name, _: self.refusals.get(name)
         """What it has against a service and its request; None for nothing."""
         self.events: list[Event] = []
+        self.places: list[Place] = []
+        self.queue = TaskQueue(revision=1)
+        self.schedule: list[ScheduledTask] = []
+        self.runs: list[TaskRun] = []
+        """Newest first."""
+        self._ids = itertools.count(1)
         self.changed = threading.Condition()
         self._answering = asyncio.Event()
         self._answering.set()
@@ -73,7 +117,8 @@ class FakeRobot:
     def start(self) -> None:
         """Serve, on the port of before where there was one."""
         services = [
-            Service(name, "x/y", kind, CommandResponse, self._answer(name)) for name, kind in REQUESTS.items()
+            Service(name, "x/y", kind, RESPONSES.get(name, CommandResponse), self._answer(name))
+            for name, kind in REQUESTS.items()
         ]
         services.append(Service("/events/get", "x/z", GetEventsRequest, GetEventsResponse, self._tell_events))
         self._server = BridgeServer(services=services, on_message=self._hear, now=self._now)
@@ -82,6 +127,7 @@ class FakeRobot:
         self.publish("/robot/info", RobotInfo(name="Fake-1", kind="wheels", max_speed=0.8, max_yaw_rate=1.5))
         self.publish("/mission", Mission())
         self.publish("/control/status", self.control)
+        self.network.call(self._tell_kept)
 
     def stop(self) -> None:
         """Stop serving, as a robot that is switched off."""
@@ -155,7 +201,9 @@ class FakeRobot:
             refusal = self.objection(name, request)
             if refusal is None and name.startswith(("/stop", "/control")):
                 self._become(name, request)
-            return CommandResponse(success=refusal is None, message=refusal or "Done.")
+            kind = RESPONSES.get(name, CommandResponse)
+            more = self._keep(name, request) if refusal is None else {}
+            return kind(success=refusal is None, message=refusal or "Done.", **more)
 
         return call
 
@@ -167,6 +215,52 @@ class FakeRobot:
         mode = "STOPPED" if stopped else "MANUAL"
         self.control = ControlStatus(mode=mode, driver=driver, driver_id=driver, stopped=stopped)
         self._server.publish("/control/status", self.control)
+
+    def wait_for(self, *orders: TaskOrder) -> None:
+        """Let these be the queue, as if somebody else had set it."""
+        self.queue = TaskQueue(revision=self.queue.revision + 1, orders=list(orders))
+        self.publish("/task/queue", self.queue)
+
+    def know(self, *places: Place) -> None:
+        """Let these be the places there are."""
+        self.places = list(places)
+        self.network.call(self._tell_kept)
+
+    def _keep(self, name: str, request: Any) -> dict[str, Any]:
+        """Do what was asked about what is kept; gives what the answer says beyond its sentence."""
+        if name == "/history/get":
+            runs = [run for run in self.runs if not request.before or run.id < request.before]
+            return {"runs": runs[: request.limit]}
+        more: dict[str, Any] = {}
+        if name == "/places/set":
+            self.places, more["id"] = self._stored(self.places, request.place)
+        elif name == "/places/delete":
+            self.places = [place for place in self.places if place.id != request.id]
+        elif name == "/schedule/set":
+            self.schedule, more["id"] = self._stored(self.schedule, request.task)
+        elif name == "/schedule/delete":
+            self.schedule = [task for task in self.schedule if task.id != request.id]
+        elif name == "/task/queue/set":
+            self._set_queue(request.orders)
+        self._tell_kept()
+        return more
+
+    def _set_queue(self, orders: list[TaskOrder]) -> None:
+        numbered = [
+            order if order.id else msgspec.structs.replace(order, id=next(self._ids) + 100)
+            for order in orders
+        ]
+        self.queue = TaskQueue(revision=self.queue.revision + 1, orders=numbered)
+
+    def _stored(self, kept: list[Any], one: Any) -> tuple[list[Any], int]:
+        number = one.id or next(self._ids) + 100
+        one = msgspec.structs.replace(one, id=number)
+        return sorted([*(old for old in kept if old.id != number), one], key=lambda one: one.id), number
+
+    def _tell_kept(self) -> None:
+        self._server.publish("/places", PlaceArray(places=self.places))
+        self._server.publish("/task/queue", self.queue)
+        self._server.publish("/schedule", Schedule(tasks=self.schedule))
 
     def _tell_events(self, session: Session, request: GetEventsRequest) -> GetEventsResponse:
         return GetEventsResponse(events=[event for event in self.events if event.id > request.since])

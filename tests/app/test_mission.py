@@ -202,7 +202,9 @@ def test_a_saved_draft_comes_back_whole(editor: MissionEditor) -> None:
 
 
 @pytest.mark.parametrize("reaction", ["stop", "report", "circle"])
-def test_what_an_intruder_brings_about_goes_to_the_robot_and_back(editor: MissionEditor, reaction: str) -> None:
+def test_what_an_intruder_brings_about_goes_to_the_robot_and_back(
+    editor: MissionEditor, reaction: str
+) -> None:
     editor.set_motion(on_intruder=reaction)
     told = editor.sending()
     assert (told.on_intruder, told.stop_on_intruder) == (reaction, reaction == "stop")
@@ -219,7 +221,15 @@ def test_the_name_of_a_kept_mission_is_not_lost_by_an_edit() -> None:
 
 @pytest.mark.parametrize(
     "saved",
-    [None, [], {"points": "x"}, {"points": [[1]]}, {"points": [[math.nan, 1.0]]}, {"motion": "zigzag"}, {"on_intruder": "eat"}],
+    [
+        None,
+        [],
+        {"points": "x"},
+        {"points": [[1]]},
+        {"points": [[math.nan, 1.0]]},
+        {"motion": "zigzag"},
+        {"on_intruder": "eat"},
+    ],
 )
 def test_a_damaged_draft_is_not_loaded(editor: MissionEditor, saved: object) -> None:
     assert not editor.load(saved)
