@@ -135,7 +135,7 @@ class PilothouseApp(App):
 
     @property
     def screens(self) -> dict[str, Any]:
-        """Every screen there is now by its name: `connect`, and with a robot `mission`, `drive` and `topics`."""
+        """Every screen there is now by its name: `connect`, and with a robot `mission`, `drive`, `tasks` and `topics`."""
         return {"connect": self.connect, **(self.shell.screens if self.shell else {})}
 
     # life
@@ -449,7 +449,7 @@ class PilothouseApp(App):
         self.show(self._first_screen)
 
     def show(self, screen: str) -> None:
-        """Put `mission`, `drive` or `topics` on the glass; KeyError for another."""
+        """Put `mission`, `drive`, `tasks` or `topics` on the glass; KeyError for another."""
         self.shell.go(screen)
         self._first_screen = screen
 

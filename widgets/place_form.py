@@ -58,10 +58,16 @@ Builder.load_string("""
                 size_hint_y: None
                 height: theme.target
                 spacing: dp(8)
+                Text:
+                    text: 'Floor'
+                    role: 'muted'
+                    size_hint_x: None
+                    width: dp(44)
+                    pos_hint: {'center_y': .5}
                 TextField:
                     id: floor
-                    hint_text: 'Floor'
-                    size_hint_x: .45
+                    hint_text: '0'
+                    size_hint_x: .35
                     on_text: root.type('floor', self.text)
                 TextField:
                     id: tag

@@ -7,10 +7,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import msgspec
 from kivy.lang import Builder
 from kivy.metrics import dp
 from kivy.properties import ListProperty, NumericProperty, ObjectProperty, StringProperty
-from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.widget import Widget
 
@@ -24,19 +24,27 @@ from app.feeds import Post
 from app.link import EVENT, OFFER, OUTCOME
 from app.screens.panel import MissionPanel
 from app.screens.placing import put
+from app.screens.selection import SelectionBar
 from app.session import Session
-from bridge.msgs.pilothouse_msgs import RobotInfo, TaskStatus
+from bridge.msgs.pilothouse_msgs import Place, PlaceArray, RobotInfo, TaskStatus
 from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import Compass, GridMap, Video
 from widgets.kit import IconButton, PrimaryButton, QuietButton
 
 __all__ = ["MissionScreen"]
 
-MODES = [("view", "View"), ("points", "Points"), ("home", "Home"), ("place_robot", "Robot")]
+MODES = [
+    ("view", "View"),
+    ("points", "Points"),
+    ("home", "Home"),
+    ("place", "Place"),
+    ("place_robot", "Robot"),
+]
 """What a finger on the map does, and its word."""
 HINTS = {
     "points": "Tap to add a point, drag to move one.",
     "home": "Tap where the robot shall return to.",
+    "place": "Tap to make a place, or tap one to change it.",
     "place_robot": "Drag it, turn it.",
 }
 
@@ -44,31 +52,6 @@ PICTURES = Path(widgets.__file__).parent / "data"
 """Aerial pictures, one MBTiles file a world."""
 
 Builder.load_string("""
-<SelectionBar>:
-    size_hint: None, None
-    padding: dp(12), dp(6), dp(6), dp(6)
-    spacing: dp(6)
-    canvas.before:
-        Color:
-            rgba: theme.line
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.corner]
-        Color:
-            rgba: theme.surface
-        SmoothRoundedRectangle:
-            pos: self.x + theme.outline, self.y + theme.outline
-            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
-            radius: [theme.corner - theme.outline]
-    Text:
-        text: root.text
-        font_size: sp(15)
-        shorten: True
-        shorten_from: 'right'
-        max_lines: 1
-        pos_hint: {'center_y': .5}
-
 <MissionScreen>:
     FloatLayout:
         id: ground
@@ -101,12 +84,6 @@ Builder.load_string("""
 """)
 
 
-class SelectionBar(BoxLayout):
-    """What is selected on the map, and what can be done with it."""
-
-    text = StringProperty("")
-
-
 class MissionScreen(FloatLayout):
     """Supervise one robot on its map."""
 
@@ -129,6 +106,9 @@ class MissionScreen(FloatLayout):
         self.panel = MissionPanel(self.session, self.dashboard)
         self.selection = SelectionBar()
         self._form, self._body, self._dp = "wide", Rect(0, 0, 1, 1), 1.0
+        self._named: list[Place] = []
+        self._moving: Place | None = None
+        """The place whose position the next tap says; None for a new one."""
         self._build()
         self._bind_map()
         self.bind(mode=self._mode_changed, sheet=self._rearrange)
@@ -206,7 +186,10 @@ class MissionScreen(FloatLayout):
             on_move=lambda _, index, x, y: mission.move(index, x, y),
             on_select=lambda *_: self._show_selection(),
             on_set_home=lambda _, x, y: mission.set_home(x, y),
+            on_new_place=lambda _, x, y: self._new_place(x, y),
+            on_open_place=lambda _, index: self._open_place(index),
         )
+        bind(one, "/places", lambda msg: self._show_places(one, msg), fresh=False)
         bind(one, "/pose", always=True)
         for topic in ("/plan", "/intruders", "/scan", *(["/map"] if isinstance(one, GridMap) else [])):
             bind(one, topic, fresh=False)
@@ -426,6 +409,8 @@ class MissionScreen(FloatLayout):
 
     def _mode_changed(self, *_: object) -> None:
         self.map.mode = self.mode
+        if self.mode != "place":
+            self._moving = None
         self._show_selection()
 
     def _set_going(self, _: object, name: str) -> None:
@@ -445,7 +430,8 @@ class MissionScreen(FloatLayout):
             self.ids.earlier.disabled = index == 0
             self.ids.later.disabled = index == len(self.map.waypoints) - 1
         else:
-            bar.text = HINTS.get(self.mode, "")
+            moving = self.mode == "place" and self._moving is not None
+            bar.text = f"Tap where {self._moving.name} is." if moving else HINTS.get(self.mode, "")
         for child in bar.children[:-1]:
             bar.remove_widget(child)
         for widget in wanted:
@@ -468,6 +454,32 @@ class MissionScreen(FloatLayout):
         if 0 <= index < len(self.map.waypoints):
             self.map.selected = -1
             self.session.mission.remove(index)
+
+    def _show_places(self, one: Any, msg: PlaceArray) -> None:
+        self._named = list(msg.places)
+        one.places = [(place.x, place.y, place.name, place.kind) for place in msg.places]
+
+    def move_place(self, place: Place) -> None:
+        """Let the next tap say where a place is."""
+        self._moving, self.mode = place, "place"
+        self._show_selection()
+
+    def _new_place(self, x: float, y: float) -> None:
+        """A finger pointed at where a place is; what it is called is asked on another screen."""
+        if not self.session.offers("/places/set"):
+            return
+        place, self._moving = self._moving or Place(), None
+        self.mode = "view"
+        self.app.show("tasks")
+        self.app.screens["tasks"].edit_place(msgspec.structs.replace(place, x=x, y=y), returns=True)
+
+    def _open_place(self, index: int) -> None:
+        if self._moving is not None:  # a place may come to lie on another one's mark
+            self._new_place(self._named[index].x, self._named[index].y)
+        elif index < len(self._named):
+            self.mode = "view"
+            self.app.show("tasks")
+            self.app.screens["tasks"].edit_place(self._named[index], returns=True)
 
     def _place_robot(self) -> None:
         if len(self.map.placed) == 3 and all(map(math.isfinite, self.map.placed)):

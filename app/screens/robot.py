@@ -8,6 +8,7 @@ from app.layout import Layout
 from app.screens.drive import DriveScreen
 from app.screens.mission import MissionScreen
 from app.screens.shell import Shell
+from app.screens.tasks import TasksScreen
 from app.screens.topics import TopicsScreen
 from app.session import Session
 
@@ -19,6 +20,7 @@ def robot_shell(app: Any, session: Session, layout: Layout, **kwargs: Any) -> Sh
     screens = {
         "mission": MissionScreen(app=app, session=session),
         "drive": DriveScreen(layout, app=app, session=session),
+        "tasks": TasksScreen(app=app, session=session),
         "topics": TopicsScreen(app=app, session=session),
     }
     return Shell(screens, app=app, session=session, **kwargs)
