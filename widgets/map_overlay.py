@@ -239,6 +239,10 @@ class MapOverlay(MapGestures, Drawing):
         if not self._touched and self.width > dp(100):
             self.fit()
 
+    def on_places(self, *_: object) -> None:
+        """Bring them into sight while nobody has moved the map."""
+        self._fit_until_touched()
+
     def on_mode(self, *_: object) -> None:
         """Let go of what was held; bring up the robot to be placed, at its pose or in the middle."""
         self.let_go()

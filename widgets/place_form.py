@@ -175,7 +175,7 @@ class PlaceForm(Control, BoxLayout):
     def _mark(self, *_: object) -> None:
         for kind, tile in self._tiles.items():
             tile.chosen = kind == self.kind
-        column, wanted = self.ids.column, math.isfinite(self.yaw)
+        column, wanted = self.ids.column.__self__, math.isfinite(self.yaw)
         if wanted != (self.dial.parent is column):
             (column.add_widget if wanted else column.remove_widget)(self.dial)
 

@@ -44,7 +44,7 @@ MODES = [
 HINTS = {
     "points": "Tap to add a point, drag to move one.",
     "home": "Tap where the robot shall return to.",
-    "place": "Tap to make a place, or tap one to change it.",
+    "place": "Tap to make or change a place.",
     "place_robot": "Drag it, turn it.",
 }
 

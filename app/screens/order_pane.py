@@ -86,7 +86,7 @@ class OrderPane(BoxLayout):
         self._pages = Segmented(options=[("what", "What"), ("when", "When")], value="what")
         self._back = IconButton(icon="arrow_back", bare=True, pos_hint={"center_y": 0.5})
         super().__init__(**kwargs)
-        self._back.bind(on_release=lambda _: self.dispatch("on_close"))
+        self._back.bind(on_release=lambda _: self.form.back() or self.dispatch("on_close"))
         self.chooser.bind(on_command=lambda _, task: self.begin(task))
         self._chosen.bind(on_release=lambda _: self.begin(""))
         self._pages.bind(on_choose=lambda _, page: setattr(self, "page", page))
@@ -176,7 +176,7 @@ class OrderPane(BoxLayout):
         self.sentence, self.complete = sentence, complete
 
     def _lay(self, *_: object) -> None:
-        head, body = self.ids.head, self.ids.body
+        head, body = self.ids.head.__self__, self.ids.body
         if self.closable != (self._back.parent is head):
             if self.closable:
                 head.add_widget(self._back, index=len(head.children))

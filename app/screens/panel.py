@@ -19,6 +19,7 @@ from bridge.msgs.pilothouse_msgs import TaskProgress, TaskStatus
 from widgets import EventLog, MotionSelector, Readout, TaskButtons
 from widgets.event_log import ago, look
 from widgets.kit import Card
+from widgets.task_card import figures_words
 
 __all__ = ["MissionPanel"]
 
@@ -311,14 +312,15 @@ class MissionPanel(BoxLayout):
         self.lap.words = f"{lap}" if lap else ""
         self.lap.unit = f"of {status.laps}" if status.laps and lap else ""
         # the robot's own sentence stands under the buttons
-        going = f"Point {status.waypoint} of {status.waypoints}" if status.waypoint else ""
-        self._progress.where = going or status.reason or "No task runs."
+        going = [figures_words(status, None), status.phase if self._session.running else ""]
+        self._progress.where = " · ".join(filter(None, going)) or status.reason or "No task runs."
 
     def _show_progress(self, progress: TaskProgress) -> None:
         if self._session.running:
             self._progress.value = progress.progress
             status = self._session.feeds.latest("/task/status")
-            self.next.value = progress.distance_to_next if status.task == "patrol" else math.nan
+            there = status is not None and status.waypoint
+            self.next.value = progress.distance_to_next if there else math.nan
             self.left.value = progress.time_left
 
     def tick(self) -> None:

@@ -70,13 +70,13 @@ Builder.load_string("""
             bold: True
             font_size: theme.size_title
             pos_hint: {'center_y': .5}
-    BoxLayout:
-        id: body
     Text:
         text: root.sentence
         role: 'muted'
         font_size: sp(15)
         height: self.texture_size[1] if root.sentence else 0
+    BoxLayout:
+        id: body
 """)
 
 
@@ -126,7 +126,7 @@ class TasksScreen(FloatLayout):
         """The buttons below the list."""
         self.under.bind(minimum_height=self.under.setter("height"))
         for name, text, icon, act in self._acts():
-            primary = name in ("start", "save", "keep")
+            primary = name in ("start", "save", "keep", "new", "new_scheduled")
             button = PrimaryButton(text=text, icon=icon) if primary else QuietButton(text=text, icon=icon)
             button.bind(on_release=lambda _, act=act: act())
             self._buttons[name] = self.ids[name] = button
@@ -266,7 +266,7 @@ class TasksScreen(FloatLayout):
             if (shown == "schedule") != (self.pane.scheduled is not None):
                 self.pane.schedule() if shown == "schedule" else self.pane.now()
             area.add_widget(self.pane)
-        head = self.place_pane.ids.head
+        head = self.place_pane.ids.head.__self__  # kv holds ids weakly
         if tall != (self._back.parent is head):
             (
                 head.add_widget(self._back, index=len(head.children))
@@ -300,6 +300,7 @@ class TasksScreen(FloatLayout):
         strip.cols = (2 if len(names) > 2 else 1) if tall else max(1, len(names))
         for name in names:
             self._add(strip, name, None)
+            self._buttons[name].flow = "vertical" if len(names) > 2 and not tall else "horizontal"
         if not tall:
             under.cols = max(1, len(for_list))
             for name in for_list:
@@ -312,8 +313,7 @@ class TasksScreen(FloatLayout):
             button.parent.remove_widget(button)
         button.size_hint_y = None if fixed else 1
         if fixed:
-            button.height = f"{52}dp"
-        button.flow = "horizontal"
+            button.height, button.flow = "52dp", "horizontal"
         parent.add_widget(button)
 
     def _scheduled_id(self) -> int:
