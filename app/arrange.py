@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["Rect", "connect_columns", "drive", "form", "mission", "shell", "topics"]
+__all__ = ["Rect", "connect_columns", "drive", "form", "mission", "shell", "tasks", "topics"]
 
 SELECTION = 310
 """Width of the bar for what is selected on a phone's map [dp]."""
@@ -279,3 +279,14 @@ def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     strip = Rect(x, stop.y, stop.x - gap - x, stop.height)
     notice = Rect(detail.x, low, detail.width, 110 * dp)
     return {"list": listed, "detail": detail, "strip": strip, "stop": stop, "notice": notice}
+
+
+def tasks(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+    """Of the tasks screen: as `topics`, with a narrower STOP on a phone's side so that buttons fit beside it."""
+    places, gap = topics(body, shape, dp), 12 * dp
+    if shape == "short":
+        stop, strip = places["stop"], places["strip"]
+        width = min(stop.width, 190 * dp)
+        places["stop"] = stop = Rect(stop.right - width, stop.y, width, stop.height)
+        places["strip"] = Rect(strip.x, strip.y, stop.x - gap - strip.x, strip.height)
+    return places

@@ -78,7 +78,7 @@ Builder.load_string("""
             icon: 'delete'
             height: self.parent.height
             size_hint_x: .8 if root.cut else None
-            width: 0
+            width: dp(120) if root.cut else 0
             opacity: 1 if root.cut else 0
             disabled: root.blocked or not root.cut
             on_release: root.ask('cancel')

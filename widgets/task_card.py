@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Any
 
 from kivy.lang import Builder
-from kivy.properties import AliasProperty, NumericProperty, ObjectProperty, StringProperty
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, ObjectProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
@@ -29,8 +29,8 @@ Builder.load_string("""
     orientation: 'vertical'
     size_hint_y: None
     height: self.minimum_height
-    padding: dp(14), dp(12)
-    spacing: dp(8)
+    padding: dp(14), dp(8) if root.brief else dp(12)
+    spacing: dp(5) if root.brief else dp(8)
     canvas.before:
         Color:
             rgba: theme.line
@@ -70,16 +70,18 @@ Builder.load_string("""
     Text:
         text: root.reason
         font_size: sp(14.5)
+        shorten: root.brief
+        shorten_from: 'right'
     Progress:
         value: root.progress
         height: dp(10) if root.active else 0
         opacity: 1 if root.active else 0
     Text:
-        text: root.figures
+        text: '' if root.brief else root.figures
         role: 'muted'
         font_size: sp(14)
-        height: self.texture_size[1] if root.figures else 0
-        opacity: 1 if root.figures else 0
+        height: self.texture_size[1] if self.text else 0
+        opacity: 1 if self.text else 0
 """)
 
 
@@ -107,6 +109,8 @@ class TaskCard(RobotWidget, BoxLayout):
 
     accepts = (TaskStatus, TaskProgress)
 
+    brief = BooleanProperty(False)
+    """Takes little room: the reason on one line, no figures."""
     status = ObjectProperty(TaskStatus())
     """The newest TaskStatus."""
     told = ObjectProperty(None, allownone=True)
@@ -202,6 +206,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     return {
         "runs": make(runs, told),
         "patrol": make(TaskStatus(task_id=4, state="RUNNING", reason="Driving to point 3.", **patrol), told),
+        "brief": make(runs, told, brief=True),
         "paused": make(TaskStatus(task_id=4, state="PAUSED", reason="Paused by tablet-B.", **patrol), told),
         "canceled": make(TaskStatus(task_id=4, task="guide", state="CANCELED", reason=why)),
         "none": make(TaskStatus()),

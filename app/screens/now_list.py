@@ -23,6 +23,7 @@ Builder.load_string("""
         size_hint_y: None
         height: self.minimum_height
     BoxLayout:
+        id: does
         size_hint_y: None
         height: theme.target
         spacing: dp(8)
@@ -43,6 +44,7 @@ Builder.load_string("""
             disabled: not root.may or not root.active
             on_release: root.ask('cancel')
     BoxLayout:
+        id: next
         size_hint_y: None
         height: dp(40)
         SectionLabel:
@@ -74,6 +76,8 @@ class NowList(BoxLayout):
     """`pause`, `resume` or nothing."""
     main_words = StringProperty("Pause")
     may_undo = BooleanProperty(False)
+    brief = BooleanProperty(False)
+    """Takes little room."""
 
     def __init__(self, session: Session, **kwargs: Any) -> None:
         self._session = session
@@ -84,7 +88,17 @@ class NowList(BoxLayout):
         self.queue.bind(on_command=lambda _, what, index, target: self._edit(what, index, target))
         editor = session.tasking.queue
         editor.on_change = self._show_queue
+        self._next, self._undo = self.ids.next.__self__, self.ids.undo.__self__
+        self.bind(brief=self._lay)
         self._show_queue()
+
+    def _lay(self, *_: object) -> None:
+        """Where there is little room, the undo stands beside what is done and has no row of its own."""
+        self.card.brief = self.brief
+        self._undo.parent.remove_widget(self._undo)
+        (self.ids.does if self.brief else self._next).add_widget(self._undo)
+        if self.brief == (self._next.parent is self):
+            (self.remove_widget(self._next) if self.brief else self.add_widget(self._next, index=1))
 
     def ask(self, name: str) -> None:
         """Ask the robot as a finger would."""

@@ -12,7 +12,7 @@ from kivy.uix.boxlayout import BoxLayout
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import ScheduledTask, TaskOrder
 from widgets import OrderForm, TaskChooser, WhenPicker
-from widgets.kit import IconButton, ListRow, Segmented
+from widgets.kit import IconButton, ListRow, Roll, Segmented
 from widgets.task_words import TASKS, rhythm
 
 __all__ = ["OrderPane"]
@@ -28,7 +28,8 @@ Builder.load_string("""
     BoxLayout:
         id: head
         size_hint_y: None
-        height: dp(44)
+        height: dp(44) if root.titled else 0
+        opacity: 1 if root.titled else 0
         spacing: dp(6)
         Text:
             text: root.title
@@ -63,6 +64,8 @@ class OrderPane(BoxLayout):
     """Once a task is chosen the others are away, and what and when are on two pages."""
     closable = BooleanProperty(False)
     """Has an arrow that goes back to the lists."""
+    titled = BooleanProperty(True)
+    """Has its title over it."""
     scheduled = ObjectProperty(None, allownone=True)
     """The `ScheduledTask` that is being made; None for an order of now."""
     page = StringProperty("what")
@@ -83,6 +86,7 @@ class OrderPane(BoxLayout):
         self._session, self._shown = session, None
         self.chooser, self.form, self.when = TaskChooser(), OrderForm(), WhenPicker()
         self._chosen = ListRow(aside="Change")
+        self._roll = Roll()
         self._pages = Segmented(options=[("what", "What"), ("when", "When")], value="what")
         self._back = IconButton(icon="arrow_back", bare=True, pos_hint={"center_y": 0.5})
         super().__init__(**kwargs)
@@ -194,6 +198,7 @@ class OrderPane(BoxLayout):
         if self.form.picking:
             return [self.form]
         if not self.compact:
+            self._roll.clear_widgets()
             return [self.chooser, self.form, *([self.when] if two else [])]
         if not words:
             return [self.chooser, self.form]
@@ -201,7 +206,12 @@ class OrderPane(BoxLayout):
             return [self._chosen, self.form]
         self._pages.value = self.page
         if self.page == "when":
-            return [self._pages, self.when, BoxLayout()]
+            if self._roll.children[:1] != [self.when]:
+                if self.when.parent is not None:
+                    self.when.parent.remove_widget(self.when)
+                self._roll.add_widget(self.when)
+            return [self._pages, self._roll]
+        self._roll.clear_widgets()
         return [self._pages, self._chosen, self.form]
 
     def on_close(self) -> None:

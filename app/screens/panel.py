@@ -294,8 +294,13 @@ class MissionPanel(BoxLayout):
         """Take over the draft and how it stands to what the robot has."""
         mission = self._session.mission
         count, state = len(mission.draft.points), mission.state
+        points = f"{count} point{'' if count == 1 else 's'}"
         self._send.words = (
-            "Send to the robot" if not count else f"Send {count} point{'' if count == 1 else 's'}"
+            f"Change the patrol: {points}"
+            if self._patrols
+            else f"Send {points}"
+            if count
+            else "Send to the robot"
         )
         note, role = STATES[state]
         if state == "draft" and mission.outcome and not mission.outcome.startswith("Accepted"):
@@ -304,7 +309,17 @@ class MissionPanel(BoxLayout):
         self._send.icon = {"stored": "check_circle", "sent": "schedule", "empty": "info"}.get(state, "edit")
         self.motion.show(mission.draft.message())
 
+    @property
+    def _patrols(self) -> bool:
+        """The robot goes round points just now, and takes over others at the next one."""
+        status: TaskStatus | None = self._session.feeds.latest("/task/status")
+        mission = self._session.mission.draft
+        return (
+            bool(mission.points) and self._session.running and status is not None and status.task == "patrol"
+        )
+
     def _show_status(self, status: TaskStatus) -> None:
+        self.show_draft()
         if not self._session.running:
             self._progress.value = math.nan
             self.next.value = self.left.value = math.nan

@@ -139,7 +139,7 @@ class TasksScreen(FloatLayout):
             ("unschedule", "Delete", "delete", self._unschedule),
             ("keep", "Save", "check", self._keep_place),
             ("forget", "Delete", "delete", self._forget_place),
-            ("go", "Go there", "near_me", self._go_there),
+            ("go", "Go", "near_me", self._go_there),
             ("move", "Move", "edit_location_alt", self._move_place),
             ("new", "New task", "add", lambda: self.open("order")),
             ("new_scheduled", "New", "add", lambda: self.open_scheduled(None)),
@@ -176,13 +176,15 @@ class TasksScreen(FloatLayout):
     def arrange(self, body: Rect, form: str, dp: float) -> Rect:
         """Put everything into its place; returns where STOP goes."""
         self._body, self._form, self._dp = body, form, dp
-        places = arrange.topics(body, form, dp)
+        places = arrange.tasks(body, form, dp)
         for name in ("detail", "strip"):
             put(self.ids[name], places[name])
         put(self.ids.listed, places["list"])
         self.notice = places["notice"]
         self.pane.compact = form != "wide"
         self.pane.closable = form == "tall"
+        self.pane.titled = form != "short"
+        self.now.brief = form == "short"
         self._lay()
         return places["stop"]
 
@@ -258,7 +260,11 @@ class TasksScreen(FloatLayout):
         listed.clear_widgets()
         area.clear_widgets()
         if not (tall and shown):
-            for widget in (self.ids.tabs, lists[self.tab], *([] if tall else [self.under])):
+            for widget in (
+                self.ids.tabs,
+                lists[self.tab],
+                *([] if tall or self.tab == "now" else [self.under]),
+            ):
                 listed.add_widget(widget)
         if shown == "place":
             area.add_widget(self.place_pane)
@@ -298,9 +304,10 @@ class TasksScreen(FloatLayout):
             for_detail = []
         names = for_list if tall and not shown else for_detail
         strip.cols = (2 if len(names) > 2 else 1) if tall else max(1, len(names))
+        brief = len(names) > 2 or self._form == "short"
         for name in names:
             self._add(strip, name, None)
-            self._buttons[name].flow = "vertical" if len(names) > 2 and not tall else "horizontal"
+            self._buttons[name].flow = "vertical" if brief and not tall else "horizontal"
         if not tall:
             under.cols = max(1, len(for_list))
             for name in for_list:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import gc
 import json
-import time
 import weakref
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -16,77 +15,10 @@ from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithC
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskStatus
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
 from tests.app.fakes import FakeRobot
+from tests.app.glass import Glass
 from tests.headless import Stage
-from tests.thrown import Lasting, automatic, throw_away
+from tests.thrown import Lasting, throw_away
 from widgets.theme import theme
-
-PATIENCE = 10.0
-"""A fault, not a delay, uses this up [s]."""
-
-
-class Glass:
-    """The app on the stage."""
-
-    def __init__(self, app: Any, stage: Stage) -> None:
-        self.app, self.stage = app, stage
-
-    def until(self, condition: Callable[[], Any], what: str) -> None:
-        end = time.monotonic() + PATIENCE
-        while not condition():
-            assert time.monotonic() < end, repr(what)
-            self.stage.frames(1)
-
-    def tap(self, widget: Any) -> None:
-        self.stage.frames(3)
-        self.stage.tap(*widget.to_window(*widget.center))
-
-    def hold(self, widget: Any) -> Any:
-        touch = self.stage.touch(*widget.to_window(*widget.center))
-        touch.touch_down()
-        self.stage.frames(2)
-        return touch
-
-    def banners(self) -> list[str]:
-        return [child.text for child in self.app.shell.ids.notices.children]
-
-
-@pytest.fixture
-def robot() -> Iterator[FakeRobot]:
-    robot = FakeRobot()
-    yield robot
-    robot.close()
-
-
-@pytest.fixture
-def collecting() -> Iterator[None]:
-    """Before the app starts Python collects by itself, and again after the app's end."""
-    with automatic():
-        yield
-        assert gc.isenabled()
-
-
-@pytest.fixture
-def glass(stage: Stage, tmp_path: Path) -> Iterator[Glass]:
-    from app.application import PilothouseApp
-
-    app = PilothouseApp(settings_dir=tmp_path, theme="dark", discover=False)
-    app.root = app.build()
-    stage.show(app.root, stage.window.size)
-    app.on_start()
-    yield Glass(app, stage)
-    app.on_stop()
-    theme.name = "dark"
-
-
-@pytest.fixture
-def driving(glass: Glass, robot: FakeRobot) -> Glass:
-    """Connected, in control, on the drive screen."""
-    glass.app.open(robot.url)
-    glass.until(lambda: glass.app.shell is not None, "no screens")
-    glass.until(lambda: glass.app.session.control == "mine", "no control")
-    glass.app.show("drive")
-    glass.until(lambda: glass.app.screens["drive"].stick.state == "live", "no stick")
-    return glass
 
 
 def push(glass: Glass, robot: FakeRobot) -> Any:

@@ -1,0 +1,54 @@
+"""A robot on a real socket, and the app in front of it."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.app.fakes import FakeRobot
+from tests.app.glass import Glass
+from tests.headless import Stage
+from tests.thrown import automatic
+from widgets.theme import theme
+
+
+@pytest.fixture
+def robot() -> Iterator[FakeRobot]:
+    robot = FakeRobot()
+    yield robot
+    robot.close()
+
+
+@pytest.fixture
+def collecting() -> Iterator[None]:
+    """Before the app starts Python collects by itself, and again after the app's end."""
+    with automatic():
+        yield
+        assert gc.isenabled()
+
+
+@pytest.fixture
+def glass(stage: Stage, tmp_path: Path) -> Iterator[Glass]:
+    from app.application import PilothouseApp
+
+    app = PilothouseApp(settings_dir=tmp_path, theme="dark", discover=False)
+    app.root = app.build()
+    stage.show(app.root, stage.window.size)
+    app.on_start()
+    yield Glass(app, stage)
+    app.on_stop()
+    theme.name = "dark"
+
+
+@pytest.fixture
+def driving(glass: Glass, robot: FakeRobot) -> Glass:
+    """Connected, in control, on the drive screen."""
+    glass.app.open(robot.url)
+    glass.until(lambda: glass.app.shell is not None, "no screens")
+    glass.until(lambda: glass.app.session.control == "mine", "no control")
+    glass.app.show("drive")
+    glass.until(lambda: glass.app.screens["drive"].stick.state == "live", "no stick")
+    return glass
