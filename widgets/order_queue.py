@@ -138,7 +138,8 @@ class OrderQueue(Control, BoxLayout):
 
     def _place(self, *_: object) -> None:
         column, step = self.ids.column, self.row_height + self.gap
-        self._sentence.pos = column.x, column.top - dp_below(self._sentence)
+        top = column.y + column.height  # `top` itself may not have followed yet
+        self._sentence.pos = column.x, top - dp_below(self._sentence)
         self._sentence.width = column.width
         order = list(range(len(self._rows)))
         if self._dragged is not None:
@@ -146,10 +147,10 @@ class OrderQueue(Control, BoxLayout):
         for place, index in enumerate(order):
             row = self._rows[index]
             row.size = column.width, self.row_height
-            row.pos = column.x, column.top - (place + 1) * step + self.gap
+            row.pos = column.x, top - (place + 1) * step + self.gap
         if self._dragged is not None:
             index, up = self._dragged
-            self._rows[index].y = column.top - (index + 1) * step + self.gap + up
+            self._rows[index].y = top - (index + 1) * step + self.gap + up
 
     def _mark(self, *_: object) -> None:
         for number, row in enumerate(self._rows):

@@ -33,7 +33,7 @@ Builder.load_string("""
 <TaskTile>:
     orientation: 'vertical'
     size_hint_y: None
-    height: max(theme.target, dp(66))
+    height: max(theme.target, dp(66)) if not root.about else dp(118)
     padding: dp(2), dp(9), dp(2), dp(7)
     spacing: dp(2)
     canvas.before:
@@ -66,6 +66,17 @@ Builder.load_string("""
         bold: root.chosen
         color: theme.roles['ink_plan' if root.chosen else 'text']
         disabled_color: self.color
+        size_hint_y: 1 if not root.about else None
+        height: dp(22)
+    Text:
+        text: root.about
+        role: 'ink_plan' if root.chosen else 'muted'
+        font_size: sp(13)
+        halign: 'center'
+        valign: 'top'
+        text_size: self.width - dp(12), dp(52)
+        height: dp(52) if root.about else 0
+        opacity: 1 if root.about else 0
 """)
 
 
@@ -74,6 +85,8 @@ class TaskTile(ButtonBehavior, BoxLayout):
 
     icon = StringProperty("route")
     text = StringProperty("")
+    about = StringProperty("")
+    """What it is for; empty to leave that out."""
     chosen = BooleanProperty(False)
 
 
@@ -87,16 +100,19 @@ class TaskChooser(Control, GridLayout):
     chosen = StringProperty("")
     """The task that stands out; empty for none."""
 
-    def _across(self) -> int:
-        return 4 if self.width < dp(700) else 8
+    told = BooleanProperty(False)
+    """Each tile says what its task is for."""
 
-    across = AliasProperty(_across, bind=["width"], cache=True)
+    def _across(self) -> int:
+        return 4 if self.width < dp(700) or self.told else 8
+
+    across = AliasProperty(_across, bind=["width", "told"], cache=True)
     """How many tiles stand side by side."""
 
     def __init__(self, **kwargs: object) -> None:
         self._tiles: dict[str, TaskTile] = {}
         super().__init__(**kwargs)
-        self.bind(tasks=self._build, chosen=self._mark)
+        self.bind(tasks=self._build, chosen=self._mark, told=self._mark)
         self._build()
 
     def show(self, msg: TaskOrder) -> None:
@@ -121,6 +137,7 @@ class TaskChooser(Control, GridLayout):
     def _mark(self, *_: object) -> None:
         for task, tile in self._tiles.items():
             tile.chosen = task == self.chosen
+            tile.about = TASKS[task].about if self.told else ""
 
 
 def samples() -> dict[str, Callable[[], Widget]]:
@@ -132,6 +149,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     return {
         "none": make(),
         "one": make(chosen="deliver"),
+        "told": make("748dp", told=True),
         "row": make("760dp", chosen="guide"),
         "disabled": make(chosen="patrol", state="disabled"),
     }

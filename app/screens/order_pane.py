@@ -195,6 +195,7 @@ class OrderPane(BoxLayout):
         words = TASKS.get(task)
         if words:
             self._chosen.icon, self._chosen.title, self._chosen.role = words.icon, words.name, "plan"
+        self.chooser.told = not self.compact and not words
         if self.form.picking:
             return [self.form]
         if not self.compact:

@@ -72,3 +72,13 @@ def test_nothing_waiting_is_said(stage, queue):
 def test_what_the_robot_has_not_confirmed_is_faded(queue):
     queue.waits = True
     assert all(row.faded for row in rows(queue))
+
+
+def test_rows_and_sentence_follow_a_queue_that_grows(stage, queue):
+    for orders in (THREE, []):
+        queue.show(TaskQueue(orders=orders))
+        for height in (300, 420):
+            queue.height = height
+            stage.frames(4)
+            top = max(part.top for part in queue.ids.column.children)
+            assert queue.ids.column.top - top < 12
