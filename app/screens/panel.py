@@ -32,6 +32,8 @@ STATES = {
     "stored": ("Stored on the robot.", "ok"),
 }
 """State of the draft to its sentence and the role of its colour."""
+POINTLESS = ("go_home", "hold", "follow_heading")
+"""Tasks without points to pass."""
 NO_TASKS = "It offers no tasks."
 NO_MISSIONS = "It stores no missions."
 
@@ -334,8 +336,8 @@ class MissionPanel(BoxLayout):
         if self._session.running:
             self._progress.value = progress.progress
             status = self._session.feeds.latest("/task/status")
-            there = status is not None and status.waypoint
-            self.next.value = progress.distance_to_next if there else math.nan
+            points = status is not None and status.task not in POINTLESS
+            self.next.value = progress.distance_to_next if points else math.nan
             self.left.value = progress.time_left
 
     def tick(self) -> None:
