@@ -146,6 +146,11 @@ class Outlet:
         if frames:
             self._line.write(frames[0] if len(frames) == 1 else b"".join(frames))
 
+    def ping(self, content: bytes) -> None:
+        """Send a ping at once, before all that waits; not while the connection takes nothing."""
+        if self._line.open and not self._line.paused:
+            self._line.write(ping_frame(content))
+
     def answered(self, content: bytes) -> None:
         """A pong came."""
         if self.window.pong(content, self._clock()):

@@ -53,6 +53,7 @@ from bridge.protocol import (
     service_and_id,
     too_deep,
 )
+from bridge.pulse import Pulse
 from bridge.reducing import Reducing
 from bridge.rosapi import RosApi
 from bridge.sockets import end
@@ -62,8 +63,14 @@ __all__ = ["Client", "Offer"]
 
 log = logging.getLogger(__name__)
 
-FIRST = frozenset({"/stop", "/stop/release", "/control/acquire", "/control/release"})
+FIRST = frozenset(
+    {"/stop", "/stop/release"}
+    | {f"/control/{what}" for what in ("acquire", "release", "request", "grant", "object")}
+)
 """Services whose answers go before everything else."""
+
+TIME = "/rosapi/get_time"
+"""Who has asked this knows how the operators' clock differs from its own."""
 
 MOST_CALLS = 256
 """So many of the robot's services may be at work for one client at a time; those of `FIRST` always may."""
@@ -101,6 +108,7 @@ class Client:
         self.outlet = Outlet(line, round, session.address)
         self._offer = offer
         self._clock = asyncio.get_running_loop().time
+        self._pulse = Pulse(session.opened)
         self._complaints = Complaints(session.address)
         self._errands = Errands(self, session, self.outlet, offer.actions, offer.exchange)
         self._tasks: set[asyncio.Task[None]] = set()
@@ -165,7 +173,20 @@ class Client:
 
     def answered(self, content: bytes) -> None:
         """The client answered a ping."""
-        self.outlet.answered(content)
+        if self._pulse.pong(content, self._offer.now()):
+            self._tell_pulse()
+        else:
+            self.outlet.answered(content)
+
+    def measure(self) -> None:
+        """Ask how long the way takes; to be called every `PERIOD`."""
+        content = self._pulse.ping(self._offer.now())
+        if content is not None:
+            self.outlet.ping(content)
+        self._tell_pulse()
+
+    def _tell_pulse(self) -> None:
+        self.session.rtt, self.session.answered = self._pulse.rtt, self._pulse.answered
 
     def pump(self) -> None:
         """The connection takes more."""
@@ -312,6 +333,7 @@ class Client:
         try:
             known = self._offer.rosapi.answer(name, op.args)
             if known is not None:
+                self.session.asked_time = self.session.asked_time or name == TIME
                 self._answer(op, name, id, known)
                 return
             service = self._offer.services.get(name)

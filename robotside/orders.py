@@ -34,6 +34,7 @@ from robotside.commands import Refusal
 from robotside.controls import STOP_SENTENCE, Operator
 from robotside.keeping import kept_services
 from robotside.station import NO_MAP, Station
+from robotside.steering import control_services
 from robotside.words import plain
 
 __all__ = ["runner", "services"]
@@ -55,8 +56,6 @@ def services(station: Station) -> Iterable[Service]:
         "/task/resume": orders.resume,
         "/task/cancel": orders.cancel,
         "/task/go_home": orders.go_home,
-        "/control/acquire": orders.acquire,
-        "/control/release": orders.release,
     }
     yield service("/stop", orders.stop, ageless=True)
     for name, action in plain.items():
@@ -67,6 +66,7 @@ def services(station: Station) -> Iterable[Service]:
         "/mission/recall", orders.recall, "RecallMission", RecallMissionRequest, RecallMissionResponse
     )
     yield from kept_services(station, answering)
+    yield from control_services(station, answering, orders.pause, orders.resume)
     yield _service("/mission/get", "GetMission", GetMissionRequest, GetMissionResponse, orders.mission)
     yield _service("/events/get", "GetEvents", GetEventsRequest, GetEventsResponse, orders.events)
 
@@ -103,18 +103,6 @@ class _Orders:
             return "STOP was not pressed."
         self._station.release_stop(self._station.controls.name(client))
         return "STOP is released."
-
-    def acquire(self, client: Operator, _: CommandRequest) -> str:
-        """Take control."""
-        self._need_control(client)
-        return "You have control."
-
-    def release(self, client: Operator, _: CommandRequest) -> str:
-        """Give control back."""
-        problem = self._station.release_control(client)
-        if problem:
-            raise Refusal(problem)
-        return "Control is free."
 
     def start(self, client: Operator, asked: StartTaskRequest) -> str:
         """Start a task on the stored mission."""

@@ -36,11 +36,13 @@ from robotside.database import Records
 from robotside.demand import Demand
 from robotside.events import Events
 from robotside.guarded import Guarded
+from robotside.helm import FOLLOW_LINK, Helm, Options
 from robotside.history import History
 from robotside.limits import Keeper
 from robotside.pose2 import Pose2
 from robotside.readiness import Readiness
 from robotside.robot import Robot
+from robotside.safe_state import SafeState
 from robotside.shown import Shown
 
 __all__ = ["NO_MAP", "Station"]
@@ -81,7 +83,13 @@ class Station:
         self.info = msgspec.structs.replace(self.keeper.info, name=name)
         self.bus = Bus()
         self.demand = Demand(robot.want)
-        self.controls = Controls(max_speed=self.info.max_speed, max_yaw_rate=self.info.max_yaw_rate)
+        self.options = Options(config.control, records.setting, records.set_setting)
+        """What operators may switch."""
+        self.controls = Controls(
+            max_speed=self.info.max_speed,
+            max_yaw_rate=self.info.max_yaw_rate,
+            follows=partial(self.options.on, FOLLOW_LINK),
+        )
         self.robot = Guarded(robot, lambda: self.controls.stopped, self._clamp, self.keeper.info)
         """The only way to the robot's wheels."""
         self.records = records
@@ -107,6 +115,8 @@ class Station:
             rng=rng,
             fit=self.keeper.marked,
         )
+        self.helm = self._helm(config)
+        """Driving by hand, and what happens when nobody does."""
         self.bus.publish("/intruders", IntruderArray(Header(Time.at(now), "map")))
         self.bus.publish("/control/status", self._control)
         Shown(records, self.bus.publish, self.events.say, clock)
@@ -120,9 +130,7 @@ class Station:
     def step(self, now: float) -> None:
         """Bring everything up to `now` [s, robot clock]; call it often."""
         self.now = now
-        if self.controls.expired(self.clock()) and not self.autonomy.engine.running:
-            self.robot.stop()
-        self.controls.lapse(self.clock())
+        self.helm.step(now)
         self._pass_on(self.robot.read(now))
         self._mind_trouble()
         self._mind(lambda: self.autonomy.check(now))
@@ -137,7 +145,7 @@ class Station:
         if stamp is not None:
             self.readiness.told_time(stamp)
         if isinstance(msg, Twist):
-            self._drive(client, msg, stamp)
+            self._remark(client, self.helm.drive(client, msg, stamp))
         elif isinstance(msg, PoseWithCovarianceStamped):
             self._place(client, Pose2.from_msg(msg.pose.pose))
         elif isinstance(msg, PoseStamped):
@@ -147,13 +155,12 @@ class Station:
     def gone(self, client: Operator) -> None:
         """A client's socket closed; if it was driving, the robot stops at once."""
         self._next_remark.pop(client.id, None)
-        if self.controls.gone(client) and not self.autonomy.engine.running:
-            self.robot.stop()
+        self.helm.gone(client, self.now)
         self.show_control()
 
     def press_stop(self, name: str) -> None:
         """Latch STOP, bring the robot to rest and hold the task; `name` pressed it."""
-        self.robot.stop()
+        self.robot.stop() if self._ending else self.robot.press_stop()
         if not self.controls.stopped:
             self.events.say("stop", f"STOP pressed by {name}.", "alarm")
         self.controls.stop(name)
@@ -163,15 +170,8 @@ class Station:
     def release_stop(self, name: str) -> None:
         """Unlatch STOP; the robot stays where it is."""
         self.controls.release_stop()
+        self.robot.release_stop()
         self.events.say("stop", f"STOP released by {name}.", "ok")
-
-    def release_control(self, client: Operator) -> str:
-        """Give control back; returns why not, empty when done. A robot driven by hand comes to rest."""
-        problem = self.controls.release(client)
-        if not problem and self.controls.driving:
-            self.controls.halt()
-            self.robot.stop()
-        return problem
 
     def keep(self, mission: Mission) -> None:
         """Store `mission`; everyone is told once it is on the disk. NotRecorded when it cannot be kept."""
@@ -247,6 +247,7 @@ class Station:
         by, cut = self.records.stopped_by, self.records.runs.under_way
         if by:
             self.controls.stop(by)
+            self.robot.press_stop()
             self.events.say("stop", f"STOP, pressed by {by} before the restart, is still pressed.", "alarm")
         if cut:
             said = f"The robot's computer restarted; the {cut.run.order.task.replace('_', ' ')} has ended."
@@ -300,18 +301,6 @@ class Station:
             said = f"The task ended: the robot's program has a fault ({type(fault).__name__})."
             self.autonomy.engine.fail(said)
 
-    def _drive(self, client: Operator, twist: Twist, stamp: float | None) -> None:
-        engine = self.autonomy.engine
-        trouble = self.robot.trouble
-        ruling = self.controls.drive(
-            client, twist, self.clock(), stamp=stamp, auto=engine.running, trouble=trouble
-        )
-        if ruling.twist is None:
-            self._remark(client, ruling.said)
-            return
-        engine.pause(f"Paused: {self.controls.name(client)} took the stick.", "warn")
-        self._mind(partial(self.robot.drive, ruling.twist))
-
     def _place(self, client: Operator, pose: Pose2) -> None:
         problem = self.controls.objection(client)
         if not all(map(math.isfinite, pose)):
@@ -354,7 +343,7 @@ class Station:
             self.events.say("command", said, "warn")
 
     def _control_now(self) -> ControlStatus:
-        driver, at_rest = self.controls.driver, self._at_rest()
+        driver, asker, at_rest = self.controls.driver, self.controls.asker, self._at_rest()
         if at_rest:
             self.readiness.rests(stopped=self.controls.stopped)
         return ControlStatus(
@@ -365,7 +354,35 @@ class Station:
             stopped_by=self.controls.stopped_by,
             at_rest=at_rest,
             stop_tested=self.readiness.stop_tested,
+            requested_by=asker.name if asker else "",
+            requested_by_id=asker.client_id if asker else "",
+            handover=Time.at(asker.due) if asker else Time(),
+            speed_cap=self.controls.pace.shown,
+            follows_link=self.controls.follows,
         )
+
+    def _helm(self, config: Config) -> Helm:
+        where, senses = self.autonomy.whereabouts, self.readiness.senses
+        return Helm(
+            self.controls,
+            self.robot,
+            self.autonomy.engine,
+            SafeState(self.info.kind, config.safe_state),
+            self.options,
+            say=self.events.say,
+            clock=self.clock,
+            measured=lambda: senses.measured(where.pose),
+            go_home=self._return,
+        )
+
+    def _return(self) -> bool:
+        """Go home though nobody says so; False when it cannot."""
+        home = self.mission.home[:1]
+        if not home or self.unfit or self.lost or self.fault("Home", home[0].x, home[0].y):
+            return False
+        self.controls.hold()
+        self.autonomy.start_home(home[0], self.now)
+        return True
 
     def _mode(self) -> str:
         engine = self.autonomy.engine

@@ -57,6 +57,9 @@ class FakeClient:
         self.id = name
         self.address = "192.0.2.1:5000"
         self.last_heard = now
+        self.rtt = math.nan
+        self.asked_time = True
+        self.answered = math.inf
 
 
 class FakeRobot:
