@@ -76,6 +76,7 @@ class Authority:
         self._driver: Driver | None = None
         self._asker: Asker | None = None
         self._names: dict[str, tuple[str, str]] = {}
+        self._fell = ""
         self._refused: dict[tuple[str, str], float] = {}
 
     @property
@@ -127,7 +128,7 @@ class Authority:
 
     def acquire(self, client: Operator, now: float) -> str:
         """Give control to `client` if it is free or its own."""
-        self.mind(now)
+        self._look(now)
         problem = self.objection(client)
         if not problem:
             self._give(client)
@@ -148,12 +149,11 @@ class Authority:
 
         Asking again changes nothing; there is one who asks at a time.
         """
-        if not self.acquire(client, now):
-            return ""
+        problem = self.acquire(client, now)
         held, asker = self._driver, self._asker
-        if held is None:
-            return ""
         client_id, name = self._identity(client)
+        if held is None or not problem or client_id == held.client_id:
+            return problem
         if asker is not None:
             same = asker.client_id == client_id
             return (
@@ -186,16 +186,22 @@ class Authority:
         return ""
 
     def mind(self, now: float) -> str:
-        """Let control lapse and go over when it is time; returns the name of a driver who fell silent, else empty."""
-        lapsed = ""
+        """Let control lapse and go over when it is time.
+
+        Returns the name of a driver who fell silent since the last call, empty when none did.
+        """
+        self._look(now)
+        fell, self._fell = self._fell, ""
+        return fell
+
+    def _look(self, now: float) -> None:
         if self._asker is not None and now - self._asker.client.last_heard > LAPSE:
             self._asker = None
         if self._driver is not None and now - self._driver.client.last_heard > LAPSE:
-            lapsed = self._driver.name
+            self._fell = self._driver.name
             self._pass_on()
         elif self._asker is not None and now >= self._asker.due:
             self._pass_on()
-        return lapsed
 
     def gone(self, client: Operator) -> bool:
         """Forget a client whose socket closed; True when it had control."""

@@ -158,7 +158,8 @@ class Controls(Authority):
         """Why a sound command of `client` is not obeyed; empty when it is, and then it has control."""
         if self.stopped:
             return STOP_SENTENCE
-        return self.acquire(client, now) if counts else LET_GO
+        self._look(now)
+        return self.objection(client) or (self.acquire(client, now) if counts else LET_GO)
 
     def _fault(self, client: Operator, twist: Twist, now: float, stamp: float | None) -> str:
         if not _finite(twist):

@@ -30,7 +30,7 @@ def share(rtt: float) -> float:
     if math.isnan(rtt):
         return 1.0
     part = (rtt - FULL_TO) / (SLOWEST_FROM - FULL_TO)
-    return 1.0 - (1.0 - CRAWL) * min(1.0, max(0.0, part))
+    return CRAWL + (1.0 - CRAWL) * (1.0 - min(1.0, max(0.0, part)))
 
 
 class Pace:

@@ -97,6 +97,7 @@ class _Steering:
         if problem:
             raise Refusal(problem)
         station.options.set(asked.name, asked.value)
+        station.controls.look(station.clock())
         said = _SAID[asked.name, asked.value]
         station.events.say("control", f"{said[:-1]}, says {station.controls.name(client)}.")
         return said

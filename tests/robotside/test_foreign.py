@@ -44,6 +44,12 @@ class Line:
     def drive(self, twist: Twist) -> None:
         self.sent.append(twist)
 
+    def press_stop(self) -> None:
+        pass
+
+    def release_stop(self) -> None:
+        pass
+
     def want(self, topic: str, wanted: bool) -> None:
         self.wanted.append((topic, wanted))
 

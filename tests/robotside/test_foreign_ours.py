@@ -67,7 +67,35 @@ async def test_the_one_in_front_drives_under_its_own_name_and_its_stop_brings_th
         await until(lambda: SPEED in it.robot.commands)
         assert await order(it.anna, "/stop") == "Stopped."
         await until(lambda: it.robot.at_rest)
-        assert not it.behind.station.controls.stopped
+
+
+async def test_stop_in_front_presses_the_stop_behind_and_releasing_it_releases_that(tmp_path: Path) -> None:
+    async with two(tmp_path) as it:
+        far = it.behind.station.controls
+        await order(it.anna, "/stop")
+        await until(lambda: far.stopped)
+        assert far.stopped_by.startswith("the robot side on ")
+        await until(lambda: it.port.trouble == "")
+        assert await order(it.anna, "/stop/release") == "STOP is released."
+        await until(lambda: not far.stopped)
+
+
+async def test_stop_in_front_is_pressed_behind_as_soon_as_that_is_reached_again(tmp_path: Path) -> None:
+    async with two(tmp_path) as it:
+        it.cable.cut()
+        await until(lambda: "cannot be reached" in it.port.trouble)
+        await order(it.anna, "/stop")
+        await until(lambda: it.behind.station.controls.stopped)
+
+
+async def test_what_somebody_else_pressed_behind_is_not_released_from_the_front(tmp_path: Path) -> None:
+    async with two(tmp_path) as it:
+        await order(it.fred, "/stop")
+        await until(lambda: it.port.trouble == STOPPED)
+        await order(it.anna, "/stop")
+        await order(it.anna, "/stop/release")
+        await it.fred.call("/task/pause", CommandRequest(), CommandResponse)
+        assert it.behind.station.controls.stopped_by == "Fred"
 
 
 async def test_a_stop_pressed_behind_is_told_in_front_and_can_be_released_where_it_was_pressed(
