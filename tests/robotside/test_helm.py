@@ -261,10 +261,13 @@ def test_wheels_that_are_told_to_return_go_home_by_themselves(tmp_path: Path) ->
     assert scene.events("control")[-1] == "Nobody drives the robot: it goes home."
 
 
-def test_with_stop_pressed_no_safe_state_moves_the_robot(tmp_path: Path) -> None:
+def test_with_stop_pressed_no_safe_state_moves_the_robot_nor_when_it_is_released(tmp_path: Path) -> None:
     scene = after_the_link(tmp_path, "boat", 5.0)
-    scene.ask("/stop", client=scene.client("bert"))
-    assert scene.robot.twist == Twist()
+    bert = scene.client("bert")
+    scene.ask("/stop", client=bert)
+    scene.robot._odom = (*scene.robot._odom[:2], scene.robot._odom[2] + 0.3)
     before = len(scene.robot.commands)
     scene.run(5.0)
+    assert scene.ask("/stop/release", client=bert).success
+    scene.run(1.0)
     assert not any(scene.robot.commands[before:])
