@@ -114,19 +114,21 @@ class Ledger:
             return
         self.memory.put(job)
         if not self._writer.submit(job, self._told):
-            self._told(job, f"The database is slow: {self.memory.pending - 1} changes wait already.")
+            self.memory.failed(job)
+            job.settle(f"The database is slow: {self.memory.pending} changes wait already.")
 
     def _told(self, job: Job, problem: str) -> None:
         if problem:
             self.memory.failed(job)
-        else:
-            self.memory.succeeded(job)
-        self._trust(problem)
-        if not problem:
-            for table in dict.fromkeys(put.table for put in job.puts):
-                for call in self.watchers.get(table, ()):
-                    call()
-        job.settle(problem)
+            self._trust(problem)
+            job.settle(problem)
+            return
+        self.memory.succeeded(job)
+        self._trust("")
+        for table in dict.fromkeys(put.table for put in job.puts):
+            for call in self.watchers.get(table, ()):
+                call()
+        job.settle("")
 
     def _trust(self, problem: str) -> None:
         if bool(problem) != bool(self._trouble):

@@ -6,6 +6,7 @@ import secrets
 import sqlite3
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,7 +15,7 @@ from alembic.config import Config
 from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
 from alembic.util import CommandError
-from sqlalchemy import Engine
+from sqlalchemy import Connection, Engine, text
 from sqlalchemy.engine import URL, make_url
 from sqlalchemy.exc import ArgumentError, NoSuchModuleError, SQLAlchemyError
 
@@ -27,6 +28,9 @@ from robotside.database.storage import NotWritten, Storage, engine_of, not_writt
 from robotside.database.writer import CallSoon, Keeper, Threaded
 
 __all__ = ["CannotOpen", "open_records", "upgrade"]
+
+_KEEPALIVE = {"tcp_keepalives_idle": 5, "tcp_keepalives_interval": 5, "tcp_keepalives_count": 2}
+"""After which a server gives up a robot that says nothing [s, s, times]."""
 
 _BACKENDS = ("sqlite", "postgresql", "mysql", "mariadb")
 
@@ -267,9 +271,11 @@ class _Server(Keeper):
         except ImportError as missing:
             said = f"For {url.drivername} the package {missing.name!r} is needed, which is not installed."
             raise CannotOpen(said) from missing
+        self._lock: Connection | None = None
 
     def open(self) -> _Opened:
-        """Everything it has."""
+        """Everything it has, unless another robot side works with it."""
+        self._take()
         upgrade(self._storage.engine)
         content, unread = self._storage.load()
         return _Opened(self._storage, content, unread, 0)
@@ -280,4 +286,29 @@ class _Server(Keeper):
 
     def close(self) -> None:
         """Let go of the server."""
+        if self._lock is not None:
+            with suppress(SQLAlchemyError):
+                self._lock.close()
         self._storage.close()
+
+    def _take(self) -> None:
+        """Hold a lock for as long as the connection lives: what is in memory here would not know what others write.
+
+        PostgreSQL looks after its connections, so that a robot without power loses it soon. MariaDB has no such lock.
+        """
+        engine = self._storage.engine
+        if engine.dialect.name != "postgresql":
+            return
+        try:
+            self._lock = engine.connect()
+            for name, value in _KEEPALIVE.items():
+                self._lock.execute(text(f"SET {name} = {value}"))
+            taken = self._lock.scalar(text("SELECT pg_try_advisory_lock(7474)"))
+            self._lock.commit()
+        except SQLAlchemyError as error:
+            raise not_written(error) from error
+        if not taken:
+            where = engine.url.render_as_string(hide_password=True)
+            raise CannotOpen(
+                f"Another robot side keeps its records in {where}; each needs a database of its own."
+            )
