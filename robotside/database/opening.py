@@ -7,6 +7,7 @@ import sqlite3
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -20,7 +21,7 @@ from sqlalchemy.engine import URL, make_url
 from sqlalchemy.exc import ArgumentError, NoSuchModuleError, SQLAlchemyError
 
 from bridge.errors import BridgeError
-from robotside.database.files import PATIENCE, Files, Taken
+from robotside.database.files import BACKUPS_KEPT, PATIENCE, Files, Taken
 from robotside.database.legacy import left_behind, put_away
 from robotside.database.records import Records
 from robotside.database.rows import Content, Put
@@ -54,15 +55,17 @@ def open_records(
     url: str | None,
     call_soon: CallSoon,
     *,
+    backups: int = BACKUPS_KEPT,
     patience: float = PATIENCE,
     now: Callable[[], float] = time.time,
 ) -> Records:
     """Open what is kept in `directory`, or at `url` as SQLAlchemy writes it; CannotOpen says why it cannot be.
 
     `call_soon` brings what the writing thread tells to the thread of the records, as a loop's `call_soon_threadsafe`
-    does. `patience` [s] is waited for another program that has the records. Anything unusual is in `problems`.
+    does. Of a SQLite file `backups` are kept. `patience` [s] is waited for another program that has the records. Anything
+    unusual is in `problems`.
     """
-    keeper = _keeper(directory, url, patience, now)
+    keeper = _keeper(directory, url, partial(Files, now=now, patience=patience, backups=backups), patience)
     try:
         opened = keeper.open()
         puts, said = _first_words(opened, directory)
@@ -86,9 +89,11 @@ def open_records(
     return records
 
 
-def _keeper(directory: Path, url: str | None, patience: float, now: Callable[[], float]) -> _Local | _Server:
+def _keeper(
+    directory: Path, url: str | None, files: Callable[[Path], Files], patience: float
+) -> _Local | _Server:
     if not url:
-        return _Local(directory / "records.sqlite3", patience, now)
+        return _Local(directory / "records.sqlite3", files, patience)
     parsed = _parsed(url)
     if parsed.get_backend_name() != "sqlite":
         return _Server(parsed, patience)
@@ -96,7 +101,7 @@ def _keeper(directory: Path, url: str | None, patience: float, now: Callable[[],
         raise CannotOpen(
             f"The database {url!r} would be gone with the process; name a file, as sqlite:///FILE."
         )
-    return _Local(Path(parsed.database), patience, now)
+    return _Local(Path(parsed.database), files, patience)
 
 
 def _first_words(opened: _Opened, directory: Path) -> tuple[list[Put], list[str]]:
@@ -179,11 +184,11 @@ def _shown(url: str) -> str:
 class _Local(Keeper):
     """A SQLite file, that is mended when it is broken and backed up."""
 
-    def __init__(self, path: Path, patience: float, now: Callable[[], float]) -> None:
+    def __init__(self, path: Path, files: Callable[[Path], Files], patience: float) -> None:
         self._patience = patience
         directory = path.parent
         try:
-            self._files = Files(path, now, patience)
+            self._files = files(path)
             self._files.take()
         except OSError as error:
             why = (error.strerror or str(error)).lower()
