@@ -120,17 +120,7 @@ class Station:
         Shown(records, self.bus.publish, self.events.say, clock)
         self.interrupted = self._take_up()
         """The task that a restart cut, if there was one."""
-        self.agenda = Agenda(
-            records,
-            self.autonomy.engine,
-            self.autonomy.assignments,
-            publish=self.bus.publish,
-            say=self.events.say,
-            clock=clock,
-            civil=civil or clock,
-            zone=zone,
-            barred=self._barred,
-        )
+        self.agenda = self._agenda(civil or clock, zone)
         """Queue and schedule."""
         self._pass_on(first)
         self.show_control()
@@ -270,6 +260,19 @@ class Station:
         for topic in ("/task/status", "/task/progress"):
             self.bus.subscribe(topic, history.hear)
         return Interrupted(cut, engine) if cut else None
+
+    def _agenda(self, civil: Callable[[], float], zone: tzinfo) -> Agenda:
+        return Agenda(
+            self.records,
+            self.autonomy.engine,
+            self.autonomy.assignments,
+            publish=self.bus.publish,
+            say=self.events.say,
+            clock=self.clock,
+            civil=civil,
+            zone=zone,
+            barred=self._barred,
+        )
 
     def _barred(self, moves: bool) -> str:
         """Why no task may start by itself just now, one that `moves` or not; empty when it may."""

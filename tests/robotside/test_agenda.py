@@ -254,8 +254,10 @@ def test_what_was_due_while_the_computer_was_off_is_skipped_and_said(scene: Scen
     again.run(1.0)
     assert begun(again) == []
     assert again.events("task") == [
-        "Holding that was due at 1970-01-01 at 00:17 is skipped: "
-        "the robot's computer was off or its clock was changed."
+        (
+            "Holding that was due at 1970-01-01 at 00:17 is skipped: "
+            "the robot's computer was off or its clock was changed."
+        )
     ]
 
 
