@@ -85,6 +85,13 @@ class Ledger:
         if facts:
             self._hand_in(Job(facts=facts))
 
+    def owe(self, facts: list[Put], trouble: str) -> None:
+        """Have facts that could not be written just now, for that reason."""
+        self._trouble = trouble
+        for put in facts:
+            self.memory.see(put)
+        self.memory.failed(Job(facts=facts))
+
     def end(self) -> None:
         """Write what could not be written, and with it that this was an orderly end."""
         put = Put("facts", "clean", "1")

@@ -69,10 +69,7 @@ def open_records(
     try:
         opened = keeper.open()
         puts, said = _first_words(opened, directory)
-        opened.storage.write(puts)
-        for put in puts:
-            opened.content[put.table][put.key] = put.value
-        put_away(directory)
+        trouble = _tried(opened, puts)
     except NotWritten as problem:
         keeper.close()
         raise CannotOpen(str(problem)) from problem
@@ -82,6 +79,10 @@ def open_records(
     writer = Threaded(keeper, call_soon)
     records = Records(opened.content, writer, writer.close)
     records.problems += [*opened.problems, *said]
+    if trouble:
+        records.owe(puts, trouble)
+    else:
+        put_away(directory)
     writer.on_idle = records.try_again
     writer.on_trouble = records.say_trouble
     writer.on_damage = lambda: records.rebuild(writer.rebuild)
@@ -126,6 +127,19 @@ def _first_words(opened: _Opened, directory: Path) -> tuple[list[Put], list[str]
             Put("facts", "last mission", "1"),
         ]
     return puts, left.problems
+
+
+def _tried(opened: _Opened, puts: list[Put]) -> str:
+    """Write the first rows; a robot whose disk is full is served all the same, with the reason as one sentence."""
+    try:
+        opened.storage.write(puts)
+    except NotWritten as problem:
+        if problem.damaged:
+            raise
+        return str(problem)
+    for put in puts:
+        opened.content[put.table][put.key] = put.value
+    return ""
 
 
 def upgrade(engine: Engine, before: Callable[[], object] = lambda: None) -> None:
