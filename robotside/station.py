@@ -98,8 +98,6 @@ class Station:
         self._control = ControlStatus()
         self._next_remark: dict[str, float] = {}
         self._next_diagnostics = now
-        self._next_fault = -math.inf
-        self._trouble = ""
         first = list(robot.read(now))
         self.bus.publish("/robot/info", self.info)
         self.bus.publish("/limits", self.keeper.message)
@@ -127,6 +125,8 @@ class Station:
 
     _held = False
     _ending = False
+    _next_fault = -math.inf
+    _trouble = ""
 
     def step(self, now: float) -> None:
         """Bring everything up to `now` [s, robot clock]; call it often."""
