@@ -233,3 +233,22 @@ def test_rows_that_cannot_be_read_are_left_out_and_said(tmp_path: Path) -> None:
     records = open_records(tmp_path, None, print)
     assert records.problems == ["1 of the missions in the database cannot be read (7) and are left out."]
     records.close()
+
+
+async def test_a_server_that_was_away_is_found_again(start: Open, url: str | None) -> None:
+    if not url or "postgresql" not in url:
+        pytest.skip("Of a server that can be told to cut its connections.")
+    records = start()
+    await fill(records)
+    engine = engine_of(make_url(url))
+    with engine.connect() as connection:
+        others = "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE pid != pg_backend_pid() AND backend_type = 'client backend'"
+        connection.execute(text(others))
+    engine.dispose()
+    with records.together() as job:
+        records.places.set(Place(name="Lab"))
+    assert await job.kept(10.0) == ""
+    records.close()
+    again = start()
+    assert len(again.places.all()) == 3
+    again.close()
