@@ -99,8 +99,6 @@ class Station:
         self._next_remark: dict[str, float] = {}
         self._next_diagnostics = now
         first = list(robot.read(now))
-        self.bus.publish("/robot/info", self.info)
-        self.bus.publish("/limits", self.keeper.message)
         self.autonomy = Autonomy(
             self.robot,
             next((msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None),
@@ -113,8 +111,7 @@ class Station:
             fault=self.fault,
             fit=self.keeper.marked,
         )
-        self.bus.publish("/intruders", IntruderArray(Header(Time.at(now), "map")))
-        self.bus.publish("/control/status", self._control)
+        self._show_beginning()
         Shown(records, self.bus.publish, self.events.say, clock)
         self.interrupted = self._take_up()
         """The task that a restart cut, if there was one."""
@@ -260,6 +257,13 @@ class Station:
         for topic in ("/task/status", "/task/progress"):
             self.bus.subscribe(topic, history.hear)
         return Interrupted(cut, engine) if cut else None
+
+    def _show_beginning(self) -> None:
+        """What there is to tell before anything has happened."""
+        self.bus.publish("/robot/info", self.info)
+        self.bus.publish("/limits", self.keeper.message)
+        self.bus.publish("/intruders", IntruderArray(Header(Time.at(self.now), "map")))
+        self.bus.publish("/control/status", self._control)
 
     def _agenda(self, civil: Callable[[], float], zone: tzinfo) -> Agenda:
         return Agenda(
