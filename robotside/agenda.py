@@ -17,13 +17,14 @@ from robotside.assignments import Assignments, words_for
 from robotside.bus import Publish
 from robotside.commands import Refusal
 from robotside.database import NotRecorded, Records
+from robotside.database.plans import MOST_QUEUED
 from robotside.events import Say
 from robotside.schedule import Turn, fault, following, turns
 from robotside.tasks import Engine
 
 __all__ = ["Agenda"]
 
-PERIOD = 0.5
+PERIOD = 1.0
 """Between two looks [s], robot clock."""
 
 _BARS = ("PAUSED", "INTERRUPTED")
@@ -89,13 +90,14 @@ class Agenda:
 
     def set_queue(self, orders: Sequence[TaskOrder], revision: int) -> TaskQueue:
         """Replace what waits. Refusal when one of them cannot be done, NotRecorded when it has changed meanwhile."""
-        for number, order in enumerate(orders, 1):
+        tidy = []
+        for number, order in enumerate(orders[:MOST_QUEUED], 1):
             try:
-                self._assignments.task(order)
+                tidy.append(self._assignments.task(order).order)
             except Refusal as problem:
                 raise Refusal(f"Task {number} of the queue: {problem}") from problem
         empty = not self._records.queue.current.orders
-        queue = self._records.queue.set(orders, revision)
+        queue = self._records.queue.set([*tidy, *orders[MOST_QUEUED:]], revision)
         if empty or not orders:
             self.release()
         return queue
@@ -105,9 +107,8 @@ class Agenda:
         problem = fault(task)
         if problem:
             raise Refusal(problem)
-        self._assignments.task(task.order)
+        order = msgspec.structs.replace(self._assignments.task(task.order).order, id=0)
         start = following(task, self._civil(), self._zone)
-        order = msgspec.structs.replace(task.order, id=0)
         return self._records.schedule.set(
             msgspec.structs.replace(task, order=order, next=Time.at(start) if start else Time())
         )

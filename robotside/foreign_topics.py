@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from bridge.msgs import Msg, ros1_name
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
-from bridge.msgs.pilothouse_msgs import RobotInfo
+from bridge.msgs.pilothouse_msgs import Following, RobotInfo, TagRead
 from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, Imu, JointState, LaserScan, NavSatFix
 from robotside.autonomy import CAMERA
 
@@ -42,6 +42,8 @@ _PARTS = (
     _Part("/fix", NavSatFix, ("/fix", "/gps/fix")),
     _Part("/joint_states", JointState, ("/joint_states",)),
     _Part("/robot/info", RobotInfo, ("/robot/info",)),
+    _Part("/tag", TagRead, ("/tag",)),
+    _Part("/following", Following, ("/following",)),
 )
 
 _COMMAND = "/cmd_vel"

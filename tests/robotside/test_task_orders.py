@@ -303,3 +303,25 @@ def test_the_history_has_the_order_and_who_gave_it(house: Scene) -> None:
     house.run_task()
     (run,) = house.ask("/history/get", GetHistoryRequest(limit=5)).runs  # type: ignore[attr-defined]
     assert (run.order.duration, run.by, run.state, run.reason) == (2.0, "Anna", "SUCCEEDED", "Held for 2 s.")
+
+
+def test_an_answer_that_was_given_in_a_pause_does_not_count(house: Scene) -> None:
+    begin(house, "deliver", "Office 12", "Lab")
+    until(house, lambda status: bool(status.asks))
+    house.ask("/task/pause")
+    house.robot.more.append(("/tag", TagRead(tag="card-12")))
+    house.run(0.5)
+    assert house.refused("/task/confirm") == "The robot asks nothing just now."
+    house.ask("/task/resume")
+    house.run(1.0)
+    assert house.task.asks == "Has it been picked up at Office 12?"
+
+
+def test_endless_words_of_an_order_are_cut_and_endless_lists_refused(house: Scene) -> None:
+    begin(house, "deliver", "Office 12", "Lab", message="x" * 9999, recipient_tag="y" * 9999)
+    (run,) = house.ask("/history/get", GetHistoryRequest(limit=5)).runs  # type: ignore[attr-defined]
+    assert (len(run.order.message), len(run.order.recipient_tag)) == (200, 64)
+    house.ask("/task/cancel")
+    order = TaskOrder(task="hold", goals=[Waypoint()] * 101)
+    said = house.refused("/task/start", StartTaskRequest(order=order))
+    assert said == "A task names at most 100 places or points, not 101."
