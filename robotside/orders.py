@@ -145,7 +145,7 @@ class _Orders:
 
     def mission(self, _: Operator, __: GetMissionRequest) -> GetMissionResponse:
         """Give the stored mission."""
-        mission = self._station.mission
+        mission = self._station.records.missions.stored
         stored = mission.stamp.seconds > 0
         return GetMissionResponse(True, "" if stored else "No mission was stored yet.", mission)
 

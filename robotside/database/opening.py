@@ -291,6 +291,7 @@ class _Server(Keeper):
             said = f"For {url.drivername} the package {missing.name!r} is needed, which is not installed."
             raise CannotOpen(said) from missing
         self._lock: Connection | None = None
+        self._patience = patience
 
     def open(self) -> _Opened:
         """Everything it has, unless another robot side works with it."""
@@ -322,7 +323,11 @@ class _Server(Keeper):
             self._lock = engine.connect()
             for name, value in _KEEPALIVE.items():
                 self._lock.execute(text(f"SET {name} = {value}"))
-            taken = self._lock.scalar(text("SELECT pg_try_advisory_lock(7474)"))
+            end = time.monotonic() + self._patience
+            while not (taken := self._lock.scalar(text("SELECT pg_try_advisory_lock(7474)"))):
+                if time.monotonic() > end:
+                    break
+                time.sleep(0.05)
             self._lock.commit()
         except SQLAlchemyError as error:
             raise not_written(error) from error

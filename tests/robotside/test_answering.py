@@ -10,9 +10,13 @@ from typing import Any
 import pytest
 
 from bridge.msgs import Msg
+from bridge.msgs.arrays import Int32Array
 from bridge.msgs.pilothouse_msgs import (
+    AcknowledgeEventsRequest,
     CommandRequest,
     Event,
+    GetMissionRequest,
+    GetMissionsRequest,
     Mission,
     Place,
     PlaceArray,
@@ -158,3 +162,41 @@ def test_an_event_is_told_when_it_is_on_the_disk_or_cannot_be(slow: Slow) -> Non
     slow.write()
     known = [event.text for event in slow.station.events.since(1, slow.station.events.boot)]
     assert known[-4:] == ["One.", "Two.", FULL, "The database can be written again."]
+
+
+async def test_an_answer_that_rests_on_what_is_on_its_way_waits_for_it(slow: Slow) -> None:
+    slow.station.events.say("task", "One.")
+    slow.write()
+    number = slow.last("/events").id
+    request = AcknowledgeEventsRequest(client_name="Anna", ids=Int32Array([number]))
+    first = await soon(slow.ask("/events/acknowledge", request))
+    second = await soon(slow.ask("/events/acknowledge", request))
+    slow.write()
+    assert (await first).message == "1 event acknowledged."
+    assert (await second).message == "Somebody has seen to it already."
+    third = slow.ask("/events/acknowledge", request)
+    assert isinstance(third, Msg), "it is on the disk"
+
+
+async def test_what_is_told_on_request_is_on_the_disk(slow: Slow) -> None:
+    mission = SetMissionRequest(mission=Mission(name="Night"))
+    answer = await soon(slow.ask("/mission/set", mission))
+    assert slow.ask("/missions/get", GetMissionsRequest()).names == []  # type: ignore[union-attr]
+    assert slow.ask("/mission/get", GetMissionRequest()).mission.name == ""  # type: ignore[union-attr]
+    slow.write()
+    await answer
+    assert slow.ask("/missions/get", GetMissionsRequest()).names == ["Night"]  # type: ignore[union-attr]
+    assert slow.ask("/mission/get", GetMissionRequest()).mission.name == "Night"  # type: ignore[union-attr]
+
+
+async def test_the_end_of_a_task_is_answered_when_no_restart_would_offer_it_again(slow: Slow) -> None:
+    answer = slow.ask("/mission/set", SetMissionRequest(mission=Mission(waypoints=[Waypoint(3.0, 0.0)])))
+    slow.write()
+    await answer  # type: ignore[misc]
+    started = await soon(slow.ask("/task/start", StartTaskRequest()))
+    slow.write()
+    assert (await started).success
+    canceled = await soon(slow.ask("/task/cancel", CommandRequest()))
+    slow.write()
+    assert (await canceled).success
+    assert slow.records.runs.under_way is None

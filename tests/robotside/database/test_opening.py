@@ -11,7 +11,7 @@ import msgspec
 import pytest
 from alembic.autogenerate import compare_metadata
 from alembic.migration import MigrationContext
-from sqlalchemy import create_engine, text
+from sqlalchemy import create_engine, event, inspect, text
 from sqlalchemy.engine import make_url
 
 from bridge.codec import to_json
@@ -252,3 +252,24 @@ async def test_a_server_that_was_away_is_found_again(start: Open, url: str | Non
     again = start()
     assert len(again.places.all()) == 3
     again.close()
+
+
+async def test_a_migration_that_is_cut_leaves_nothing_half_and_is_done_again(
+    tmp_path: Path, url: str | None
+) -> None:
+    engine = engine_of(make_url(url or f"sqlite:///{tmp_path / 'x.sqlite3'}"))
+    cut = [True]
+
+    @event.listens_for(engine, "before_cursor_execute")
+    def fail(_: object, __: object, statement: str, *___: object) -> None:
+        if cut and "CREATE TABLE" in statement and "runs" in statement:
+            raise RuntimeError("The power is gone.")
+
+    with pytest.raises(RuntimeError, match="The power is gone."):
+        upgrade(engine)
+    if engine.dialect.name != "mariadb":
+        assert inspect(engine).get_table_names() == []
+    cut.clear()
+    upgrade(engine)
+    assert set(inspect(engine).get_table_names()) == {"alembic_version", *Base.metadata.tables}
+    engine.dispose()
