@@ -22,6 +22,7 @@ from robotside.database import Records
 from robotside.database.opening import open_records
 from robotside.foreign import ForeignRobot
 from robotside.robot import Robot
+from robotside.schedule import local_zone
 from robotside.serving import Addresses, Serving
 from robotside.station import Station
 
@@ -123,7 +124,8 @@ async def _run(
 ) -> int:
     clock = RobotClock(wall(), options.speed)
     loop = asyncio.get_running_loop()
-    records = open_records(_state(options), config.database.url, loop.call_soon_threadsafe)
+    kept = config.database
+    records = open_records(_state(options), kept.url, loop.call_soon_threadsafe, backups=kept.backups)
     try:
         return await _serve_station(options, config, robot, records, clock, wall, wanted)
     finally:
@@ -147,6 +149,8 @@ async def _serve_station(
         rng=random.Random(options.seed),
         name=options.name,
         config=config,
+        civil=time.time,
+        zone=local_zone(),
     )
     addresses = Addresses(options.host, options.port, options.http_port)
     serving = Serving(station, clock, wall, addresses, wanted=wanted)

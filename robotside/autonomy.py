@@ -12,12 +12,24 @@ import numpy as np
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseStamped
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry, Path
-from bridge.msgs.pilothouse_msgs import Bumper, Intruder, Mission, TaskStatus, Waypoint
+from bridge.msgs.pilothouse_msgs import (
+    Bumper,
+    Following,
+    Intruder,
+    Mission,
+    TagRead,
+    TaskOrder,
+    TaskStatus,
+)
 from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header, Time
-from robotside.behaviours.patrol import patrol, patrol_course, single
-from robotside.behaviours.situation import Situation
+from robotside.assignments import Assignments
+from robotside.behaviours.course import Course
+from robotside.behaviours.patrol import patrol_route
+from robotside.behaviours.situation import Seen, Situation
 from robotside.bus import Bus
+from robotside.commands import Refusal
+from robotside.database import Records
 from robotside.demand import Demand
 from robotside.events import Events
 from robotside.grid import Grid
@@ -25,7 +37,7 @@ from robotside.guide import CRUISE, Guide
 from robotside.laser import Laser
 from robotside.pose2 import Points, Pose2
 from robotside.robot import Robot
-from robotside.tasks import Engine, Task
+from robotside.tasks import Engine
 from robotside.watch import Watch
 from robotside.whereabouts import Whereabouts
 
@@ -34,16 +46,22 @@ __all__ = ["CAMERA", "LOW_BELOW", "Autonomy"]
 CAMERA = "/camera/image/compressed"
 
 GO_HOME_BELOW = 0.10
-"""A patrol ends and the robot goes home when the battery has less than this left, 0 to 1."""
+"""A task that moves the robot ends and it goes home when the battery has less than this left, 0 to 1."""
 
 LOW_BELOW = 0.15
-"""A battery with less than this left is low: it is said, and no patrol is started, 0 to 1."""
+"""A battery with less than this left is low: it is said, and no task that moves the robot is started, 0 to 1."""
 
 SILENCE = 0.6
 """Odometry or laser silent for this long means that the robot must not drive by itself [s]."""
 
 UNMEASURED = 2.0
 """Without odometry for this long nobody knows whether the wheels stand still [s]."""
+
+
+_CHARGING = (BatteryState.POWER_SUPPLY_STATUS_CHARGING, BatteryState.POWER_SUPPLY_STATUS_FULL)
+
+_TO_CHARGE = ("go_home", "dock")
+"""Tasks that bring it to where it can be charged, whatever the battery says."""
 
 
 class Autonomy:
@@ -59,14 +77,17 @@ class Autonomy:
         demand: Demand,
         clock: Callable[[], float],
         rng: random.Random,
+        records: Records,
+        fault: Callable[[str, float, float], str],
         fit: Callable[[Grid], Grid] = lambda grid: grid,
     ) -> None:
         """`chart` is the map, None or of no use while there is none; `clock` is the operators' [s], by which the task's messages are stamped.
 
+        `fault` tells why the robot cannot or may not stand at a place that is called so, empty when it can.
         `fit` makes of the map the one to plan on, with all occupied where the robot may not go.
         """
         info = robot.info
-        self._bus, self._events, self._demand, self._rng, self._fit = bus, events, demand, rng, fit
+        self._bus, self._events, self._demand, self._fit = bus, events, demand, fit
         self._now = 0.0
         self._heard = {"odometry": -math.inf, "laser": -math.inf}
         self._laser = Laser()
@@ -75,8 +96,7 @@ class Autonomy:
         self._bumped = False
         self.battery = math.nan
         """0 empty to 1 full; NaN while unknown."""
-        self.mission = Mission()
-        """As it was when the task began."""
+        self._records = records
         self.whereabouts = Whereabouts(info, events.say, bus.publish)
         self.has_map = False
         """There is a map to localise and plan on."""
@@ -94,6 +114,10 @@ class Autonomy:
             clock=clock,
             cruise=CRUISE * info.max_speed,
         )
+        self.assignments = Assignments(
+            self.guide, self.situation, info, say=events.say, rng=rng, records=records, fault=fault
+        )
+        """What makes tasks of orders."""
         self._show_plan(np.empty((0, 2)))
         self._take = self._takers()
 
@@ -141,25 +165,26 @@ class Autonomy:
             "/imu/data": self.whereabouts.take_imu,
             "/battery_state": self._battery,
             "/bumper": self._bumper,
+            "/tag": self._tag,
+            "/following": self._following,
             CAMERA: self._image,
         }
 
-    def start_patrol(self, mission: Mission, now: float) -> None:
-        """Patrol the points of `mission`, which must have some."""
-        self.mission = mission
-        course = patrol_course(mission, self._rng)
-        tree = patrol(course, self.guide, self.situation, self._events.say)
-        self.engine.start(Task("patrol", "Patrol", tree, course), now)
+    def start(self, order: TaskOrder, now: float, by: str = "") -> None:
+        """Do `order`, whatever is under way; Refusal when it cannot be done."""
+        self.engine.start(self.assignments.task(order, by), now)
 
-    def start_home(self, home: Waypoint, now: float) -> None:
-        """Go to `home`."""
-        course, tree = single("Home", home, self.guide, self.situation)
-        self.engine.start(Task("go_home", "Way home", tree, course), now)
+    @property
+    def patrols_mission(self) -> bool:
+        """A patrol of the stored mission is under way."""
+        task = self.engine.task
+        return task is not None and task.name == "patrol" and not task.order.places
 
-    def start_goal(self, goal: Waypoint, now: float) -> None:
-        """Go to a single place."""
-        course, tree = single("The goal", goal, self.guide, self.situation)
-        self.engine.start(Task("go_to", "Way to the goal", tree, course), now)
+    def edit_patrol(self, mission: Mission) -> None:
+        """Have the patrol that is under way go on with the points of `mission`, if there are any."""
+        task = self.engine.task
+        if task and self.patrols_mission and mission.waypoints and isinstance(task.course, Course):
+            task.course.edit(patrol_route(mission))
 
     def place(self, pose: Pose2) -> None:
         """The operator says where it is; what was seen from the wrong place is forgotten."""
@@ -224,19 +249,37 @@ class Autonomy:
         if msg.percentage < LOW_BELOW <= self.battery:
             self._events.say("battery", f"Battery low: {msg.percentage:.0%}.", "warn")
         self.battery = msg.percentage
-        if not (self.battery < GO_HOME_BELOW and self.engine.running and self.engine.status.task == "patrol"):
+        self.situation.charging = msg.power_supply_status in _CHARGING
+        self._mind_battery()
+
+    def _mind_battery(self) -> None:
+        """Go home while there is charge enough for it, whatever moves the robot elsewhere."""
+        task = self.engine.task
+        low = self.battery < GO_HOME_BELOW and self.engine.running
+        if not low or task is None or not task.moves or task.name in _TO_CHARGE:
             return
         said = f"Battery at {self.battery:.0%}"
-        if self.mission.home:
-            self._events.say("battery", f"{said}: going home.", "warn")
-            self.start_home(self.mission.home[0], self._now)
-        else:
-            self._events.say("battery", f"{said}: the patrol ends here, since home is not set.", "alarm")
-            self.engine.cancel(f"{said}: the patrol ended, and home is not set.")
+        try:
+            home = self.assignments.task(TaskOrder(task="go_home"))
+        except Refusal as problem:
+            why = f"{said}: the {task.spoken} ends here. {problem}"
+            self._events.say("battery", why, "alarm")
+            self.engine.cancel(why)
+            return
+        self._events.say("battery", f"{said}: going home.", "warn")
+        self.engine.start(home, self._now)
+
+    def _tag(self, msg: TagRead) -> None:
+        if msg.tag:
+            self.situation.tag = msg.tag
+
+    def _following(self, msg: Following) -> None:
+        self.situation.follows, self.situation.follows_heard = msg.present, self._now
 
     def _bumper(self, msg: Bumper) -> None:
         was, self._bumped = self._bumped, msg.pressed
-        if not msg.pressed or was:
+        self.situation.touched = msg.pressed
+        if not msg.pressed or was or self.engine.status.phase == "docking":
             return
         pose = self.whereabouts.pose
         at = (pose.x, pose.y) if pose else None
@@ -247,8 +290,13 @@ class Autonomy:
         x, y = intruder.position.x, intruder.position.y
         text = f"Intruder {intruder.id}: a {intruder.class_id} at ({x:.1f}, {y:.1f})."
         self._events.say("intruder", text, "alarm", at=(x, y))
-        if self.mission.stop_on_intruder and self.engine.status.task == "patrol":
+        mission = self._records.missions.current
+        if self.engine.status.task != "patrol":
+            return
+        if mission.stop_on_intruder or mission.on_intruder == "stop":
             self.engine.pause(f"Paused: intruder {intruder.id} was found.", "warn")
+        elif mission.on_intruder == "circle" and self.engine.running:
+            self.situation.intruders.append(Seen(intruder.id, x, y))
 
     def _show_status(self, status: TaskStatus) -> None:
         self._demand.set(CAMERA, "task", status.state == "RUNNING")

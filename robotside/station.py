@@ -11,6 +11,7 @@ import logging
 import math
 import random
 from collections.abc import Callable, Iterable
+from datetime import UTC, tzinfo
 from functools import partial
 
 import msgspec
@@ -24,12 +25,15 @@ from bridge.msgs.pilothouse_msgs import (
     Event,
     IntruderArray,
     Mission,
+    TaskOrder,
     TaskStatus,
     Waypoint,
 )
 from bridge.msgs.std_msgs import Header, Time
+from robotside.agenda import Agenda
 from robotside.autonomy import LOW_BELOW, Autonomy
 from robotside.bus import Bus
+from robotside.commands import Refusal
 from robotside.config import NOTHING_SET, Config
 from robotside.controls import STOP_SENTENCE, Controls, Operator
 from robotside.database import Records
@@ -38,6 +42,7 @@ from robotside.events import Events
 from robotside.guarded import Guarded
 from robotside.helm import FOLLOW_LINK, Helm, Options
 from robotside.history import History
+from robotside.interrupted import Interrupted
 from robotside.limits import Keeper
 from robotside.pose2 import Pose2
 from robotside.readiness import Readiness
@@ -74,8 +79,13 @@ class Station:
         rng: random.Random,
         name: str = "",
         config: Config = NOTHING_SET,
+        civil: Callable[[], float] | None = None,
+        zone: tzinfo = UTC,
     ) -> None:
-        """`now` is the robot's clock at the start [s]; `name` goes before that of `config`."""
+        """`now` is the robot's clock at the start [s]; `name` goes before that of `config`.
+
+        `civil` is what the computer's clock says, by which the schedule goes in `zone` [s]; the operators' when left out.
+        """
         self.clock, self.now = clock, now
         self.keeper = Keeper(config.limits, robot.info)
         """Keeps the robot to its limits."""
@@ -85,11 +95,7 @@ class Station:
         self.demand = Demand(robot.want)
         self.options = Options(config.control, records.setting, records.set_setting)
         """What operators may switch."""
-        self.controls = Controls(
-            max_speed=self.info.max_speed,
-            max_yaw_rate=self.info.max_yaw_rate,
-            follows=partial(self.options.on, FOLLOW_LINK),
-        )
+        self.controls = self._controls()
         self.robot = Guarded(robot, lambda: self.controls.stopped, self._clamp, self.keeper.info)
         """The only way to the robot's wheels."""
         self.records = records
@@ -97,14 +103,8 @@ class Station:
         self.events = Events(records.events, clock, lambda event: self.bus.publish("/events", event))
         self.readiness = Readiness(clock, self.bus.publish)
         """What is looked through before the first motion."""
-        self._control = ControlStatus()
         self._next_remark: dict[str, float] = {}
-        self._next_diagnostics = now
-        self._next_fault = -math.inf
-        self._trouble = ""
         first = list(robot.read(now))
-        self.bus.publish("/robot/info", self.info)
-        self.bus.publish("/limits", self.keeper.message)
         self.autonomy = Autonomy(
             self.robot,
             next((msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None),
@@ -113,19 +113,27 @@ class Station:
             demand=self.demand,
             clock=clock,
             rng=rng,
+            records=records,
+            fault=self.fault,
             fit=self.keeper.marked,
         )
         self.helm = self._helm(config)
         """Driving by hand, and what happens when nobody does."""
-        self.bus.publish("/intruders", IntruderArray(Header(Time.at(now), "map")))
-        self.bus.publish("/control/status", self._control)
+        self._show_beginning()
         Shown(records, self.bus.publish, self.events.say, clock)
-        self._take_up()
+        self.interrupted = self._take_up()
+        """The task that a restart cut, if there was one."""
+        self.agenda = self._agenda(civil or clock, zone)
+        """Queue and schedule."""
         self._pass_on(first)
         self.show_control()
 
+    _control = ControlStatus()
+    _next_diagnostics = -math.inf
     _held = False
     _ending = False
+    _next_fault = -math.inf
+    _trouble = ""
 
     def step(self, now: float) -> None:
         """Bring everything up to `now` [s, robot clock]; call it often."""
@@ -134,6 +142,8 @@ class Station:
         self._pass_on(self.robot.read(now))
         self._mind_trouble()
         self._mind(lambda: self.autonomy.check(now))
+        if not self._ending:
+            self._mind(lambda: self.agenda.step(now))
         self.show_control()
         if now >= self._next_diagnostics:
             self._next_diagnostics = now + 1.0
@@ -177,7 +187,12 @@ class Station:
         """Store `mission`; everyone is told once it is on the disk. NotRecorded when it cannot be kept."""
         count = len(mission.waypoints)
         said = f"Mission stored: {count} {'point' if count == 1 else 'points'}."
-        self.records.missions.set(mission, lambda: self.events.say("mission", said, "ok"))
+
+        def then() -> None:
+            self.events.say("mission", said, "ok")
+            self.autonomy.edit_patrol(mission)
+
+        self.records.missions.set(mission, then)
 
     def show_control(self) -> None:
         """Tell everyone who steers, if that has changed, and note what a restart must know."""
@@ -242,22 +257,49 @@ class Station:
         self.robot.stop()
         self.robot.close()
 
-    def _take_up(self) -> None:
-        """Go on from how it was left: STOP stays pressed, a task has ended."""
-        by, cut = self.records.stopped_by, self.records.runs.under_way
+    def _take_up(self) -> Interrupted | None:
+        """Go on from how it was left: STOP stays pressed, a task that was cut is offered."""
+        by, cut, engine = self.records.stopped_by, self.records.runs.under_way, self.autonomy.engine
         if by:
             self.controls.stop(by)
             self.robot.press_stop()
             self.events.say("stop", f"STOP, pressed by {by} before the restart, is still pressed.", "alarm")
-        if cut:
-            said = f"The robot's computer restarted; the {cut.run.order.task.replace('_', ' ')} has ended."
-            ended = msgspec.structs.replace(cut.run, state="FAILED", reason=said, ended=Time.at(self.clock()))
-            self.records.runs.note(ended)
-            self.events.say("task", said, "warn")
-        self.autonomy.engine.status = TaskStatus(task_id=self.records.runs.last)
-        history = History(self.records.runs, self.clock, lambda: self._control.driver)
+        engine.status = TaskStatus(task_id=self.records.runs.last)
+        history = History(self.records.runs, engine, self.clock)
         for topic in ("/task/status", "/task/progress"):
             self.bus.subscribe(topic, history.hear)
+        return Interrupted(cut, engine) if cut else None
+
+    def _show_beginning(self) -> None:
+        """What there is to tell before anything has happened."""
+        self.bus.publish("/robot/info", self.info)
+        self.bus.publish("/limits", self.keeper.message)
+        self.bus.publish("/intruders", IntruderArray(Header(Time.at(self.now), "map")))
+        self.bus.publish("/control/status", self._control)
+
+    def _agenda(self, civil: Callable[[], float], zone: tzinfo) -> Agenda:
+        return Agenda(
+            self.records,
+            self.autonomy.engine,
+            self.autonomy.assignments,
+            publish=self.bus.publish,
+            say=self.events.say,
+            clock=self.clock,
+            civil=civil,
+            zone=zone,
+            barred=self._barred,
+        )
+
+    def _barred(self, moves: bool) -> str:
+        """Why no task may start by itself just now, one that `moves` or not; empty when it may."""
+        battery = self.autonomy.battery
+        if self.controls.stopped:
+            return "STOP is pressed"
+        if self.controls.driving:
+            return "the robot is driven by hand"
+        if moves and battery < LOW_BELOW:
+            return f"the battery is at {battery:.0%}"
+        return self.unfit or self.lost
 
     def _note(self) -> None:
         """Note whether STOP is pressed; its own STOP at the end is not a person's."""
@@ -324,7 +366,9 @@ class Station:
             self.events.say("command", problem, "warn")
             return
         self.controls.hold()
-        self.autonomy.start_goal(Waypoint(pose.x, pose.y, pose.yaw), self.now)
+        self.agenda.hold("the robot was sent elsewhere")
+        order = TaskOrder(task="go_to", goals=[Waypoint(pose.x, pose.y, pose.yaw)])
+        self.autonomy.start(order, self.now, self.controls.name(client))
 
     def _clamp(self, twist: Twist) -> Twist:
         measured = self.readiness.senses.measured(self.autonomy.whereabouts.pose)
@@ -361,6 +405,11 @@ class Station:
             follows_link=self.controls.follows,
         )
 
+    def _controls(self) -> Controls:
+        follows = partial(self.options.on, FOLLOW_LINK)
+        info = self.info
+        return Controls(max_speed=info.max_speed, max_yaw_rate=info.max_yaw_rate, follows=follows)
+
     def _helm(self, config: Config) -> Helm:
         where, senses = self.autonomy.whereabouts, self.readiness.senses
         return Helm(
@@ -377,11 +426,15 @@ class Station:
 
     def _return(self) -> bool:
         """Go home though nobody says so; False when it cannot."""
-        home = self.mission.home[:1]
-        if not home or self.unfit or self.lost or self.fault("Home", home[0].x, home[0].y):
+        if self._barred(True):
+            return False
+        try:
+            task = self.autonomy.assignments.task(TaskOrder(task="go_home"))
+        except Refusal:
             return False
         self.controls.hold()
-        self.autonomy.start_home(home[0], self.now)
+        self.agenda.hold("nobody drives the robot")
+        self.autonomy.engine.start(task, self.now)
         return True
 
     def _mode(self) -> str:

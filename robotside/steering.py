@@ -18,6 +18,7 @@ from robotside.commands import Refusal
 from robotside.controls import STOP_SENTENCE, Operator
 from robotside.helm import FOLLOW_LINK, LOST_LINK_STOPS_TASK
 from robotside.station import Station
+from robotside.task_orders import TaskOrders
 
 __all__ = ["control_services"]
 
@@ -31,11 +32,9 @@ _SAID = {
 }
 
 
-def control_services(
-    station: Station, answering: Answering, pause: Order, resume: Order
-) -> Iterable[Service]:
-    """What the bridge offers of who steers `station`; `pause` and `resume` do that with its task."""
-    steering, service = _Steering(station, pause, resume), answering.service
+def control_services(station: Station, answering: Answering) -> Iterable[Service]:
+    """What the bridge offers of who steers `station`."""
+    steering, service = _Steering(station), answering.service
     plain: dict[str, Order] = {
         "/control/acquire": steering.acquire,
         "/control/release": steering.release,
@@ -52,8 +51,8 @@ def control_services(
 class _Steering:
     """What each service does; a method returns the sentence of success or raises Refusal."""
 
-    def __init__(self, station: Station, pause: Order, resume: Order) -> None:
-        self._station, self._pause, self._resume = station, pause, resume
+    def __init__(self, station: Station) -> None:
+        self._station, self._tasks = station, TaskOrders(station)
 
     def acquire(self, client: Operator, _: CommandRequest) -> str:
         """Take control."""
@@ -81,13 +80,13 @@ class _Steering:
         self.acquire(client, asked)
         engine = station.autonomy.engine
         if asked.mode == "AUTO":
-            if not engine.active:
+            if not (engine.active or engine.interrupted or station.agenda.held):
                 raise Refusal("There is no task to go on with; start one.")
-            self._resume(client, asked)
+            self._tasks.resume(client, asked)
             return "The robot drives itself."
         if not engine.running:
             return "The robot is driven by hand already."
-        self._pause(client, asked)
+        self._tasks.pause(client, asked)
         return "The robot is driven by hand; its task is paused."
 
     def set_option(self, client: Operator, asked: SetOptionRequest) -> str:

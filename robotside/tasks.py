@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import msgspec
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from bridge.msgs.pilothouse_msgs import TaskProgress, TaskStatus
+from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskStatus
 from bridge.msgs.std_msgs import Time
-from robotside.behaviours.course import Course
+from robotside.behaviours.course import Noted, Outline
 from robotside.behaviours.situation import Situation
 from robotside.events import Say
 from robotside.guide import Guide
@@ -23,17 +23,33 @@ __all__ = ["Engine", "Task"]
 PROGRESS_PERIOD = 0.5
 """Between two progress messages [s]."""
 
+ON_THE_WAY = ("driving", "turning")
+"""Phases in which the way that is left is known."""
+
 
 @dataclass(frozen=True)
 class Task:
     """Something to do."""
 
     name: str
-    """`patrol`, `go_home` or `go_to`."""
+    """One of `bridge.msgs.pilothouse_msgs.TASKS`."""
     title: str
     """As a sentence begins with it: `Patrol`."""
     root: Behaviour
-    course: Course
+    course: Outline
+    order: TaskOrder = field(default_factory=TaskOrder)
+    """What was asked for, so that it can be asked for again."""
+    done: Callable[[], str] = lambda: "Done."
+    """What is said at its end."""
+    by: str = ""
+    """Who started it; empty when the robot or its schedule did."""
+    moves: bool = True
+    """It takes the robot elsewhere, for which there must be charge enough."""
+
+    @property
+    def spoken(self) -> str:
+        """The title as it stands within a sentence."""
+        return f"{self.title[0].lower()}{self.title[1:]}"
 
 
 class Engine:
@@ -54,9 +70,10 @@ class Engine:
         self._guide, self._situation = guide, situation
         self._show, self._progress, self._say = show, progress, say
         self._clock, self._cruise = clock, cruise
-        self._task: Task | None = None
+        self.task: Task | None = None
+        """The task that has not ended."""
         self._begun_at = self._odometer = 0.0
-        self._next_progress = -math.inf
+        self._next_progress = self._ticked = -math.inf
         self.status = TaskStatus()
         """As last shown."""
         show(self.status)
@@ -72,36 +89,61 @@ class Engine:
         return self.status.state == "PAUSED"
 
     @property
+    def interrupted(self) -> bool:
+        """A task that a restart cut waits to be taken up or discarded."""
+        return self.status.state == "INTERRUPTED"
+
+    @property
     def active(self) -> bool:
         """There is a task that has not ended."""
-        return self._task is not None
+        return self.task is not None
+
+    @property
+    def noted(self) -> Noted:
+        """How far the task is, for a restart."""
+        return self.task.course.noted() if self.task else Noted()
+
+    def offer(self, status: TaskStatus) -> None:
+        """Show a task that a restart cut; nothing is done about it."""
+        self.status = status
+        self._show(status)
+        self._say("task", status.reason, "warn")
+
+    def start(self, task: Task, now: float, *, task_id: int = 0, driven: float = 0.0) -> None:
+        """Begin `task`; one that has not ended yet is canceled.
+
+        A task that is taken up after a restart keeps its `task_id`, after `driven` [m].
+        """
+        if not task_id:
+            self.cancel(f"{self.title} ended: {task.spoken} was asked for instead.")
+        self.task, self._begun_at = task, self._odometer - driven
+        self._next_progress = self._ticked = now
+        self._situation.begin()
+        self._situation.now = now
+        course = task.course
+        verb = "goes on" if task_id else "started"
+        self.status = TaskStatus(
+            task_id=task_id or self.status.task_id + 1,
+            task=task.name,
+            state="RUNNING",
+            reason=f"{task.title} {verb}.",
+            motion=course.motion,
+            waypoints=course.count,
+            visited=course.visited,
+            lap=course.lap,
+            laps=course.laps,
+            places=course.places,
+            stamp=Time.at(self._clock()),
+        )
+        self._show(self.status)
+        self._say("task", f"{task.title} {verb}.", "info")
 
     @property
     def title(self) -> str:
         """Of the task that has not ended, as a sentence begins with it; empty when there is none."""
-        return self._task.title if self._task else ""
-
-    def start(self, task: Task, now: float) -> None:
-        """Begin `task`; one that has not ended yet is canceled."""
-        if self._task:
-            self.cancel(f"{self._task.title} ended: {task.title.lower()} was asked for instead.")
-        self._task, self._begun_at = task, self._odometer
-        self._next_progress = now
-        self._situation.now = now
-        course = task.course
-        self.status = TaskStatus(
-            task_id=self.status.task_id + 1,
-            task=task.name,
-            state="RUNNING",
-            reason=f"{task.title} started.",
-            motion=course.motion,
-            waypoints=len(course.goals),
-            lap=1,
-            laps=course.laps,
-            stamp=Time.at(self._clock()),
-        )
-        self._show(self.status)
-        self._say("task", f"{task.title} started.", "info")
+        if self.task:
+            return self.task.title
+        return "The task before the restart" if self.interrupted else ""
 
     def pause(self, reason: str, level: str = "info") -> None:
         """Hold the running task where it is; `reason` is one sentence."""
@@ -112,92 +154,104 @@ class Engine:
 
     def resume(self) -> None:
         """Go on with the paused task, from wherever the robot is now."""
-        if self.paused and self._task:
+        if self.paused and self.task:
             self._guide.rest()
-            self._tell("RUNNING", self._heading(self._task))
-            self._say("task", f"{self._task.title} resumed.", "info")
+            self._situation.unhear()
+            self._tell("RUNNING", self._situation.doing.text or f"{self.task.title} goes on.")
+            self._say("task", f"{self.task.title} resumed.", "info")
+
+    def confirm(self, by: str) -> bool:
+        """Answer what the task asks; False when it asks nothing."""
+        if not (self.running and self.status.asks):
+            return False
+        self._situation.confirmed_by = by
+        return True
 
     def cancel(self, reason: str) -> None:
         """End the task before its time."""
-        if self._task:
+        if self.task or self.interrupted:
             self._end("CANCELED", reason, "warn")
 
     def fail(self, reason: str) -> None:
         """End the task, which cannot go on; `reason` is one sentence."""
-        if self._task:
+        if self.task:
             self._end("FAILED", reason, "alarm")
 
     def tick(self, pose: Pose2, points: Points, odometer: float, now: float) -> None:
         """Do the next bit of the running task; `odometer` is all that was ever driven [m]."""
         self._odometer = odometer
-        if not self.running or self._task is None:
+        here, halted = self._situation, self._halted
+        self._halted = not self.running
+        if not self.running or self.task is None:
             return
-        task, here = self._task, self._situation
+        task = self.task
+        if halted:
+            here.idle += max(0.0, now - self._ticked)
+        self._ticked = now
         here.now, here.pose, here.points = now, pose, points
         task.root.tick_once()
+        here.unhear()
         if task.root.status is Status.RUNNING:
-            self._tell("RUNNING", self._heading(task))
+            self._tell("RUNNING", here.doing.text)
             self._report(task.course, now)
         elif task.root.status is Status.SUCCESS:
-            self._end("SUCCEEDED", _done(task), "ok")
+            self._end("SUCCEEDED", task.done(), "ok")
         else:
             self._end("FAILED", self._guide.reason or f"{task.title} failed.", "alarm")
 
+    _halted = False
+
     def _end(self, state: str, reason: str, level: str) -> None:
-        task, self._task = self._task, None
-        if task is None:
-            return
-        task.root.stop(Status.INVALID)
-        self._guide.finish()
-        self._count(task.course, state, reason)
+        task, self.task = self.task, None
+        if task is not None:
+            task.root.stop(Status.INVALID)
+            self._guide.finish()
+        self._count(task.course if task else None, state, reason)
         self._say("task", reason, level)
 
     def _tell(self, state: str, reason: str) -> None:
-        if self._task:
-            self._count(self._task.course, state, reason)
+        if self.task:
+            self._count(self.task.course, state, reason)
 
-    def _count(self, course: Course, state: str, reason: str) -> None:
+    def _count(self, course: Outline | None, state: str, reason: str) -> None:
         """Show the state with the course's counts, if anything of it is new."""
+        doing, running = self._situation.doing, state == "RUNNING"
         fresh = msgspec.structs.replace(
             self.status,
             state=state,
-            reason=reason,
-            waypoint=course.index + 1 if state in ("RUNNING", "PAUSED") else 0,
-            visited=course.visited,
-            lap=course.lap,
+            reason=reason or self.status.reason,
+            waypoint=course.number if course and state in ("RUNNING", "PAUSED") else 0,
+            phase=doing.phase if running else "",
+            asks=doing.asks if running else "",
+            place=doing.place,
         )
+        if course:
+            fresh = msgspec.structs.replace(
+                fresh,
+                motion=course.motion,
+                waypoints=course.count,
+                visited=course.visited,
+                lap=course.lap,
+                laps=course.laps,
+                places=course.places,
+            )
         if fresh != self.status:
             self.status = msgspec.structs.replace(fresh, stamp=Time.at(self._clock()))
             self._show(self.status)
 
-    def _heading(self, task: Task) -> str:
-        if task.name == "go_home":
-            return "Heading home."
-        name = task.course.goal.name.rstrip(",")
-        return f"Heading for {name[0].lower()}{name[1:]}."
-
-    def _report(self, course: Course, now: float) -> None:
+    def _report(self, course: Outline, now: float) -> None:
         if now < self._next_progress:
             return
         self._next_progress = max(self._next_progress + PROGRESS_PERIOD, now - PROGRESS_PERIOD)
-        left = self._guide.remaining
+        here = self._situation
+        left = self._guide.remaining if here.doing.phase in ON_THE_WAY else 0.0
         self._progress(
             TaskProgress(
                 Time.at(self._clock()),
                 self.status.task_id,
                 course.progress(left),
                 left,
-                course.time_left(left, self._cruise),
+                course.time_left(left, self._cruise) + here.still,
                 self._odometer - self._begun_at,
             )
         )
-
-
-def _done(task: Task) -> str:
-    if task.name == "go_home":
-        return "Home."
-    course = task.course
-    if task.name != "patrol":
-        return f"{task.title} done."
-    points = "point" if course.visited == 1 else "points"
-    return f"Patrol done: {course.visited} {points} visited."

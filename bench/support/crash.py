@@ -26,6 +26,8 @@ NOBODY = "ros:ws://127.0.0.1:1"
 """A robot that cannot be reached: what is kept needs none, and the process is up in a second."""
 EARLY = 0.15
 """Share of the rounds in which it is killed before it serves, while it opens the database."""
+MANY = 300
+"""Places from which on some are deleted instead."""
 WRITERS = 4
 """Calls that wait for their answer at once."""
 
@@ -63,12 +65,12 @@ class Round:
     """What was acknowledged and is not there, or is told differently; empty as it should be."""
 
 
-async def crash(state: Path, ledger: Ledger, rng: random.Random) -> Round:
+async def crash(state: Path, ledger: Ledger, rng: random.Random, early: float = EARLY) -> Round:
     """Start a robot side, look for what was acknowledged in earlier rounds, have it write, kill it at a random instant."""
     before, lost = ledger.sure, list[str]()
     process = _start(state)
     try:
-        if rng.random() < EARLY:
+        if rng.random() < early:
             await asyncio.sleep(rng.uniform(0.0, 1.5))
         else:
             client = await Client.to(process)
@@ -128,6 +130,7 @@ async def _look(client: Client, ledger: Ledger) -> list[str]:
         for id in ledger.acknowledged
         if id in told and not told[id]["acknowledged_by"]
     ]
+    ledger.acknowledged -= {id for id in ledger.acknowledged if not told.get(id, {}).get("acknowledged_by")}
     # what was asked for and not answered is settled now
     ledger.places = {name: kept[name] for name in {*sure, *ledger.unsure} if name in kept}
     ledger.unsure.clear()
@@ -144,7 +147,10 @@ async def _write(client: Client, ledger: Ledger, rng: random.Random) -> None:
 
 
 async def _new_place(client: Client, ledger: Ledger, rng: random.Random) -> None:
-    await _set(client, ledger, f"Place {next(ledger.numbers)}", 0, rng.uniform(-9.0, 9.0))
+    if len(ledger.places) < MANY:
+        await _set(client, ledger, f"Place {next(ledger.numbers)}", 0, rng.uniform(-9.0, 9.0))
+    else:
+        await _delete_place(client, ledger, rng)
 
 
 async def _move_place(client: Client, ledger: Ledger, rng: random.Random) -> None:

@@ -11,12 +11,15 @@ from contextlib import closing, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 
-__all__ = ["Files", "Taken"]
+__all__ = ["BACKUPS_KEPT", "PATIENCE", "Files", "Taken"]
+
+PATIENCE = 5.0
+"""How long to wait for another program that has the database [s]."""
 
 DAMAGED_KEPT = 3
 """Broken files that are kept for whoever wants to look into them."""
-NEWEST_KEPT, DAYS_KEPT = 4, 7
-"""Backups that are kept: the newest ones, and of each of the last days the newest."""
+BACKUPS_KEPT = 5
+"""Backups that are kept: one half are the newest ones, the others the newest of each of the days before."""
 _PARTS = ("", "-wal", "-shm", "-journal")
 
 
@@ -27,8 +30,16 @@ class Taken(Exception):
 class Files:
     """The records in one file, and what lies beside it."""
 
-    def __init__(self, path: Path, now: Callable[[], float] = time.time) -> None:
+    def __init__(
+        self,
+        path: Path,
+        now: Callable[[], float] = time.time,
+        patience: float = PATIENCE,
+        backups: int = BACKUPS_KEPT,
+    ) -> None:
         """`path` is the database, which need not be there; `now` names backups and broken files.
+
+        `patience` [s] is waited for another process that has it; `backups` are kept, 0 makes none.
 
         Raises OSError when its directory cannot be made.
         """
@@ -37,18 +48,18 @@ class Files:
         """The database."""
         self.backups_in = path.parent / "backups"
         """Where its backups are."""
-        self._now = now
+        self._now, self._patience, self._keep = now, patience, backups
         self._lock = -1
 
-    def take(self, patience: float) -> None:
+    def take(self) -> None:
         """Have the records to ourselves until `let_go` or the end of the process, whatever ends it.
 
-        Taken when another process does not let go of them within `patience` [s].
+        Taken when another process does not let go of them in time.
         """
         lock = os.open(
             self.path.with_name(f"{self.path.name}.lock"), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o644
         )
-        end = time.monotonic() + patience
+        end = time.monotonic() + self._patience
         while True:
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -76,7 +87,7 @@ class Files:
         if not path.exists():
             return ""
         try:
-            with closing(sqlite3.connect(path, timeout=5.0)) as database:
+            with closing(sqlite3.connect(path, timeout=self._patience)) as database:
                 found = database.execute("PRAGMA quick_check(1)").fetchone()
         except sqlite3.OperationalError as error:
             if "malformed" in str(error):
@@ -114,11 +125,13 @@ class Files:
         """All backups, oldest first."""
         return sorted(self.backups_in.glob(f"{self.path.stem}-*.sqlite3"))
 
-    def back_up(self) -> Path:
+    def back_up(self) -> Path | None:
         """Copy the database as it is to a backup while it goes on being used, and let go of old backups.
 
-        Raises OSError or sqlite3.Error when that cannot be done; nothing half is left.
+        None when none are wanted. Raises OSError or sqlite3.Error when that cannot be done; nothing half is left.
         """
+        if not self._keep:
+            return None
         self.backups_in.mkdir(exist_ok=True)
         fresh = self.backups_in / "fresh.new"
         try:
@@ -134,11 +147,11 @@ class Files:
 
     def _thin(self) -> None:
         backups = self.backups()
-        newest_of_day = {backup.name.rsplit("-", 2)[0]: backup for backup in backups}
-        keep = {*backups[-NEWEST_KEPT:], *sorted(newest_of_day.values())[-DAYS_KEPT:]}
-        for backup in backups:
-            if backup not in keep:
-                backup.unlink(missing_ok=True)
+        newest = backups[-((self._keep + 1) // 2) :]
+        days = {backup.name.rsplit("-", 2)[0]: backup for backup in backups if backup not in newest}
+        older = sorted(days.values())[::-1][: self._keep - len(newest)]
+        for backup in set(backups) - {*newest, *older}:
+            backup.unlink(missing_ok=True)
 
     def _stamp(self) -> str:
         return datetime.fromtimestamp(self._now(), UTC).strftime("%Y%m%d-%H%M%S-%f")
@@ -147,7 +160,7 @@ class Files:
 def _copy(source: Path, target: Path) -> None:
     """Copy a database to a whole file that is on the disk when this returns."""
     target.unlink(missing_ok=True)
-    with closing(sqlite3.connect(source, timeout=5.0)) as old, closing(sqlite3.connect(target)) as new:
+    with closing(sqlite3.connect(source, timeout=PATIENCE)) as old, closing(sqlite3.connect(target)) as new:
         old.backup(new)
         new.execute("PRAGMA journal_mode=DELETE")
     with target.open("rb") as file:

@@ -92,6 +92,11 @@ class Records:
         if by != self.stopped_by:
             self._ledger.fact("facts", "stopped by", by)
 
+    def owe(self, facts: list[Put], trouble: str) -> None:
+        """Have `facts` written when the trouble is over, of which the sentence is among the problems."""
+        self._ledger.owe(facts, trouble)
+        self.problems.append(trouble)
+
     def try_again(self) -> None:
         """Write the facts that could not be written; to be called now and then."""
         self._ledger.try_again()

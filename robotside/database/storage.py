@@ -12,13 +12,12 @@ from sqlalchemy.orm import Session
 from sqlalchemy.pool import StaticPool
 
 from bridge.errors import BridgeError
+from robotside.database.files import PATIENCE
 from robotside.database.rows import Content, Put, read_all, write
 from robotside.database.tables import Base
 
 __all__ = ["NotWritten", "Storage", "engine_of", "not_written"]
 
-PATIENCE = 5.0
-"""How long to wait for another program that has the database [s]."""
 _DAMAGED = ("malformed", "not a database", "file is encrypted", "database corruption")
 
 

@@ -9,7 +9,14 @@ from typing import NamedTuple
 
 from bridge.client import BridgeClient
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Mission, StartTaskRequest, Waypoint
+from bridge.msgs.pilothouse_msgs import (
+    CommandRequest,
+    CommandResponse,
+    Mission,
+    StartTaskRequest,
+    TaskOrder,
+    Waypoint,
+)
 from robotside.foreign import ForeignRobot
 from robotside.pose2 import ORIGIN
 from robotside.serving import Serving
@@ -137,7 +144,7 @@ def begin_by_itself(far: Station) -> None:
     far.autonomy.place(ORIGIN)
     far.keep(Mission(waypoints=[Waypoint(4.0, 0.0)]))
     far.controls.release(far.controls.driver.client)  # type: ignore[union-attr]
-    far.autonomy.start_patrol(far.mission, far.now)
+    far.autonomy.start(TaskOrder(task="patrol"), far.now)
     far.show_control()
 
 

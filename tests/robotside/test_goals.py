@@ -67,8 +67,8 @@ async def test_going_home_is_one_too(scene: Scene) -> None:
 
 async def test_a_goal_is_refused_with_the_words_of_the_service(scene: Scene) -> None:
     assert await Goal(scene).refused() == scene.refused("/task/start", StartTaskRequest())
-    assert (
-        await Goal(scene, task="dance").refused() == "There is no task 'dance'; there are patrol and go_home."
+    assert (await Goal(scene, task="dance").refused()).startswith(
+        "There is no task 'dance'; there are patrol, "
     )
     assert "has control" in await Goal(scene, scene.client("ben")).refused()
     scene.ask("/stop")

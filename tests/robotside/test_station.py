@@ -23,6 +23,7 @@ from bridge.msgs.pilothouse_msgs import (
     Event,
     Mission,
     StartTaskRequest,
+    TaskOrder,
     TaskProgress,
     TaskStatus,
     Waypoint,
@@ -88,7 +89,7 @@ def test_with_stop_pressed_a_goal_is_refused_and_said(scene: Scene) -> None:
 def test_with_stop_pressed_the_robot_brakes_even_if_a_task_runs(scene: Scene) -> None:
     scene.ask("/stop")
     before = len(scene.robot.commands)
-    scene.station.autonomy.start_goal(Waypoint(3.0, -2.0), scene.now)
+    scene.station.autonomy.start(TaskOrder(task="go_to", goals=[Waypoint(3.0, -2.0)]), scene.now)
     scene.run(1.0)
     assert scene.task.state == "RUNNING"
     assert scene.robot.commands[before:]
@@ -206,18 +207,6 @@ def test_stop_is_still_pressed_after_the_computer_died_and_says_so(scene: Scene,
     assert again.robot.at_rest
     assert again.ask("/stop/release").success
     assert not Scene(FakeRobot(), tmp_path).control.stopped
-
-
-def test_a_patrol_that_ran_when_the_computer_died_has_ended_and_that_is_said_once(
-    scene: Scene, tmp_path: Path
-) -> None:
-    scene.set(*SQUARE)
-    scene.start()
-    again = Scene(FakeRobot(), tmp_path)
-    said = "The robot's computer restarted; the patrol has ended."
-    assert again.since_start() == [said]
-    assert again.task.state == "IDLE"
-    assert Scene(FakeRobot(), tmp_path).since_start() == []
 
 
 def test_after_a_clean_end_nothing_but_a_persons_stop_is_left(scene: Scene, tmp_path: Path) -> None:

@@ -38,7 +38,7 @@ class Stage:
 
     def patrol(self, mission: Mission) -> tuple[Course, Behaviour]:
         course = patrol_course(mission, random.Random(3))
-        tree = patrol(course, self.guide, self.situation, self.say, lambda x, y: self.fault(x, y))
+        tree = patrol(course, self.guide, self.situation, self.say, self.fault)
         return course, tree
 
     def tick(self, tree: Behaviour, seconds: float = 0.05) -> Status:

@@ -123,4 +123,4 @@ async def start(tmp_path: Path, url: str | None) -> Open:
     import asyncio
 
     loop = asyncio.get_running_loop()
-    return lambda: open_records(tmp_path, url, loop.call_soon_threadsafe)
+    return lambda: open_records(tmp_path, url, loop.call_soon_threadsafe, patience=1.0)

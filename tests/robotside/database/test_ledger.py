@@ -2,31 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import pytest
 
-from robotside.database.jobs import Job
 from robotside.database.ledger import Ledger
 from robotside.database.rows import empty
-
-
-class Disk:
-    """Writes when it is told to."""
-
-    def __init__(self) -> None:
-        self.waiting: list[tuple[Job, Callable[[Job, str], None]]] = []
-        self.room = 10
-
-    def submit(self, job: Job, told: Callable[[Job, str], None]) -> bool:
-        if len(self.waiting) >= self.room:
-            return False
-        self.waiting.append((job, told))
-        return True
-
-    def answer(self, problem: str = "") -> None:
-        job, told = self.waiting.pop(0)
-        told(job, problem)
+from tests.robotside.database.disk import Disk
 
 
 @pytest.fixture

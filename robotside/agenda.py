@@ -1,0 +1,210 @@
+"""What comes next: the queue goes on by itself when a task is done, the schedule starts tasks when their time comes.
+
+Nothing of it starts while anything speaks against it, and never two tasks at once.
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+import math
+from collections.abc import Callable, Sequence
+
+import msgspec
+
+from bridge.msgs.pilothouse_msgs import Schedule, ScheduledTask, TaskOrder, TaskQueue
+from bridge.msgs.std_msgs import Time
+from robotside.assignments import Assignments, words_for
+from robotside.bus import Publish
+from robotside.commands import Refusal
+from robotside.database import NotRecorded, Records
+from robotside.database.plans import MOST_QUEUED
+from robotside.events import Say
+from robotside.schedule import Turn, fault, following, turns
+from robotside.tasks import Engine
+
+__all__ = ["Agenda"]
+
+PERIOD = 1.0
+"""Between two looks [s], robot clock."""
+
+_BARS = ("PAUSED", "INTERRUPTED")
+
+
+class Agenda:
+    """Queue and schedule of one robot."""
+
+    def __init__(
+        self,
+        records: Records,
+        engine: Engine,
+        assignments: Assignments,
+        *,
+        publish: Publish,
+        say: Say,
+        clock: Callable[[], float],
+        civil: Callable[[], float],
+        zone: dt.tzinfo,
+        barred: Callable[[bool], str],
+    ) -> None:
+        """`clock` is the operators' [s]; `civil` is what the computer's own clock says, which may jump [s].
+
+        `barred(moves)` tells why no task may start by itself just now, one that `moves` or not; empty when it may.
+        """
+        self._records, self._engine, self._assignments = records, engine, assignments
+        self._publish, self._say, self._clock = publish, say, clock
+        self._civil, self._zone, self._barred = civil, zone, barred
+        self._next = -math.inf
+        self.held = "the robot's computer was restarted" if records.queue.current.orders else ""
+        """Why the queue does not go on, as the end of a sentence; empty when it does."""
+        if self.held:
+            self._tell_held()
+        for table, show in (("queue", self._show_queue), ("schedule", self._show_schedule)):
+            records.watch(table, show)
+            show()
+
+    _settled = 0
+    """The task that does not hold the queue, however it ended."""
+
+    def step(self, now: float) -> None:
+        """Look what is due at `now` [s, robot clock]; call it often."""
+        if now < self._next:
+            return
+        self._next = now + PERIOD
+        for turn in turns(self._records.schedule.all(), self._civil(), self._zone):
+            self._records.schedule.note(turn.task)
+            self._take_turn(turn, now)
+        if not self._engine.active and self._records.queue.current.orders:
+            self._go_on(now)
+
+    def hold(self, why: str) -> None:
+        """Have the queue wait until somebody says so; `why` ends a sentence. Nothing happens when it is empty."""
+        if self._records.queue.current.orders and not self.held:
+            self.held = why
+            self._tell_held()
+
+    def release(self) -> bool:
+        """Have the queue go on; False when it did not wait."""
+        was, self.held = bool(self.held), ""
+        self._settled = self._engine.status.task_id
+        return was and bool(self._records.queue.current.orders)
+
+    def set_queue(self, orders: Sequence[TaskOrder], revision: int) -> TaskQueue:
+        """Replace what waits. Refusal when one of them cannot be done, NotRecorded when it has changed meanwhile."""
+        tidy = []
+        for number, order in enumerate(orders[:MOST_QUEUED], 1):
+            try:
+                tidy.append(self._assignments.task(order).order)
+            except Refusal as problem:
+                raise Refusal(f"Task {number} of the queue: {problem}") from problem
+        empty = not self._records.queue.current.orders
+        queue = self._records.queue.set([*tidy, *orders[MOST_QUEUED:]], revision)
+        if empty or not orders:
+            self.release()
+        return queue
+
+    def set_scheduled(self, task: ScheduledTask) -> ScheduledTask:
+        """Keep a scheduled task with the time of its next start. Refusal or NotRecorded says what is wrong with it."""
+        problem = fault(task)
+        if problem:
+            raise Refusal(problem)
+        order = msgspec.structs.replace(self._assignments.task(task.order).order, id=0)
+        start = following(task, self._civil(), self._zone)
+        return self._records.schedule.set(
+            msgspec.structs.replace(task, order=order, next=Time.at(start) if start else Time())
+        )
+
+    def when(self, task: ScheduledTask) -> str:
+        """When a scheduled task starts next, as the end of a sentence."""
+        if task.next.seconds <= 0:
+            return "it is switched off"
+        return f"next on {self._spoken(task.next.seconds)}"
+
+    def _go_on(self, now: float) -> None:
+        if self.held or self._engine.interrupted:
+            return
+        if self._engine.status.state == "CANCELED" and self._engine.status.task_id != self._settled:
+            self.hold("the task before it was canceled")
+            return
+        moves = self._records.queue.current.orders[0].task != "hold"
+        barred = self._barred(moves)
+        if barred:
+            self.hold(f"{barred[0].lower()}{barred[1:].rstrip('.')}")
+            return
+        order = self._records.queue.take()
+        if order is not None:
+            self._start(order, now, f"{_title(order)} of the queue is left out")
+
+    def _start(self, order: TaskOrder, now: float, otherwise: str) -> None:
+        try:
+            task = self._assignments.task(order)
+        except Refusal as problem:
+            self._say("task", f"{otherwise}: {problem}", "warn")
+            return
+        self._engine.start(task, now)
+
+    def _take_turn(self, turn: Turn, now: float) -> None:
+        """Start what is due, have it wait for the task that runs, or say why it is skipped."""
+        order = turn.task.order
+        title = f"{_title(order)} that was due"
+        if turn.missed:
+            when = self._spoken(turn.missed)
+            self._skip(title, f"at {when} is skipped: the robot's computer was off or its clock was changed")
+        if not turn.due:
+            return
+        barred = self._barred(order.task != "hold") or self._waiting()
+        running = self._engine.active or bool(self._records.queue.current.orders)
+        if barred:
+            self._skip(title, f"now is skipped: {barred}")
+        elif running and self._same(order):
+            self._skip(title, "now is skipped: the one before it has not ended")
+        elif running:
+            self._wait(order, title)
+        else:
+            self._start(order, now, f"{title} now is skipped")
+
+    def _wait(self, order: TaskOrder, title: str) -> None:
+        try:
+            self._records.queue.add(order)
+        except NotRecorded as problem:
+            self._skip(title, f"now is skipped: {problem}")
+            return
+        self._say("task", f"{title} now waits in the queue for its turn.", "info")
+
+    def _waiting(self) -> str:
+        """Why nobody knows when a task in the queue would have its turn; empty when it has one."""
+        state = self._engine.status.state
+        return f"a task is {state.lower()}" if state in _BARS else ""
+
+    def _same(self, order: TaskOrder) -> bool:
+        task = self._engine.task
+        waiting = list(self._records.queue.current.orders)
+        known = [*waiting, task.order] if task else waiting
+        return any(_alike(order, other) for other in known)
+
+    def _skip(self, title: str, why: str) -> None:
+        self._say("task", f"{title} {why.rstrip('.')}.", "warn")
+
+    def _spoken(self, instant: float) -> str:
+        return dt.datetime.fromtimestamp(instant, self._zone).strftime("%Y-%m-%d at %H:%M")
+
+    def _tell_held(self) -> None:
+        count = len(self._records.queue.current.orders)
+        tasks = "1 task waits" if count == 1 else f"{count} tasks wait"
+        self._say("task", f"{tasks} in the queue, since {self.held}; resume goes on with them.", "warn")
+
+    def _show_queue(self) -> None:
+        stamp = Time.at(self._clock())
+        self._publish("/task/queue", msgspec.structs.replace(self._records.queue.stored, stamp=stamp))
+
+    def _show_schedule(self) -> None:
+        self._publish("/schedule", Schedule(Time.at(self._clock()), self._records.schedule.stored()))
+
+
+def _title(order: TaskOrder) -> str:
+    words = words_for(order.task)
+    return f"{words[0].upper()}{words[1:]}"
+
+
+def _alike(a: TaskOrder, b: TaskOrder) -> bool:
+    """The same but for the number; NaN is like NaN."""
+    return repr(msgspec.structs.replace(a, id=0)) == repr(msgspec.structs.replace(b, id=0))

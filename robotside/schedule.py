@@ -1,0 +1,121 @@
+"""When scheduled tasks start, as arithmetic: the instant and the zone are passed in, nothing here looks at a clock.
+
+A time of day is that of the robot's zone. One that the clocks jump over in spring starts as much later as they jump, one
+that comes twice in autumn starts the first time.
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+import math
+import os
+import re
+from collections.abc import Iterable
+from typing import NamedTuple
+from zoneinfo import ZoneInfo
+
+import msgspec
+
+from bridge.msgs.pilothouse_msgs import ScheduledTask
+from bridge.msgs.std_msgs import Time
+
+__all__ = ["LATE", "LEAST_EVERY", "Turn", "fault", "following", "local_zone", "turns"]
+
+LATE = 60.0
+"""A start that is later than this is missed [s]."""
+
+LEAST_EVERY = 60.0
+"""[s]"""
+
+MOST_EVERY = 31 * 86400.0
+"""[s]"""
+
+_AT = re.compile(r"([01]\d|2[0-3]):([0-5]\d)")
+
+
+class Turn(NamedTuple):
+    """A scheduled task whose `next` has changed."""
+
+    task: ScheduledTask
+    """With its new `next`."""
+    due: bool
+    """It starts now."""
+    missed: float = 0.0
+    """When it should have started and did not [s]; 0 for nothing missed."""
+
+
+def fault(task: ScheduledTask) -> str:
+    """What is wrong with the times of `task`, as one sentence; empty when nothing is."""
+    if bool(task.at) == bool(task.every):
+        return "A scheduled task needs either a time of day, at, or a period, every; not both and not none."
+    if task.at:
+        if not _AT.fullmatch(task.at):
+            return f"The time of day must be written as 00:00 to 23:59, not {task.at[:20]!r}."
+        return "" if any(task.days) else "A scheduled task needs at least one day of the week."
+    if not LEAST_EVERY <= task.every <= MOST_EVERY:
+        return f"The period must be {LEAST_EVERY:.0f} to {MOST_EVERY:.0f} s, not {task.every:g} s."
+    return ""
+
+
+def following(task: ScheduledTask, after: float, zone: dt.tzinfo) -> float:
+    """The first start later than `after` [s since the epoch]; 0 for never."""
+    if not task.enabled or fault(task):
+        return 0.0
+    if task.every:
+        return after + task.every
+    hour, minute = (int(part) for part in task.at.split(":"))
+    day = dt.datetime.fromtimestamp(after, zone).date()
+    for number in range(-1, 9):
+        date = day + dt.timedelta(days=number)
+        start = dt.datetime.combine(date, dt.time(hour, minute), zone).timestamp()
+        if task.days[date.weekday()] and start > after:
+            return start
+    return 0.0
+
+
+def turns(tasks: Iterable[ScheduledTask], now: float, zone: dt.tzinfo) -> list[Turn]:
+    """What has changed about `tasks` up to `now` [s since the epoch]: those that start, that were missed, that have no time yet.
+
+    However many starts were missed, only the last one is told. A clock that goes back a little starts nothing a second
+    time; one that goes back by more than a start has its times reckoned anew.
+    """
+    found = []
+    for task in tasks:
+        due = task.next.seconds
+        first = following(task, now, zone)
+        if due > 0 and first <= 0:
+            found.append(Turn(_at(task, 0.0), due=False))
+        elif due <= 0 or due > _latest(task, first, zone) + 1.0:
+            if first > 0:
+                found.append(Turn(_at(task, first), due=False))
+        elif due <= now:
+            late = now - due > LATE
+            found.append(
+                Turn(_at(task, _after(task, due, now, first)), due=not late, missed=due if late else 0.0)
+            )
+    return found
+
+
+def _latest(task: ScheduledTask, first: float, zone: dt.tzinfo) -> float:
+    """The latest start that may be waited for, the next but one when the first one was done already."""
+    return first if task.every else following(task, first, zone)
+
+
+def _after(task: ScheduledTask, due: float, now: float, first: float) -> float:
+    """The start behind `due`; periods go on from there and do not drift."""
+    return due + task.every * (math.floor((now - due) / task.every) + 1) if task.every else first
+
+
+def _at(task: ScheduledTask, start: float) -> ScheduledTask:
+    return msgspec.structs.replace(task, next=Time.at(start) if start else Time())
+
+
+def local_zone() -> dt.tzinfo:
+    """The zone of this computer, with its changes of the clock as far as they are known; else UTC's offset of now."""
+    try:
+        if os.environ.get("TZ"):
+            return ZoneInfo(os.environ["TZ"])
+        with open("/etc/localtime", "rb") as file:  # noqa: PTH123 - ZoneInfo wants the open file
+            return ZoneInfo.from_file(file)
+    except (OSError, ValueError, KeyError):
+        return dt.datetime.now().astimezone().tzinfo or dt.UTC
