@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable
 from datetime import UTC, tzinfo
 from functools import partial
 
-import msgspec
+from msgspec.structs import replace
 
 from bridge.msgs import Msg
 from bridge.msgs.diagnostic_msgs import DiagnosticArray, DiagnosticStatus
@@ -89,8 +89,7 @@ class Station:
         self.clock, self.now = clock, now
         self.keeper = Keeper(config.limits, robot.info)
         """Keeps the robot to its limits."""
-        name = name or config.robot.name or robot.info.name
-        self.info = msgspec.structs.replace(self.keeper.info, name=name)
+        self.info = replace(self.keeper.info, name=name or config.robot.name or robot.info.name)
         self.bus = Bus()
         self.demand = Demand(robot.want)
         self.options = Options(config.control, records.setting, records.set_setting)
@@ -204,7 +203,7 @@ class Station:
             said = f"{fresh.driver} has control." if fresh.driver_id else "Control is free."
             self.events.say("control", said)
         self._control = fresh
-        self.bus.publish("/control/status", msgspec.structs.replace(fresh, stamp=Time.at(self.clock())))
+        self.bus.publish("/control/status", replace(fresh, stamp=Time.at(self.clock())))
 
     @property
     def mission(self) -> Mission:
