@@ -105,7 +105,7 @@ class SafeState:
     @property
     def brakes(self) -> bool:
         """All that it does is to brake, and to stay where it is."""
-        return self._action == "brake" and self._then == "stay"
+        return self._action in ("brake", "brake_straight") and self._then == "stay"
 
     def enter(self, now: float, measured: Measured) -> None:
         """Nobody drives it from `now` on [s]; what it holds is what is `measured` now. Again changes nothing."""
