@@ -6,6 +6,7 @@ import math
 from collections import OrderedDict
 from collections.abc import Callable
 
+from bridge.codec import from_json
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from robotside.controls import AHEAD
 from robotside.words import number, plain
@@ -32,7 +33,7 @@ class Commands:
 
     def __init__(self, now: Callable[[], float]) -> None:
         self._now = now
-        self._answers: OrderedDict[tuple[str, str], CommandResponse] = OrderedDict()
+        self._answers: OrderedDict[tuple[str, str], CommandResponse | str] = OrderedDict()
 
     def run(
         self,
@@ -55,7 +56,8 @@ class Commands:
             return response(False, said)
         key = (service, request.command_id)
         if request.command_id and key in self._answers:
-            return self._answers[key]
+            known = self._answers[key]
+            return from_json(known, response) if isinstance(known, str) else known
         untimely = self._untimely(request)
         answer = response(False, untimely) if untimely else _answer(action, response)
         if request.command_id:
@@ -63,6 +65,10 @@ class Commands:
             while len(self._answers) > KEPT:
                 self._answers.popitem(last=False)
         return answer
+
+    def remember(self, service: str, command_id: str, answer: CommandResponse | str) -> None:
+        """Answer so to a command that was done before a restart; a text is the answer as JSON."""
+        self._answers[service, command_id] = answer
 
     def amend(self, service: str, command_id: str, answer: CommandResponse) -> None:
         """Answer so from now on to a command that was done: it came to something else."""
