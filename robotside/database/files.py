@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fcntl
+import math
 import os
 import sqlite3
 import time
@@ -144,6 +145,12 @@ class Files:
         _sync(self.backups_in)
         self._thin()
         return backup
+
+    def backup_age(self) -> float:
+        """Of the newest backup [s]; infinite when there is none, or its time is yet to come."""
+        backups = self.backups()
+        age = self._now() - backups[-1].stat().st_mtime if backups else math.inf
+        return age if age >= 0.0 else math.inf
 
     def _thin(self) -> None:
         backups = self.backups()

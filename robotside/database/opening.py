@@ -254,6 +254,10 @@ class _Local(Keeper):
         except (OSError, sqlite3.Error) as error:
             raise not_written(error) from error
 
+    def backup_age(self) -> float:
+        """Of the newest backup [s]; infinite when there is none, or it is of the future."""
+        return self._files.backup_age()
+
     def close(self) -> None:
         """Let go of the file."""
         if self._storage is not None:

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 
+from robotside.database.answers import Answers
 from robotside.database.eventlog import EventLog
 from robotside.database.jobs import Job
 from robotside.database.ledger import Ledger, Writer
@@ -46,6 +47,8 @@ class Records:
         """What was done, and what is under way."""
         self.events = EventLog(self._ledger)
         """What happened."""
+        self.answers = Answers(self._ledger)
+        """What was answered to commands."""
         self.problems: list[str] = []
         """What had to be done to open it, one sentence each, for the operator."""
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.geometry_msgs import Point, Pose, PoseStamped, Twist
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
     DeleteScheduleRequest,
@@ -120,7 +120,7 @@ def test_a_task_of_the_queue_that_fails_or_cannot_be_done_any_more_lets_the_next
     assert said in scene.events("task")
 
 
-@pytest.mark.parametrize("how", ["cancel", "stop", "home", "stick", "battery"])
+@pytest.mark.parametrize("how", ["cancel", "fault", "stop", "home", "goal", "stick", "battery"])
 def test_the_queue_waits_after_what_an_operator_or_the_battery_ended_and_goes_on_when_told(
     scene: Scene, how: str
 ) -> None:
@@ -132,15 +132,19 @@ def test_the_queue_waits_after_what_an_operator_or_the_battery_ended_and_goes_on
     elif how == "stop":
         scene.ask("/stop")
         scene.ask("/stop/release")
+    elif how == "fault":
+        scene.station.autonomy.engine.cancel("The client is gone.")
     elif how == "home":
         scene.ask("/task/go_home")
+    elif how == "goal":
+        scene.station.hear(scene.anna, "/goal_pose", PoseStamped(pose=Pose(Point(-1.0, -1.0))), None)
     elif how == "stick":
         scene.drive(Twist.planar(-0.1, 0.0))
     else:
         scene.robot.battery = 0.09
     scene.run(60.0)
     assert begun(scene)[0] == "go_to"
-    assert begun(scene)[1:] in ([], ["go_home"])
+    assert begun(scene)[1:] in ([], ["go_home"], ["go_to"])
     assert scene.robot.at_rest
     assert len(queue(scene).orders) == 1
     scene.robot.battery = 0.8

@@ -40,10 +40,15 @@ class Slow:
     """A station on a disk that writes when it is told to."""
 
     def __init__(self) -> None:
+        self.clock = 1000.0
+        self._stored = empty()
+        self.restart()
+
+    def restart(self) -> None:
+        """Start the robot side on what is on the disk."""
         self.disk = Disk()
         self.disk.room = 1000
-        self.clock = 1000.0
-        self.records = Records(empty(), self.disk, lambda: None)
+        self.records = Records(self._stored, self.disk, lambda: None)
         self.station = Station(
             FakeRobot(), self.records, now=1000.0, clock=lambda: self.clock, rng=random.Random(1)
         )
@@ -200,3 +205,33 @@ async def test_the_end_of_a_task_is_answered_when_no_restart_would_offer_it_agai
     slow.write()
     assert (await canceled).success
     assert slow.records.runs.under_way is None
+
+
+async def test_a_command_that_is_sent_again_after_a_crash_is_not_done_again(slow: Slow) -> None:
+    answer = await soon(slow.ask("/places/set", place(command_id="c1")))
+    slow.write()
+    await answer  # it is on the disk, and the answer got lost
+    slow.restart()
+    assert slow.ask("/places/set", place(command_id="c1")) == SetPlaceResponse(True, "Office 12 is kept.", 1)
+    assert len(slow.records.places.all()) == 1
+    other = slow.ask("/places/set", place(command_id="c2"))
+    assert other == SetPlaceResponse(False, "There is a place 'Office 12' already; choose another name.")
+
+
+async def test_a_command_that_was_not_written_is_done_when_it_is_sent_again_after_a_crash(slow: Slow) -> None:
+    answer = await soon(slow.ask("/places/set", place(command_id="c1")))
+    slow.write(FULL)
+    await answer
+    slow.restart()
+    again = await soon(slow.ask("/places/set", place(command_id="c1")))
+    slow.write()
+    assert (await again).success
+
+
+async def test_the_newest_answers_are_kept(slow: Slow, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("robotside.database.answers.KEPT", 2)
+    for number in range(4):
+        answer = await soon(slow.ask("/places/set", place(f"{number}", f"c{number}")))
+        slow.write()
+        await answer
+    assert [answered.command_id for answered in slow.records.answers.all()] == ["c2", "c3"]

@@ -120,6 +120,18 @@ def test_holding_for_a_time(house: Scene) -> None:
     assert house.now - began == pytest.approx(5.0, abs=0.3)
 
 
+def test_a_pause_does_not_count_as_holding(house: Scene) -> None:
+    begin(house, "hold", duration=5.0)
+    house.run(3.0)
+    house.ask("/task/pause")
+    house.run(60.0)
+    house.ask("/task/resume")
+    house.run(1.5)
+    assert house.task.state == "RUNNING"
+    house.run(0.8)
+    assert house.task.state == "SUCCEEDED"
+
+
 def test_following_a_heading_up_to_the_wall(house: Scene) -> None:
     begin(house, "follow_heading", heading=math.pi / 2, speed=0.5)
     assert house.run_task().state == "FAILED"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import os
 import sqlite3
 from contextlib import closing
 from pathlib import Path
@@ -91,3 +93,16 @@ def test_who_wants_no_backups_has_none(tmp_path: Path) -> None:
     files = Files(database(tmp_path / "records.sqlite3"), backups=0)
     assert files.back_up() is None
     assert files.backups() == []
+
+
+def test_how_old_the_newest_backup_is_tells_when_the_next_one_is_due(tmp_path: Path) -> None:
+    now = [0.0]
+    files = Files(database(tmp_path / "records.sqlite3"), lambda: now[0])
+    assert files.backup_age() == math.inf
+    backup = files.back_up()
+    assert backup is not None
+    os.utime(backup, (1000.0, 1000.0))
+    now[0] = 1600.0
+    assert files.backup_age() == 600.0
+    now[0] = 900.0
+    assert files.backup_age() == math.inf
