@@ -69,7 +69,7 @@ class Helm:
         self._safe, self._options = safe, options
         self._say, self._clock = say, clock
         self._measured, self._go_home = measured, go_home
-        self._ran = False
+        self._ran = self._returned = False
         self._done: Act | None = None
 
     def step(self, now: float) -> None:
@@ -93,7 +93,7 @@ class Helm:
             return ruling.said
         self._safe.leave()
         engine.pause(f"Paused: {self._controls.name(client)} took the stick.", "warn")
-        self._ran = False
+        self._ran = self._returned = False
         self._robot.drive(ruling.twist)
         return ""
 
@@ -172,13 +172,16 @@ class Helm:
             return
         if ran and not self._controls.driving and not self._safe.brakes:
             self._enter(now)  # a task ended: whoever watched it may be gone
+            if self._returned:
+                self._safe.cannot_return()  # it has been home
         if self._safe.active:
             self._do(self._safe.step(now, self._measured(), lost=self._controls.driver is None))
 
     def _do(self, act: Act) -> None:
         before, self._done = self._done, act
         if act.home and not (before and before.home):
-            if self._go_home():
+            self._returned = self._go_home()
+            if self._returned:
                 self._say("control", "Nobody drives the robot: it goes home.", "warn")
                 return
             self._safe.cannot_return()

@@ -76,7 +76,7 @@ class SafeState:
         """`settings` go before what robots of a `kind` usually do; an unknown kind brakes."""
         usual = _USUAL.get(kind, _USUAL["wheels"])
         self._action = settings.action or usual.action
-        self._then = settings.then or usual.then
+        self._usual_then = self._then = settings.then or usual.then
         self._hold_for = usual.hold_for if settings.hold_for is None else settings.hold_for
         if settings.then and settings.hold_for is None and math.isinf(self._hold_for):
             self._hold_for = 30.0
@@ -105,7 +105,7 @@ class SafeState:
     @property
     def brakes(self) -> bool:
         """All that it does is to brake, and to stay where it is."""
-        return self._action in ("brake", "brake_straight") and self._then == "stay"
+        return self._action in ("brake", "brake_straight") and self._usual_then == "stay"
 
     def enter(self, now: float, measured: Measured) -> None:
         """Nobody drives it from `now` on [s]; what it holds is what is `measured` now. Again changes nothing."""
@@ -115,9 +115,10 @@ class SafeState:
     def leave(self) -> None:
         """Somebody or something drives it."""
         self._begun = self._lost = self._after = None
+        self._then = self._usual_then
 
     def cannot_return(self) -> None:
-        """It cannot go home, for whatever reason: it comes down, or up, or stays where it is."""
+        """It cannot go home, or has been there: until it is left it comes down, or up, or stays where it is."""
         self._then = {"hover": "land", "hold_depth": "surface"}.get(self._action, "stay")
 
     def step(self, now: float, measured: Measured, *, lost: bool) -> Act:

@@ -8,7 +8,7 @@ import msgspec
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import CommandRequest, SetModeRequest, SetOptionRequest
+from bridge.msgs.pilothouse_msgs import CommandRequest, SetModeRequest, SetOptionRequest, Waypoint
 from robotside.config import NOTHING_SET, Config, ControlSettings, SafeStateSettings
 from robotside.controls import STOP_SENTENCE
 from tests.fakes import FakeClient, FakeRobot
@@ -259,6 +259,18 @@ def test_wheels_that_are_told_to_return_go_home_by_themselves(tmp_path: Path) ->
     scene.run(2.5)
     assert (scene.task.task, scene.control.mode) == ("go_home", "AUTO")
     assert scene.events("control")[-1] == "Nobody drives the robot: it goes home."
+
+
+def test_a_robot_that_has_come_home_by_itself_stays_there(tmp_path: Path) -> None:
+    config = Config(safe_state=SafeStateSettings(then="return", hold_for=2.0))
+    scene = Scene(FakeRobot(), tmp_path, config=config)
+    scene.run(4.0)
+    scene.set(home=[Waypoint(1.0, 0.0)])
+    scene.drive(AHEAD)
+    scene.clients.clear()
+    scene.run(40.0)
+    assert scene.events("control").count("Nobody drives the robot: it goes home.") == 1
+    assert (scene.task.state, scene.robot.at_rest) == ("SUCCEEDED", True)
 
 
 def test_with_stop_pressed_no_safe_state_moves_the_robot_nor_when_it_is_released(tmp_path: Path) -> None:

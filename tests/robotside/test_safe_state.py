@@ -143,6 +143,9 @@ def test_a_quadrotor_that_is_told_to_return_goes_home_and_lands_when_it_cannot()
     assert body.lose(2.5).home
     body.safe.cannot_return()
     assert body.lose(1.0).phase == "lands"
+    body.safe.leave()
+    body.lose(2.5)
+    assert body.acts[-1].home
 
 
 def test_while_somebody_is_there_who_could_drive_it_goes_on_holding() -> None:
