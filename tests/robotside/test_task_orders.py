@@ -108,6 +108,7 @@ def test_home_may_be_a_place(house: Scene) -> None:
     house.ask("/places/set", SetPlaceRequest(place=Place(name="My corner", kind="home", x=2.0, y=-2.0)))
     begin(house, "go_home")
     assert house.run_task().reason == "Home."
+    assert house.task.place == "Home"
     assert math.hypot(house.robot.pose[0] - 2.0, house.robot.pose[1] + 2.0) < 0.2
 
 
@@ -150,6 +151,23 @@ def test_docking_until_the_charge_is_seen(house: Scene) -> None:
     assert house.robot.at_rest
 
 
+def test_a_dock_may_stand_at_a_wall_and_is_left_again(house: Scene) -> None:
+    wall = Place(name="Wall", kind="dock", x=-9.74, y=0.0, yaw=math.pi)
+    assert house.ask("/places/set", SetPlaceRequest(place=wall)).success
+    behind = Place(name="Behind", kind="dock", x=-9.74, y=0.0, yaw=0.0)
+    said = house.refused("/places/set", SetPlaceRequest(place=behind))
+    assert said.startswith("The place before Behind at (-10.5, 0.0) is in a wall")
+    begin(house, "dock", "Wall")
+    until(house, lambda status: status.phase == "docking")
+    house.run(11.0)
+    house.robot.charging = True
+    assert house.run_task().state == "SUCCEEDED"
+    assert house.robot.pose[0] == pytest.approx(-9.7, abs=0.15)
+    begin(house, "go_to", "Office 12")
+    assert house.run_task().state == "SUCCEEDED"
+    assert house.robot.contacts == 0
+
+
 def test_touching_the_dock_is_no_accident(house: Scene) -> None:
     begin(house, "dock")
     until(house, lambda status: status.phase == "docking")
@@ -166,6 +184,14 @@ def test_a_patrol_of_named_places_keeps_them_when_another_mission_is_set(house: 
     house.set(Waypoint(-2.0, -2.0), laps=1)
     assert house.run_task().visited == 2
     assert house.events("waypoint") == ["Lab reached.", "Office 12 reached."]
+
+
+def test_points_of_a_mission_that_have_names_are_its_places(house: Scene) -> None:
+    house.set(Waypoint(2.0, 0.0, name="Gate"), Waypoint(2.0, 2.0))
+    house.start()
+    house.run(0.2)
+    assert (house.task.places, house.task.place) == (["Gate"], "Gate")
+    assert house.task.reason == "Heading for point 1 of 2, Gate."
 
 
 def test_a_mission_that_is_set_while_it_is_patrolled_is_taken_over_and_said(house: Scene) -> None:
