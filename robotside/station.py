@@ -137,7 +137,7 @@ class Station:
     def step(self, now: float) -> None:
         """Bring everything up to `now` [s, robot clock]; call it often."""
         self.now = now
-        self.helm.step(now)
+        self._mind(partial(self.helm.step, now))
         self._pass_on(self.robot.read(now))
         self._mind_trouble()
         self._mind(lambda: self.autonomy.check(now))
@@ -154,7 +154,7 @@ class Station:
         if stamp is not None:
             self.readiness.told_time(stamp)
         if isinstance(msg, Twist):
-            self._remark(client, self.helm.drive(client, msg, stamp))
+            self._mind(lambda: self._remark(client, self.helm.drive(client, msg, stamp)))
         elif isinstance(msg, PoseWithCovarianceStamped):
             self._place(client, Pose2.from_msg(msg.pose.pose))
         elif isinstance(msg, PoseStamped):
@@ -164,7 +164,7 @@ class Station:
     def gone(self, client: Operator) -> None:
         """A client's socket closed; if it was driving, the robot stops at once."""
         self._next_remark.pop(client.id, None)
-        self.helm.gone(client, self.now)
+        self._mind(partial(self.helm.gone, client, self.now))
         self.show_control()
 
     def press_stop(self, name: str) -> None:
