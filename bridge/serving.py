@@ -138,8 +138,9 @@ class Client:
             self._try(arrivals[0])
             self._alter()
             return True
+        behind = bool(self._left)
         self._left.extend(arrivals)
-        return self.go_on()
+        return not behind and self.go_on()
 
     def go_on(self) -> bool:
         """Do more of what `hear` left; False when there is still more."""

@@ -121,6 +121,15 @@ async def test_nobody_takes_the_robots_own_services(service):
         await thief.say(op="advertise_service", service=service, type="pilothouse_msgs/Command")
         await thief.settled()
         assert (await caller.call("/stop"))["values"]["success"] is True
+        providers = await caller.call("/rosapi/nodes")
+        details = [
+            await caller.call("/rosapi/node_details", args={"node": node})
+            for node in providers["values"]["nodes"]
+        ]
+        offered = [
+            each["values"]["services"] for each in details if "/stop" not in each["values"]["services"]
+        ]
+        assert offered == [[], []]
 
 
 async def test_types_of_what_clients_offer_are_told():
@@ -277,3 +286,22 @@ async def test_a_goal_that_does_not_fit_is_refused_with_the_field():
     async with server(actions=[action(endless)]) as robot, peer(robot) as caller:
         await caller.say(op="send_action_goal", id="g", action="/tell", args={"valid_for": "long"})
         assert (await caller.hear())["values"] == 'valid_for must be a number or null, not "long".'
+
+
+DEEP = []
+for _ in range(150):
+    DEEP = [DEEP]
+
+
+async def test_what_is_nested_too_deeply_is_not_passed_on_to_others():
+    async with pair() as (provider, caller):
+        await caller.say(op="call_service", service="/add", id="c", args={"a": DEEP})
+        assert (await caller.hear())["values"] == "args are nested too deeply."
+        await caller.say(op="call_service", service="/add", id="d")
+        call = await provider.hear()
+        answer = {"op": "service_response", "id": call["id"], "service": "/add", "result": True}
+        await provider.say(**answer, values={"sum": DEEP})
+        assert (await caller.hear())["values"] == 'The answer of "/add" is nested too deeply.'
+        await caller.say(op="send_action_goal", id="g", action="/count", args={"to": DEEP})
+        assert (await caller.hear())["values"] == "The goal is nested too deeply."
+        await provider.settled()

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import asyncio
+import collections
 import contextlib
+import itertools
 import json
 import struct
+from contextlib import asynccontextmanager
 
 import pytest
 from websockets.exceptions import ConnectionClosedError, InvalidMessage
 from websockets.frames import Frame, Opcode
 
-from bridge import server_connection
+from bridge import server_connection, serving
 from tests.bridge.peers import peer
 from tests.bridge.wires import PATIENCE, Record, server
 
@@ -168,3 +171,72 @@ async def test_a_fault_in_the_server_costs_nobody_the_connection(caplog, monkeyp
         monkeypatch.undo()
         await foreign.settled()
     assert "ZeroDivisionError" in caplog.text
+
+
+async def test_nothing_is_heard_of_a_client_that_was_cut_off():
+    heard, gone = Record(), Record()
+
+    def cut(session, topic, msg, stamp):
+        heard(msg.linear.x)
+        next(iter(robot._open)).cut()
+
+    async with server(on_message=cut, on_gone=gone) as robot, peer(robot) as foreign:
+        await foreign.settled()
+        said = [Frame(Opcode.TEXT, speed(x).encode()).serialize(mask=True) for x in (1.0, 2.0)]
+        foreign.ws.transport.write(b"".join(said))
+        await gone.reach(1)
+    assert heard == [1.0]
+
+
+@asynccontextmanager
+async def turns():
+    """Counts the steps of the loop."""
+    step = itertools.count()
+    now = [0]
+
+    async def count():
+        while True:
+            now[0] = next(step)
+            await asyncio.sleep(0)
+
+    counting = asyncio.create_task(count())
+    try:
+        yield now
+    finally:
+        counting.cancel()
+        await asyncio.gather(counting, return_exceptions=True)
+
+
+def slowly(monkeypatch):
+    """Every look at the clock finds that a turn is over."""
+    monkeypatch.setattr(server_connection.HeardConnection, "clock", itertools.count().__next__)
+
+
+async def test_of_much_that_comes_at_once_each_turn_takes_a_piece(monkeypatch):
+    slowly(monkeypatch)
+    heard = Record()
+    async with turns() as now:
+        on_message = lambda session, topic, msg, stamp: heard((now[0], msg.linear.x))  # noqa: E731
+        async with server(on_message=on_message) as robot, peer(robot) as foreign:
+            await foreign.settled()
+            padded = [speed(float(x)).encode() + b" " * 400 for x in range(100)]
+            said = b"".join(Frame(Opcode.TEXT, text).serialize(mask=True) for text in padded)
+            foreign.ws.transport.write(said)
+            await foreign.settled()
+    assert [x for _, x in heard] == [float(x) for x in range(100)]
+    at_once = collections.Counter(turn for turn, _ in heard)
+    assert max(at_once.values()) <= server_connection.PIECE // len(padded[0]) + 1
+
+
+async def test_operations_of_one_frame_are_done_in_turns_and_what_follows_waits_for_them(monkeypatch):
+    monkeypatch.setattr(serving, "TURN", 0.0)
+    heard = Record()
+    async with turns() as now:
+        on_message = lambda session, topic, msg, stamp: heard((now[0], msg.linear.x))  # noqa: E731
+        async with server(on_message=on_message) as robot, peer(robot) as foreign:
+            await foreign.ws.send("".join(speed(float(x)) for x in range(20)))
+            await foreign.ws.send("".join(speed(float(x)) for x in range(20, 40)))
+            await foreign.ws.send(speed(40.0))
+            await foreign.settled()
+    assert [x for _, x in heard] == [float(x) for x in range(41)]
+    assert len({turn for turn, _ in heard}) > 35
