@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import math
 import time
+from collections import deque
 from collections.abc import Callable
 from typing import Any, Protocol
 
@@ -70,11 +72,13 @@ class HeardConnection(ServerConnection):
     def __init__(self, *args: Any, **options: Any) -> None:
         super().__init__(*args, **options)
         self._rest = bytearray()
+        self._unheard: deque[str | bytes] = deque()
+        self._until = math.inf
 
     @property
     def open(self) -> bool:
         """Whether frames may still be written."""
-        return self.protocol.state is State.OPEN
+        return not self._deaf and self.protocol.state is State.OPEN
 
     def write(self, frames: bytes) -> None:
         """Write whole frames of this side; returns at once."""
@@ -127,6 +131,7 @@ class HeardConnection(ServerConnection):
             self._rest += data
             self._go_on()
         else:
+            self._until = self.clock() + TURN
             self._together(super().data_received, data)
             if self._behind:
                 self._wait()
@@ -137,14 +142,14 @@ class HeardConnection(ServerConnection):
         self._waits = False
         if self._deaf or self._ears is None:
             return
-        until = self.clock() + TURN
+        self._until = self.clock() + TURN
         if self._behind:
             self._together(self._catch_up, self._ears)
         while self._rest and not self._behind and not self._deaf:
             piece = bytes(self._rest[:PIECE])
             del self._rest[:PIECE]
             self._together(take, piece)
-            if self.clock() >= until:
+            if self.clock() >= self._until:
                 break
         if self._rest or self._behind:
             self._wait()
@@ -157,11 +162,15 @@ class HeardConnection(ServerConnection):
         self.loop.call_soon(self._go_on)
 
     def _catch_up(self, ears: Ears) -> None:
+        """What was heard and not done first, then what came in the same piece."""
         self._behind = False
         try:
             self._behind = not ears.go_on()
         except Exception:
             log.exception("A message was not understood")
+        while self._unheard and not self._behind:
+            self._tell(ears, self._unheard.popleft())
+        self._behind = self._behind or bool(self._unheard)
 
     def _together(self, work: Callable[[Any], None], about: Any) -> None:
         """Let what `work` causes leave together."""
@@ -226,8 +235,11 @@ class HeardConnection(ServerConnection):
         # a goodbye that came in the same breath as this message has closed the protocol already; it was still sent before
         if self._deaf:
             return
+        if self._behind:
+            self._unheard.append(message)  # of one piece, so they are few or small
+            return
         try:
-            self._behind = not ears.hear(message)
+            self._behind = not ears.hear(message) or self.clock() >= self._until
         except Exception:
             log.exception("A message of %d bytes was not understood", len(message))
 
