@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import itertools
+import struct
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -23,6 +24,8 @@ Reduce = Callable[[Msg, Reduction], Msg]
 """Makes less of a message; itself where nothing can be made less. Does not look at `Reduction.fields`."""
 
 _TEXT, _BINARY, _PING = 0x81, 0x82, 0x89
+_HEAD_16, _HEAD_64 = struct.Struct(">BBH").pack, struct.Struct(">BBQ").pack
+"""The head of a longer frame: its kind, what says how its length is told, and its length."""
 _numbers = itertools.count(1)
 
 
@@ -88,10 +91,10 @@ class Outgoing:
         self._reduce = reduce
         self._now = now
         self._frames: dict[Form, bytes] = {}
-        self._bodies: dict[tuple[Reduction | None, bool], bytes] | None = None
+        self._bodies: dict[tuple[Reduction | None, bool], bytes] = {}
         if type(msg) is Unread:
-            self._bodies = {(None, False): msg.text}
-        self._lesser: dict[Reduction, Msg | Raw] | None = None
+            self._bodies[None, False] = msg.text
+        self._lesser: dict[Reduction, Msg | Raw] = {}
 
     def frame(self, form: Form) -> bytes:
         """The message in WebSocket frames; ProtocolError when it cannot be encoded."""
@@ -112,8 +115,6 @@ class Outgoing:
         msg = self.msg
         if reduction is None or isinstance(msg, Raw):
             return msg
-        if self._lesser is None:
-            self._lesser = {}
         found = self._lesser.get(reduction)
         if found is None:
             found = msg if self._reduce is None else self._reduce(msg, reduction)
@@ -123,26 +124,23 @@ class Outgoing:
         return found
 
     def _encode(self, form: Form) -> bytes:
-        if form.compression == "cbor":
-            return self._cbor(form, _plain(self.lesser(form.reduction)))
-        if form.compression == "cbor-raw":
+        name, compression, size, reduction, ros2 = form
+        if compression == "cbor":
+            return self._cbor(form, _plain(self.lesser(reduction)))
+        if compression == "cbor-raw":
             return self._cbor(form, self._bytes_of_ros(form))
-        body = self._body(form)
-        if form.compression == "png":
-            return _cut(encode(to_png(b"".join((_beginning(form.name), body, b"}")))), form.fragment_size)
-        beginning = _beginning(form.name)
-        if form.fragment_size is not None:
-            return _cut(b"".join((beginning, body, b"}")), form.fragment_size)
-        return b"".join((_head(_TEXT, len(beginning) + len(body) + 1), beginning, body, b"}"))
+        beginning, body = _beginning(name), self._body(reduction, ros2)
+        if compression == "none" and size is None:
+            return b"".join((_head(_TEXT, len(beginning) + len(body) + 1), beginning, body, b"}"))
+        text = b"".join((beginning, body, b"}"))
+        return _cut(encode(to_png(text)) if compression == "png" else text, size)
 
-    def _body(self, form: Form) -> bytes:
-        key = (form.reduction, form.ros2)
-        if self._bodies is None:
-            self._bodies = {}
-        body = self._bodies.get(key)
+    def _body(self, reduction: Reduction | None, ros2: bool) -> bytes:
+        body = self._bodies.get((reduction, ros2))
         if body is None:
-            msg = self.lesser(form.reduction)
-            body = self._bodies[key] = bytes(msg) if isinstance(msg, Raw) else to_json(msg, form.ros2)
+            msg = self.lesser(reduction)
+            body = bytes(msg) if isinstance(msg, Raw) else to_json(msg, ros2)
+            self._bodies[reduction, ros2] = body
         return body
 
     def _cbor(self, form: Form, msg: object) -> bytes:
@@ -185,5 +183,5 @@ def _head(kind: int, length: int) -> bytes:
     if length < 126:
         return bytes((kind, length))
     if length < 65536:
-        return bytes((kind, 126)) + length.to_bytes(2, "big")
-    return bytes((kind, 127)) + length.to_bytes(8, "big")
+        return _HEAD_16(kind, 126, length)
+    return _HEAD_64(kind, 127, length)
