@@ -51,7 +51,7 @@ NAMELESS = (None, UNSET)
 _TYPED = (Subscribe, Advertise, AdvertiseService, AdvertiseAction)
 LARGEST_HEARD = 16_777_216
 """The largest frame that a server takes, and the most that may wait in fragments [byte]."""
-MOST_VALUES = 100_000
+MOST_VALUES = 50_000
 """Values in one binary frame, a number array counted as one."""
 MOST_SUBSCRIPTIONS = 1000
 """Subscriptions of one client, each id counted."""

@@ -324,7 +324,7 @@ COSTLY = {
     "lists of an unknown message": b'{"op":"publish","topic":"/a","msg":{"a":[%s]}}',
     "lists in the place of the op": b'{"op":[%s]}',
     "lists in the place of a topic": b'{"op":"publish","topic":[%s]}',
-    "lists in a reduction": b'{"op":"subscribe","topic":"/a","reduce":{"beams":1.0,"x":[%s]},"queue_length":null}',
+    "lists in a reduction": b'{"op":"subscribe","topic":"/a","reduce":{"beams":1.5,"x":[%s]},"queue_length":null}',
     "lists where a whole number belongs": b'{"op":"action_result","action":"a","status":[%s]}',
     "texts after a bare NaN": b'{"op":"publish","topic":"/a","msg":[NaN,[%s]]}',
 }
