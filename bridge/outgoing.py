@@ -23,6 +23,8 @@ __all__ = ["Form", "Outgoing", "Reduce", "binary_frame", "ping_frame", "said", "
 Reduce = Callable[[Msg, Reduction], Msg]
 """Makes less of a message; itself where nothing can be made less. Does not look at `Reduction.fields`."""
 
+MOST_FORMS = 16
+"""In so many forms a message is kept; what is latched lives long, and a client may ask for any number one after the other."""
 _TEXT, _BINARY, _PING = 0x81, 0x82, 0x89
 _HEAD_16, _HEAD_64 = struct.Struct(">BBH").pack, struct.Struct(">BBQ").pack
 """The head of a longer frame: its kind, what says how its length is told, and its length."""
@@ -100,7 +102,10 @@ class Outgoing:
         """The message in WebSocket frames; ProtocolError when it cannot be encoded."""
         frame = self._frames.get(form)
         if frame is None:
-            frame = self._frames[form] = self._encode(form)
+            frame = self._encode(form)
+            if len(self._frames) >= MOST_FORMS:
+                del self._frames[next(iter(self._frames))]
+            self._frames[form] = frame
         return frame
 
     @property

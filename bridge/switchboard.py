@@ -67,8 +67,8 @@ class Channel:
         """None when the type is not known here: its messages are passed on as they are."""
         self.streams: dict[Listener, Stream] = {}
         """Who wants it, and in what form."""
-        self.publishers: dict[object, int] = {}
-        """Clients that said they publish on it, and how often they said so."""
+        self.publishers: set[object] = set()
+        """Clients that said they publish on it."""
         self.last: dict[object, Outgoing] = {}
         """The last message of each publisher who latches; the robot itself is None."""
         self.lane, self.keep = _manner(self)
@@ -168,14 +168,14 @@ class Switchboard:
     def advertise(self, publisher: object, topic: str, type: str) -> Channel:
         """`publisher` is going to publish on `topic`; ProtocolError as for `subscribe`."""
         channel = self.channels.get(topic) or self._make(topic, type)
-        channel.publishers[publisher] = channel.publishers.get(publisher, 0) + 1
+        channel.publishers.add(publisher)
         return channel
 
     def unadvertise(self, publisher: object, topic: str) -> None:
         """`publisher` no longer publishes on `topic`, and what it latched there is forgotten."""
         channel = self.channels.get(topic)
         if channel is not None:
-            channel.publishers.pop(publisher, None)
+            channel.publishers.discard(publisher)
             channel.last.pop(publisher, None)
             self._tidy(channel)
 

@@ -16,7 +16,7 @@ from bridge.msgs.arrays import Float32Array
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import LaserScan
 from bridge.msgs.std_msgs import Float64, Header, String, Time
-from bridge.outgoing import Form, Outgoing, ping_frame, said
+from bridge.outgoing import MOST_FORMS, Form, Outgoing, ping_frame, said
 from bridge.protocol import Png, Reduction, Status, pixels
 from bridge.rosbytes import serialize
 from tests.bridge.ws_frames import frames
@@ -115,3 +115,12 @@ def test_operations_are_cut_as_messages_are():
 def test_a_ping_is_one_for_the_library():
     (frame,) = frames(ping_frame(b"12345678"))
     assert (frame.opcode, bytes(frame.data)) == (Opcode.PING, b"12345678")
+
+
+def test_a_message_is_kept_in_so_many_forms_and_no_more():
+    message = Outgoing("/a", Float64(1.5))
+    for size in range(100, 100 + 2 * MOST_FORMS):
+        message.frame(Form("/a", fragment_size=size))
+    assert len(message._frames) == MOST_FORMS
+    last = Form("/a", fragment_size=99 + 2 * MOST_FORMS)
+    assert message.frame(last) is message.frame(last)
