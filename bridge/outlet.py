@@ -47,6 +47,8 @@ class Round:
         """Whoever set it calls `flush` itself."""
         self._call_soon = call_soon
         self._waiting: list[Outlet] = []
+        self._frames: list[bytes] = []
+        self._piece = b""
 
     def add(self, outlet: Outlet) -> None:
         """Have an outlet flushed at the end of this step."""
@@ -59,6 +61,15 @@ class Round:
         waiting, self._waiting = self._waiting, []
         for outlet in waiting:
             outlet.flush()
+        self._frames, self._piece = [], b""
+
+    def joined(self, frames: list[bytes]) -> bytes:
+        """`frames` in one piece, made once for clients that get the same one after the other."""
+        if len(frames) == 1:
+            return frames[0]
+        if frames != self._frames:
+            self._frames, self._piece = frames, b"".join(frames)
+        return self._piece
 
 
 class Outlet:
@@ -140,11 +151,11 @@ class Outlet:
             self._urgent.clear()
         if not self._line.open:
             return
-        now = self._clock()
+        data, now = self._round.joined(frames), self._clock()
         if self.window.ping_due(now, self._lanes.held):
-            frames.append(ping_frame(self.window.ping(now)))
-        if frames:
-            self._line.write(frames[0] if len(frames) == 1 else b"".join(frames))
+            data += ping_frame(self.window.ping(now))
+        if data:
+            self._line.write(data)
 
     def answered(self, content: bytes) -> None:
         """A pong came."""
