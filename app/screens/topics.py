@@ -210,7 +210,7 @@ Builder.load_string("""
                 bold: True
                 font_size: sp(18)
             Text:
-                text: root.type
+                text: wrapped(root.type, self.width, self.font_size)
                 role: 'muted'
                 font_size: sp(14)
         Chip:
