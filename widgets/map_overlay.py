@@ -283,7 +283,7 @@ class MapOverlay(MapGestures, Drawing):
             self._robot_shapes(shapes, tuple(self.robot), faded=self.state == "stale")
         else:
             x, y = self._free_middle()
-            word = Word("Waiting for the robot's position", x, y, sp(16), theme.text)
+            word = Word("No position has come yet", x, y, sp(16), theme.text)
             ground(shapes, word, tint(theme.bg, 0.85))
             yield word
         if self.placed:
