@@ -143,7 +143,7 @@ class Outgoing:
     def _body(self, reduction: Reduction | None, ros2: bool) -> bytes:
         body = self._bodies.get((reduction, ros2))
         if body is None:
-            msg = self.lesser(reduction)
+            msg = self.msg if reduction is None else self.lesser(reduction)
             body = bytes(msg) if isinstance(msg, Raw) else to_json(msg, ros2)
             self._bodies[reduction, ros2] = body
         return body

@@ -111,17 +111,18 @@ class Outlet:
         if stream.ordered:
             self._send_in_order(stream, message)
             return
-        now, window = self._clock(), self.window
+        now, window, lanes = self._clock(), self.window, self._lanes
+        room = window.limit - window.sent + window.acknowledged
         if (
             stream.waiting
             or self._line.paused
-            or window.sent - window.acknowledged >= window.limit
+            or room <= 0
             or now >= window.late
-            or (self._lanes.held and stream.lane >= self._lanes.holding)
+            or (lanes.held and stream.lane >= lanes.holding)
         ):
-            self._lanes.offer(stream, message)  # what those before it wait for lets it go as well
+            lanes.offer(stream, message)  # what those before it wait for lets it go as well
             return
-        if now < stream.due or self._lanes.held:
+        if now < stream.due or lanes.held:
             self._wait(stream, message)
             return
         try:
@@ -129,15 +130,17 @@ class Outlet:
         except ProtocolError as error:
             self._refuse(message.topic, error)
             return
-        if not window.fits(len(frame)):
+        size = len(frame)
+        if size > room and not window.fits(size):
             self._wait(stream, message)
             return
         if stream.period:
             stream.due = now + stream.period
-        if not self._batch and not self._urgent:
+        batch = self._batch
+        if not batch and not self._urgent:
             self._round.add(self)
-        self._batch.append(frame)
-        window.sent += len(frame)
+        batch.append(frame)
+        window.sent += size
 
     def forget(self, stream: Stream) -> None:
         """Nothing of this topic is wanted any more."""

@@ -118,10 +118,10 @@ class Switchboard:
 
     def publish(self, topic: str, msg: Msg) -> None:
         """Pass a message of the robot on; BridgeError for a topic that is not in its table."""
-        entry = self.topics.get(topic)
-        if entry is None:
+        channel = self.channels.get(topic)
+        if channel is None or channel.entry is None:
             raise BridgeError(f"There is no topic {topic} in the table.")
-        self.pass_on(self.channels[topic], msg, None, latch=entry.latched)
+        self.pass_on(channel, msg, None, latch=channel.entry.latched)
 
     def pass_on(self, channel: Channel, msg: Msg | Raw | Unread, publisher: object, *, latch: bool) -> None:
         """Pass a message of `publisher`, None is the robot, on to all who want it, and to later ones when latched."""
