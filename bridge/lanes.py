@@ -14,6 +14,8 @@ __all__ = ["MOST_BYTES", "MOST_FRAMES", "Lane", "Lanes", "Stream"]
 
 MOST_FRAMES = 256
 """Frames that may wait in order in one lane; a client for whom more wait does not read."""
+MOST_REPLIES = 4096
+"""Frames that may wait in the lane of replies: all that one may have asked for is answered in one step when who answers is gone."""
 MOST_BYTES = 8_388_608
 """Bytes that may wait in order in one lane."""
 LONGEST = {2: 100, 3: 100, 4: 4}
@@ -88,7 +90,8 @@ class Lanes:
     def put(self, lane: Lane, frame: bytes) -> bool:
         """Queue a frame that must not be lost; False when too many wait in this lane already."""
         frames = self._frames[lane]
-        if len(frames) >= MOST_FRAMES or (frames and self._bytes[lane] + len(frame) > MOST_BYTES):
+        most = MOST_REPLIES if lane is Lane.REPLY else MOST_FRAMES
+        if len(frames) >= most or (frames and self._bytes[lane] + len(frame) > MOST_BYTES):
             return False
         frames.append(frame)
         self._bytes[lane] += len(frame)
@@ -104,6 +107,17 @@ class Lanes:
         stream.gone = True
         stream.waiting.clear()
         self._streams[stream.lane].pop(stream, None)
+
+    def clear(self) -> None:
+        """Nothing is wanted any more."""
+        self.held = False
+        for frames in self._frames:
+            frames.clear()
+        for streams in self._streams:
+            for stream in streams:
+                stream.gone = True
+                stream.waiting.clear()
+            streams.clear()
 
     def blocked(self, lane: Lane) -> bool:
         """Whether frames wait in this lane, behind which others must stand."""

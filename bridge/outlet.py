@@ -198,7 +198,10 @@ class Outlet:
             self.flush()
 
     def close(self) -> None:
-        """Send nothing more."""
+        """Send nothing more, and keep nothing: what others still hold of this client must not hold what waited for it."""
+        self._lanes.clear()
+        self._batch.clear()
+        self._urgent.clear()
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None

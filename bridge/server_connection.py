@@ -16,7 +16,7 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from websockets.asyncio.server import ServerConnection
-from websockets.exceptions import ConnectionClosedOK
+from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode, Frame, Opcode
 from websockets.protocol import Event, State
 
@@ -74,6 +74,8 @@ class HeardConnection(ServerConnection):
         self._rest = bytearray()
         self._unheard: deque[str | bytes] = deque()
         self._until = math.inf
+        self._idle = asyncio.Event()
+        self._idle.set()
 
     @property
     def open(self) -> bool:
@@ -85,8 +87,8 @@ class HeardConnection(ServerConnection):
         self.transport.write(frames)
 
     def cut(self) -> None:
-        """Break the connection at once; nothing that came is heard any more."""
-        self._deaf = True
+        """Break the connection at once; nothing that came is heard any more, but for what came before a goodbye."""
+        self._deaf = self._deaf or self.protocol.state is State.OPEN
         self.transport.abort()
 
     async def heard_by(self, ears: Ears) -> None:
@@ -97,11 +99,15 @@ class HeardConnection(ServerConnection):
             while not self._take_over():
                 message = await self.recv()
                 self._tell(ears, message)
+        except ConnectionClosed:
+            pass  # what was heard before it is done all the same
+        try:
             if self._behind:
                 self._wait()
-        except ConnectionClosedOK:
-            return
-        await self.wait_closed()
+            await self.wait_closed()
+            await self._idle.wait()  # what came before a goodbye counts, a rest above all
+        finally:
+            self._forget()
         if self.close_code not in (CloseCode.NORMAL_CLOSURE, CloseCode.GOING_AWAY):
             raise self.close_exc
 
@@ -141,10 +147,13 @@ class HeardConnection(ServerConnection):
         take = super().data_received
         self._waits = False
         if self._deaf or self._ears is None:
+            self._idle.set()
             return
         self._until = self.clock() + TURN
         if self._behind:
             self._together(self._catch_up, self._ears)
+        if self.protocol.state is State.CLOSED:
+            self._rest.clear()  # nothing is read of a connection that is lost
         while self._rest and not self._behind and not self._deaf:
             piece = bytes(self._rest[:PIECE])
             del self._rest[:PIECE]
@@ -154,10 +163,20 @@ class HeardConnection(ServerConnection):
         if self._rest or self._behind:
             self._wait()
         else:
+            self._idle.set()
             self.transport.resume_reading()
+
+    def _forget(self) -> None:
+        """It is over: keep nothing of what came, for as long as anybody still holds this connection."""
+        self._ears = None
+        self._rest.clear()
+        self._unheard.clear()
+        self._pieces = []
+        self.protocol.reader.buffer.clear()  # a frame of which only a part came; the library keeps it
 
     def _wait(self) -> None:
         self._waits = True
+        self._idle.clear()
         self.transport.pause_reading()
         self.loop.call_soon(self._go_on)
 

@@ -7,6 +7,7 @@ from contextlib import asynccontextmanager
 
 import pytest
 
+from bridge import exchange
 from bridge.compat import Compat
 from bridge.errors import Refused
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
@@ -305,3 +306,19 @@ async def test_what_is_nested_too_deeply_is_not_passed_on_to_others():
         await caller.say(op="send_action_goal", id="g", action="/count", args={"to": DEEP})
         assert (await caller.hear())["values"] == "The goal is nested too deeply."
         await provider.settled()
+
+
+async def test_who_reads_gets_all_its_refusals_when_who_should_answer_is_gone(monkeypatch):
+    monkeypatch.setattr(exchange, "MOST_CALLS", 600)
+    async with pair() as (provider, caller):
+        for number in range(601):
+            await caller.say(op="call_service", service="/add", id=number)
+        refused = await caller.hear()
+        assert (refused["id"], refused["result"]) == (600, False)
+        assert "600 calls of this client wait for their answer already" in refused["values"]
+        for _ in range(600):
+            await provider.hear()
+        provider.ws.transport.abort()
+        answers = [await caller.hear() for _ in range(600)]
+    assert [answer["id"] for answer in answers] == list(range(600))
+    assert {answer["values"] for answer in answers} == {'The client that answers "/add" is gone.'}

@@ -201,6 +201,31 @@ async def test_a_client_for_whom_too_much_waits_in_order_is_cut_off(bench, caplo
     assert "does not read what it asked for" in caplog.text
 
 
+async def test_all_answers_that_a_client_waits_for_may_come_in_one_step(bench):
+    bench.fill()
+    for _ in range(4 * MOST_FRAMES):
+        bench.outlet.send(Lane.REPLY, text_of(200))
+    assert bench.line.open
+
+
+async def test_an_outlet_that_is_closed_keeps_nothing(bench):
+    bench.outlet.send(Lane.REPLY, text_of(1000))
+    bench.outlet.send(Lane.CONTROL, text_of(1000))
+    bench.step()
+    bench.line.paused = True
+    odom = stream(queue=9)
+    for value in range(3):
+        bench.outlet.offer(odom, number(value))
+        bench.outlet.send(Lane.EVENT, text_of(200))
+    bench.outlet.close()
+    assert (list(odom.waiting), odom.gone) == ([], True)
+    bench.line.paused = False
+    bench.line.writes.clear()
+    bench.outlet.pump()
+    bench.step()
+    assert bench.line.heard == []
+
+
 async def test_samples_never_cut_anybody_off(bench):
     bench.fill()
     for topic in range(20):

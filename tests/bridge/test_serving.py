@@ -207,7 +207,10 @@ async def test_what_was_latched_by_who_never_advertised_does_not_stay():
     assert house.switchboard.channels["/chat"].last == {}
     owner.hear(said({"op": "publish", "topic": "/chat", "msg": {"data": "x"}, "latch": True}))
     assert list(house.switchboard.channels["/chat"].last) == [owner]
+    guest.hear(said({"op": "subscribe", "topic": "/chat"}))
     await owner.close()
+    guest.hear(said({"op": "publish", "topic": "/chat", "msg": {"data": "x"}, "latch": True}))
+    assert house.switchboard.channels["/chat"].last == {}
     await guest.close()
 
 

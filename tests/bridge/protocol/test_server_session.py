@@ -446,3 +446,10 @@ def test_a_client_has_a_hundred_goals_under_way_at_most_and_each_id_once():
         session.begin_goal(SendActionGoal(action="/dock", id="one too many"))
     session.end_goal(7)
     session.begin_goal(SendActionGoal(action="/dock", id="one too many"))
+
+
+def test_who_is_gone_leaves_no_unfinished_texts():
+    session = ServerSession()
+    session.receive('{"op": "fragment", "id": "f", "data": "x", "num": 0, "total": 2}', 0.0)
+    session.lose()
+    assert session.expire(100.0) == []
