@@ -20,6 +20,8 @@ MOST_BYTES = 8_388_608
 """Bytes that may wait in order in one lane."""
 LONGEST = {2: 100, 3: 100, 4: 4}
 """How many messages of one topic may wait at most, whatever its `queue_length`, by lane."""
+MOST_WAITING = 33_554_432
+"""Bytes of messages of topics that may wait, one that is larger alone; then the oldest are forgotten, samples first."""
 MOST_SAMPLES = 8
 """After so many samples one message of the bulk lane goes out before the next."""
 
@@ -81,6 +83,7 @@ class Lanes:
         self._frames: tuple[deque[bytes], ...] = tuple(deque() for _ in Lane)
         self._bytes = [0] * len(Lane)
         self._streams: tuple[dict[Stream, None], ...] = tuple({} for _ in Lane)
+        self._waiting = 0
         self._passed = 0
         self.held = False
         """The next message is due and too large for what room there was when last asked."""
@@ -98,19 +101,28 @@ class Lanes:
         return True
 
     def offer(self, stream: Stream, message: Outgoing) -> None:
-        """Have a message wait; when its topic has no place left, the oldest is forgotten."""
-        stream.waiting.append(message)
+        """Have a message wait; when its topic or all of them have no place left, the oldest is forgotten."""
+        waiting = stream.waiting
+        if len(waiting) == waiting.maxlen:
+            self._waiting -= waiting[0].size
+        waiting.append(message)
+        self._waiting += message.size
         self._streams[stream.lane][stream] = None
+        if self._waiting > MOST_WAITING:
+            self._lighten(message)
 
     def forget(self, stream: Stream) -> None:
         """Nothing of this topic is wanted any more."""
         stream.gone = True
+        self._waiting -= sum(message.size for message in stream.waiting)
         stream.waiting.clear()
         self._streams[stream.lane].pop(stream, None)
 
     def clear(self) -> None:
         """Nothing is wanted any more."""
         self.held = False
+        self._waiting = 0
+        self._bytes = [0] * len(Lane)
         for frames in self._frames:
             frames.clear()
         for streams in self._streams:
@@ -160,8 +172,25 @@ class Lanes:
                 self._sent(stream, now)
         return None if self.held else frame
 
+    def _lighten(self, newest: Outgoing) -> None:
+        """Forget the oldest of what waits, but never `newest`, until the rest is within bounds."""
+        # counted anew: who asked for a shorter queue in between has had some forgotten
+        self._waiting = sum(
+            message.size for streams in self._streams for stream in streams for message in stream.waiting
+        )
+        for lane in (Lane.TELEMETRY, Lane.BULK, Lane.EVENT):
+            streams = self._streams[lane]
+            while self._waiting > MOST_WAITING:
+                older = [stream for stream in streams if stream.waiting[0] is not newest]
+                if not older:
+                    break
+                oldest = min(older, key=lambda stream: stream.waiting[0].number)
+                self._waiting -= oldest.waiting.popleft().size
+                if not oldest.waiting:
+                    del streams[oldest]
+
     def _sent(self, stream: Stream, now: float) -> None:
-        stream.waiting.popleft()
+        self._waiting -= stream.waiting.popleft().size
         streams = self._streams[stream.lane]
         del streams[stream]
         if stream.waiting:

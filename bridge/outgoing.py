@@ -6,12 +6,12 @@ import functools
 import itertools
 import struct
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import msgspec
 from msgspec import Raw
 
-from bridge.codec import Unread, select, to_cbor, to_json
+from bridge.codec import Unread, select, to_cbor, to_json, weight
 from bridge.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.msgs.std_msgs import Time
@@ -20,15 +20,22 @@ from bridge.rosbytes import serialize
 
 __all__ = ["Form", "Outgoing", "Reduce", "binary_frame", "ping_frame", "said", "text_frame"]
 
+K = TypeVar("K")
+V = TypeVar("V")
 Reduce = Callable[[Msg, Reduction], Msg]
 """Makes less of a message; itself where nothing can be made less. Does not look at `Reduction.fields`."""
 
 MOST_FORMS = 16
 """In so many forms a message is kept; what is latched lives long, and a client may ask for any number one after the other."""
+MOST_LARGE = 2
+"""In so many forms a message is kept that is `LARGE` in them."""
+LARGE = 1_048_576
+"""[byte]"""
 _TEXT, _BINARY, _PING = 0x81, 0x82, 0x89
 _HEAD_16, _HEAD_64 = struct.Struct(">BBH").pack, struct.Struct(">BBQ").pack
 """The head of a longer frame: its kind, what says how its length is told, and its length."""
 _numbers = itertools.count(1)
+_made = itertools.count(1)
 
 
 class Form(NamedTuple):
@@ -74,7 +81,7 @@ def said(op: Op, size: int | None = None) -> bytes:
 class Outgoing:
     """One published message; encoded when first needed and once per form, however many clients want it."""
 
-    __slots__ = ("_bodies", "_frames", "_lesser", "_msg", "_now", "_reduce", "topic")
+    __slots__ = ("_bodies", "_frames", "_lesser", "_msg", "_now", "_reduce", "_weight", "number", "topic")
 
     def __init__(
         self,
@@ -89,6 +96,9 @@ class Outgoing:
         `now` is the operators' clock [s].
         """
         self.topic = topic
+        self.number = next(_made)
+        """Of two messages the older one's is smaller."""
+        self._weight = -1
         self._msg = msg
         self._reduce = reduce
         self._now = now
@@ -103,10 +113,16 @@ class Outgoing:
         frame = self._frames.get(form)
         if frame is None:
             frame = self._encode(form)
-            if len(self._frames) >= MOST_FORMS:
-                del self._frames[next(iter(self._frames))]
-            self._frames[form] = frame
+            _keep(self._frames, form, frame, len(frame))
         return frame
+
+    @property
+    def size(self) -> int:
+        """What it takes, about [byte]; not counted are the forms in which it goes out."""
+        if self._weight < 0:
+            msg = self._msg.text if isinstance(self._msg, Unread) else self._msg
+            self._weight = weight(msg) if isinstance(msg, Msg) else len(msg)
+        return self._weight
 
     @property
     def msg(self) -> Msg | Raw:
@@ -125,7 +141,7 @@ class Outgoing:
             found = msg if self._reduce is None else self._reduce(msg, reduction)
             if reduction.fields is not None:
                 found = select(found, reduction.fields)
-            self._lesser[reduction] = found
+            _keep(self._lesser, reduction, found, 0)
         return found
 
     def _encode(self, form: Form) -> bytes:
@@ -145,7 +161,7 @@ class Outgoing:
         if body is None:
             msg = self.msg if reduction is None else self.lesser(reduction)
             body = bytes(msg) if isinstance(msg, Raw) else to_json(msg, ros2)
-            self._bodies[reduction, ros2] = body
+            _keep(self._bodies, (reduction, ros2), body, len(body))
         return body
 
     def _cbor(self, form: Form, msg: object) -> bytes:
@@ -160,6 +176,14 @@ class Outgoing:
             )
         now = Time.at(self._now())
         return {"secs": now.secs, "nsecs": now.nsecs, "bytes": serialize(msg, cdr=form.ros2)}
+
+
+def _keep(forms: dict[K, V], key: K, form: V, size: int) -> None:
+    """Keep a form of `size` [byte] in the place of the oldest when there are many."""
+    most = MOST_LARGE if size > LARGE else MOST_FORMS
+    while len(forms) >= most:
+        forms.pop(next(iter(list(forms))), None)  # a copy: a worker thread may be at it as well
+    forms[key] = form
 
 
 def _plain(msg: Msg | Raw) -> object:

@@ -7,7 +7,7 @@ import json
 import pytest
 
 from bridge.errors import ProtocolError
-from bridge.lanes import MOST_BYTES, MOST_FRAMES, Lane, Lanes, Stream
+from bridge.lanes import MOST_BYTES, MOST_FRAMES, MOST_WAITING, Lane, Lanes, Stream
 from bridge.msgs.std_msgs import Float64, String
 from bridge.outgoing import Outgoing
 from bridge.protocol import Subscribed
@@ -133,3 +133,57 @@ def test_what_cannot_be_encoded_is_dropped_and_does_not_block_the_rest():
     with pytest.raises(ProtocolError):
         lanes.take(0.0)
     assert taken(lanes) == 2.0
+
+
+def large(data, topic="/any"):
+    """A message of a third of what may wait."""
+    return Outgoing(topic, String(str(data) + "x" * (MOST_WAITING // 3)))
+
+
+def waits(*streams):
+    return [[message.msg.data[0] for message in each.waiting] for each in streams]
+
+
+def test_of_too_many_bytes_the_oldest_samples_are_forgotten_first_and_then_the_oldest_of_bulk():
+    lanes = Lanes()
+    grid, odom, scan = stream("/map", Lane.BULK, queue=4), stream(queue=9), stream("/scan", queue=9)
+    for each, data in ((grid, 1), (scan, 2), (odom, 3)):
+        lanes.offer(each, large(data))
+    assert waits(grid, scan, odom) == [["1"], [], ["3"]]
+    lanes.offer(grid, large(4))
+    assert waits(grid, scan, odom) == [["1", "4"], [], []]
+    lanes.offer(grid, large(5))
+    assert waits(grid) == [["4", "5"]]
+    assert [len(lanes.take(0.0)) > 1000 for _ in range(2)] == [True, True]
+    assert lanes.take(0.0) is None
+
+
+def test_one_message_may_be_larger_than_all_that_may_wait():
+    lanes, odom = Lanes(), stream(queue=9)
+    lanes.offer(odom, number(1))
+    lanes.offer(odom, Outgoing("/any", String("x" * (MOST_WAITING + 1))))
+    assert len(odom.waiting) == 1
+    lanes.offer(odom, number(2))
+    assert taken(lanes) == 2.0
+
+
+@pytest.mark.parametrize("end", ["sent", "forgotten", "replaced", "shortened"])
+def test_what_waits_no_longer_makes_room(end):
+    lanes, odom, scan = Lanes(), stream(queue=2), stream("/scan", queue=9)
+    for data in range(2):
+        lanes.offer(odom, large(data))
+    if end == "sent":
+        lanes.take(0.0)
+        lanes.take(0.0)
+    elif end == "forgotten":
+        lanes.forget(odom)
+    elif end == "replaced":
+        for value in range(2):
+            lanes.offer(odom, number(value))
+    else:
+        odom.want(Subscribed("/odom", queue=1))
+    kept = 1 if end == "shortened" else 2
+    for data in range(kept):
+        lanes.offer(scan, large(data))
+    assert len(scan.waiting) == kept
+    assert len(odom.waiting) == {"replaced": 2, "shortened": 1}.get(end, 0)
