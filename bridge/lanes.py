@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import heapq
 import math
 from collections import deque
 from collections.abc import Callable
@@ -20,8 +21,12 @@ MOST_BYTES = 8_388_608
 """Bytes that may wait in order in one lane."""
 LONGEST = {2: 100, 3: 100, 4: 4}
 """How many messages of one topic may wait at most, whatever its `queue_length`, by lane."""
-MOST_WAITING = 33_554_432
-"""Bytes of messages of topics that may wait, one that is larger alone; then the oldest are forgotten, samples first."""
+MOST_WAITING = 25_165_824
+"""Bytes of messages of topics that may wait, one that is larger alone; else the oldest are forgotten, samples first."""
+MOST_UNCOUNTED = 8_388_608
+"""After so many bytes that came to wait all that waits is counted anew; so much more than `MOST_WAITING` may it be before."""
+MESSAGE_COST = 512
+"""What a message takes beside what it holds [byte]."""
 MOST_SAMPLES = 8
 """After so many samples one message of the bulk lane goes out before the next."""
 
@@ -83,7 +88,7 @@ class Lanes:
         self._frames: tuple[deque[bytes], ...] = tuple(deque() for _ in Lane)
         self._bytes = [0] * len(Lane)
         self._streams: tuple[dict[Stream, None], ...] = tuple({} for _ in Lane)
-        self._waiting = 0
+        self._uncounted = 0
         self._passed = 0
         self.held = False
         """The next message is due and too large for what room there was when last asked."""
@@ -102,26 +107,21 @@ class Lanes:
 
     def offer(self, stream: Stream, message: Outgoing) -> None:
         """Have a message wait; when its topic or all of them have no place left, the oldest is forgotten."""
-        waiting = stream.waiting
-        if len(waiting) == waiting.maxlen:
-            self._waiting -= waiting[0].size
-        waiting.append(message)
-        self._waiting += message.size
+        stream.waiting.append(message)
         self._streams[stream.lane][stream] = None
-        if self._waiting > MOST_WAITING:
+        self._uncounted += _cost(message)
+        if self._uncounted > MOST_UNCOUNTED:
             self._lighten(message)
 
     def forget(self, stream: Stream) -> None:
         """Nothing of this topic is wanted any more."""
         stream.gone = True
-        self._waiting -= sum(message.size for message in stream.waiting)
         stream.waiting.clear()
         self._streams[stream.lane].pop(stream, None)
 
     def clear(self) -> None:
         """Nothing is wanted any more."""
         self.held = False
-        self._waiting = 0
         self._bytes = [0] * len(Lane)
         for frames in self._frames:
             frames.clear()
@@ -173,24 +173,31 @@ class Lanes:
         return None if self.held else frame
 
     def _lighten(self, newest: Outgoing) -> None:
-        """Forget the oldest of what waits, but never `newest`, until the rest is within bounds."""
-        # counted anew: who asked for a shorter queue in between has had some forgotten
-        self._waiting = sum(
-            message.size for streams in self._streams for stream in streams for message in stream.waiting
+        """Count what waits, and forget the oldest of it, but never `newest`, until the rest is within bounds."""
+        self._uncounted = 0
+        held = sum(
+            _cost(message) for streams in self._streams for each in streams for message in each.waiting
         )
         for lane in (Lane.TELEMETRY, Lane.BULK, Lane.EVENT):
+            if held <= MOST_WAITING:
+                return
             streams = self._streams[lane]
-            while self._waiting > MOST_WAITING:
-                older = [stream for stream in streams if stream.waiting[0] is not newest]
-                if not older:
-                    break
-                oldest = min(older, key=lambda stream: stream.waiting[0].number)
-                self._waiting -= oldest.waiting.popleft().size
-                if not oldest.waiting:
-                    del streams[oldest]
+            oldest = [(each.waiting[0].number, place, each) for place, each in enumerate(streams)]
+            heapq.heapify(oldest)
+            while held > MOST_WAITING and oldest:
+                _, place, stream = oldest[0]
+                if stream.waiting[0] is newest:
+                    heapq.heappop(oldest)
+                    continue
+                held -= _cost(stream.waiting.popleft())
+                if stream.waiting:
+                    heapq.heapreplace(oldest, (stream.waiting[0].number, place, stream))
+                else:
+                    heapq.heappop(oldest)
+                    del streams[stream]
 
     def _sent(self, stream: Stream, now: float) -> None:
-        self._waiting -= stream.waiting.popleft().size
+        stream.waiting.popleft()
         streams = self._streams[stream.lane]
         del streams[stream]
         if stream.waiting:
@@ -198,3 +205,7 @@ class Lanes:
         stream.due = now + stream.period
         passed = stream.lane is Lane.TELEMETRY and bool(self._streams[Lane.BULK])
         self._passed = self._passed + 1 if passed else 0
+
+
+def _cost(message: Outgoing) -> int:
+    return message.size + MESSAGE_COST

@@ -7,7 +7,16 @@ import json
 import pytest
 
 from bridge.errors import ProtocolError
-from bridge.lanes import MOST_BYTES, MOST_FRAMES, MOST_WAITING, Lane, Lanes, Stream
+from bridge.lanes import (
+    MESSAGE_COST,
+    MOST_BYTES,
+    MOST_FRAMES,
+    MOST_UNCOUNTED,
+    MOST_WAITING,
+    Lane,
+    Lanes,
+    Stream,
+)
 from bridge.msgs.std_msgs import Float64, String
 from bridge.outgoing import Outgoing
 from bridge.protocol import Subscribed
@@ -163,8 +172,31 @@ def test_one_message_may_be_larger_than_all_that_may_wait():
     lanes.offer(odom, number(1))
     lanes.offer(odom, Outgoing("/any", String("x" * (MOST_WAITING + 1))))
     assert len(odom.waiting) == 1
-    lanes.offer(odom, number(2))
-    assert taken(lanes) == 2.0
+    lanes.offer(odom, large(2))
+    assert waits(odom) == [["2"]]
+
+
+def test_many_small_messages_are_bounded_together_and_the_newest_of_each_topic_stays():
+    lanes, streams = Lanes(), [stream(f"/t{number}", queue=100) for number in range(50)]
+    for value in range(100):
+        for each in streams:
+            lanes.offer(each, Outgoing("/any", String(f"{value:02}" + "x" * 9500)))
+            waiting = sum(len(each.waiting) for each in streams) * (9500 + MESSAGE_COST)
+            assert waiting <= MOST_WAITING + MOST_UNCOUNTED
+    assert waiting > MOST_WAITING // 2
+    left = [[message.msg.data[:2] for message in each.waiting] for each in streams]
+    assert all(of[-1] == "99" and of == sorted(of) for of in left)
+    assert max(map(len, left)) - min(map(len, left)) <= 1
+
+
+def test_what_waits_is_counted_seldom(monkeypatch):
+    counted = []
+    lighten = Lanes._lighten
+    monkeypatch.setattr(Lanes, "_lighten", lambda *told: (counted.append(0), lighten(*told)))
+    lanes, odom = Lanes(), stream(queue=9)
+    for _ in range(100):
+        lanes.offer(odom, Outgoing("/any", String("x" * (MOST_UNCOUNTED // 10))))
+    assert counted == [0] * 10
 
 
 @pytest.mark.parametrize("end", ["sent", "forgotten", "replaced", "shortened"])
