@@ -99,11 +99,11 @@ class HeardConnection(ServerConnection):
             while not self._take_over():
                 message = await self.recv()
                 self._tell(ears, message)
+                if self._behind and not self._waits:  # the next one may be long in coming
+                    self._wait()
         except ConnectionClosed:
             pass  # what was heard before it is done all the same
         try:
-            if self._behind:
-                self._wait()
             await self.wait_closed()
             await self._idle.wait()  # what came before a goodbye counts, a rest above all
         finally:

@@ -42,7 +42,10 @@ HANDSHAKE = (
 )
 
 
-async def test_what_comes_with_the_handshake_is_heard_in_order():
+@pytest.mark.parametrize("busy", [False, True])
+async def test_what_comes_with_the_handshake_is_heard_in_order(busy, monkeypatch):
+    if busy:
+        slowly(monkeypatch)
     heard = Record()
     async with server(on_message=heard) as robot, bare(robot) as (_, writer):
         first = speed(0.0).encode()

@@ -214,6 +214,15 @@ async def test_what_was_latched_by_who_never_advertised_does_not_stay():
     await guest.close()
 
 
+async def test_nothing_is_sent_any_more_to_who_left_while_something_was_made_ready():
+    house = House()
+    client, _ = house.join()
+    client.hear(said({"op": "subscribe", "topic": "/odom"}))
+    (stream,) = house.switchboard.channels["/odom"].streams.values()
+    await client.close()
+    assert stream.gone
+
+
 async def test_a_subscription_that_is_refused_is_not_remembered():
     house = House()
     client, _ = house.join()
