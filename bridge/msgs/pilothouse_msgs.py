@@ -48,6 +48,7 @@ class Bumper(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Bumper"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "bool", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"bearing": "rad"}
     header: Header = Header()
     """Frame base_link."""
     pressed: bool = False
@@ -61,6 +62,7 @@ class CommandRequest(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/CommandRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     command_id: str = ""
     """Unique per command; the same id sent again gets the first answer and is not executed twice."""
     stamp: float = math.nan
@@ -118,6 +120,7 @@ class Event(Msg, frozen=True, gc=False):
         "string",
         "geometry_msgs/Point",
     )
+    UNITS: ClassVar[dict[str, str]] = {"position": "m"}
     id: int32 = 0
     """Counts from 1 for each run of the robot side."""
     boot: str = ""
@@ -166,6 +169,7 @@ class Waypoint(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Waypoint"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("float64", "float64", "float64", "string")
+    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "yaw": "rad"}
     x: float = 0.0
     """East of the map's origin [m]."""
     y: float = 0.0
@@ -189,6 +193,7 @@ class Mission(Msg, frozen=True, gc=False):
         "int32",
         "bool",
     )
+    UNITS: ClassVar[dict[str, str]] = {"dwell": "s"}
     stamp: Time = Time()
     """When the robot stored it; 0 when it never was."""
     waypoints: list[Waypoint] = []
@@ -223,6 +228,7 @@ class Intruder(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Intruder"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string", "geometry_msgs/Point", "time", "int32")
+    UNITS: ClassVar[dict[str, str]] = {"position": "m"}
     id: int32 = 0
     """Counts from 1 for each run of the robot side."""
     class_id: str = "cone"
@@ -264,6 +270,14 @@ class RobotInfo(Msg, frozen=True, gc=False):
         "float64",
         "float64",
     )
+    UNITS: ClassVar[dict[str, str]] = {
+        "max_speed": "m/s",
+        "max_yaw_rate": "rad/s",
+        "radius": "m",
+        "latitude": "deg",
+        "longitude": "deg",
+        "camera_fov": "rad",
+    }
     name: str = ""
     """What people call it, as in Patrol-1."""
     kind: str = ""
@@ -295,6 +309,7 @@ class TaskProgress(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskProgress"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"distance_to_next": "m", "time_left": "s", "distance_driven": "m"}
     stamp: Time = Time()
     """When it was reckoned."""
     task_id: int32 = 0
@@ -314,6 +329,7 @@ class RunTaskFeedback(TaskProgress, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskFeedback"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"distance_to_next": "m", "time_left": "s", "distance_driven": "m"}
 
 
 class StartTaskRequest(CommandRequest, frozen=True, gc=False):
@@ -321,6 +337,7 @@ class StartTaskRequest(CommandRequest, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/StartTaskRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     task: str = "patrol"
     """patrol or go_home."""
 
@@ -330,6 +347,7 @@ class RunTaskGoal(StartTaskRequest, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskGoal"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
 
 
 class RunTaskResult(Msg, frozen=True, gc=False):
@@ -359,6 +377,7 @@ class SetMissionRequest(CommandRequest, frozen=True, gc=False):
         "string",
         "pilothouse_msgs/Mission",
     )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     mission: Mission = field(default_factory=Mission)
     """Replaces what was stored."""
 
