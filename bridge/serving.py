@@ -146,8 +146,9 @@ class Client:
             self._try(arrivals[0])
             self._alter()
             return True
+        behind = bool(self._left)
         self._left.extend(arrivals)
-        return self.go_on()
+        return not behind and self.go_on()
 
     def go_on(self) -> bool:
         """Do more of what `hear` left; False when there is still more."""
@@ -213,15 +214,19 @@ class Client:
         switchboard = self._offer.switchboard
         self._offer.exchange.leave(self)
         for topic in list(self.remembered.subscriptions):
-            switchboard.unsubscribe(self, topic)
+            stream = switchboard.unsubscribe(self, topic)
+            if stream is not None:
+                self.outlet.forget(stream)
         for topic in list(self.remembered.advertised):
             switchboard.unadvertise(self, topic)
         self._left.clear()
         self.remembered.lose()
-        self.outlet.close()
         self._complaints.close()
-        await self._errands.close()
-        await end(self._tasks)
+        try:
+            await self._errands.close()
+            await end(self._tasks)
+        finally:
+            self.outlet.close()
 
     def _do(self, arrival: Op | BinaryPublish | ProtocolError) -> None:
         hear = self._hear.get(type(arrival))  # type: ignore[arg-type]
@@ -275,7 +280,7 @@ class Client:
                 self._offer.on_message(self.session, channel.name, msg, stamp)
             except Exception:
                 log.exception("%s from %s failed", channel.name, self.session.address)
-        elif channel.publishers:
+        else:
             latch = self in channel.publishers and (latch or self.remembered.latches(channel.name))
         self._offer.switchboard.pass_on(channel, msg, self, latch=latch)
 

@@ -229,7 +229,7 @@ class ForeignRobot:
         return msgspec.structs.replace(
             info,
             name=info.name or f"Robot at {place}",
-            description=f"{info.description or 'ROS robot'} behind {place}",
+            description=info.description or "ROS robot",
             cameras=(info.cameras[:1] or ["front"]) if sees else [],
             max_speed=info.max_speed if info.max_speed > 0 else SUPPOSED.max_speed,
             max_yaw_rate=info.max_yaw_rate if info.max_yaw_rate > 0 else SUPPOSED.max_yaw_rate,
