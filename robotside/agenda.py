@@ -20,7 +20,7 @@ from robotside.database import NotRecorded, Records
 from robotside.database.plans import MOST_QUEUED
 from robotside.events import Say
 from robotside.schedule import Turn, fault, following, turns
-from robotside.tasks import Engine
+from robotside.tasks import TO_CHARGE, Engine
 
 __all__ = ["Agenda"]
 
@@ -48,7 +48,7 @@ class Agenda:
     ) -> None:
         """`clock` is the operators' [s]; `civil` is what the computer's own clock says, which may jump [s].
 
-        `barred(moves)` tells why no task may start by itself just now, one that `moves` or not; empty when it may.
+        `barred(drains)` tells why no task may start by itself just now, one that needs charge or not; empty when it may.
         """
         self._records, self._engine, self._assignments = records, engine, assignments
         self._publish, self._say, self._clock = publish, say, clock
@@ -125,8 +125,7 @@ class Agenda:
         if self._engine.status.state == "CANCELED" and self._engine.status.task_id != self._settled:
             self.hold("the task before it was canceled")
             return
-        moves = self._records.queue.current.orders[0].task != "hold"
-        barred = self._barred(moves)
+        barred = self._barred(_drains(self._records.queue.current.orders[0]))
         if barred:
             self.hold(f"{barred[0].lower()}{barred[1:].rstrip('.')}")
             return
@@ -151,7 +150,7 @@ class Agenda:
             self._skip(title, f"at {when} is skipped: the robot's computer was off or its clock was changed")
         if not turn.due:
             return
-        barred = self._barred(order.task != "hold") or self._waiting()
+        barred = self._barred(_drains(order)) or self._waiting()
         running = self._engine.active or bool(self._records.queue.current.orders)
         if barred:
             self._skip(title, f"now is skipped: {barred}")
@@ -198,6 +197,11 @@ class Agenda:
 
     def _show_schedule(self) -> None:
         self._publish("/schedule", Schedule(Time.at(self._clock()), self._records.schedule.stored()))
+
+
+def _drains(order: TaskOrder) -> bool:
+    """It takes the robot elsewhere than to where it can be charged."""
+    return order.task != "hold" and order.task not in TO_CHARGE
 
 
 def _title(order: TaskOrder) -> str:

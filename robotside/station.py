@@ -289,14 +289,14 @@ class Station:
             barred=self._barred,
         )
 
-    def _barred(self, moves: bool) -> str:
-        """Why no task may start by itself just now, one that `moves` or not; empty when it may."""
+    def _barred(self, drains: bool) -> str:
+        """Why no task may start by itself just now, one that needs charge or not; empty when it may."""
         battery = self.autonomy.battery
         if self.controls.stopped:
             return "STOP is pressed"
         if self.controls.driving:
             return "the robot is driven by hand"
-        if moves and battery < LOW_BELOW:
+        if drains and battery < LOW_BELOW:
             return f"the battery is at {battery:.0%}"
         return self.unfit or self.lost
 

@@ -297,3 +297,11 @@ def test_two_that_are_due_together_are_done_one_after_the_other(scene: Scene) ->
     assert [order.task for order in queue(scene).orders] == ["patrol"]
     scene.run(22.0)
     assert begun(scene) == ["hold", "patrol"]
+
+
+def test_what_brings_it_to_the_charger_starts_with_a_low_battery(scene: Scene) -> None:
+    scene.set(home=[Waypoint(2.0, 0.0)])
+    plan(scene, TaskOrder(task="go_home"), at="00:17")
+    scene.robot.battery = 0.09
+    scene.run(18.0)
+    assert begun(scene) == ["go_home"]
