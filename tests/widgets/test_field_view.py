@@ -6,6 +6,7 @@ import math
 from typing import ClassVar
 
 import pytest
+from msgspec.structs import replace
 
 import widgets.fields
 from bridge.msgs import Msg
@@ -281,6 +282,18 @@ def test_a_text_of_many_lines_is_no_higher_than_a_graphics_card_can_hold(stage, 
     row = shown(view)[0]
     second = next(label for label in row.children if getattr(label, "text", "") == row.second)
     assert 400 < second.texture_size[1] <= second.height <= row.height < 4096 / 3
+
+
+def test_an_open_text_can_be_closed_when_a_shorter_one_has_come(stage, view):
+    view.show(log())
+    view.folds = {("msg",): True}
+    stage.frames(2)
+    view.show(replace(log(), msg="It found its way round them."))
+    stage.run_for(0.2)
+    assert text_row(view).foldable
+    view.fold(("msg",))
+    stage.run_for(0.2)
+    assert not text_row(view).foldable
 
 
 def text_row(view):
