@@ -257,6 +257,7 @@ def test_a_unit_of_a_message_is_kept_for_what_is_in_it_and_a_moment_has_its_own(
 def test_a_text_may_have_a_constant_or_a_field_called_units(tmp_path):
     things = made(tmp_path, 'string UNITS="SI"\nfloat64 x  # [m]\n---\nfloat64 UNITS  # [m]\n', "Go.srv")
     assert things.GoRequest.UNITS == "SI"
+    assert (tmp_path / "out" / "thing_msgs.py").read_text().count("    UNITS: ") == 2  # one of each class
     assert things.GoResponse.UNITS == {"UNITS_": "m"}
     assert to_json(things.GoResponse(2.0)) == b'{"UNITS":2.0}'
 
