@@ -213,7 +213,7 @@ def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     if not wide:
         readouts = Rect(right.x - gap - readouts_size[0], right.y, *readouts_size)
         tape = Rect(left.right + gap, tape.y, readouts.x - gap - left.right - gap, 52 * dp)
-    notice = _between(tape.x, slider.top + 8 * dp, tape.right, tape.y - 32 * dp)
+    notice = _between(tape.x, slider.top + 8 * dp, tape.right, tape.y - (32 if wide else 8) * dp)
     return places | {"top": tape, "top_right": right, "readouts": readouts, "notice": notice}
 
 

@@ -279,14 +279,14 @@ class Commands:
         """By command and what it is about."""
         self._next: dict[Hashable, dict[str, Any]] = {}
         """What to ask for, in the same way, once the one that is under way is answered."""
-        self._stopping = False
+        self._stopping: Outcome | None = None
+        """The STOP that is being sent; None when there is none, or it was let go."""
         self._stop_confirmed = False
-        self._stop_void = False
 
     @property
     def stopping(self) -> bool:
         """STOP was pressed and the robot has not confirmed it."""
-        return self._stopping
+        return self._stopping is not None
 
     async def send(self, name: str, **fields: Any) -> Outcome:
         """Send a command and wait for what becomes of it; KeyError for a name not in `COMMANDS`.
@@ -356,23 +356,26 @@ class Commands:
 
         Pressed again while it is being sent, nothing changes.
         """
-        if self._stopping:
+        if self._stopping is not None:
             return
-        self._stopping, self._stop_confirmed, self._stop_void = True, False, False
         outcome, started = Outcome("stop", self._new_id(), "sent"), self._now()
+        self._stopping, self._stop_confirmed = outcome, False
         request = self._request(outcome, NEVER_VOID, {})
         self._report(outcome)
         try:
             await self._repeat_stop(outcome, request, started)
         finally:
-            self._stopping = False
+            if (
+                self._stopping is outcome
+            ):  # and not the next one, pressed while this one still awaited an answer
+                self._stopping = None
 
     async def _repeat_stop(self, outcome: Outcome, request: Msg, started: float) -> None:
         doubted = False
-        while not self._stop_void:
+        while self._stopping is outcome:
             answer = await self._try_stop(request)
             latency = self._now() - started
-            if self._stop_void:
+            if self._stopping is not outcome:
                 return
             if self._stop_confirmed or (answer is not None and answer.success):
                 message = answer.message if answer is not None else ""
@@ -399,4 +402,4 @@ class Commands:
 
     def void_stop(self) -> None:
         """The robot turned out to have no such service, or the operator lets STOP go: it is asked for no longer."""
-        self._stop_void = True
+        self._stopping = None

@@ -23,6 +23,8 @@ SHORTEST, LONGEST = 0.5, 3.0
 """Bounds of that silence [s]: jitter of a fast stream is no failure, and a slow one is not forgiven for long."""
 GAPS = 3
 """A stream whose rate nobody knows is stale after so many times the last pause between two messages, or more."""
+SETTLES = 1.0
+"""What is said once may come more than once to who has just subscribed, within this [s]."""
 RATE_WINDOW = 1.0
 """Length over which a stream's rate is measured [s]."""
 
@@ -88,7 +90,11 @@ class Feed:
         """Measured messages a second [Hz]; NaN until known."""
         self._since = math.nan
         self._count = 0
-        self._gap = math.nan
+        self._gap = self._first = math.nan
+
+    def subscribed_anew(self) -> None:
+        """What was said once is said once more to whoever subscribes: that makes no stream of it."""
+        self._first = math.nan
 
     @property
     def repeats(self) -> bool:
@@ -106,8 +112,10 @@ class Feed:
 
     def put(self, message: Msg, received: float, count: int = 1) -> None:
         """Replace the message; `count` came since the last `put`."""
-        if self.message is not None or count > 1:
-            self._gap = (received - self.received) / count if self.message is not None else 0.0
+        if math.isnan(self._first):
+            self._first = received
+        elif received - self._first > SETTLES:
+            self._gap = (received - self.received) / count
         if math.isnan(self._since) or received - self._since > LONGEST:
             self._since, self._count, self.rate = received, 0, math.nan
         else:

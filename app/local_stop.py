@@ -86,7 +86,7 @@ class LocalStop:
         if not drives:
             return "This robot has no STOP of its own and no topic to drive it by: it cannot be stopped from here."
         if not reaches:
-            return f"Nothing reaches it: zero speed is sent again once the link is back. {self._witness}"
+            return f"Nothing reaches it until the link is back. {self._witness}"
         return f"No STOP of its own: zero speed is sent while the link stands. {self._witness}"
 
     @property

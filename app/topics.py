@@ -163,6 +163,8 @@ class Topics:
 
     def hear(self, channel: str, post: Post) -> bool:
         """Take in what came; True when it belongs to the open topic."""
+        if channel == LINK and self._feed is not None:
+            self._feed.subscribed_anew()
         if channel == LINK and self.opened and self._session.connected and self.problem:
             self.open(self.opened)
             return True

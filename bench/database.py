@@ -61,7 +61,9 @@ async def _delays(state: Path) -> dict[str, float]:
     whole, blocked = [], []
     try:
         for number in range(1000):
-            records.places.set(Place(name=f"Place {number}"))
+            with records.together() as job:
+                records.places.set(Place(name=f"Place {number}"))
+            await job.kept(10.0)
         for number in range(CHANGES):
             begun = time.perf_counter()
             with records.together() as job:

@@ -15,6 +15,7 @@ from bridge.lanes import Lane
 from bridge.msgs import TYPES, ros1_name
 from bridge.protocol import (
     MISSING,
+    MOST_CALLS,
     ActionFeedback,
     ActionResult,
     AdvertiseAction,
@@ -105,6 +106,8 @@ class Exchange:
         op = msgspec.structs.replace(
             op, args=MISSING
         )  # which would keep all of its frame until it is answered
+        if len(self._asked.get(caller, ())) >= MOST_CALLS:
+            raise ProtocolError(f"{MOST_CALLS} calls of this client wait for their answer already.")
         key = object()
 
         def answer(response: ServiceResponse | None) -> None:

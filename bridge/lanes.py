@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import heapq
 import math
 from collections import deque
 from collections.abc import Callable
@@ -14,10 +15,18 @@ __all__ = ["MOST_BYTES", "MOST_FRAMES", "Lane", "Lanes", "Stream"]
 
 MOST_FRAMES = 256
 """Frames that may wait in order in one lane; a client for whom more wait does not read."""
+MOST_REPLIES = 4096
+"""Frames that may wait in the lane of replies: all that one may have asked for is answered in one step when who answers is gone."""
 MOST_BYTES = 8_388_608
 """Bytes that may wait in order in one lane."""
 LONGEST = {2: 100, 3: 100, 4: 4}
 """How many messages of one topic may wait at most, whatever its `queue_length`, by lane."""
+MOST_WAITING = 25_165_824
+"""Bytes of messages of topics that may wait, one that is larger alone; else the oldest are forgotten, samples first."""
+MOST_UNCOUNTED = 8_388_608
+"""After so many bytes that came to wait all that waits is counted anew; so much more than `MOST_WAITING` may it be before."""
+MESSAGE_COST = 512
+"""What a message takes beside what it holds [byte]."""
 MOST_SAMPLES = 8
 """After so many samples one message of the bulk lane goes out before the next."""
 
@@ -79,6 +88,7 @@ class Lanes:
         self._frames: tuple[deque[bytes], ...] = tuple(deque() for _ in Lane)
         self._bytes = [0] * len(Lane)
         self._streams: tuple[dict[Stream, None], ...] = tuple({} for _ in Lane)
+        self._uncounted = 0
         self._passed = 0
         self.held = False
         """The next message is due and too large for what room there was when last asked."""
@@ -88,22 +98,38 @@ class Lanes:
     def put(self, lane: Lane, frame: bytes) -> bool:
         """Queue a frame that must not be lost; False when too many wait in this lane already."""
         frames = self._frames[lane]
-        if len(frames) >= MOST_FRAMES or (frames and self._bytes[lane] + len(frame) > MOST_BYTES):
+        most = MOST_REPLIES if lane is Lane.REPLY else MOST_FRAMES
+        if len(frames) >= most or (frames and self._bytes[lane] + len(frame) > MOST_BYTES):
             return False
         frames.append(frame)
         self._bytes[lane] += len(frame)
         return True
 
     def offer(self, stream: Stream, message: Outgoing) -> None:
-        """Have a message wait; when its topic has no place left, the oldest is forgotten."""
+        """Have a message wait; when its topic or all of them have no place left, the oldest is forgotten."""
         stream.waiting.append(message)
         self._streams[stream.lane][stream] = None
+        self._uncounted += _cost(message)
+        if self._uncounted > MOST_UNCOUNTED:
+            self._lighten(message)
 
     def forget(self, stream: Stream) -> None:
         """Nothing of this topic is wanted any more."""
         stream.gone = True
         stream.waiting.clear()
         self._streams[stream.lane].pop(stream, None)
+
+    def clear(self) -> None:
+        """Nothing is wanted any more."""
+        self.held = False
+        self._bytes = [0] * len(Lane)
+        for frames in self._frames:
+            frames.clear()
+        for streams in self._streams:
+            for stream in streams:
+                stream.gone = True
+                stream.waiting.clear()
+            streams.clear()
 
     def blocked(self, lane: Lane) -> bool:
         """Whether frames wait in this lane, behind which others must stand."""
@@ -146,6 +172,30 @@ class Lanes:
                 self._sent(stream, now)
         return None if self.held else frame
 
+    def _lighten(self, newest: Outgoing) -> None:
+        """Count what waits, and forget the oldest of it, but never `newest`, until the rest is within bounds."""
+        self._uncounted = 0
+        held = sum(
+            _cost(message) for streams in self._streams for each in streams for message in each.waiting
+        )
+        for lane in (Lane.TELEMETRY, Lane.BULK, Lane.EVENT):
+            if held <= MOST_WAITING:
+                return
+            streams = self._streams[lane]
+            oldest = [(each.waiting[0].number, place, each) for place, each in enumerate(streams)]
+            heapq.heapify(oldest)
+            while held > MOST_WAITING and oldest:
+                _, place, stream = oldest[0]
+                if stream.waiting[0] is newest:
+                    heapq.heappop(oldest)
+                    continue
+                held -= _cost(stream.waiting.popleft())
+                if stream.waiting:
+                    heapq.heapreplace(oldest, (stream.waiting[0].number, place, stream))
+                else:
+                    heapq.heappop(oldest)
+                    del streams[stream]
+
     def _sent(self, stream: Stream, now: float) -> None:
         stream.waiting.popleft()
         streams = self._streams[stream.lane]
@@ -155,3 +205,7 @@ class Lanes:
         stream.due = now + stream.period
         passed = stream.lane is Lane.TELEMETRY and bool(self._streams[Lane.BULK])
         self._passed = self._passed + 1 if passed else 0
+
+
+def _cost(message: Outgoing) -> int:
+    return message.size + MESSAGE_COST

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import Any
@@ -25,6 +26,12 @@ class Session:
         """When it connected [s], operators' clock."""
         self.last_heard = opened
         """When anything came from it [s], operators' clock; answers to pings do not count."""
+        self.rtt = math.nan
+        """How long the way to it and back takes, by the server's own pings [s]; NaN until known."""
+        self.answered = opened
+        """What comes from it now was sent after this [s], operators' clock."""
+        self.asked_time = False
+        """It has asked for the operators' clock, by `/rosapi/get_time`."""
 
     def __repr__(self) -> str:
         return f"Session({self.id!r}, {self.address!r})"

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import functools
 import itertools
+import struct
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import msgspec
 from msgspec import Raw
 
-from bridge.codec import Unread, select, to_cbor, to_json
+from bridge.codec import Unread, select, to_cbor, to_json, weight
 from bridge.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.msgs.std_msgs import Time
@@ -19,11 +20,22 @@ from bridge.rosbytes import serialize
 
 __all__ = ["Form", "Outgoing", "Reduce", "binary_frame", "ping_frame", "said", "text_frame"]
 
+K = TypeVar("K")
+V = TypeVar("V")
 Reduce = Callable[[Msg, Reduction], Msg]
 """Makes less of a message; itself where nothing can be made less. Does not look at `Reduction.fields`."""
 
+MOST_FORMS = 16
+"""In so many forms a message is kept; what is latched lives long, and a client may ask for any number one after the other."""
+MOST_LARGE = 2
+"""In so many forms a message is kept that is `LARGE` in them."""
+LARGE = 1_048_576
+"""[byte]"""
 _TEXT, _BINARY, _PING = 0x81, 0x82, 0x89
+_HEAD_16, _HEAD_64 = struct.Struct(">BBH").pack, struct.Struct(">BBQ").pack
+"""The head of a longer frame: its kind, what says how its length is told, and its length."""
 _numbers = itertools.count(1)
+_made = itertools.count(1)
 
 
 class Form(NamedTuple):
@@ -69,7 +81,7 @@ def said(op: Op, size: int | None = None) -> bytes:
 class Outgoing:
     """One published message; encoded when first needed and once per form, however many clients want it."""
 
-    __slots__ = ("_bodies", "_frames", "_lesser", "_msg", "_now", "_reduce", "topic")
+    __slots__ = ("_bodies", "_frames", "_lesser", "_msg", "_now", "_reduce", "_weight", "number", "topic")
 
     def __init__(
         self,
@@ -84,21 +96,33 @@ class Outgoing:
         `now` is the operators' clock [s].
         """
         self.topic = topic
+        self.number = next(_made)
+        """Of two messages the older one's is smaller."""
+        self._weight = -1
         self._msg = msg
         self._reduce = reduce
         self._now = now
         self._frames: dict[Form, bytes] = {}
-        self._bodies: dict[tuple[Reduction | None, bool], bytes] | None = None
+        self._bodies: dict[tuple[Reduction | None, bool], bytes] = {}
         if type(msg) is Unread:
-            self._bodies = {(None, False): msg.text}
-        self._lesser: dict[Reduction, Msg | Raw] | None = None
+            self._bodies[None, False] = msg.text
+        self._lesser: dict[Reduction, Msg | Raw] = {}
 
     def frame(self, form: Form) -> bytes:
         """The message in WebSocket frames; ProtocolError when it cannot be encoded."""
         frame = self._frames.get(form)
         if frame is None:
-            frame = self._frames[form] = self._encode(form)
+            frame = self._encode(form)
+            _keep(self._frames, form, frame, len(frame))
         return frame
+
+    @property
+    def size(self) -> int:
+        """What it takes, about [byte]; not counted are the forms in which it goes out."""
+        if self._weight < 0:
+            msg = self._msg.text if isinstance(self._msg, Unread) else self._msg
+            self._weight = weight(msg) if isinstance(msg, Msg) else len(msg)
+        return self._weight
 
     @property
     def msg(self) -> Msg | Raw:
@@ -112,37 +136,32 @@ class Outgoing:
         msg = self.msg
         if reduction is None or isinstance(msg, Raw):
             return msg
-        if self._lesser is None:
-            self._lesser = {}
         found = self._lesser.get(reduction)
         if found is None:
             found = msg if self._reduce is None else self._reduce(msg, reduction)
             if reduction.fields is not None:
                 found = select(found, reduction.fields)
-            self._lesser[reduction] = found
+            _keep(self._lesser, reduction, found, 0)
         return found
 
     def _encode(self, form: Form) -> bytes:
-        if form.compression == "cbor":
-            return self._cbor(form, _plain(self.lesser(form.reduction)))
-        if form.compression == "cbor-raw":
+        name, compression, size, reduction, ros2 = form
+        if compression == "cbor":
+            return self._cbor(form, _plain(self.lesser(reduction)))
+        if compression == "cbor-raw":
             return self._cbor(form, self._bytes_of_ros(form))
-        body = self._body(form)
-        if form.compression == "png":
-            return _cut(encode(to_png(b"".join((_beginning(form.name), body, b"}")))), form.fragment_size)
-        beginning = _beginning(form.name)
-        if form.fragment_size is not None:
-            return _cut(b"".join((beginning, body, b"}")), form.fragment_size)
-        return b"".join((_head(_TEXT, len(beginning) + len(body) + 1), beginning, body, b"}"))
+        beginning, body = _beginning(name), self._body(reduction, ros2)
+        if compression == "none" and size is None:
+            return b"".join((_head(_TEXT, len(beginning) + len(body) + 1), beginning, body, b"}"))
+        text = b"".join((beginning, body, b"}"))
+        return _cut(encode(to_png(text)) if compression == "png" else text, size)
 
-    def _body(self, form: Form) -> bytes:
-        key = (form.reduction, form.ros2)
-        if self._bodies is None:
-            self._bodies = {}
-        body = self._bodies.get(key)
+    def _body(self, reduction: Reduction | None, ros2: bool) -> bytes:
+        body = self._bodies.get((reduction, ros2))
         if body is None:
-            msg = self.lesser(form.reduction)
-            body = self._bodies[key] = bytes(msg) if isinstance(msg, Raw) else to_json(msg, form.ros2)
+            msg = self.msg if reduction is None else self.lesser(reduction)
+            body = bytes(msg) if isinstance(msg, Raw) else to_json(msg, ros2)
+            _keep(self._bodies, (reduction, ros2), body, len(body))
         return body
 
     def _cbor(self, form: Form, msg: object) -> bytes:
@@ -157,6 +176,14 @@ class Outgoing:
             )
         now = Time.at(self._now())
         return {"secs": now.secs, "nsecs": now.nsecs, "bytes": serialize(msg, cdr=form.ros2)}
+
+
+def _keep(forms: dict[K, V], key: K, form: V, size: int) -> None:
+    """Keep a form of `size` [byte] in the place of the oldest when there are many."""
+    most = MOST_LARGE if size > LARGE else MOST_FORMS
+    while len(forms) >= most:
+        forms.pop(next(iter(list(forms))), None)  # a copy: a worker thread may be at it as well
+    forms[key] = form
 
 
 def _plain(msg: Msg | Raw) -> object:
@@ -185,5 +212,5 @@ def _head(kind: int, length: int) -> bytes:
     if length < 126:
         return bytes((kind, length))
     if length < 65536:
-        return bytes((kind, 126)) + length.to_bytes(2, "big")
-    return bytes((kind, 127)) + length.to_bytes(8, "big")
+        return _HEAD_16(kind, 126, length)
+    return _HEAD_64(kind, 127, length)

@@ -47,6 +47,8 @@ class Round:
         """Whoever set it calls `flush` itself."""
         self._call_soon = call_soon
         self._waiting: list[Outlet] = []
+        self._frames: list[bytes] = []
+        self._piece = b""
 
     def add(self, outlet: Outlet) -> None:
         """Have an outlet flushed at the end of this step."""
@@ -59,6 +61,15 @@ class Round:
         waiting, self._waiting = self._waiting, []
         for outlet in waiting:
             outlet.flush()
+        self._frames, self._piece = [], b""
+
+    def joined(self, frames: list[bytes]) -> bytes:
+        """`frames` in one piece, made once for clients that get the same one after the other."""
+        if len(frames) == 1:
+            return frames[0]
+        if frames != self._frames:
+            self._frames, self._piece = frames, b"".join(frames)
+        return self._piece
 
 
 class Outlet:
@@ -100,17 +111,18 @@ class Outlet:
         if stream.ordered:
             self._send_in_order(stream, message)
             return
-        now, window = self._clock(), self.window
+        now, window, lanes = self._clock(), self.window, self._lanes
+        room = window.limit - window.sent + window.acknowledged
         if (
             stream.waiting
             or self._line.paused
-            or window.sent - window.acknowledged >= window.limit
+            or room <= 0
             or now >= window.late
-            or (self._lanes.held and stream.lane >= self._lanes.holding)
+            or (lanes.held and stream.lane >= lanes.holding)
         ):
-            self._lanes.offer(stream, message)  # what those before it wait for lets it go as well
+            lanes.offer(stream, message)  # what those before it wait for lets it go as well
             return
-        if now < stream.due or self._lanes.held:
+        if now < stream.due or lanes.held:
             self._wait(stream, message)
             return
         try:
@@ -118,15 +130,17 @@ class Outlet:
         except ProtocolError as error:
             self._refuse(message.topic, error)
             return
-        if not window.fits(len(frame)):
+        size = len(frame)
+        if size > room and not window.fits(size):
             self._wait(stream, message)
             return
         if stream.period:
             stream.due = now + stream.period
-        if not self._batch and not self._urgent:
+        batch = self._batch
+        if not batch and not self._urgent:
             self._round.add(self)
-        self._batch.append(frame)
-        window.sent += len(frame)
+        batch.append(frame)
+        window.sent += size
 
     def forget(self, stream: Stream) -> None:
         """Nothing of this topic is wanted any more."""
@@ -140,11 +154,16 @@ class Outlet:
             self._urgent.clear()
         if not self._line.open:
             return
-        now = self._clock()
+        data, now = self._round.joined(frames), self._clock()
         if self.window.ping_due(now, self._lanes.held):
-            frames.append(ping_frame(self.window.ping(now)))
-        if frames:
-            self._line.write(frames[0] if len(frames) == 1 else b"".join(frames))
+            data += ping_frame(self.window.ping(now))
+        if data:
+            self._line.write(data)
+
+    def ping(self, content: bytes) -> None:
+        """Send a ping at once, before all that waits; not while the connection takes nothing."""
+        if self._line.open and not self._line.paused:
+            self._line.write(ping_frame(content))
 
     def answered(self, content: bytes) -> None:
         """A pong came."""
@@ -184,7 +203,10 @@ class Outlet:
             self.flush()
 
     def close(self) -> None:
-        """Send nothing more."""
+        """Send nothing more, and keep nothing: what others still hold of this client must not hold what waited for it."""
+        self._lanes.clear()
+        self._batch.clear()
+        self._urgent.clear()
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None

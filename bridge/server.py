@@ -35,6 +35,7 @@ from bridge.outgoing import Reduce
 from bridge.outlet import Round
 from bridge.params import Params
 from bridge.protocol import LARGEST_HEARD
+from bridge.pulse import PERIOD
 from bridge.reducing import Reducing
 from bridge.rosapi import RosApi
 from bridge.server_connection import HeardConnection
@@ -148,7 +149,7 @@ class BridgeServer:
         except OSError as error:
             raise BridgeError(_cannot_listen(host, port, error)) from error
         self.port = next(iter(self._server.sockets)).getsockname()[1]
-        self._tasks.add(asyncio.create_task(self._beat()))
+        self._tasks |= {asyncio.create_task(self._beat()), asyncio.create_task(self._measure())}
 
     async def close(self) -> None:
         """Close all connections and stop listening; nothing is left running. Takes a second at most."""
@@ -215,6 +216,7 @@ class BridgeServer:
         ws.round = round
         self.sessions.add(session)
         self._clients[session] = client
+        client.measure()
         try:
             await ws.heard_by(client)
         finally:
@@ -231,6 +233,13 @@ class BridgeServer:
             await asyncio.sleep(_BEAT)
             for client in list(self._clients.values()):
                 client.beat()
+
+    async def _measure(self) -> None:
+        """Measure the ways to the clients."""
+        while True:
+            await asyncio.sleep(PERIOD)
+            for client in list(self._clients.values()):
+                client.measure()
 
     async def _serve_camera(self, ws: ServerConnection, camera: str) -> None:
         watcher = CameraSocket(ws, coarsest=self._levels.coarsest)

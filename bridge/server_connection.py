@@ -9,12 +9,14 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import math
 import time
+from collections import deque
 from collections.abc import Callable
 from typing import Any, Protocol
 
 from websockets.asyncio.server import ServerConnection
-from websockets.exceptions import ConnectionClosedOK
+from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode, Frame, Opcode
 from websockets.protocol import Event, State
 
@@ -70,19 +72,23 @@ class HeardConnection(ServerConnection):
     def __init__(self, *args: Any, **options: Any) -> None:
         super().__init__(*args, **options)
         self._rest = bytearray()
+        self._unheard: deque[str | bytes] = deque()
+        self._until = math.inf
+        self._idle = asyncio.Event()
+        self._idle.set()
 
     @property
     def open(self) -> bool:
         """Whether frames may still be written."""
-        return self.protocol.state is State.OPEN
+        return not self._deaf and self.protocol.state is State.OPEN
 
     def write(self, frames: bytes) -> None:
         """Write whole frames of this side; returns at once."""
         self.transport.write(frames)
 
     def cut(self) -> None:
-        """Break the connection at once; nothing that came is heard any more."""
-        self._deaf = True
+        """Break the connection at once; nothing that came is heard any more, but for what came before a goodbye."""
+        self._deaf = self._deaf or self.protocol.state is State.OPEN
         self.transport.abort()
 
     async def heard_by(self, ears: Ears) -> None:
@@ -93,11 +99,15 @@ class HeardConnection(ServerConnection):
             while not self._take_over():
                 message = await self.recv()
                 self._tell(ears, message)
-            if self._behind:
-                self._wait()
-        except ConnectionClosedOK:
-            return
-        await self.wait_closed()
+                if self._behind and not self._waits:  # the next one may be long in coming
+                    self._wait()
+        except ConnectionClosed:
+            pass  # what was heard before it is done all the same
+        try:
+            await self.wait_closed()
+            await self._idle.wait()  # what came before a goodbye counts, a rest above all
+        finally:
+            self._forget()
         if self.close_code not in (CloseCode.NORMAL_CLOSURE, CloseCode.GOING_AWAY):
             raise self.close_exc
 
@@ -127,6 +137,7 @@ class HeardConnection(ServerConnection):
             self._rest += data
             self._go_on()
         else:
+            self._until = self.clock() + TURN
             self._together(super().data_received, data)
             if self._behind:
                 self._wait()
@@ -136,32 +147,49 @@ class HeardConnection(ServerConnection):
         take = super().data_received
         self._waits = False
         if self._deaf or self._ears is None:
+            self._idle.set()
             return
-        until = self.clock() + TURN
+        self._until = self.clock() + TURN
         if self._behind:
             self._together(self._catch_up, self._ears)
+        if self.protocol.state is State.CLOSED:
+            self._rest.clear()  # nothing is read of a connection that is lost
         while self._rest and not self._behind and not self._deaf:
             piece = bytes(self._rest[:PIECE])
             del self._rest[:PIECE]
             self._together(take, piece)
-            if self.clock() >= until:
+            if self.clock() >= self._until:
                 break
         if self._rest or self._behind:
             self._wait()
         else:
+            self._idle.set()
             self.transport.resume_reading()
+
+    def _forget(self) -> None:
+        """It is over: keep nothing of what came, for as long as anybody still holds this connection."""
+        self._ears = None
+        self._rest.clear()
+        self._unheard.clear()
+        self._pieces = []
+        self.protocol.reader.buffer.clear()  # a frame of which only a part came; the library keeps it
 
     def _wait(self) -> None:
         self._waits = True
+        self._idle.clear()
         self.transport.pause_reading()
         self.loop.call_soon(self._go_on)
 
     def _catch_up(self, ears: Ears) -> None:
+        """What was heard and not done first, then what came in the same piece."""
         self._behind = False
         try:
             self._behind = not ears.go_on()
         except Exception:
             log.exception("A message was not understood")
+        while self._unheard and not self._behind:
+            self._tell(ears, self._unheard.popleft())
+        self._behind = self._behind or bool(self._unheard)
 
     def _together(self, work: Callable[[Any], None], about: Any) -> None:
         """Let what `work` causes leave together."""
@@ -226,8 +254,11 @@ class HeardConnection(ServerConnection):
         # a goodbye that came in the same breath as this message has closed the protocol already; it was still sent before
         if self._deaf:
             return
+        if self._behind:
+            self._unheard.append(message)  # of one piece, so they are few or small
+            return
         try:
-            self._behind = not ears.hear(message)
+            self._behind = not ears.hear(message) or self.clock() >= self._until
         except Exception:
             log.exception("A message of %d bytes was not understood", len(message))
 

@@ -53,6 +53,7 @@ from bridge.protocol import (
     service_and_id,
     too_deep,
 )
+from bridge.pulse import Pulse
 from bridge.reducing import Reducing
 from bridge.rosapi import RosApi
 from bridge.sockets import end
@@ -62,8 +63,14 @@ __all__ = ["Client", "Offer"]
 
 log = logging.getLogger(__name__)
 
-FIRST = frozenset({"/stop", "/stop/release", "/control/acquire", "/control/release"})
+FIRST = frozenset(
+    {"/stop", "/stop/release"}
+    | {f"/control/{what}" for what in ("acquire", "release", "request", "grant", "object")}
+)
 """Services whose answers go before everything else."""
+
+TIME = "/rosapi/get_time"
+"""Who has asked this knows how the operators' clock differs from its own."""
 
 MOST_CALLS = 256
 """So many of the robot's services may be at work for one client at a time; those of `FIRST` always may."""
@@ -101,6 +108,7 @@ class Client:
         self.outlet = Outlet(line, round, session.address)
         self._offer = offer
         self._clock = asyncio.get_running_loop().time
+        self._pulse = Pulse(session.opened)
         self._complaints = Complaints(session.address)
         self._errands = Errands(self, session, self.outlet, offer.actions, offer.exchange)
         self._tasks: set[asyncio.Task[None]] = set()
@@ -138,8 +146,9 @@ class Client:
             self._try(arrivals[0])
             self._alter()
             return True
+        behind = bool(self._left)
         self._left.extend(arrivals)
-        return self.go_on()
+        return not behind and self.go_on()
 
     def go_on(self) -> bool:
         """Do more of what `hear` left; False when there is still more."""
@@ -165,7 +174,20 @@ class Client:
 
     def answered(self, content: bytes) -> None:
         """The client answered a ping."""
-        self.outlet.answered(content)
+        if self._pulse.pong(content, self._offer.now()):
+            self._tell_pulse()
+        else:
+            self.outlet.answered(content)
+
+    def measure(self) -> None:
+        """Ask how long the way takes; to be called every `PERIOD`."""
+        content = self._pulse.ping(self._offer.now())
+        if content is not None:
+            self.outlet.ping(content)
+        self._tell_pulse()
+
+    def _tell_pulse(self) -> None:
+        self.session.rtt, self.session.answered = self._pulse.rtt, self._pulse.answered
 
     def pump(self) -> None:
         """The connection takes more."""
@@ -192,15 +214,19 @@ class Client:
         switchboard = self._offer.switchboard
         self._offer.exchange.leave(self)
         for topic in list(self.remembered.subscriptions):
-            switchboard.unsubscribe(self, topic)
+            stream = switchboard.unsubscribe(self, topic)
+            if stream is not None:
+                self.outlet.forget(stream)
         for topic in list(self.remembered.advertised):
             switchboard.unadvertise(self, topic)
         self._left.clear()
         self.remembered.lose()
-        self.outlet.close()
         self._complaints.close()
-        await self._errands.close()
-        await end(self._tasks)
+        try:
+            await self._errands.close()
+            await end(self._tasks)
+        finally:
+            self.outlet.close()
 
     def _do(self, arrival: Op | BinaryPublish | ProtocolError) -> None:
         hear = self._hear.get(type(arrival))  # type: ignore[arg-type]
@@ -254,7 +280,7 @@ class Client:
                 self._offer.on_message(self.session, channel.name, msg, stamp)
             except Exception:
                 log.exception("%s from %s failed", channel.name, self.session.address)
-        elif channel.publishers:
+        else:
             latch = self in channel.publishers and (latch or self.remembered.latches(channel.name))
         self._offer.switchboard.pass_on(channel, msg, self, latch=latch)
 
@@ -312,6 +338,7 @@ class Client:
         try:
             known = self._offer.rosapi.answer(name, op.args)
             if known is not None:
+                self.session.asked_time = self.session.asked_time or name == TIME
                 self._answer(op, name, id, known)
                 return
             service = self._offer.services.get(name)

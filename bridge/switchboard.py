@@ -23,6 +23,10 @@ CAMERA_TOPIC = "/camera/image/compressed"
 """Counts as wanted while somebody watches a camera."""
 MOST_TOPICS = 2000
 """So many topics of clients may there be at a time."""
+MOST_LATCHED = 67_108_864
+"""What one client may have kept for later subscribers [byte]."""
+MOST_LATCHED_IN_ALL = 268_435_456
+"""What all of them may [byte]."""
 LARGE = frozenset(
     {
         "nav_msgs/OccupancyGrid",
@@ -67,8 +71,8 @@ class Channel:
         """None when the type is not known here: its messages are passed on as they are."""
         self.streams: dict[Listener, Stream] = {}
         """Who wants it, and in what form."""
-        self.publishers: dict[object, int] = {}
-        """Clients that said they publish on it, and how often they said so."""
+        self.publishers: set[object] = set()
+        """Clients that said they publish on it."""
         self.last: dict[object, Outgoing] = {}
         """The last message of each publisher who latches; the robot itself is None."""
         self.lane, self.keep = _manner(self)
@@ -115,21 +119,25 @@ class Switchboard:
         self._reduce = reduce
         self._now = now
         self._watchers: dict[str, set[Watcher]] = {}
+        self._latched: dict[object, int] = {}
 
     def publish(self, topic: str, msg: Msg) -> None:
         """Pass a message of the robot on; BridgeError for a topic that is not in its table."""
-        entry = self.topics.get(topic)
-        if entry is None:
+        channel = self.channels.get(topic)
+        if channel is None or channel.entry is None:
             raise BridgeError(f"There is no topic {topic} in the table.")
-        self.pass_on(self.channels[topic], msg, None, latch=entry.latched)
+        self.pass_on(channel, msg, None, latch=channel.entry.latched)
 
     def pass_on(self, channel: Channel, msg: Msg | Raw | Unread, publisher: object, *, latch: bool) -> None:
-        """Pass a message of `publisher`, None is the robot, on to all who want it, and to later ones when latched."""
+        """Pass a message of `publisher`, None is the robot, on to all who want it, and to later ones when latched.
+
+        ProtocolError when clients have too much latched already: nobody gets it then.
+        """
         if not channel.streams and not latch:
             return
         message = Outgoing(channel.name, msg, self._reduce, self._now)
         if latch:
-            channel.last[publisher] = message
+            self._latch(channel, message, publisher)
         for listener, stream in channel.streams.items():
             listener.deliver(stream, message)
 
@@ -168,15 +176,17 @@ class Switchboard:
     def advertise(self, publisher: object, topic: str, type: str) -> Channel:
         """`publisher` is going to publish on `topic`; ProtocolError as for `subscribe`."""
         channel = self.channels.get(topic) or self._make(topic, type)
-        channel.publishers[publisher] = channel.publishers.get(publisher, 0) + 1
+        channel.publishers.add(publisher)
         return channel
 
     def unadvertise(self, publisher: object, topic: str) -> None:
         """`publisher` no longer publishes on `topic`, and what it latched there is forgotten."""
         channel = self.channels.get(topic)
         if channel is not None:
-            channel.publishers.pop(publisher, None)
-            channel.last.pop(publisher, None)
+            channel.publishers.discard(publisher)
+            forgotten = channel.last.pop(publisher, None)
+            if forgotten is not None:
+                self._count(publisher, -forgotten.size)
             self._tidy(channel)
 
     def check(self, topic: str, type: str | None) -> None:
@@ -217,6 +227,32 @@ class Switchboard:
         channel = self.channels.get(topic)
         subscribed = channel is not None and bool(channel.streams)
         return subscribed or (topic == CAMERA_TOPIC and bool(self._watchers))
+
+    def _latch(self, channel: Channel, message: Outgoing, publisher: object) -> None:
+        """Keep a message for later subscribers in the place of the publisher's last one; the robot's own are not counted."""
+        if publisher is not None:
+            before = channel.last.get(publisher)
+            freed = 0 if before is None else before.size
+            own = self._latched.get(publisher, 0) - freed
+            others = sum(self._latched.values()) - freed
+            for held, most, whose in (
+                (own, MOST_LATCHED, "one client"),
+                (others, MOST_LATCHED_IN_ALL, "all clients"),
+            ):
+                if held + message.size > most:
+                    raise ProtocolError(
+                        f"A message of {message.size} bytes on {channel.name[:100]} cannot be latched: what {whose} latched"
+                        f" may have at most {most} bytes, and {held} are taken."
+                    )
+            self._count(publisher, message.size - freed)
+        channel.last[publisher] = message
+
+    def _count(self, publisher: object, more: int) -> None:
+        """`publisher` has so much more latched, None is the robot [byte]."""
+        if publisher is not None:
+            self._latched[publisher] = self._latched.get(publisher, 0) + more
+            if not self._latched[publisher]:
+                del self._latched[publisher]
 
     def _make(self, topic: str, type: str) -> Channel:
         name = ros1_name(type)

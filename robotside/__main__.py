@@ -124,7 +124,8 @@ async def _run(
 ) -> int:
     clock = RobotClock(wall(), options.speed)
     loop = asyncio.get_running_loop()
-    records = open_records(_state(options), config.database.url, loop.call_soon_threadsafe)
+    kept = config.database
+    records = open_records(_state(options), kept.url, loop.call_soon_threadsafe, backups=kept.backups)
     try:
         return await _serve_station(options, config, robot, records, clock, wall, wanted)
     finally:

@@ -17,13 +17,14 @@ from robotside.assignments import Assignments, words_for
 from robotside.bus import Publish
 from robotside.commands import Refusal
 from robotside.database import NotRecorded, Records
+from robotside.database.plans import MOST_QUEUED
 from robotside.events import Say
 from robotside.schedule import Turn, fault, following, turns
-from robotside.tasks import Engine
+from robotside.tasks import TO_CHARGE, Engine
 
 __all__ = ["Agenda"]
 
-PERIOD = 0.5
+PERIOD = 1.0
 """Between two looks [s], robot clock."""
 
 _BARS = ("PAUSED", "INTERRUPTED")
@@ -47,7 +48,7 @@ class Agenda:
     ) -> None:
         """`clock` is the operators' [s]; `civil` is what the computer's own clock says, which may jump [s].
 
-        `barred(moves)` tells why no task may start by itself just now, one that `moves` or not; empty when it may.
+        `barred(drains)` tells why no task may start by itself just now, one that needs charge or not; empty when it may.
         """
         self._records, self._engine, self._assignments = records, engine, assignments
         self._publish, self._say, self._clock = publish, say, clock
@@ -89,13 +90,14 @@ class Agenda:
 
     def set_queue(self, orders: Sequence[TaskOrder], revision: int) -> TaskQueue:
         """Replace what waits. Refusal when one of them cannot be done, NotRecorded when it has changed meanwhile."""
-        for number, order in enumerate(orders, 1):
+        tidy = []
+        for number, order in enumerate(orders[:MOST_QUEUED], 1):
             try:
-                self._assignments.task(order)
+                tidy.append(self._assignments.task(order).order)
             except Refusal as problem:
                 raise Refusal(f"Task {number} of the queue: {problem}") from problem
         empty = not self._records.queue.current.orders
-        queue = self._records.queue.set(orders, revision)
+        queue = self._records.queue.set([*tidy, *orders[MOST_QUEUED:]], revision)
         if empty or not orders:
             self.release()
         return queue
@@ -105,9 +107,8 @@ class Agenda:
         problem = fault(task)
         if problem:
             raise Refusal(problem)
-        self._assignments.task(task.order)
+        order = msgspec.structs.replace(self._assignments.task(task.order).order, id=0)
         start = following(task, self._civil(), self._zone)
-        order = msgspec.structs.replace(task.order, id=0)
         return self._records.schedule.set(
             msgspec.structs.replace(task, order=order, next=Time.at(start) if start else Time())
         )
@@ -124,8 +125,7 @@ class Agenda:
         if self._engine.status.state == "CANCELED" and self._engine.status.task_id != self._settled:
             self.hold("the task before it was canceled")
             return
-        moves = self._records.queue.current.orders[0].task != "hold"
-        barred = self._barred(moves)
+        barred = self._barred(_drains(self._records.queue.current.orders[0]))
         if barred:
             self.hold(f"{barred[0].lower()}{barred[1:].rstrip('.')}")
             return
@@ -150,7 +150,7 @@ class Agenda:
             self._skip(title, f"at {when} is skipped: the robot's computer was off or its clock was changed")
         if not turn.due:
             return
-        barred = self._barred(order.task != "hold") or self._waiting()
+        barred = self._barred(_drains(order)) or self._waiting()
         running = self._engine.active or bool(self._records.queue.current.orders)
         if barred:
             self._skip(title, f"now is skipped: {barred}")
@@ -197,6 +197,11 @@ class Agenda:
 
     def _show_schedule(self) -> None:
         self._publish("/schedule", Schedule(Time.at(self._clock()), self._records.schedule.stored()))
+
+
+def _drains(order: TaskOrder) -> bool:
+    """It takes the robot elsewhere than to where it can be charged."""
+    return order.task != "hold" and order.task not in TO_CHARGE
 
 
 def _title(order: TaskOrder) -> str:

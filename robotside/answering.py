@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable
 from typing import Any
 
+from bridge.codec import to_json
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from bridge.server import Service, Session
 from robotside.commands import Commands, Refusal
 from robotside.controls import Operator
 from robotside.database import Job, NotRecorded
+from robotside.database.rows import Answered
 from robotside.station import Station
 
 __all__ = ["Action", "Answering"]
@@ -31,6 +33,8 @@ class Answering:
         self._station = station
         self._commands = Commands(station.clock)
         self._unwritten: dict[_Key, Job] = {}
+        for answered in station.records.answers.all():
+            self._commands.remember(*answered)
 
     def service(
         self,
@@ -59,6 +63,9 @@ class Answering:
                     response=response,
                 )
                 station.show_control()
+                if job.binding and asked.command_id and answer.success:
+                    told = Answered(sender, name, asked.command_id, to_json(answer).decode())
+                    station.records.answers.keep(told)
             if ageless:
                 return answer
             return self._answer((sender, name, asked.command_id), answer, job)

@@ -33,6 +33,9 @@ MOST_PLACES = 100
 LONGEST_MESSAGE = 200
 """Characters kept of what is told to a person."""
 
+LONGEST_NAME = 64
+"""Characters kept of a name and a tag."""
+
 LONGEST_TIME = 24 * 3600.0
 """To hold or to follow a heading, where a time is given [s]."""
 
@@ -89,9 +92,8 @@ class Assignments:
         make = self._makers.get(order.task)
         if make is None:
             raise Refusal(f"There is no task {order.task!r}; there are {', '.join(TASKS)}.")
-        message = plain(order.message, LONGEST_MESSAGE)
-        task = make(msgspec.structs.replace(order, message=message))
-        return replace(task, order=msgspec.structs.replace(order, message=message), by=by)
+        order = _tidy(order)
+        return replace(make(order), order=order, by=by)
 
     def home(self) -> Waypoint | None:
         """Where the robot returns to: the mission's home, else the first place that is one; None when it is not set."""
@@ -128,7 +130,7 @@ class Assignments:
     def _deliver(self, order: TaskOrder) -> Task:
         rule = "A delivery needs two places, from and to, and may have a third to go on to"
         places = self._places(order, 2, 3, rule)
-        tag = plain(order.recipient_tag, LONGEST_MESSAGE)
+        tag = order.recipient_tag
         course, tree = deliver(places, order.message, tag, self._guide, self._situation, self._say)
         return Task("deliver", "Delivery", tree, course, done=lambda: f"Delivered at {places[1].name}.")
 
@@ -153,8 +155,6 @@ class Assignments:
         return Task("go_to", title, tree, course, done=lambda: f"{place.name} reached.")
 
     def _to_points(self, goals: Sequence[Waypoint]) -> Task:
-        if len(goals) > MOST_PLACES:
-            raise Refusal(f"A way has at most {MOST_PLACES} points, not {len(goals)}.")
         names = (
             ["The goal"]
             if len(goals) == 1
@@ -238,12 +238,26 @@ class Assignments:
         known = [place.name for place in self._records.places.all()]
         there = ", ".join(known[:NAMED]) + (f" and {len(known) - NAMED} more" if len(known) > NAMED else "")
         which = f"there are {there}" if known else "no place has a name yet"
-        raise Refusal(f"There is no place {plain(name, 60)!r}; {which}.")
+        raise Refusal(f"There is no place {name!r}; {which}.")
 
     def _check(self, name: str, x: float, y: float) -> None:
         problem = self._fault(name, x, y)
         if problem:
             raise Refusal(problem)
+
+
+def _tidy(order: TaskOrder) -> TaskOrder:
+    """The same order with its texts cut to readable lines; Refusal when it names too many places."""
+    if max(len(order.places), len(order.goals)) > MOST_PLACES:
+        count = max(len(order.places), len(order.goals))
+        raise Refusal(f"A task names at most {MOST_PLACES} places or points, not {count}.")
+    return msgspec.structs.replace(
+        order,
+        places=[plain(name, LONGEST_NAME) for name in order.places],
+        goals=[msgspec.structs.replace(goal, name=plain(goal.name, LONGEST_NAME)) for goal in order.goals],
+        message=plain(order.message, LONGEST_MESSAGE),
+        recipient_tag=plain(order.recipient_tag, LONGEST_NAME),
+    )
 
 
 def _points(count: int) -> str:

@@ -37,7 +37,7 @@ from robotside.guide import CRUISE, Guide
 from robotside.laser import Laser
 from robotside.pose2 import Points, Pose2
 from robotside.robot import Robot
-from robotside.tasks import Engine
+from robotside.tasks import TO_CHARGE, Engine
 from robotside.watch import Watch
 from robotside.whereabouts import Whereabouts
 
@@ -59,9 +59,6 @@ UNMEASURED = 2.0
 
 
 _CHARGING = (BatteryState.POWER_SUPPLY_STATUS_CHARGING, BatteryState.POWER_SUPPLY_STATUS_FULL)
-
-_TO_CHARGE = ("go_home", "dock")
-"""Tasks that bring it to where it can be charged, whatever the battery says."""
 
 
 class Autonomy:
@@ -256,7 +253,7 @@ class Autonomy:
         """Go home while there is charge enough for it, whatever moves the robot elsewhere."""
         task = self.engine.task
         low = self.battery < GO_HOME_BELOW and self.engine.running
-        if not low or task is None or not task.moves or task.name in _TO_CHARGE:
+        if not low or task is None or not task.moves or task.name in TO_CHARGE:
             return
         said = f"Battery at {self.battery:.0%}"
         try:

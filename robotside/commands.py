@@ -6,6 +6,7 @@ import math
 from collections import OrderedDict
 from collections.abc import Callable
 
+from bridge.codec import from_json
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from robotside.controls import AHEAD
 from robotside.words import number, plain
@@ -34,7 +35,7 @@ class Commands:
 
     def __init__(self, now: Callable[[], float]) -> None:
         self._now = now
-        self._answers: OrderedDict[tuple[str, str, str], tuple[float, CommandResponse]] = OrderedDict()
+        self._answers: OrderedDict[tuple[str, str, str], tuple[float, CommandResponse | str]] = OrderedDict()
 
     def run(
         self,
@@ -59,7 +60,7 @@ class Commands:
         key, now = (sender, service, request.command_id), self._now()
         given, known = self._answers.get(key, (-math.inf, None))
         if known is not None and abs(now - given) <= KEPT_FOR:
-            return known
+            return from_json(known, response) if isinstance(known, str) else known
         untimely = self._untimely(request)
         answer = response(False, untimely) if untimely else _answer(action, response)
         if request.command_id:
@@ -68,6 +69,10 @@ class Commands:
             while len(self._answers) > KEPT:
                 self._answers.popitem(last=False)
         return answer
+
+    def remember(self, sender: str, service: str, command_id: str, answer: CommandResponse | str) -> None:
+        """Answer so to a command that was done before a restart; a text is the answer as JSON."""
+        self._answers[sender, service, command_id] = self._now(), answer
 
     def amend(self, sender: str, service: str, command_id: str, answer: CommandResponse) -> None:
         """Answer so from now on to a command that was done: it came to something else."""

@@ -65,6 +65,12 @@ class Link(Protocol):
     def drive(self, twist: Twist) -> None:
         """Send a drive command at once, or never; rest even when it may arrive late."""
 
+    def press_stop(self) -> None:
+        """Press the robot's own STOP, if it has one, until `release_stop`."""
+
+    def release_stop(self) -> None:
+        """Release it if it was pressed from here."""
+
     def want(self, topic: str, wanted: bool) -> None:
         """Have the messages of an on-demand topic sent from now on, or no longer."""
 
@@ -121,6 +127,14 @@ class ForeignRobot:
         with self._lock:
             self._twist, self._rests, self._due = None, RESTS, -math.inf
         self._link.drive(Twist())
+
+    def press_stop(self) -> None:
+        """Press the STOP of a robot side of ours that is behind, now or as soon as it is reached."""
+        self._link.press_stop()
+
+    def release_stop(self) -> None:
+        """Release it if it was pressed from here."""
+        self._link.release_stop()
 
     def read(self, now: float) -> list[tuple[str, Msg]]:
         """What came since the last call, of each topic the newest, by our clock; says the command in force again."""
@@ -215,7 +229,7 @@ class ForeignRobot:
         return msgspec.structs.replace(
             info,
             name=info.name or f"Robot at {place}",
-            description=f"{info.description or 'ROS robot'} behind {place}",
+            description=info.description or "ROS robot",
             cameras=(info.cameras[:1] or ["front"]) if sees else [],
             max_speed=info.max_speed if info.max_speed > 0 else SUPPOSED.max_speed,
             max_yaw_rate=info.max_yaw_rate if info.max_yaw_rate > 0 else SUPPOSED.max_yaw_rate,

@@ -7,8 +7,10 @@ import contextlib
 import logging
 import platform
 import secrets
-from collections.abc import Callable
-from typing import Protocol
+from collections.abc import Callable, Coroutine
+from typing import Any, Protocol
+
+from msgspec import structs
 
 from bridge.address import host_and_port
 from bridge.choice import drive_message
@@ -20,6 +22,7 @@ from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Control
 from bridge.network import NetworkThread
 from robotside.autonomy import CAMERA
 from robotside.foreign_topics import CONTROL, Found, match, usual
+from robotside.words import plain
 
 __all__ = ["ForeignLink", "Listener"]
 
@@ -27,6 +30,9 @@ log = logging.getLogger(__name__)
 
 ASKING = 3.0
 """How long the robot may take to tell its topics [s]."""
+
+AGAIN = 0.3
+"""How long a STOP waits for its answer before it is pressed again [s]."""
 
 _BINARY = {"/scan", "/map", CAMERA}
 """Worth to be sent as CBOR."""
@@ -67,11 +73,14 @@ class ForeignLink:
         self._leave: dict[str, Callable[[], None]] = {}
         self._wanted: set[str] = set()
         self._asking: asyncio.Task[None] | None = None
-        self._ordering: asyncio.Task[None] | None = None
-        self._busy = False
+        self._ordering: asyncio.Task[bool] | None = None
+        self._busy = self._mine = False
+        self._pressed = self._releases = False
+        self._pressing: asyncio.Task[None] | None = None
         self.dropped = False
         """The last command did not leave this machine: there is no connection, or too much waits in it."""
         self._id = f"robotside-{secrets.token_hex(4)}"
+        self._name = f"the robot side on {plain(platform.node(), 20) or 'a computer'}"
         self._network = NetworkThread(f"link to {url}")
         self._network.start(self._client.run())
 
@@ -88,6 +97,14 @@ class ForeignLink:
         """Send a drive command at once, or never; rest even when it may arrive late."""
         self._network.call(self._drive, twist, self._client.robot_time())
 
+    def press_stop(self) -> None:
+        """Press the STOP of a robot side of ours, now and whenever it is reached, until `release_stop`."""
+        self._network.call(self._press)
+
+    def release_stop(self) -> None:
+        """Release it if it was pressed from here."""
+        self._network.call(self._release)
+
     def want(self, topic: str, wanted: bool) -> None:
         """Have the messages of an on-demand topic sent from now on, or no longer."""
         self._network.call(self._want, topic, wanted)
@@ -101,7 +118,7 @@ class ForeignLink:
     async def _end(self) -> None:
         self._send(Twist(), self._client.robot_time())
         await asyncio.sleep(0)
-        for work in (self._asking, self._ordering):
+        for work in (self._asking, self._ordering, self._pressing):
             if work is not None:
                 work.cancel()
         await self._client.close()
@@ -113,6 +130,8 @@ class ForeignLink:
             self._asking = asyncio.create_task(self._ask())
         elif state.phase in (Phase.WAITING, Phase.CLOSED):
             self._busy = False
+            if self._pressing is not None:
+                self._pressing.cancel()
             if self._asking is not None:
                 self._asking.cancel()
             self._listener.lost(state.sentence)
@@ -134,6 +153,8 @@ class ForeignLink:
                 self._unsubscribe(topic)
                 self._subscribe(topic)
         self._listener.found(found)
+        if self._pressed:
+            self._press()
 
     async def _offer(self) -> Found:
         try:
@@ -147,18 +168,54 @@ class ForeignLink:
         if self._ordering is None or self._ordering.done():
             self._ordering = asyncio.create_task(self._order(service))
 
-    async def _order(self, service: str) -> None:
-        """Ask something of a robot side of ours, by our name; whether it may be is told on `CONTROL`."""
-        asked = CommandRequest(client_id=self._id, client_name=f"the robot side on {platform.node()}")
+    async def _order(self, service: str, patience: float = ASKING) -> bool:
+        """Ask something of a robot side of ours, by our name; whether it may be is told on `CONTROL` as well."""
+        asked = CommandRequest(client_id=self._id, client_name=self._name)
         with contextlib.suppress(BridgeError):
-            await self._client.call(service, asked, CommandResponse, timeout=ASKING)
+            return (await self._client.call(service, asked, CommandResponse, timeout=patience)).success
+        return False
+
+    def _press(self) -> None:
+        self._pressed = True
+        self._work(self._stop())
+
+    def _release(self) -> None:
+        pressed, self._pressed = self._pressed, False
+        if pressed:
+            self._releases = True
+            self._work(self._unstop())
+
+    def _work(self, work: Coroutine[Any, Any, None]) -> None:
+        """Do what concerns STOP, in the place of what was done of that before."""
+        if self._pressing is not None:
+            self._pressing.cancel()
+        if self._found is None or CONTROL not in self._found.topics:
+            work.close()  # not reached yet, or it has no STOP of its own
+            return
+        self._pressing = asyncio.create_task(work)
+
+    async def _stop(self) -> None:
+        """Press STOP until the robot says that it is."""
+        while True:
+            if await self._order("/stop", AGAIN):
+                return
+            await asyncio.sleep(AGAIN)
+
+    async def _unstop(self) -> None:
+        """Release STOP if it was pressed from here; what was on its way when it was released is seen later."""
+        if self._mine and await self._order("/control/acquire"):
+            await self._order("/stop/release")
 
     def _hear(self, topic: str, msg: Msg) -> None:
         if isinstance(msg, ControlStatus):
             others = msg.driver_id not in ("", self._id)
+            self._mine = msg.stopped and msg.stopped_by == self._name
             self._busy = msg.mode == "AUTO" and not others
-            self._listener.held(_holder(msg, others))
-            if msg.stopped and msg.driver_id == self._id:
+            expected = self._mine and self._pressed
+            self._listener.held(_holder(structs.replace(msg, stopped=not expected and msg.stopped), others))
+            if self._mine and self._releases and not self._pressed:
+                self._work(self._unstop())
+            if msg.stopped and msg.driver_id == self._id and not self._mine:
                 # only who has control may release STOP, and that is done where it was pressed
                 self._begin("/control/release")
         else:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from bridge.choice import CAMERA, DRIVE, USUAL, command, source
 from bridge.msgs import Msg, ros1_name
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
-from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
+from bridge.msgs.pilothouse_msgs import ControlStatus, Following, RobotInfo, TagRead
 from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, Imu, JointState, LaserScan, NavSatFix
 
 __all__ = ["CONTROL", "Found", "match", "usual"]
@@ -41,6 +41,8 @@ _PARTS = (
     _Part("/fix", NavSatFix),
     _Part("/joint_states", JointState),
     _Part("/robot/info", RobotInfo),
+    _Part("/tag", TagRead),
+    _Part("/following", Following),
     _Part(CONTROL, ControlStatus),
 )
 

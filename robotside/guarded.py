@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import RobotInfo
-from robotside.robot import Robot
+from robotside.robot import Robot, Stoppable
 
 __all__ = ["Guarded"]
 
@@ -38,6 +38,17 @@ class Guarded:
     def trouble(self) -> str:
         """Why it can be neither driven nor heard just now; empty when all is well."""
         return self._robot.trouble
+
+    def press_stop(self) -> None:
+        """Brake, and press the STOP behind, if the robot has one of its own."""
+        self.stop()
+        if isinstance(self._robot, Stoppable):
+            self._robot.press_stop()
+
+    def release_stop(self) -> None:
+        """Release the STOP behind, if it was pressed from here."""
+        if isinstance(self._robot, Stoppable):
+            self._robot.release_stop()
 
     def drive(self, twist: Twist) -> None:
         """Move with `twist` in `base_link`, as far as it may, until the next `drive` or `stop`; brake while STOP is pressed."""

@@ -14,8 +14,10 @@ from starlette.routing import Route
 
 from bridge.errors import BridgeError
 from bridge.topics import TOPICS
+from robotside.authority import LONGEST_NAME
 from robotside.station import Station
 from robotside.streams import MEDIA_TYPE, BadViewError, FullError, Streams, View, view_of
+from robotside.words import plain
 
 __all__ = ["site"]
 
@@ -27,10 +29,12 @@ _FRESH = {"Cache-Control": "no-store"}
 _PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{name}</title>
 <style>body{{font-family:sans-serif;max-width:60em;margin:2em auto;padding:0 1em}}
 td,th{{text-align:left;padding:.2em 1em .2em 0}}code{{background:#eee;padding:.1em .3em}}</style>
-<h1>{name}</h1><p>{description}{world}. {state}</p>
+<h1>{name}</h1><form method="post" action="/stop"><button style="font-size:1.5em;color:#fff;background:#c00;
+padding:.4em 2em;border:0">STOP</button></form><p>{description}{world}. {state}</p>
 <h2>How to reach it</h2><ul>
 <li>rosbridge v2 (roslibjs, roslibpy, Pilothouse): <code>{bridge}</code></li>
-{cameras}<li>health: <a href="/healthz">/healthz</a></li></ul>
+{cameras}<li>STOP, from anywhere and by anyone: <code>curl -X POST</code> to <code>/stop</code></li>
+<li>health: <a href="/healthz">/healthz</a></li></ul>
 <h2>Topics</h2><table><tr><th>topic</th><th>type</th><th>rate</th><th>what</th></tr>{topics}</table>
 <h2>Services</h2><table><tr><th>service</th><th>type</th></tr>{services}</table></html>"""
 
@@ -67,15 +71,33 @@ def site(
             return Response(headers=_FRESH | {"Content-Type": MEDIA_TYPE})
         return streams.viewer(view)
 
+    async def stop(request: Request) -> Response:
+        if request.method != "POST":
+            raise HTTPException(
+                405, "STOP is pressed by POST, from anywhere and by anyone.", {"Allow": "POST"}
+            )
+        return PlainTextResponse(*_stop(station, request))
+
     return Starlette(
         routes=[
             Route("/", page),
+            Route("/stop", stop, methods=["GET", "POST"]),
             Route("/healthz", health),
             Route("/snapshot/{name}.jpg", snapshot),
             Route("/stream/{name}.mjpeg", stream),
         ],
         exception_handlers={HTTPException: _sentence, FullError: _full, BridgeError: _broken},
     )
+
+
+def _stop(station: Station, request: Request) -> tuple[str, int]:
+    """Press STOP for whoever asks; one sentence and the status."""
+    name = plain(request.query_params.get("name", ""), LONGEST_NAME)
+    who = name or f"a browser at {request.client.host if request.client else 'an unknown address'}"
+    station.press_stop(who)
+    station.show_control()
+    doubt = station.stop_doubt
+    return (f"STOP is pressed, but {doubt[:1].lower()}{doubt[1:]}\n", 503) if doubt else ("Stopped.\n", 200)
 
 
 def _health(station: Station) -> dict[str, object]:

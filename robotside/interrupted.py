@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import msgspec
 
-from bridge.msgs.pilothouse_msgs import TaskRun, TaskStatus
+from bridge.msgs.pilothouse_msgs import TaskStatus
 from robotside.assignments import Assignments, words_for
 from robotside.behaviours.course import Noted
 from robotside.database.runs import UnderWay
-from robotside.tasks import Engine
+from robotside.tasks import Engine, Task
 
 __all__ = ["Interrupted"]
 
@@ -33,16 +33,16 @@ class Interrupted:
             )
         )
 
-    @property
-    def run(self) -> TaskRun:
-        """As it was noted last."""
-        return self._cut.run
-
-    def resume(self, assignments: Assignments, now: float) -> None:
-        """Go on with it from where it was; Refusal when it cannot be done any more."""
+    def task(self, assignments: Assignments) -> Task:
+        """The task as it goes on from where it was; Refusal when it cannot be done any more."""
         run = self._cut.run
         task = assignments.task(run.order, run.by)
         task.course.take_up(_noted(self._cut.course))
+        return task
+
+    def resume(self, task: Task, now: float) -> None:
+        """Go on with `task`, which is that of `task()`, under its old number."""
+        run = self._cut.run
         self._engine.start(task, now, task_id=run.id, driven=run.distance)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
 from bridge.msgs.pilothouse_msgs import (
@@ -20,6 +21,7 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.std_msgs import Time
 from bridge.server import Service
 from robotside.answering import Answering
+from robotside.behaviours.dock import before
 from robotside.commands import Refusal
 from robotside.controls import Operator
 from robotside.database.places import LONGEST
@@ -61,7 +63,11 @@ class _Kept:
         place = asked.place
         station, name = self._station, plain(place.name, LONGEST["name"]) or "The place"
         judge = station.fault if station.autonomy.has_map else station.keeper.fault
-        problem = judge(name, place.x, place.y)
+        x, y = place.x, place.y
+        if place.kind == "dock" and math.isfinite(place.yaw):
+            start = before(place)  # at the dock itself it may well touch a wall
+            name, x, y = f"The place before {name}", start.x, start.y
+        problem = judge(name, x, y)
         if problem:
             raise Refusal(problem)
         place = self._records.places.set(place)

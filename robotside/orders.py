@@ -33,6 +33,7 @@ from robotside.controls import Operator
 from robotside.keeping import kept_services
 from robotside.permits import Permits
 from robotside.station import Station
+from robotside.steering import control_services
 from robotside.task_orders import TaskOrders, task_services
 from robotside.words import plain
 
@@ -49,20 +50,15 @@ def services(station: Station) -> Iterable[Service]:
     """What the bridge offers for `station`."""
     orders, answering = _Orders(station), Answering(station)
     service = answering.service
-    plain: dict[str, Callable[[Operator, CommandRequest], str]] = {
-        "/stop/release": orders.release_stop,
-        "/control/acquire": orders.acquire,
-        "/control/release": orders.release,
-    }
     yield service("/stop", orders.stop, ageless=True)
-    for name, action in plain.items():
-        yield service(name, action)
+    yield service("/stop/release", orders.release_stop)
     yield from task_services(station, answering)
     yield service("/mission/set", orders.set_mission, "SetMission", SetMissionRequest)
     yield service(
         "/mission/recall", orders.recall, "RecallMission", RecallMissionRequest, RecallMissionResponse
     )
     yield from kept_services(station, answering)
+    yield from control_services(station, answering)
     yield _service("/mission/get", "GetMission", GetMissionRequest, GetMissionResponse, orders.mission)
     yield _service("/events/get", "GetEvents", GetEventsRequest, GetEventsResponse, orders.events)
 
@@ -100,18 +96,6 @@ class _Orders:
         self._station.release_stop(self._station.controls.name(client))
         return "STOP is released."
 
-    def acquire(self, client: Operator, _: CommandRequest) -> str:
-        """Take control."""
-        self._permits.need_control(client)
-        return "You have control."
-
-    def release(self, client: Operator, _: CommandRequest) -> str:
-        """Give control back."""
-        problem = self._station.release_control(client)
-        if problem:
-            raise Refusal(problem)
-        return "Control is free."
-
     def set_mission(self, client: Operator, asked: SetMissionRequest) -> str:
         """Check a mission and store it."""
         self._permits.may_change(client)
@@ -148,7 +132,7 @@ class _Orders:
 
     def mission(self, _: Operator, __: GetMissionRequest) -> GetMissionResponse:
         """Give the stored mission."""
-        mission = self._station.mission
+        mission = self._station.records.missions.stored
         stored = mission.stamp.seconds > 0
         return GetMissionResponse(True, "" if stored else "No mission was stored yet.", mission)
 

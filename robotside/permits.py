@@ -7,7 +7,7 @@ from robotside.autonomy import LOW_BELOW
 from robotside.commands import Refusal
 from robotside.controls import STOP_SENTENCE, Operator
 from robotside.station import NO_MAP, Station
-from robotside.tasks import Task
+from robotside.tasks import TO_CHARGE, Task
 
 __all__ = ["Permits"]
 
@@ -53,6 +53,6 @@ class Permits:
     def charged(self, task: Task) -> None:
         """There is charge enough for `task`."""
         battery = self._station.autonomy.battery
-        if task.moves and battery < LOW_BELOW and task.name not in ("go_home", "dock"):
+        if task.moves and battery < LOW_BELOW and task.name not in TO_CHARGE:
             words = words_for(task.name)
             raise Refusal(f"The battery is at {battery:.0%}; {words} needs at least {LOW_BELOW:.0%}.")

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import RobotInfo
 
-__all__ = ["Robot"]
+__all__ = ["Robot", "Stoppable"]
 
 
 class Robot(Protocol):
@@ -40,3 +40,14 @@ class Robot(Protocol):
 
     def close(self) -> None:
         """Let go of everything it holds; no other call follows."""
+
+
+@runtime_checkable
+class Stoppable(Protocol):
+    """A robot that has a STOP of its own, which stays pressed whatever becomes of this robot side."""
+
+    def press_stop(self) -> None:
+        """Press it, and again as soon as the robot can be reached, until `release_stop`."""
+
+    def release_stop(self) -> None:
+        """Release it if it was pressed from here."""

@@ -24,6 +24,9 @@ __all__ = ["LATE", "LEAST_EVERY", "Turn", "fault", "following", "local_zone", "t
 LATE = 60.0
 """A start that is later than this is missed [s]."""
 
+SOON = 23 * 3600.0
+"""A time of day that comes within this needs no second look, whatever the clock did [s]."""
+
 LEAST_EVERY = 60.0
 """[s]"""
 
@@ -82,6 +85,8 @@ def turns(tasks: Iterable[ScheduledTask], now: float, zone: dt.tzinfo) -> list[T
     found = []
     for task in tasks:
         due = task.next.seconds
+        if task.enabled and task.at and 0 < due - now < SOON:
+            continue
         first = following(task, now, zone)
         if due > 0 and first <= 0:
             found.append(Turn(_at(task, 0.0), due=False))

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable
 from datetime import UTC, tzinfo
 from functools import partial
 
-import msgspec
+from msgspec.structs import replace
 
 from bridge.msgs import Msg
 from bridge.msgs.diagnostic_msgs import DiagnosticArray, DiagnosticStatus
@@ -33,18 +33,21 @@ from bridge.msgs.std_msgs import Header, Time
 from robotside.agenda import Agenda
 from robotside.autonomy import LOW_BELOW, Autonomy
 from robotside.bus import Bus
+from robotside.commands import Refusal
 from robotside.config import NOTHING_SET, Config
 from robotside.controls import STOP_SENTENCE, Controls, Operator
 from robotside.database import Records
 from robotside.demand import Demand
 from robotside.events import Events
 from robotside.guarded import Guarded
+from robotside.helm import FOLLOW_LINK, Helm, Options
 from robotside.history import History
 from robotside.interrupted import Interrupted
 from robotside.limits import Keeper
 from robotside.pose2 import Pose2
 from robotside.readiness import Readiness
 from robotside.robot import Robot
+from robotside.safe_state import SafeState
 from robotside.shown import Shown
 
 __all__ = ["NO_MAP", "Station"]
@@ -86,11 +89,12 @@ class Station:
         self.clock, self.now = clock, now
         self.keeper = Keeper(config.limits, robot.info)
         """Keeps the robot to its limits."""
-        name = name or config.robot.name or robot.info.name
-        self.info = msgspec.structs.replace(self.keeper.info, name=name)
+        self.info = replace(self.keeper.info, name=name or config.robot.name or robot.info.name)
         self.bus = Bus()
         self.demand = Demand(robot.want)
-        self.controls = Controls(max_speed=self.info.max_speed, max_yaw_rate=self.info.max_yaw_rate)
+        self.options = Options(config.control, records.setting, records.set_setting)
+        """What operators may switch."""
+        self.controls = self._controls()
         self.robot = Guarded(robot, lambda: self.controls.stopped, self._clamp, self.keeper.info)
         """The only way to the robot's wheels."""
         self.records = records
@@ -98,14 +102,8 @@ class Station:
         self.events = Events(records.events, clock, lambda event: self.bus.publish("/events", event))
         self.readiness = Readiness(clock, self.bus.publish)
         """What is looked through before the first motion."""
-        self._control = ControlStatus()
         self._next_remark: dict[str, float] = {}
-        self._next_diagnostics = now
-        self._next_fault = -math.inf
-        self._trouble = ""
         first = list(robot.read(now))
-        self.bus.publish("/robot/info", self.info)
-        self.bus.publish("/limits", self.keeper.message)
         self.autonomy = Autonomy(
             self.robot,
             next((msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None),
@@ -118,35 +116,28 @@ class Station:
             fault=self.fault,
             fit=self.keeper.marked,
         )
-        self.bus.publish("/intruders", IntruderArray(Header(Time.at(now), "map")))
-        self.bus.publish("/control/status", self._control)
+        self.helm = self._helm(config)
+        """Driving by hand, and what happens when nobody does."""
+        self._show_beginning()
         Shown(records, self.bus.publish, self.events.say, clock)
         self.interrupted = self._take_up()
         """The task that a restart cut, if there was one."""
-        self.agenda = Agenda(
-            records,
-            self.autonomy.engine,
-            self.autonomy.assignments,
-            publish=self.bus.publish,
-            say=self.events.say,
-            clock=clock,
-            civil=civil or clock,
-            zone=zone,
-            barred=self._barred,
-        )
+        self.agenda = self._agenda(civil or clock, zone)
         """Queue and schedule."""
         self._pass_on(first)
         self.show_control()
 
+    _control = ControlStatus()
+    _next_diagnostics = -math.inf
     _held = False
     _ending = False
+    _next_fault = -math.inf
+    _trouble = ""
 
     def step(self, now: float) -> None:
         """Bring everything up to `now` [s, robot clock]; call it often."""
         self.now = now
-        if self.controls.expired(self.clock()) and not self.autonomy.engine.running:
-            self.robot.stop()
-        self.controls.lapse(self.clock())
+        self._mind(partial(self.helm.step, now))
         self._pass_on(self.robot.read(now))
         self._mind_trouble()
         self._mind(lambda: self.autonomy.check(now))
@@ -163,7 +154,7 @@ class Station:
         if stamp is not None:
             self.readiness.told_time(stamp)
         if isinstance(msg, Twist):
-            self._drive(client, msg, stamp)
+            self._mind(lambda: self._remark(client, self.helm.drive(client, msg, stamp)))
         elif isinstance(msg, PoseWithCovarianceStamped):
             self._place(client, Pose2.from_msg(msg.pose.pose))
         elif isinstance(msg, PoseStamped):
@@ -173,13 +164,12 @@ class Station:
     def gone(self, client: Operator) -> None:
         """A client's socket closed; if it was driving, the robot stops at once."""
         self._next_remark.pop(client.id, None)
-        if self.controls.gone(client) and not self.autonomy.engine.running:
-            self.robot.stop()
+        self._mind(partial(self.helm.gone, client, self.now))
         self.show_control()
 
     def press_stop(self, name: str) -> None:
         """Latch STOP, bring the robot to rest and hold the task; `name` pressed it."""
-        self.robot.stop()
+        self.robot.stop() if self._ending else self.robot.press_stop()
         if not self.controls.stopped:
             self.events.say("stop", f"STOP pressed by {name}.", "alarm")
         self.controls.stop(name)
@@ -189,15 +179,8 @@ class Station:
     def release_stop(self, name: str) -> None:
         """Unlatch STOP; the robot stays where it is."""
         self.controls.release_stop()
+        self.robot.release_stop()
         self.events.say("stop", f"STOP released by {name}.", "ok")
-
-    def release_control(self, client: Operator) -> str:
-        """Give control back; returns why not, empty when done. A robot driven by hand comes to rest."""
-        problem = self.controls.release(client)
-        if not problem and self.controls.driving:
-            self.controls.halt()
-            self.robot.stop()
-        return problem
 
     def keep(self, mission: Mission) -> None:
         """Store `mission`; everyone is told once it is on the disk. NotRecorded when it cannot be kept."""
@@ -220,7 +203,7 @@ class Station:
             said = f"{fresh.driver} has control." if fresh.driver_id else "Control is free."
             self.events.say("control", said)
         self._control = fresh
-        self.bus.publish("/control/status", msgspec.structs.replace(fresh, stamp=Time.at(self.clock())))
+        self.bus.publish("/control/status", replace(fresh, stamp=Time.at(self.clock())))
 
     @property
     def mission(self) -> Mission:
@@ -278,6 +261,7 @@ class Station:
         by, cut, engine = self.records.stopped_by, self.records.runs.under_way, self.autonomy.engine
         if by:
             self.controls.stop(by)
+            self.robot.press_stop()
             self.events.say("stop", f"STOP, pressed by {by} before the restart, is still pressed.", "alarm")
         engine.status = TaskStatus(task_id=self.records.runs.last)
         history = History(self.records.runs, engine, self.clock)
@@ -285,14 +269,34 @@ class Station:
             self.bus.subscribe(topic, history.hear)
         return Interrupted(cut, engine) if cut else None
 
-    def _barred(self, moves: bool) -> str:
-        """Why no task may start by itself just now, one that `moves` or not; empty when it may."""
+    def _show_beginning(self) -> None:
+        """What there is to tell before anything has happened."""
+        self.bus.publish("/robot/info", self.info)
+        self.bus.publish("/limits", self.keeper.message)
+        self.bus.publish("/intruders", IntruderArray(Header(Time.at(self.now), "map")))
+        self.bus.publish("/control/status", self._control)
+
+    def _agenda(self, civil: Callable[[], float], zone: tzinfo) -> Agenda:
+        return Agenda(
+            self.records,
+            self.autonomy.engine,
+            self.autonomy.assignments,
+            publish=self.bus.publish,
+            say=self.events.say,
+            clock=self.clock,
+            civil=civil,
+            zone=zone,
+            barred=self._barred,
+        )
+
+    def _barred(self, drains: bool) -> str:
+        """Why no task may start by itself just now, one that needs charge or not; empty when it may."""
         battery = self.autonomy.battery
         if self.controls.stopped:
             return "STOP is pressed"
         if self.controls.driving:
             return "the robot is driven by hand"
-        if moves and battery < LOW_BELOW:
+        if drains and battery < LOW_BELOW:
             return f"the battery is at {battery:.0%}"
         return self.unfit or self.lost
 
@@ -338,18 +342,6 @@ class Station:
             said = f"The task ended: the robot's program has a fault ({type(fault).__name__})."
             self.autonomy.engine.fail(said)
 
-    def _drive(self, client: Operator, twist: Twist, stamp: float | None) -> None:
-        engine = self.autonomy.engine
-        trouble = self.robot.trouble
-        ruling = self.controls.drive(
-            client, twist, self.clock(), stamp=stamp, auto=engine.running, trouble=trouble
-        )
-        if ruling.twist is None:
-            self._remark(client, ruling.said)
-            return
-        engine.pause(f"Paused: {self.controls.name(client)} took the stick.", "warn")
-        self._mind(partial(self.robot.drive, ruling.twist))
-
     def _place(self, client: Operator, pose: Pose2) -> None:
         problem = self.controls.objection(client)
         if not all(map(math.isfinite, pose)):
@@ -373,6 +365,7 @@ class Station:
             self.events.say("command", problem, "warn")
             return
         self.controls.hold()
+        self.agenda.hold("the robot was sent elsewhere")
         order = TaskOrder(task="go_to", goals=[Waypoint(pose.x, pose.y, pose.yaw)])
         self.autonomy.start(order, self.now, self.controls.name(client))
 
@@ -393,7 +386,7 @@ class Station:
             self.events.say("command", said, "warn")
 
     def _control_now(self) -> ControlStatus:
-        driver, at_rest = self.controls.driver, self._at_rest()
+        driver, asker, at_rest = self.controls.driver, self.controls.asker, self._at_rest()
         if at_rest:
             self.readiness.rests(stopped=self.controls.stopped)
         return ControlStatus(
@@ -404,7 +397,44 @@ class Station:
             stopped_by=self.controls.stopped_by,
             at_rest=at_rest,
             stop_tested=self.readiness.stop_tested,
+            requested_by=asker.name if asker else "",
+            requested_by_id=asker.client_id if asker else "",
+            handover=Time.at(asker.due) if asker else Time(),
+            speed_cap=self.controls.pace.shown,
+            follows_link=self.controls.follows,
         )
+
+    def _controls(self) -> Controls:
+        follows = partial(self.options.on, FOLLOW_LINK)
+        info = self.info
+        return Controls(max_speed=info.max_speed, max_yaw_rate=info.max_yaw_rate, follows=follows)
+
+    def _helm(self, config: Config) -> Helm:
+        where, senses = self.autonomy.whereabouts, self.readiness.senses
+        return Helm(
+            self.controls,
+            self.robot,
+            self.autonomy.engine,
+            SafeState(self.info.kind, config.safe_state),
+            self.options,
+            say=self.events.say,
+            clock=self.clock,
+            measured=lambda: senses.measured(where.pose),
+            go_home=self._return,
+        )
+
+    def _return(self) -> bool:
+        """Go home though nobody says so; False when it cannot."""
+        if self._barred(True):
+            return False
+        try:
+            task = self.autonomy.assignments.task(TaskOrder(task="go_home"))
+        except Refusal:
+            return False
+        self.controls.hold()
+        self.agenda.hold("nobody drives the robot")
+        self.autonomy.engine.start(task, self.now)
+        return True
 
     def _mode(self) -> str:
         engine = self.autonomy.engine

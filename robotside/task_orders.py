@@ -102,8 +102,10 @@ class TaskOrders:
         if engine.running:
             return "The task is running already."
         if engine.interrupted and station.interrupted:
-            station.interrupted.resume(station.autonomy.assignments, station.now)
+            task = station.interrupted.task(station.autonomy.assignments)
+            self._permits.charged(task)
             self._begin()
+            station.interrupted.resume(task, station.now)
             return "Resumed."
         if engine.paused:
             self._begin()

@@ -18,10 +18,13 @@ from robotside.events import Say
 from robotside.guide import Guide
 from robotside.pose2 import Points, Pose2
 
-__all__ = ["Engine", "Task"]
+__all__ = ["TO_CHARGE", "Engine", "Task"]
 
 PROGRESS_PERIOD = 0.5
 """Between two progress messages [s]."""
+
+TO_CHARGE = ("go_home", "dock")
+"""Tasks that bring it to where it can be charged, whatever the battery says."""
 
 ON_THE_WAY = ("driving", "turning")
 """Phases in which the way that is left is known."""

@@ -57,6 +57,9 @@ class FakeClient:
         self.id = name
         self.address = "192.0.2.1:5000"
         self.last_heard = now
+        self.rtt = math.nan
+        self.asked_time = True
+        self.answered = math.inf
 
 
 class FakeRobot:
@@ -80,6 +83,9 @@ class FakeRobot:
         """Every drive, and None for every stop, in order."""
         self.twist = Twist()
         self.battery = 0.8
+        self.charging = False
+        self.more: list[tuple[str, Msg]] = []
+        """Messages that come with the next ones."""
         self.silent: set[str] = set()
         """Topics that have stopped coming."""
         self.wanted: dict[str, bool] = {}
@@ -117,6 +123,8 @@ class FakeRobot:
             self._origin = now
             if "/map" not in self.silent:
                 yield "/map", self.map()
+        while self.more:
+            yield self.more.pop(0)
         while self._origin + self._steps * STEP <= now + 1e-9:
             stamp = self._origin + self._steps * STEP
             for topic, msg in self._measure(Time.at(stamp)):
@@ -154,7 +162,11 @@ class FakeRobot:
             yield "/scan", self._scan(stamp)
             yield "/bumper", Bumper(Header(stamp, "base_link"), self.room() < 0.0)
         if self._steps % 20 == 0:
-            yield "/battery_state", BatteryState(Header(stamp), percentage=self.battery)
+            status = BatteryState.POWER_SUPPLY_STATUS_CHARGING if self.charging else 0
+            yield (
+                "/battery_state",
+                BatteryState(Header(stamp), percentage=self.battery, power_supply_status=status),
+            )
 
     def _scan(self, stamp: Time) -> LaserScan:
         step = float(self._angles[1] - self._angles[0])

@@ -10,9 +10,9 @@ from bridge.msgs.arrays import Float32Array
 from bridge.msgs.diagnostic_msgs import DiagnosticArray, DiagnosticStatus, KeyValue
 from bridge.msgs.geometry_msgs import Quaternion, Vector3
 from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, Imu, LaserScan
-from bridge.msgs.std_msgs import Header, Time
+from bridge.msgs.std_msgs import Empty, Header, Time
 
-__all__ = ["battery", "cells", "diagnostics", "imu", "picture", "scan"]
+__all__ = ["battery", "cells", "diagnostics", "imu", "log", "nothing", "picture", "scan"]
 
 AT = Time(1763719271, 120_000_000)
 """When all of them were measured."""
@@ -28,6 +28,32 @@ class Cells(Msg, frozen=True, gc=False):
     balanced: bool = False
     voltages: Float32Array = Float32Array()
     log: bytes = b""
+
+
+class Log(Msg, frozen=True, gc=False):
+    """Stands for a type that was learned from the robot, with long texts."""
+
+    MSGTYPE: ClassVar[str] = "boat_msgs/Log"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("uint8", "string", "string", "string")
+    level: int = 0
+    name: str = ""
+    msg: str = ""
+    file: str = ""
+
+
+def log() -> Log:
+    """Texts that are longer than a line."""
+    told = (
+        "The controller missed its desired loop rate of 20.0000 Hz.\n\n"
+        "The last loop took 0.0913 s; the costmap had 412 obstacles, and the planner tried 3 ways round them."
+    )
+    where = "/opt/robot/navigation/controller/plugins/regulated_pure_pursuit_controller.cpp:412"
+    return Log(30, "controller_server", told, where)
+
+
+def nothing() -> Empty:
+    """Without any field."""
+    return Empty()
 
 
 def cells() -> Cells:

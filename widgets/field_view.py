@@ -1,4 +1,4 @@
-"""Any message as a tree of its fields: names, values, types; a tap folds what has parts.
+"""Any message as a tree of its fields: names, values with their units, types; a tap folds what has parts.
 
 view = FieldView(type=Imu)
 robot.on("/imu/data", view.show)
@@ -23,19 +23,18 @@ from kivy.properties import (
     ListProperty,
     NumericProperty,
     ObjectProperty,
-    StringProperty,
 )
-from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.widget import Widget
 
 import widgets.labels  # noqa: F401 - its rules draw the rows
 from bridge.msgs import Msg
-from widgets.base import RobotWidget, age_text, text_texture
-from widgets.fields import ARRAY, BRANCH, DASH, LEAF, Path, Row, describe, rows
+from widgets.base import RobotWidget, age_text
+from widgets.field_row import FieldRow, line_width, text_width, whole_height
+from widgets.fields import ARRAY, BRANCH, DASH, LEAF, Path, Row, describe, rows, unit
 from widgets.theme import theme
 
-__all__ = ["FieldRow", "FieldView"]
+__all__ = ["FieldView"]
 
 PERIOD = 0.1
 """Between two looks at the newest message [s]: figures that change faster cannot be read."""
@@ -45,98 +44,6 @@ NARROW = 560.0
 """A tree narrower than this leaves a little less room before each level [dp]."""
 
 Builder.load_string("""
-<FieldRow>:
-    size_hint: None, None
-    canvas.before:
-        Color:
-            rgba: theme.raised if root.foldable else (0, 0, 0, 0)
-        RoundedRectangle:
-            pos: self.x + root.indent - dp(8), self.y + dp(2)
-            size: self.width - root.indent + dp(8), self.height - dp(4)
-            radius: [theme.corner * .7]
-        Color:
-            rgba: theme.text[:3] + [.14 if root.state == 'down' else 0]
-        RoundedRectangle:
-            pos: self.x + root.indent - dp(8), self.y + dp(2)
-            size: self.width - root.indent + dp(8), self.height - dp(4)
-            radius: [theme.corner * .7]
-        Color:
-            rgba: theme.line if not root.foldable else (0, 0, 0, 0)
-        Rectangle:
-            pos: self.x + root.indent, round(self.y)
-            size: self.width - root.indent - dp(12), max(1, round(theme.outline))  # less than a pixel comes and goes
-    Icon:
-        name: 'expand_less' if root.open else 'expand_more'
-        role: 'muted'
-        font_size: sp(20)
-        opacity: 1 if root.foldable else 0
-        center_y: root.center_y
-        x: root.x + root.indent - dp(2)
-    Label:
-        text: root.name
-        font_name: theme.font
-        font_size: sp(15)
-        bold: root.foldable
-        color: theme.text if root.foldable else theme.muted
-        disabled_color: self.color
-        shorten: True
-        shorten_from: 'right'
-        text_size: self.size
-        halign: 'left'
-        valign: 'middle'
-        size_hint: None, None
-        size: root.name_width, root.line
-        x: root.name_x
-        top: root.top - root.lead
-    Label:
-        text: root.type
-        font_name: theme.font
-        font_size: sp(12.5)
-        color: theme.muted
-        disabled_color: self.color
-        opacity: 1 if root.type_width else 0
-        shorten: True
-        shorten_from: 'right'
-        text_size: self.size
-        halign: 'left'
-        valign: 'middle'
-        size_hint: None, None
-        size: root.type_width, root.line
-        x: root.name_x + root.name_width + dp(9)
-        top: root.top - root.lead - dp(1)
-    Label:
-        text: root.value
-        font_name: theme.font
-        font_size: sp(15)
-        bold: True
-        color: theme.text if root.kind != 'branch' else theme.muted
-        disabled_color: self.color
-        shorten: True
-        shorten_from: 'right'
-        text_size: self.size
-        halign: 'right'
-        valign: 'middle'
-        size_hint: None, None
-        size: root.value_width, root.line
-        x: root.right - dp(12) - root.value_width
-        top: root.top - root.lead
-    Label:
-        text: root.second
-        font_name: theme.font
-        font_size: sp(14)
-        color: theme.text
-        disabled_color: self.color
-        shorten: True
-        shorten_from: 'right'
-        text_size: self.size
-        halign: 'left'
-        valign: 'middle'
-        size_hint: None, None
-        size: max(0, root.right - dp(12) - root.name_x), dp(24)
-        opacity: 1 if root.second else 0
-        x: root.name_x
-        y: root.y + dp(6)
-
 <FieldView>:
     ScrollView:
         id: scroll
@@ -152,92 +59,25 @@ Builder.load_string("""
             size_hint: None, None
             width: scroll.width - dp(6)  # the bar beside the rows
             height: root.length
-    Text:
-        text: root.notice
-        role: 'muted'
-        font_size: sp(15)
-        padding: dp(10), dp(8)
+    BoxLayout:
+        size_hint: 1, None
+        height: note.height
+        spacing: dp(8)
+        padding: dp(8), 0, dp(8), 0
+        opacity: 1 if root.notice else 0
         pos_hint: {'x': 0, 'top': 1}
+        Icon:
+            name: 'info'
+            role: 'muted'
+            font_size: sp(20)
+            pos_hint: {'center_y': .5}
+        Text:
+            id: note
+            text: root.notice
+            role: 'muted'
+            font_size: sp(15)
+            pos_hint: {'center_y': .5}
 """)
-
-
-def _width(text: str, size: float, *, bold: bool = False) -> float:
-    """Of a text [px], with the little that Kivy wants before it shortens none of it; 0 for none."""
-    return text_texture(text, size, theme.font, bold=bold).width + dp(1) + 3.0 if text else 0.0
-
-
-class FieldRow(ButtonBehavior, Widget):
-    """One line of the tree. A finger presses it where there is something to fold."""
-
-    kind = StringProperty(LEAF)
-    name = StringProperty("")
-    type = StringProperty("")
-    """ROS type."""
-    value = StringProperty("")
-    second = StringProperty("")
-    """What stands on a line of its own."""
-    open = BooleanProperty(False)
-    foldable = BooleanProperty(False)
-    depth = NumericProperty(0)
-    step = NumericProperty("16dp")
-    """Farther in for each level [px]."""
-
-    path: Path = ()
-    widest = NumericProperty(0.0)
-    """Of the values that this field has had [px]: the type does not come and go with the length of a figure."""
-
-    def _indent(self) -> float:
-        return dp(10) + self.depth * self.step
-
-    indent = AliasProperty(_indent, bind=["depth", "step"], cache=True)
-    """From the left edge to the line's beginning [px]."""
-
-    def _name_x(self) -> float:
-        return float(self.x + self.indent + (dp(22) if self.foldable else 0))
-
-    name_x = AliasProperty(_name_x, bind=["x", "indent", "foldable"], cache=True)
-
-    def _line(self) -> float:
-        return float(dp(26) if self.kind == ARRAY else self.height)
-
-    line = AliasProperty(_line, bind=["kind", "height"], cache=True)
-    """Height of the first line [px]."""
-
-    def _lead(self) -> float:
-        return float(dp(5)) if self.kind == ARRAY else 0.0
-
-    lead = AliasProperty(_lead, bind=["kind"], cache=True)
-
-    def _widths(self) -> tuple[float, float, float]:
-        """Of name, type and value [px]: the value first, then the name; the type where there is room for all of it."""
-        room = self.x + self.width - dp(12) - self.name_x
-        value = min(_width(self.value, sp(15), bold=True), room * 0.7)
-        name = _width(self.name, sp(15), bold=self.foldable)
-        name = max(0.0, min(name, room - value - (dp(10) if value else 0)))
-        spare = room - max(value, min(self.widest, room * 0.7)) - name - dp(19)
-        kind = _width(self.type, sp(12.5))
-        return name, kind if kind <= spare else 0.0, value
-
-    widths = AliasProperty(
-        _widths, bind=["width", "name_x", "value", "name", "type", "foldable", "widest"], cache=True
-    )
-
-    def _name_width(self) -> float:
-        return float(self.widths[0])
-
-    def _type_width(self) -> float:
-        return float(self.widths[1])
-
-    def _value_width(self) -> float:
-        return float(self.widths[2])
-
-    name_width = AliasProperty(_name_width, bind=["widths"], cache=True)
-    type_width = AliasProperty(_type_width, bind=["widths"], cache=True)
-    value_width = AliasProperty(_value_width, bind=["widths"], cache=True)
-
-    def on_touch_down(self, touch: Any) -> bool:
-        """Leave the finger to the list where nothing can be folded."""
-        return bool(self.foldable and super().on_touch_down(touch))
 
 
 class FieldView(RobotWidget, FloatLayout):
@@ -333,9 +173,9 @@ class FieldView(RobotWidget, FloatLayout):
             self._soon()
 
     def fold(self, path: Path) -> None:
-        """Open what is folded at `path`, or fold it."""
+        """Open what is folded at `path`, or fold it: what has parts, and a text that is too long for its line."""
         row = next((row for row in self.lines if row.path == path), None)
-        if row is not None and row.kind == BRANCH:
+        if row is not None and self._foldable(row):
             self.folds[path] = not row.open
 
     def _renew(self, *_: object) -> None:
@@ -352,7 +192,29 @@ class FieldView(RobotWidget, FloatLayout):
         self._place()
 
     def _height(self, row: Row) -> float:
-        return float(theme.target if row.kind == BRANCH else dp(60) if row.kind == ARRAY else dp(38))
+        if row.kind == BRANCH:
+            return float(theme.target)
+        if row.kind != ARRAY:
+            return float(dp(38))
+        if not self._foldable(row):
+            return float(dp(60))
+        room = self._room(row) - dp(22)
+        whole = whole_height(describe(row)[1], sp(14), theme.font, room) if row.open else 0.0
+        return max(float(theme.target), dp(60), dp(40) + whole)
+
+    def _room(self, row: Row) -> float:
+        """For the second line of a row that has no sign of folding before it [px]."""
+        return float(self.ids.sheet.width - dp(10) - row.depth * self._step() - dp(12))
+
+    def _step(self) -> float:
+        return float(dp(16 if self.width > dp(NARROW) else 12))
+
+    def _foldable(self, row: Row) -> bool:
+        if row.kind == BRANCH or not row.long_text:
+            return row.kind == BRANCH
+        line = describe(replace(row, open=False))[1]
+        whole = describe(replace(row, open=True))[1]
+        return row.open or line != whole or line_width(line, sp(14), theme.font) > self._room(row)
 
     def _place(self, *_: object) -> None:
         """Lay rows where the eye is; those beyond the edges have no widget."""
@@ -386,16 +248,16 @@ class FieldView(RobotWidget, FloatLayout):
         if widget.path != row.path:
             widget.path, widget.widest = row.path, 0.0
         widget.kind, widget.depth = row.kind, row.depth
-        widget.step = dp(16 if self.width > dp(NARROW) else 12)
-        widget.foldable, widget.open = row.kind == BRANCH, row.open
+        widget.step = self._step()
+        widget.foldable, widget.open = self._foldable(row), row.open
         widget.name, widget.type = row.name, row.type
-        widget.value, widget.second = value, second
-        widget.widest = max(widget.widest, _width(value, sp(15), bold=True))
+        widget.value, widget.second, widget.unit = value, second, unit(row)
+        widget.widest = max(widget.widest, text_width(value, sp(15), bold=True))
 
 
 def samples() -> dict[str, Callable[[], Widget]]:
     """Small and large messages, a type made at run time, every state."""
-    from widgets.field_samples import battery, cells, diagnostics, imu, picture, scan
+    from widgets.field_samples import battery, cells, diagnostics, imu, log, nothing, picture, scan
 
     def make(message: Msg | None = None, size: tuple[str, str] = ("388dp", "560dp"), **kwargs: Any) -> Any:
         def build() -> Widget:
@@ -412,6 +274,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "diagnostics": make(diagnostics(), state="live", folds={("status", 0): True}),
         "learned": make(cells(), ("388dp", "300dp"), state="live"),
         "picture": make(picture(), ("388dp", "180dp"), state="live"),
+        "text": make(log(), ("388dp", "420dp"), state="live", folds={("msg",): True}),
+        "no fields": make(nothing(), ("388dp", "60dp"), state="live"),
         "wide": make(imu(), ("700dp", "420dp"), state="live"),
         "never": make(type=type(battery()), size=("388dp", "300dp")),
         "nothing known": make(size=("388dp", "120dp")),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import time
 from array import array
 from collections.abc import Iterator, Mapping
@@ -27,6 +28,8 @@ __all__ = [
     "number",
     "rows",
     "size_text",
+    "spelled",
+    "unit",
 ]
 
 Path = tuple[str | int, ...]
@@ -44,7 +47,11 @@ FIRST = 6
 ROOMY = 22
 """A text of more letters has a line of its own."""
 LONGEST = 400
-"""Letters of a text that are shown."""
+"""Letters of a text that are shown on its line."""
+MOST_LETTERS, MOST_LINES = 1000, 40
+"""Letters and lines of a text that are shown when it is opened: no picture for a graphics card may be too high."""
+NUMBER = re.compile(r"(?:u?int(?:8|16|32|64)|float(?:32|64)|byte|char)(?:\[.*)?")
+"""ROS types of numbers."""
 DECIMALS = 4
 SMALL, LARGE = 0.5 * 10**-DECIMALS, 1e7
 """Between these a number is written plainly, beyond them with an exponent."""
@@ -69,17 +76,39 @@ class Row:
     """The field's ROS type as in `float64[36]`; empty where the message does not say."""
     value: Any
     open: bool = False
-    """Of a branch: what is in it follows."""
+    """Of a branch: what is in it follows. Of a long text: all of it is shown."""
+    unit: str = ""
+    """Of the field, or of the message that it is in, as the definition writes it: `m/s2`; empty where it is not known."""
+
+    @property
+    def long_text(self) -> bool:
+        """A text on a line of its own, which may be too long for that."""
+        return self.kind == ARRAY and isinstance(self.value, str)
 
 
 @lru_cache(maxsize=512)
-def _table(kind: type[Msg]) -> tuple[tuple[str, str], ...]:
-    """Name and ROS type of each field of a message class."""
+def _table(kind: type[Msg]) -> tuple[tuple[str, str, str], ...]:
+    """Name, ROS type and unit of each field of a message class."""
     names: tuple[str, ...] = kind.__struct_fields__
     types: tuple[str, ...] = getattr(kind, "ROSTYPES", ())
     if len(types) != len(names):
         types = ("",) * len(names)
-    return tuple(zip(names, types, strict=True))
+    told = getattr(kind, "UNITS", None)
+    units = told if isinstance(told, dict) else {}  # a learned type may have a constant of that name
+    return tuple((name, rostype, units.get(name, "")) for name, rostype in zip(names, types, strict=True))
+
+
+@lru_cache(maxsize=512)
+def _common_unit(kind: type[Msg], outer: str) -> str:
+    """Of all numbers of a message class in a field of the unit `outer`: `angular_velocity` is in rad/s, and so is its x.
+
+    Empty where it holds anything else than numbers, of which the word outside is not true, or numbers of several units.
+    """
+    fields = _table(kind)
+    units = {unit for _, _, unit in fields}
+    if len(units) != 1 or not all(NUMBER.fullmatch(rostype) for _, rostype, _ in fields):
+        return ""
+    return units.pop() or outer
 
 
 def rows(message: Msg, folds: Mapping[Path, bool]) -> list[Row]:
@@ -91,30 +120,36 @@ def rows(message: Msg, folds: Mapping[Path, bool]) -> list[Row]:
     return list(_fields(message, (), 0, folds, few))
 
 
-def _fields(msg: Msg, path: Path, depth: int, folds: Mapping[Path, bool], few: bool) -> Iterator[Row]:
-    for name, kind in _table(type(msg)):
-        yield from _row(getattr(msg, name), (*path, name), depth, (name, kind), folds, few)
+def _fields(
+    msg: Msg, path: Path, depth: int, folds: Mapping[Path, bool], few: bool, outer: str = ""
+) -> Iterator[Row]:
+    common = _common_unit(type(msg), outer)
+    for name, kind, unit in _table(type(msg)):
+        yield from _row(getattr(msg, name), (*path, name), depth, (name, kind, unit or common), folds, few)
 
 
 def _row(
-    value: Any, path: Path, depth: int, label: tuple[str, str], folds: Mapping[Path, bool], few: bool
+    value: Any, path: Path, depth: int, label: tuple[str, str, str], folds: Mapping[Path, bool], few: bool
 ) -> Iterator[Row]:
-    name, kind = label
+    name, kind, unit = label
     parts = _is_parts(value)
     if not parts and (not isinstance(value, Msg) or _is_time(value)):
-        yield Row(ARRAY if _needs_line(value) else LEAF, path, depth, name, kind, value)
+        opened = isinstance(value, str) and folds.get(path, False)
+        yield Row(ARRAY if _needs_line(value) else LEAF, path, depth, name, kind, value, opened, unit)
         return
     usual = few and not _is_header(value) if not parts else depth == 0
     opened = folds.get(path, usual)
-    yield Row(BRANCH, path, depth, name, kind, value, opened)
+    yield Row(
+        BRANCH, path, depth, name, kind, value, opened, unit if parts else _common_unit(type(value), unit)
+    )
     if not opened:
         return
     if not parts:
-        yield from _fields(value, path, depth + 1, folds, few)
+        yield from _fields(value, path, depth + 1, folds, few, unit)
         return
     inner = kind.partition("[")[0]
     for index, part in enumerate(value[:MOST_ITEMS]):
-        yield from _row(part, (*path, index), depth + 1, (f"[{index}]", inner), folds, few=False)
+        yield from _row(part, (*path, index), depth + 1, (f"[{index}]", inner, unit), folds, few=False)
     if len(value) > MOST_ITEMS:
         yield Row(MORE, (*path, -1), depth + 1, f"and {len(value) - MOST_ITEMS} more", "", None)
 
@@ -122,7 +157,7 @@ def _row(
 def _count(msg: Msg, most: int) -> int:
     """How many rows a message has unfolded; stops counting beyond `most`."""
     count = 0
-    for name, _ in _table(type(msg)):
+    for name, _, _ in _table(type(msg)):
         value = getattr(msg, name)
         count += 1
         if isinstance(value, Msg) and not _is_time(value):
@@ -211,10 +246,32 @@ def describe(row: Row, now: float = math.nan) -> tuple[str, str]:
     if row.kind == BRANCH:
         return _summary(value, now, opened=row.open), ""
     if isinstance(value, str):
-        return ("", _one_line(value)) if row.kind == ARRAY else (value or "empty", "")
+        line = _whole(value) if row.open else _one_line(value)
+        return ("", line) if row.kind == ARRAY else (value or "empty", "")
     if row.kind == ARRAY:
-        return _array(value)
+        return _array(value, spelled(row.unit))
     return _plain(value, now), ""
+
+
+def unit(row: Row) -> str:
+    """What stands behind the value of a row, as in `m/s²`; empty where that is no number or nobody told its unit.
+
+    Of an array it stands in the second line.
+    """
+    value = row.value
+    if row.kind == BRANCH:
+        closed = isinstance(value, Msg) and not row.open
+        figures = closed and _is_figures([getattr(value, name) for name, _, _ in _table(type(value))])
+        return spelled(row.unit) if figures else ""
+    number_alone = row.kind == LEAF and isinstance(value, int | float) and not isinstance(value, bool)
+    return spelled(row.unit) if number_alone else ""
+
+
+@lru_cache(maxsize=256)
+def spelled(unit: str) -> str:
+    """A unit of a ROS text as people write it: `m/s²` for `m/s2` or `m/s^2`, `°C` for `degC`."""
+    unit = re.sub(r"\bdeg(?=[CF]?(?:\b|\d))", "°", unit).replace("*", "·")
+    return re.sub(r"(?<=[A-Za-z°)])\^?([23])(?!\d)", lambda found: "²³"[int(found[1]) - 2], unit)
 
 
 def _plain(value: Any, now: float) -> str:
@@ -240,6 +297,19 @@ def _one_line(text: str) -> str:
     return " ".join(text[:LONGEST].split())
 
 
+def _whole(text: str) -> str:
+    """A text with its lines, as many as fit on the glass, and how much more there is."""
+    shown = "".join(text[:MOST_LETTERS].splitlines(keepends=True)[:MOST_LINES])
+    rest = len(text) - len(shown)
+    lines = shown.expandtabs(4).splitlines()
+    return "\n".join([*lines, f"… and {number(rest)} more letters"] if rest else lines)
+
+
+def _is_figures(parts: list[Any]) -> bool:
+    """Few enough numbers to stand side by side."""
+    return 0 < len(parts) <= 3 and all(isinstance(part, float) for part in parts)
+
+
 def _summary(value: Any, now: float, *, opened: bool) -> str:
     """What stands beside the name of something that can be folded."""
     if isinstance(value, list | tuple):
@@ -248,16 +318,16 @@ def _summary(value: Any, now: float, *, opened: bool) -> str:
         return ""
     if _is_header(value):
         return _moment(value.stamp, now)
-    parts = [getattr(value, name) for name, _ in _table(type(value))]
-    if 0 < len(parts) <= 3 and all(isinstance(part, float) for part in parts):
+    parts = [getattr(value, name) for name, _, _ in _table(type(value))]
+    if _is_figures(parts):
         return "  ".join(_plainly(part, 2) if math.isfinite(part) else DASH for part in parts)
     texts = [part for part in parts if isinstance(part, str) and part]
     whole = len(texts) == len(parts) <= 2
     return _one_line(" · ".join(texts if whole else texts[:1]))
 
 
-def _array(value: Any) -> tuple[str, str]:
-    """How many numbers; then the least, the greatest and the first few."""
+def _array(value: Any, unit: str) -> tuple[str, str]:
+    """How many numbers; then the least and the greatest with their unit, and the first few."""
     with np.errstate(invalid="ignore"):
         numbers = np.asarray(value)
     count = f"{number(len(value))} values"
@@ -272,8 +342,8 @@ def _array(value: Any) -> tuple[str, str]:
         first += " …"
     if not len(finite):
         return count, first
-    ends = (_short(one, exponent, decimals) for one in (finite.min().item(), finite.max().item()))
-    return count, f"{' to '.join(ends)}   ({first})"
+    span = " to ".join(_short(one, exponent, decimals) for one in (finite.min().item(), finite.max().item()))
+    return count, f"{span} {unit}   ({first})" if unit else f"{span}   ({first})"
 
 
 def _manner(finite: np.ndarray) -> tuple[bool, int]:

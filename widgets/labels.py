@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
 from kivy.lang import Builder
@@ -15,7 +16,7 @@ from kivy.uix.widget import Widget
 from widgets.base import text_texture
 from widgets.theme import theme
 
-__all__ = ["Chip", "Icon", "SectionLabel", "Text", "ValueUnit", "spaced"]
+__all__ = ["Chip", "Icon", "SectionLabel", "Text", "ValueUnit", "spaced", "wrapped"]
 
 HAIR_SPACE = "\u200a"
 
@@ -172,6 +173,17 @@ class ValueUnit(BoxLayout):
         _share, bind=["value", "unit", "font_size", "unit_size", "spacing", "room"], cache=True
     )
     """Part of their sizes that value and unit are written in, 0 to 1."""
+
+
+def wrapped(name: str, room: float, size: float) -> str:
+    """`name` in bold type of `size` broken into lines of `room` [px] after a `/` or `_` where that is possible."""
+    lines, line = [], ""
+    for piece in re.findall(r"[^/_]*[/_]|[^/_]+", name):
+        if line.strip("/_") and text_texture(line + piece, size, theme.font, bold=True).width > room:
+            lines.append(line)
+            line = ""
+        line += piece
+    return "\n".join([*lines, line])
 
 
 class Chip(ButtonBehavior, BoxLayout):

@@ -95,10 +95,14 @@ class MapOverlay(MapGestures, Drawing):
 
     def _badge_pos(self) -> tuple[float, float]:
         x, y, wide, high = self.free_box
-        return x + wide / 2 - self.badge_size[0] / 2, y + high - self.badge_size[1] - dp(8)
+        left, right = self.badge_span if any(self.badge_span) else (x, x + wide)
+        return (left + right - self.badge_size[0]) / 2, y + high - self.badge_size[1] - dp(8)
 
-    badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "free_box"], cache=True)
+    badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "free_box", "badge_span"], cache=True)
     """The age stands at the top of what is free."""
+
+    badge_span = ListProperty([0, 0])
+    """From where to where along that top nothing lies, x [px]; zeros for all of it."""
 
     def _mark_radius(self) -> float:
         return dp(21) if min(self.width, self.height) > dp(440) else dp(16)
@@ -288,7 +292,7 @@ class MapOverlay(MapGestures, Drawing):
             self._robot_shapes(shapes, tuple(self.robot), faded=self.state == "stale")
         else:
             x, y = self._free_middle()
-            word = Word("Waiting for the robot's position", x, y, sp(16), theme.text)
+            word = Word("No position has come yet", x, y, sp(16), theme.text)
             ground(shapes, word, tint(theme.bg, 0.85))
             yield word
         if self.placed:

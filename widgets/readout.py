@@ -129,9 +129,13 @@ class Readout(RobotWidget, BoxLayout):
         old = age_text(self.age) if self.state == "stale" else ""
         if not old:
             return self.name
-        whole = f"{self.name} · {old}"
-        room = text_texture(spaced(whole), theme.size_label, theme.font).width <= self.width
-        return whole if room or self.fitted else old
+        whole, brief = f"{self.name} · {old}", f"{self.name} {old.removesuffix(' old')}"
+        if self.fitted:
+            return whole
+        return next((text for text in (whole, brief) if self._fits(text)), old)
+
+    def _fits(self, heading: str) -> bool:
+        return text_texture(spaced(heading), theme.size_label, theme.font).width <= self.width
 
     heading = AliasProperty(_heading, bind=["name", "state", "age", "fitted", "width"], cache=True)
     """The name, and how old the value is where that must be said; the age alone where there is no room for both."""

@@ -11,7 +11,7 @@ from typing import Any
 
 from kivy.clock import Clock
 from kivy.lang import Builder
-from kivy.metrics import sp
+from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty
 from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.widget import Widget
@@ -26,6 +26,8 @@ HOLD = 1.0
 LONG_HOLD = 3.0
 """The same while a STOP held here alone is not confirmed [s]: who presses it again and stays on it wants it to stop."""
 
+ROOMY = 130
+"""Lower than this it has the icon beside the word while it says a sentence [dp]."""
 LEAST = 12.5
 """Smallest type that a sentence is written in [sp]."""
 
@@ -146,23 +148,24 @@ class StopButton(Control, AnchorLayout):
     """Role of the words."""
 
     def _upright(self) -> bool:
-        return self.width < self.height * 2
+        low = bool(self.sentence) and self.height < dp(ROOMY)
+        return self.width < self.height * 2 and not low
 
-    upright = AliasProperty(_upright, bind=["size"], cache=True)
-    """Icon above the word, because it is not wide."""
+    upright = AliasProperty(_upright, bind=["size", "sentence"], cache=True)
+    """Icon above the word, because it is not wide and there is room below for what it says."""
 
     def _word_size(self) -> float:
         width, height = self.size
         across = width / (5.2 if self.upright else 6.4) * (0.78 if self.phase == "stopped" else 1.0)
         return min(across, height * (0.23 if self.upright else 0.36))
 
-    word_size = AliasProperty(_word_size, bind=["size", "phase"], cache=True)
+    word_size = AliasProperty(_word_size, bind=["size", "phase", "upright"], cache=True)
     """Height of the type [px]."""
 
     def _sentence_size(self) -> float:
         return max(min(self.word_size * 0.55, self.width / 16), sp(LEAST + 1.5 * self.upright))
 
-    sentence_size = AliasProperty(_sentence_size, bind=["word_size", "size"], cache=True)
+    sentence_size = AliasProperty(_sentence_size, bind=["word_size", "size", "upright"], cache=True)
     """Height of the sentence's type [px]; it goes on two lines where it is too long."""
 
     def __init__(self, **kwargs: Any) -> None:

@@ -152,8 +152,8 @@ class DriveScreen(FloatLayout):
             button.bind(on_release=act)
             self.ids[name] = button
             self.actions.add_widget(button)
-        self.no_tasks = Card(floating=True, padding=("10dp", "4dp"))
-        note = Text(text="This robot offers no tasks.", role="muted", font_size="14sp", halign="center")
+        self.no_tasks = Card(floating=True, padding=("6dp", "2dp"))
+        note = Text(text="It offers no tasks.", role="muted", font_size="14sp", halign="center")
         note.size_hint_y, note.valign = 1, "middle"
         note.bind(size=note.setter("text_size"))
         self.no_tasks.add_widget(note)

@@ -269,6 +269,7 @@ class MissionScreen(FloatLayout):
             left = bar.x - area.x if beside else 0.0
             low = (bar if beside else video).top - area.y
         self.map.insets = [left, low, area.right - places["tools"].x, top]
+        self.map.badge_span = [video.right, places["tools"].x] if self._form == "tall" else [0, 0]
 
     def _place_tasks(self, rect: Rect | None) -> None:
         """On a phone the task's buttons, or what stands for them, are beside STOP; elsewhere in the panel."""

@@ -49,6 +49,7 @@ ICONS = {
 """Icon of a type; any other is a pair of braces."""
 
 Builder.load_string("""
+#:import wrapped widgets.labels.wrapped
 <Beside@Label>:
     font_name: theme.font
     font_size: sp(13.5)
@@ -205,11 +206,11 @@ Builder.load_string("""
             pos_hint: {'center_y': .5}
             Text:  # whole, on as many lines as it takes: here alone a long name can be read
                 id: title
-                text: root.name
+                text: wrapped(root.name, self.width, self.font_size)
                 bold: True
-                font_size: sp(18) if len(root.name) < 22 else sp(16)
+                font_size: sp(18)
             Text:
-                text: root.type
+                text: wrapped(root.type, self.width, self.font_size)
                 role: 'muted'
                 font_size: sp(14)
         Chip:
@@ -455,11 +456,8 @@ class TopicsScreen(FloatLayout):
         detail.pace = age_text(age) if stale else rate or ("live" if state == "live" else "")
         detail.pace_icon, detail.pace_role = ("schedule", "warn") if stale else ("sensors", "ok")
         if math.isfinite(once):
-            detail.pace, detail.pace_icon, detail.pace_role = (
-                f"once, {age_text(once)[:-3]}ago",
-                "info",
-                "muted",
-            )
+            words = "once" if detail.alone else f"once, {age_text(once)[:-3]}ago"
+            detail.pace, detail.pace_icon, detail.pace_role = words, "info", "muted"
 
     # what the fingers do
 

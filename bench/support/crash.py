@@ -130,6 +130,7 @@ async def _look(client: Client, ledger: Ledger) -> list[str]:
         for id in ledger.acknowledged
         if id in told and not told[id]["acknowledged_by"]
     ]
+    ledger.acknowledged -= {id for id in ledger.acknowledged if not told.get(id, {}).get("acknowledged_by")}
     # what was asked for and not answered is settled now
     ledger.places = {name: kept[name] for name in {*sure, *ledger.unsure} if name in kept}
     ledger.unsure.clear()

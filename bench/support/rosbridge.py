@@ -4,7 +4,7 @@
 `websockets.broadcast`. Prints `{"port": PORT}`; then each line of JSON on the standard input is answered by one:
 
 - `{"do": "publish", "topic": T, "count": N, "step": M}`: publishes N messages, M in each step of the loop;
-  `{"cpu": SECONDS}` is the process's own time meanwhile and shortly after;
+  `{"cpu": SECONDS}` is the process's own time meanwhile and shortly after, less what so long a wait costs it anyhow;
 - `{"do": "flow", "rates": {T: HZ}}`: publishes so often from now on, nothing else any more;
 - `{"do": "cpu"}`: `{"cpu": SECONDS}` since the start, user and system;
 - `{"do": "commands"}`: `{"commands": [[ARRIVED, NUMBER]…]}`: when which `linear.x` came on /cmd_vel, `time.monotonic()`.
@@ -137,15 +137,17 @@ async def flow(publish: Callable[[str], None], topic: str, rate: float) -> None:
 
 
 async def burst(publish: Callable[[str], None], asked: Mapping[str, Any]) -> float:
-    """The process's own time [s] that publishing takes."""
+    """The process's own time [s] that publishing takes, without what waiting for the last message costs by itself."""
     topic, step = asked["topic"], asked["step"]
+    rested = time.process_time()
+    await asyncio.sleep(SETTLE)
     began = time.process_time()
     for _ in range(asked["count"] // step):
         for _ in range(step):
             publish(topic)
         await asyncio.sleep(0)
     await asyncio.sleep(SETTLE)
-    return time.process_time() - began
+    return time.process_time() - began - (began - rested)
 
 
 async def run(kind: str) -> None:

@@ -15,6 +15,7 @@ from bridge.codec.reader import from_builtins, shown, to_builtins
 from bridge.codec.selection import check_paths, select
 from bridge.codec.text import from_json, to_json
 from bridge.codec.unread import Unread, unread
+from bridge.codec.weight import weight
 
 __all__ = [
     "Unread",
@@ -29,4 +30,5 @@ __all__ = [
     "to_cbor",
     "to_json",
     "unread",
+    "weight",
 ]

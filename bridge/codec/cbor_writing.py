@@ -26,7 +26,8 @@ TAGS = {"B": 64, "H": 69, "I": 70, "Q": 71, "b": 72, "h": 77, "i": 78, "q": 79, 
 UNSIGNED, NEGATIVE, BYTES, TEXT, ARRAY, MAP, TAG = range(0, 7 << 5, 1 << 5)
 """The first byte of a value says of which kind it is, in its upper three bits."""
 _DOUBLE = b"\xfb"
-_AS_HEADS = ((1 << 8, ">BB", 24), (1 << 16, ">BH", 25), (1 << 32, ">BI", 26))
+_HEAD_2, _HEAD_4, _HEAD_8 = (struct.Struct(f">B{code}").pack for code in "HIQ")
+"""A head whose number takes 2, 4 or 8 bytes."""
 
 Writer = Callable[[Any], bytes]
 """Gives a value as CBOR. Raises TypeError, AttributeError, OverflowError, struct.error or UnicodeEncodeError for a value
@@ -52,10 +53,13 @@ def head(kind: int, number: int) -> bytes:
     """The first bytes of a value: its kind, and its value, length or tag; struct.error above 64 bits."""
     if number < 24:
         return bytes((kind | number,))
-    for end, layout, length in _AS_HEADS:
-        if number < end:
-            return struct.pack(layout, kind | length, number)
-    return struct.pack(">BQ", kind | 27, number)
+    if number < 1 << 8:
+        return bytes((kind | 24, number))
+    if number < 1 << 16:
+        return _HEAD_2(kind | 25, number)
+    if number < 1 << 32:
+        return _HEAD_4(kind | 26, number)
+    return _HEAD_8(kind | 27, number)
 
 
 def _parts(
@@ -87,7 +91,9 @@ def _joined(paths: list[str], writers: list[Writer], end: bytes) -> Writer:
 def _maker(field: Field, ros2: bool) -> Callable[[bytes], Writer]:
     """What makes the writer of a field's value."""
     if field.type is not None:
-        return functools.partial(_messages, message_writer(field.type, ros2))
+        return functools.partial(_several, message_writer(field.type, ros2))
+    if field.array and field.base == "string":
+        return functools.partial(_several, _text(b""))
     code = CODES.get(field.base)
     if field.array and code in TAGS and bare(field.hint) is not bytes:
         return functools.partial(_numbers, code)
@@ -123,24 +129,25 @@ def _numbers(code: str, before: bytes) -> Writer:
 
     def write(values: Any) -> bytes:
         if isinstance(values, array):
-            data = memoryview(little(values))
-            tag = _tag(values.typecode)
-        else:
-            data = memoryview(struct.pack(f"<{len(values)}{code}", *values))
-            tag = b"" if code == "B" else _tag(code)
-        return b"".join((before, tag, head(BYTES, data.nbytes), data))
+            data = little(values).tobytes()
+            return b"".join((before, _array_head(values.typecode, len(data)), data))
+        data = struct.pack(f"<{len(values)}{code}", *values)
+        beginning = head(BYTES, len(data)) if code == "B" else _array_head(code, len(data))
+        return b"".join((before, beginning, data))
 
     return write
 
 
-def _messages(write: Writer, before: bytes) -> Writer:
+def _several(write: Writer, before: bytes) -> Writer:
     return lambda values: b"".join((before, head(ARRAY, len(values)), *map(write, values)))
 
 
-def _tag(code: str) -> bytes:
+@functools.lru_cache(maxsize=256)
+def _array_head(code: str, size: int) -> bytes:
+    """Tag and head of a typed array of `size` bytes."""
     if code not in TAGS:
         raise TypeError(f"an array of {code!r} has no CBOR form")
-    return head(TAG, TAGS[code])
+    return head(TAG, TAGS[code]) + head(BYTES, size)
 
 
 def little(values: array[Any]) -> array[Any]:

@@ -78,8 +78,15 @@ def _list_reader(item: Reader) -> Reader:
     def read(obj: Any, path: str) -> list[Any]:
         if not isinstance(obj, (list, array)):
             raise _wrong(path, obj, "a list")
-        if item is _read_float and isinstance(obj, array) and obj.typecode in "fd":
-            return obj.tolist()
+        if (
+            isinstance(obj, array) and obj
+        ):  # all of a kind: what holds for the first, least and most holds for all
+            if item is _read_float and obj.typecode in "fd":
+                return obj.tolist()
+            kinds = {
+                type(item(value, f"{path}[{obj.index(value)}]")) for value in (obj[0], min(obj), max(obj))
+            }
+            return list(map(float, obj)) if kinds == {float} else obj.tolist()
         return [item(value, f"{path}[{index}]") for index, value in enumerate(obj)]
 
     return read

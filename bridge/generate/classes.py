@@ -5,8 +5,9 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterator, Mapping
 
+from bridge.generate.comments import unit_in
 from bridge.generate.extras import BASES, DEFAULTS
-from bridge.generate.hints import RANGES, Names, default_of, hint_of, literal, python_name
+from bridge.generate.hints import NUMBERS, RANGES, Names, default_of, hint_of, literal, python_name
 from bridge.generate.library import Library
 from bridge.generate.model import Constant, Field, Kind, Part, TextError
 
@@ -35,6 +36,9 @@ def class_text(part: Part, library: Library, names: Names) -> str:
         [f'"{each.kind.rostype}"' for each in part.fields],
         "()",
     )
+    if units := _units(part, set(names.local.values())):
+        items = [f'"{name}": "{unit}"' for name, unit in units.items()]
+        lines += listed(f"{_INDENT}UNITS: ClassVar[dict[str, str]] = ", items, "{}")
     if constants:
         lines.append("")
     for constant in constants:
@@ -58,6 +62,21 @@ def listed(start: str, items: list[str], brackets: str = "[]") -> list[str]:
         *(f"{indent}{_INDENT}{item}," for item in items),
         f"{indent}{brackets[1]}",
     ]
+
+
+def _units(part: Part, classes: set[str]) -> dict[str, str]:
+    """The unit of each field whose comment names one; of all numbers where only the comment on the whole does so."""
+    if any(each.name == "UNITS" for each in part.constants):  # the text has that name for itself
+        return {}
+    numbers = [each.kind.base in NUMBERS for each in part.fields]
+    found = {
+        python_name(each.name, classes): unit
+        for each, number in zip(part.fields, numbers, strict=True)
+        if (number or "/" in each.kind.base) and (unit := unit_in(each.comment))
+    }
+    if not found and all(numbers) and (unit := unit_in(part.comment)):
+        return {python_name(each.name, classes): unit for each in part.fields}
+    return found
 
 
 def _base(part: Part, parent: Part | None, names: Names) -> str:

@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 
-__all__ = ["Comments", "read_comments", "without_comment"]
+__all__ = ["Comments", "read_comments", "unit_in", "without_comment"]
 
 _NAME = re.compile(r"\s*[\w/]+(?:<=\d+)?(?:\[[<=\d]*\])?\s+(\w+)")
+_UNIT = re.compile(r"(?<![\w\])])\[([A-Za-zµΩ°%(][\w /^*·.()%°-]{0,15})\]")
+"""As in `[m/s2]`; what begins with a figure is a range, and what follows a name is an index."""
 _UNQUOTED_TEXT = re.compile(r"\s*w?string\s+\w+\s*=\s*[^\s'\"]")
 
 
@@ -52,6 +54,12 @@ def read_comments(text: str) -> Comments:
     if above:
         found.part = _joined([found.part, *above])
     return found
+
+
+def unit_in(comment: str) -> str:
+    """The unit that `comment` names in square brackets, as in `[m/s]`; empty where it names none, or more than one."""
+    units = set(_UNIT.findall(comment))
+    return str(units.pop()) if len(units) == 1 else ""
 
 
 def without_comment(line: str) -> tuple[str, str | None]:

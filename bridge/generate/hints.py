@@ -44,6 +44,7 @@ _TAKEN = {
     "math",
     "MSGTYPE",
     "ROSTYPES",
+    "UNITS",
 }
 """What a field cannot be called in a class, where it would hide what the next annotation needs."""
 

@@ -62,6 +62,7 @@ class Accel(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "geometry_msgs/Accel"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("geometry_msgs/Vector3", "geometry_msgs/Vector3")
+    UNITS: ClassVar[dict[str, str]] = {"linear": "m/s2", "angular": "rad/s2"}
     linear: Vector3 = Vector3()
     """[m/s2]"""
     angular: Vector3 = Vector3()
@@ -110,6 +111,16 @@ class Inertia(Msg, frozen=True, gc=False):
         "float64",
         "float64",
     )
+    UNITS: ClassVar[dict[str, str]] = {
+        "m": "kg",
+        "com": "m",
+        "ixx": "kg m2",
+        "ixy": "kg m2",
+        "ixz": "kg m2",
+        "iyy": "kg m2",
+        "iyz": "kg m2",
+        "izz": "kg m2",
+    }
     m: float = 0.0
     """Its mass [kg]."""
     com: Vector3 = Vector3()
@@ -142,6 +153,7 @@ class Point(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "geometry_msgs/Point"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "z": "m"}
     x: float = 0.0
     y: float = 0.0
     z: float = 0.0
@@ -152,6 +164,7 @@ class Point32(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "geometry_msgs/Point32"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("float32", "float32", "float32")
+    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "z": "m"}
     x: float = 0.0
     y: float = 0.0
     z: float = 0.0
@@ -208,6 +221,7 @@ class Pose2D(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "geometry_msgs/Pose2D"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "theta": "rad"}
     x: float = 0.0
     """[m]"""
     y: float = 0.0
@@ -267,6 +281,7 @@ class Transform(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "geometry_msgs/Transform"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("geometry_msgs/Vector3", "geometry_msgs/Quaternion")
+    UNITS: ClassVar[dict[str, str]] = {"translation": "m"}
     translation: Vector3 = Vector3()
     """[m]"""
     rotation: Quaternion = Quaternion()
@@ -288,6 +303,7 @@ class Twist(additions.Twist, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "geometry_msgs/Twist"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("geometry_msgs/Vector3", "geometry_msgs/Vector3")
+    UNITS: ClassVar[dict[str, str]] = {"linear": "m/s", "angular": "rad/s"}
     linear: Vector3 = Vector3()
     """[m/s]"""
     angular: Vector3 = Vector3()
@@ -336,6 +352,7 @@ class Wrench(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "geometry_msgs/Wrench"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("geometry_msgs/Vector3", "geometry_msgs/Vector3")
+    UNITS: ClassVar[dict[str, str]] = {"force": "N", "torque": "N m"}
     force: Vector3 = Vector3()
     """[N]"""
     torque: Vector3 = Vector3()

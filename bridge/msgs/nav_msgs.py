@@ -48,6 +48,7 @@ class MapMetaData(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "nav_msgs/MapMetaData"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "float32", "uint32", "uint32", "geometry_msgs/Pose")
+    UNITS: ClassVar[dict[str, str]] = {"resolution": "m"}
     map_load_time: Time = Time()
     resolution: float = 0.0
     """Edge of one cell [m]."""
@@ -87,6 +88,7 @@ class GetPlanRequest(Msg, frozen=True, gc=False):
         "geometry_msgs/PoseStamped",
         "float32",
     )
+    UNITS: ClassVar[dict[str, str]] = {"tolerance": "m"}
     start: PoseStamped = PoseStamped()
     goal: PoseStamped = PoseStamped()
     tolerance: float = 0.0
@@ -116,6 +118,7 @@ class GridCells(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "nav_msgs/GridCells"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float32", "float32", "geometry_msgs/Point[]")
+    UNITS: ClassVar[dict[str, str]] = {"cell_width": "m", "cell_height": "m", "cells": "m"}
     header: Header = Header()
     cell_width: float = 0.0
     """Edge of a cell along x [m]."""

@@ -35,6 +35,7 @@ class Point2D(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "vision_msgs/Point2D"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"x": "pixel", "y": "pixel"}
     x: float = 0.0
     y: float = 0.0
 
@@ -44,6 +45,7 @@ class Pose2D(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "vision_msgs/Pose2D"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("vision_msgs/Point2D", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"theta": "rad"}
     position: Point2D = Point2D()
     theta: float = 0.0
     """[rad]"""
@@ -54,6 +56,7 @@ class BoundingBox2D(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "vision_msgs/BoundingBox2D"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("vision_msgs/Pose2D", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"size_x": "pixel", "size_y": "pixel"}
     center: Pose2D = Pose2D()
     size_x: float = 0.0
     """Width before it is turned [pixel]."""
@@ -75,6 +78,7 @@ class BoundingBox3D(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "vision_msgs/BoundingBox3D"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("geometry_msgs/Pose", "geometry_msgs/Vector3")
+    UNITS: ClassVar[dict[str, str]] = {"center": "m", "size": "m"}
     center: Pose = Pose()
     """[m]"""
     size: Vector3 = Vector3()
@@ -128,6 +132,7 @@ class Detection2D(Msg, frozen=True, gc=False):
         "vision_msgs/BoundingBox2D",
         "string",
     )
+    UNITS: ClassVar[dict[str, str]] = {"bbox": "pixel"}
     header: Header = Header()
     results: list[ObjectHypothesisWithPose] = []
     """What it may be."""
@@ -156,6 +161,7 @@ class Detection3D(Msg, frozen=True, gc=False):
         "vision_msgs/BoundingBox3D",
         "string",
     )
+    UNITS: ClassVar[dict[str, str]] = {"bbox": "m"}
     header: Header = Header()
     results: list[ObjectHypothesisWithPose] = []
     """What it may be."""

@@ -39,7 +39,7 @@ from bridge.protocol.ops import (
 )
 from bridge.protocol.pending import Calls, Goals
 from bridge.protocol.png import MOST_FILTERED, pixels, to_png
-from bridge.protocol.server_session import LARGEST_HEARD, ServerSession
+from bridge.protocol.server_session import LARGEST_HEARD, MOST_CALLS, ServerSession
 from bridge.protocol.wire import (
     LARGEST_ARGUMENTS,
     arguments,
@@ -78,6 +78,7 @@ __all__ = [
     "LARGEST_TOLD",
     "LEVELS",
     "MISSING",
+    "MOST_CALLS",
     "MOST_FILTERED",
     "OPS",
     "Op",

@@ -43,6 +43,8 @@ LARGEST_TOLD = 33_554_432
 """The largest frame that a client takes, a big map is one, and the most that may wait in fragments [byte]."""
 _FILTERED = 1_048_576
 """Bytes in filtered rows of pictures that a client reads of a frame: it gets what it asked for."""
+_MOST_VALUES = 250_000
+"""Values in one binary frame that a client reads, a number array counted as one: a path of some thousand poses."""
 MOST_CALLS = 1000
 """So many calls may wait for their answer."""
 MOST_GOALS = 1000
@@ -114,7 +116,7 @@ class ClientSession:
         self.goals = Goals("goal", MOST_GOALS)
         """Goals of ours until the server says what became of them."""
         self._limit = limit_bytes
-        self._arrivals = Arrivals(limit_bytes, filtered=_FILTERED)
+        self._arrivals = self._nothing_yet()
         self._numbers = itertools.count(1)
 
     def receive(self, frame: str | bytes, now: float) -> list[Arrival]:
@@ -254,7 +256,7 @@ class ClientSession:
 
     def lose(self) -> None:
         """The connection is gone, and with it all answers, unfinished fragments, and whoever gave goals."""
-        self._arrivals = Arrivals(self._limit, filtered=_FILTERED)
+        self._arrivals = self._nothing_yet()
         given, self.given = self.given, {}
         with contextlib.ExitStack() as stack:
             for each in reversed(given.values()):
@@ -275,6 +277,9 @@ class ClientSession:
         for of_topic in list(self.subscriptions.values()):
             for subscription in list(of_topic.values()):
                 yield self._spelled(subscription.op)
+
+    def _nothing_yet(self) -> Arrivals:
+        return Arrivals(self._limit, filtered=_FILTERED, most_values=_MOST_VALUES)
 
     def _spelled(self, op: AnyOp) -> AnyOp:
         """The operation with its type as the server spells types."""

@@ -24,7 +24,7 @@ _LENGTH_AND_NAME = struct.Struct(">I4s")
 _CHANNELS = {2: 3, 6: 4}
 """Bytes of a pixel by colour type: RGB and, as a browser's canvas writes it, RGBA."""
 _LONGEST_SIDE = 1 << 20
-MOST_FILTERED = 131_072
+MOST_FILTERED = 32_768
 """So many bytes of rows may be filtered: each takes a step of Python to restore, those of other rows nothing [byte]."""
 
 

@@ -51,7 +51,7 @@ NAMELESS = (None, UNSET)
 _TYPED = (Subscribe, Advertise, AdvertiseService, AdvertiseAction)
 LARGEST_HEARD = 16_777_216
 """The largest frame that a server takes, and the most that may wait in fragments [byte]."""
-MOST_VALUES = 100_000
+MOST_VALUES = 50_000
 """Values in one binary frame, a number array counted as one."""
 MOST_SUBSCRIPTIONS = 1000
 """Subscriptions of one client, each id counted."""
@@ -83,6 +83,7 @@ class ServerSession:
         """Longest text frame [characters] for everything sent to it; None for no end."""
         self.ros2 = False
         """It has spelled a type as `pkg/msg/Type`, so it wants times as `sec` and `nanosec` where it names no type."""
+        self._limit = limit_bytes
         self._arrivals = Arrivals(limit_bytes, most_values=MOST_VALUES)
         self._asked: dict[str, dict[Id, Subscribed]] = {}
         self._wanted: dict[str, Subscribed] = {}
@@ -327,6 +328,7 @@ class ServerSession:
         ):
             forgotten.clear()
         self._subscriptions = 0
+        self._arrivals = Arrivals(self._limit, most_values=MOST_VALUES)  # with what was unfinished
         try:
             self._calls.lose()
         finally:

@@ -70,6 +70,9 @@ class EventLog:
             if not rows[id].acknowledged_by
         ]
         with self._ledger.together():
+            for id in wanted:
+                if rows[id].acknowledged_by and rows[id] is not self._ledger.stored("events").get(id):
+                    self._ledger.order("events", id, rows[id])  # on its way: this answer waits for it as well
             for event in fresh:
                 self._ledger.order("events", event.id, event, lambda event=event: publish(event))  # type: ignore[misc]
         return fresh

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fcntl
+import math
 import os
 import sqlite3
 import time
@@ -11,15 +12,15 @@ from contextlib import closing, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 
-__all__ = ["PATIENCE", "Files", "Taken"]
+__all__ = ["BACKUPS_KEPT", "PATIENCE", "Files", "Taken"]
 
 PATIENCE = 5.0
 """How long to wait for another program that has the database [s]."""
 
 DAMAGED_KEPT = 3
 """Broken files that are kept for whoever wants to look into them."""
-NEWEST_KEPT, DAYS_KEPT = 4, 7
-"""Backups that are kept: the newest ones, and of each of the last days the newest."""
+BACKUPS_KEPT = 5
+"""Backups that are kept: one half are the newest ones, the others the newest of each of the days before."""
 _PARTS = ("", "-wal", "-shm", "-journal")
 
 
@@ -30,10 +31,16 @@ class Taken(Exception):
 class Files:
     """The records in one file, and what lies beside it."""
 
-    def __init__(self, path: Path, now: Callable[[], float] = time.time, patience: float = PATIENCE) -> None:
+    def __init__(
+        self,
+        path: Path,
+        now: Callable[[], float] = time.time,
+        patience: float = PATIENCE,
+        backups: int = BACKUPS_KEPT,
+    ) -> None:
         """`path` is the database, which need not be there; `now` names backups and broken files.
 
-        `patience` [s] is waited for another process that has it.
+        `patience` [s] is waited for another process that has it; `backups` are kept, 0 makes none.
 
         Raises OSError when its directory cannot be made.
         """
@@ -42,7 +49,7 @@ class Files:
         """The database."""
         self.backups_in = path.parent / "backups"
         """Where its backups are."""
-        self._now, self._patience = now, patience
+        self._now, self._patience, self._keep = now, patience, backups
         self._lock = -1
 
     def take(self) -> None:
@@ -119,11 +126,13 @@ class Files:
         """All backups, oldest first."""
         return sorted(self.backups_in.glob(f"{self.path.stem}-*.sqlite3"))
 
-    def back_up(self) -> Path:
+    def back_up(self) -> Path | None:
         """Copy the database as it is to a backup while it goes on being used, and let go of old backups.
 
-        Raises OSError or sqlite3.Error when that cannot be done; nothing half is left.
+        None when none are wanted. Raises OSError or sqlite3.Error when that cannot be done; nothing half is left.
         """
+        if not self._keep:
+            return None
         self.backups_in.mkdir(exist_ok=True)
         fresh = self.backups_in / "fresh.new"
         try:
@@ -137,13 +146,19 @@ class Files:
         self._thin()
         return backup
 
+    def backup_age(self) -> float:
+        """Of the newest backup [s]; infinite when there is none, or its time is yet to come."""
+        backups = self.backups()
+        age = self._now() - backups[-1].stat().st_mtime if backups else math.inf
+        return age if age >= 0.0 else math.inf
+
     def _thin(self) -> None:
         backups = self.backups()
-        newest_of_day = {backup.name.rsplit("-", 2)[0]: backup for backup in backups}
-        keep = {*backups[-NEWEST_KEPT:], *sorted(newest_of_day.values())[-DAYS_KEPT:]}
-        for backup in backups:
-            if backup not in keep:
-                backup.unlink(missing_ok=True)
+        newest = backups[-((self._keep + 1) // 2) :]
+        days = {backup.name.rsplit("-", 2)[0]: backup for backup in backups if backup not in newest}
+        older = sorted(days.values())[::-1][: self._keep - len(newest)]
+        for backup in set(backups) - {*newest, *older}:
+            backup.unlink(missing_ok=True)
 
     def _stamp(self) -> str:
         return datetime.fromtimestamp(self._now(), UTC).strftime("%Y%m%d-%H%M%S-%f")

@@ -85,6 +85,13 @@ class Ledger:
         if facts:
             self._hand_in(Job(facts=facts))
 
+    def owe(self, facts: list[Put], trouble: str) -> None:
+        """Have facts that could not be written just now, for that reason."""
+        self._trouble = trouble
+        for put in facts:
+            self.memory.see(put)
+        self.memory.failed(Job(facts=facts))
+
     def end(self) -> None:
         """Write what could not be written, and with it that this was an orderly end."""
         put = Put("facts", "clean", "1")
@@ -114,19 +121,21 @@ class Ledger:
             return
         self.memory.put(job)
         if not self._writer.submit(job, self._told):
-            self._told(job, f"The database is slow: {self.memory.pending - 1} changes wait already.")
+            self.memory.failed(job)
+            job.settle(f"The database is slow: {self.memory.pending} changes wait already.")
 
     def _told(self, job: Job, problem: str) -> None:
         if problem:
             self.memory.failed(job)
-        else:
-            self.memory.succeeded(job)
-        self._trust(problem)
-        if not problem:
-            for table in dict.fromkeys(put.table for put in job.puts):
-                for call in self.watchers.get(table, ()):
-                    call()
-        job.settle(problem)
+            self._trust(problem)
+            job.settle(problem)
+            return
+        self.memory.succeeded(job)
+        self._trust("")
+        for table in dict.fromkeys(put.table for put in job.puts):
+            for call in self.watchers.get(table, ()):
+                call()
+        job.settle("")
 
     def _trust(self, problem: str) -> None:
         if bool(problem) != bool(self._trouble):

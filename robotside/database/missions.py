@@ -45,8 +45,8 @@ class Missions:
         return next(iter(self.current.home), None)
 
     def names(self) -> list[str]:
-        """Of all missions that have one, in the order of the alphabet."""
-        found = {mission.name for mission in self._ledger.rows("missions").values()}
+        """Of all missions on the disk that have one, in the order of the alphabet."""
+        found = {mission.name for mission in self._ledger.stored("missions").values()}
         return sorted(filter(None, found), key=lambda name: (name.casefold(), name))
 
     def revisions(self, name: str) -> list[Mission]:
@@ -63,8 +63,8 @@ class Missions:
         ledger = self._ledger
         with ledger.together():
             rows = ledger.rows("missions")
-            if mission.name not in {kept.name for kept in rows.values()}:
-                within(len(self.names()) + 1, MOST, "missions")
+            names = {kept.name for kept in rows.values()} | {mission.name}
+            within(len(names - {""}), MOST, "missions")
             key = ledger.count("last mission")
             ledger.order("missions", key, mission)
             ledger.order("facts", "mission", str(key), then)

@@ -6,6 +6,8 @@ import secrets
 import sqlite3
 import time
 from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,12 +16,12 @@ from alembic.config import Config
 from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
 from alembic.util import CommandError
-from sqlalchemy import Engine
+from sqlalchemy import Connection, Engine, text
 from sqlalchemy.engine import URL, make_url
 from sqlalchemy.exc import ArgumentError, NoSuchModuleError, SQLAlchemyError
 
 from bridge.errors import BridgeError
-from robotside.database.files import PATIENCE, Files, Taken
+from robotside.database.files import BACKUPS_KEPT, PATIENCE, Files, Taken
 from robotside.database.legacy import left_behind, put_away
 from robotside.database.records import Records
 from robotside.database.rows import Content, Put
@@ -27,6 +29,9 @@ from robotside.database.storage import NotWritten, Storage, engine_of, not_writt
 from robotside.database.writer import CallSoon, Keeper, Threaded
 
 __all__ = ["CannotOpen", "open_records", "upgrade"]
+
+_KEEPALIVE = {"tcp_keepalives_idle": 5, "tcp_keepalives_interval": 5, "tcp_keepalives_count": 2}
+"""After which a server gives up a robot that says nothing [s, s, times]."""
 
 _BACKENDS = ("sqlite", "postgresql", "mysql", "mariadb")
 
@@ -50,22 +55,21 @@ def open_records(
     url: str | None,
     call_soon: CallSoon,
     *,
+    backups: int = BACKUPS_KEPT,
     patience: float = PATIENCE,
     now: Callable[[], float] = time.time,
 ) -> Records:
     """Open what is kept in `directory`, or at `url` as SQLAlchemy writes it; CannotOpen says why it cannot be.
 
     `call_soon` brings what the writing thread tells to the thread of the records, as a loop's `call_soon_threadsafe`
-    does. `patience` [s] is waited for another program that has the records. Anything unusual is in `problems`.
+    does. Of a SQLite file `backups` are kept. `patience` [s] is waited for another program that has the records. Anything
+    unusual is in `problems`.
     """
-    keeper = _keeper(directory, url, patience, now)
+    keeper = _keeper(directory, url, partial(Files, now=now, patience=patience, backups=backups), patience)
     try:
         opened = keeper.open()
         puts, said = _first_words(opened, directory)
-        opened.storage.write(puts)
-        for put in puts:
-            opened.content[put.table][put.key] = put.value
-        put_away(directory)
+        trouble = _tried(opened, puts)
     except NotWritten as problem:
         keeper.close()
         raise CannotOpen(str(problem)) from problem
@@ -75,6 +79,10 @@ def open_records(
     writer = Threaded(keeper, call_soon)
     records = Records(opened.content, writer, writer.close)
     records.problems += [*opened.problems, *said]
+    if trouble:
+        records.owe(puts, trouble)
+    else:
+        put_away(directory)
     writer.on_idle = records.try_again
     writer.on_trouble = records.say_trouble
     writer.on_damage = lambda: records.rebuild(writer.rebuild)
@@ -82,9 +90,11 @@ def open_records(
     return records
 
 
-def _keeper(directory: Path, url: str | None, patience: float, now: Callable[[], float]) -> _Local | _Server:
+def _keeper(
+    directory: Path, url: str | None, files: Callable[[Path], Files], patience: float
+) -> _Local | _Server:
     if not url:
-        return _Local(directory / "records.sqlite3", patience, now)
+        return _Local(directory / "records.sqlite3", files, patience)
     parsed = _parsed(url)
     if parsed.get_backend_name() != "sqlite":
         return _Server(parsed, patience)
@@ -92,7 +102,7 @@ def _keeper(directory: Path, url: str | None, patience: float, now: Callable[[],
         raise CannotOpen(
             f"The database {url!r} would be gone with the process; name a file, as sqlite:///FILE."
         )
-    return _Local(Path(parsed.database), patience, now)
+    return _Local(Path(parsed.database), files, patience)
 
 
 def _first_words(opened: _Opened, directory: Path) -> tuple[list[Put], list[str]]:
@@ -117,6 +127,19 @@ def _first_words(opened: _Opened, directory: Path) -> tuple[list[Put], list[str]
             Put("facts", "last mission", "1"),
         ]
     return puts, left.problems
+
+
+def _tried(opened: _Opened, puts: list[Put]) -> str:
+    """Write the first rows; a robot whose disk is full is served all the same, with the reason as one sentence."""
+    try:
+        opened.storage.write(puts)
+    except NotWritten as problem:
+        if problem.damaged:
+            raise
+        return str(problem)
+    for put in puts:
+        opened.content[put.table][put.key] = put.value
+    return ""
 
 
 def upgrade(engine: Engine, before: Callable[[], object] = lambda: None) -> None:
@@ -175,11 +198,11 @@ def _shown(url: str) -> str:
 class _Local(Keeper):
     """A SQLite file, that is mended when it is broken and backed up."""
 
-    def __init__(self, path: Path, patience: float, now: Callable[[], float]) -> None:
+    def __init__(self, path: Path, files: Callable[[Path], Files], patience: float) -> None:
         self._patience = patience
         directory = path.parent
         try:
-            self._files = Files(path, now, patience)
+            self._files = files(path)
             self._files.take()
         except OSError as error:
             why = (error.strerror or str(error)).lower()
@@ -231,6 +254,10 @@ class _Local(Keeper):
         except (OSError, sqlite3.Error) as error:
             raise not_written(error) from error
 
+    def backup_age(self) -> float:
+        """Of the newest backup [s]; infinite when there is none, or it is of the future."""
+        return self._files.backup_age()
+
     def close(self) -> None:
         """Let go of the file."""
         if self._storage is not None:
@@ -267,9 +294,12 @@ class _Server(Keeper):
         except ImportError as missing:
             said = f"For {url.drivername} the package {missing.name!r} is needed, which is not installed."
             raise CannotOpen(said) from missing
+        self._lock: Connection | None = None
+        self._patience = patience
 
     def open(self) -> _Opened:
-        """Everything it has."""
+        """Everything it has, unless another robot side works with it."""
+        self._take()
         upgrade(self._storage.engine)
         content, unread = self._storage.load()
         return _Opened(self._storage, content, unread, 0)
@@ -280,4 +310,33 @@ class _Server(Keeper):
 
     def close(self) -> None:
         """Let go of the server."""
+        if self._lock is not None:
+            with suppress(SQLAlchemyError):
+                self._lock.close()
         self._storage.close()
+
+    def _take(self) -> None:
+        """Hold a lock for as long as the connection lives: what is in memory here would not know what others write.
+
+        PostgreSQL looks after its connections, so that a robot without power loses it soon. MariaDB has no such lock.
+        """
+        engine = self._storage.engine
+        if engine.dialect.name != "postgresql":
+            return
+        try:
+            self._lock = engine.connect()
+            for name, value in _KEEPALIVE.items():
+                self._lock.execute(text(f"SET {name} = {value}"))
+            end = time.monotonic() + self._patience
+            while not (taken := self._lock.scalar(text("SELECT pg_try_advisory_lock(7474)"))):
+                if time.monotonic() > end:
+                    break
+                time.sleep(0.05)
+            self._lock.commit()
+        except SQLAlchemyError as error:
+            raise not_written(error) from error
+        if not taken:
+            where = engine.url.render_as_string(hide_password=True)
+            raise CannotOpen(
+                f"Another robot side keeps its records in {where}; each needs a database of its own."
+            )

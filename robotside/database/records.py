@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 
+from robotside.database.answers import Answers
 from robotside.database.eventlog import EventLog
 from robotside.database.jobs import Job
 from robotside.database.ledger import Ledger, Writer
@@ -46,6 +47,8 @@ class Records:
         """What was done, and what is under way."""
         self.events = EventLog(self._ledger)
         """What happened."""
+        self.answers = Answers(self._ledger)
+        """What was answered to commands."""
         self.problems: list[str] = []
         """What had to be done to open it, one sentence each, for the operator."""
 
@@ -91,6 +94,11 @@ class Records:
         """Note who pressed STOP, or with an empty name that it was released."""
         if by != self.stopped_by:
             self._ledger.fact("facts", "stopped by", by)
+
+    def owe(self, facts: list[Put], trouble: str) -> None:
+        """Have `facts` written when the trouble is over, of which the sentence is among the problems."""
+        self._ledger.owe(facts, trouble)
+        self.problems.append(trouble)
 
     def try_again(self) -> None:
         """Write the facts that could not be written; to be called now and then."""

@@ -17,6 +17,7 @@ from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event, Mission, Place, ScheduledTask, TaskOrder, TaskRun
 from bridge.msgs.std_msgs import Time
 from robotside.database.tables import (
+    AnswerRow,
     Base,
     EventRow,
     FactRow,
@@ -28,7 +29,7 @@ from robotside.database.tables import (
     SettingRow,
 )
 
-__all__ = ["TABLES", "Content", "Key", "Put", "Queued", "empty", "read_all", "write"]
+__all__ = ["TABLES", "Answered", "Content", "Key", "Put", "Queued", "empty", "read_all", "write"]
 
 Key: TypeAlias = int | str
 Content: TypeAlias = dict[str, dict[Key, Any]]
@@ -50,6 +51,17 @@ class Queued(NamedTuple):
     position: int
     """From 0, the next one."""
     order: TaskOrder
+
+
+class Answered(NamedTuple):
+    """A command that changed something, and its answer."""
+
+    sender: str
+    """The id of who sent it."""
+    service: str
+    command_id: str
+    content: str
+    """The answer as JSON."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,6 +234,11 @@ TABLES: dict[str, _Table] = {
     ),
     "runs": _Table(RunRow, _run_row, _run),
     "events": _Table(EventRow, _event_row, _event),
+    "answers": _Table(
+        AnswerRow,
+        lambda answered: {name: _text(text) for name, text in answered._asdict().items()},
+        lambda row: Answered(row.sender, row.service, row.command_id, row.content),
+    ),
     "facts": _Table(FactRow, lambda text: {"value": _text(text)}, lambda row: row.value),
 }
 """How the values of each table are kept."""

@@ -49,7 +49,8 @@ class Runs:
         if not math.isfinite(run.distance):
             run = msgspec.structs.replace(run, distance=0.0)
         ledger = self._ledger
-        with ledger.together():
+        with ledger.together() as job:
+            job.urgent = job.urgent or run.ended.seconds > 0
             ledger.fact("runs", run.id, run)
             facts = ledger.rows("facts")
             if run.ended.seconds <= 0:

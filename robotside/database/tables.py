@@ -6,6 +6,7 @@ from sqlalchemy import BigInteger, Boolean, Double, Integer, String, Text
 from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
 
 __all__ = [
+    "AnswerRow",
     "Base",
     "EventRow",
     "FactRow",
@@ -107,6 +108,17 @@ class EventRow(Base):
     z: Mapped[float | None] = mapped_column(Double)
     acknowledged_by: Mapped[str] = mapped_column(Text)
     acknowledged: Mapped[int] = mapped_column(BigInteger)
+
+
+class AnswerRow(Base):
+    """What was answered to a command that changed something."""
+
+    __tablename__ = "answers"
+    id: Mapped[int] = mapped_column(Integer, primary_key=True, autoincrement=False)
+    sender: Mapped[str] = mapped_column(Text)
+    service: Mapped[str] = mapped_column(Text)
+    command_id: Mapped[str] = mapped_column(Text)
+    content: Mapped[str] = mapped_column(Text)
 
 
 class FactRow(Base):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import queue
 import threading
 import time
@@ -50,6 +51,10 @@ class Keeper:
     def back_up(self) -> None:
         """Make a backup. Raises NotWritten."""
 
+    def backup_age(self) -> float:
+        """Of the newest backup [s]; infinite when there is none."""
+        return math.inf
+
     def close(self) -> None:
         """Let go of everything."""
 
@@ -84,7 +89,7 @@ class Threaded:
         self._changed = True
         self._broken = False
         self._held: list[tuple[Job, Told]] = []
-        self._next_backup = self._next_retry = 0.0
+        self._next_backup = self._next_retry = -math.inf
 
     def start(self) -> None:
         """Begin to write."""
@@ -116,6 +121,7 @@ class Threaded:
 
     def _run(self) -> None:
         ended = False
+        self._next_backup = time.monotonic() + BACKUP_PERIOD - self._keeper.backup_age()
         while not ended:
             ended = self._turn()
         self._keeper.close()

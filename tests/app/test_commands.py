@@ -374,6 +374,22 @@ def test_a_stop_that_the_robot_has_no_service_for_is_given_up_without_a_word() -
     assert virtual.run(run()) == (["sent"], False)
 
 
+def test_a_stop_pressed_right_after_the_last_was_let_go_is_a_new_one() -> None:
+    robot = Robot(9.0, YES)
+
+    async def what(commands: Commands) -> None:
+        first = asyncio.create_task(commands.stop())
+        await asyncio.sleep(0.1)  # and its answer is still awaited when it is let go
+        commands.void_stop()
+        await commands.stop()
+        await first
+
+    run(robot, what)
+    assert [service for service, _, _ in robot.calls] == ["/stop", "/stop"]
+    assert len(robot.ids) == 2, "the robot would take the old one for done"
+    assert robot.phases == ["sent", "sent", "accepted"]
+
+
 def test_stop_is_never_too_old() -> None:
     robot = Robot(YES)
     run(robot, lambda commands: commands.stop())

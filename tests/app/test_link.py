@@ -214,7 +214,8 @@ def test_stop_is_repeated_while_the_robot_does_not_rest_until_it_is_let_go(
     operator.until(lambda: operator.session.control == "mine")
     operator.link.stop()
     operator.until(lambda: "/stop" in robot.services())
-    robot.publish("/control/status", ControlStatus(mode="STOPPED", stopped=True, at_rest=False))
+    held = {"driver": "tablet", "driver_id": "me"}
+    robot.publish("/control/status", ControlStatus(mode="STOPPED", stopped=True, at_rest=False, **held))
     operator.until(lambda: operator.session.stop_latched)
     asked = robot.services().count("/stop")
     operator.until(lambda: robot.services().count("/stop") > asked + 3)
@@ -223,7 +224,7 @@ def test_stop_is_repeated_while_the_robot_does_not_rest_until_it_is_let_go(
     operator.until(lambda: "/stop/release" in robot.services())
     holds(operator, 0.6)
     assert not operator.link.commands.stopping
-    assert robot.services()[-1] == "/stop/release"
+    assert [name for name in robot.services() if name.startswith("/stop")][-1] == "/stop/release"
 
 
 def drives(operator: Operator, robot: FakeRobot) -> None:
@@ -362,8 +363,16 @@ def test_after_a_lost_link_everything_comes_back_but_the_old_drive_command(
 def test_a_stream_is_live_and_goes_stale(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
     operator = connect()
     operator.until(lambda: operator.session.control == "mine")  # by then it has subscribed
-    robot.publish("/pose", PoseWithCovarianceStamped())
-    operator.until(lambda: operator.session.feeds.state("/pose") == "live")
+    told = [0.0]
+
+    def heard() -> bool:
+        """Once more after a while, for on a busy machine one can be stale before anybody looks."""
+        if time.monotonic() - told[-1] > 0.1:
+            told.append(time.monotonic())
+            robot.publish("/pose", PoseWithCovarianceStamped())
+        return operator.session.feeds.state("/pose") == "live"
+
+    operator.until(heard)
     operator.until(lambda: operator.session.feeds.state("/pose") == "stale")
 
 

@@ -103,8 +103,7 @@ def test_without_a_link_nothing_is_said_to_be_sent(watch: Watch) -> None:
     watch.drive(0.0, 1.0)
     watch.time += 12.0
     assert watch.stop.sentence(drives=True, reaches=False) == (
-        "Nothing reaches it: zero speed is sent again once the link is back."
-        " Its odometry was last heard 12 s ago."
+        "Nothing reaches it until the link is back. Its odometry was last heard 12 s ago."
     )
 
 

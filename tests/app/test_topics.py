@@ -117,10 +117,11 @@ def test_a_topic_is_listened_to_from_opening_to_closing() -> None:
     assert robot.say(Seen("/imu", kind=Imu))
     assert robot.topics.notice == "Nothing has come yet on /imu."
     for _ in range(2):
+        robot.time += 1.1
         robot.say(Seen("/imu", Imu()))
     assert (robot.topics.notice, robot.topics.state, robot.topics.message) == ("", "live", Imu())
-    robot.time += 3.1
-    assert (robot.topics.state, robot.topics.age) == ("stale", pytest.approx(3.1))
+    robot.time += 3.5
+    assert (robot.topics.state, robot.topics.age) == ("stale", pytest.approx(3.5))
     assert math.isnan(robot.topics.rate)
     robot.topics.close()
     assert robot.asked[-1] == ("look away",)
@@ -173,6 +174,31 @@ def test_what_a_strange_robot_says_once_is_no_fault() -> None:
     robot.time += 2.0
     assert (robot.topics.state, robot.topics.age) == ("stale", pytest.approx(2.0))
     assert math.isnan(robot.topics.once)
+
+
+def test_what_was_said_once_may_come_twice_to_who_subscribes_and_again_after_a_lost_link() -> None:
+    robot = Robot()
+    robot.topics.open("/gripper")
+    robot.say(Seen("/gripper", kind=Twist))
+    for pause in (0.0, 0.4, 30.0, 0.4):
+        robot.time += pause
+        if pause > 1.0:
+            robot.topics.hear(LINK, Post(None, robot.time, 1))
+        robot.say(Seen("/gripper", Twist()), count=2)
+    robot.time += 60.0
+    assert (robot.topics.state, robot.topics.once) == ("live", 60.0)
+
+
+def test_a_stream_that_a_lost_link_ended_stays_old_until_it_comes_again() -> None:
+    robot = Robot()
+    robot.topics.open("/gripper")
+    robot.say(Seen("/gripper", kind=Twist))
+    for _ in range(30):
+        robot.time += 0.1
+        robot.say(Seen("/gripper", Twist()))
+    robot.time += 20.0
+    robot.topics.hear(LINK, Post(None, robot.time, 1))
+    assert (robot.topics.state, robot.topics.age) == ("stale", pytest.approx(20.0))
 
 
 def test_a_slow_stream_is_given_the_time_that_it_takes() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import json
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -14,7 +15,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from bridge.server import BridgeServer
 from tests.bridge.wires import PATIENCE, Wire, url
 
-__all__ = ["Peer", "peer"]
+__all__ = ["Peer", "bare", "peer"]
 
 
 class Peer:
@@ -47,3 +48,15 @@ async def peer(made: BridgeServer | Wire, path: str = "", **options: Any) -> Asy
     options = {"compression": None, "proxy": None, "close_timeout": 0.1} | options
     async with connect(url(made) + path, **options) as ws:
         yield Peer(ws)
+
+
+@asynccontextmanager
+async def bare(made: BridgeServer) -> AsyncIterator[tuple[asyncio.StreamReader, asyncio.StreamWriter]]:
+    """A connection that is no WebSocket yet; closed at the end of the block however that ends."""
+    reader, writer = await asyncio.open_connection("127.0.0.1", made.port)
+    try:
+        yield reader, writer
+    finally:
+        writer.close()
+        with contextlib.suppress(OSError):
+            await writer.wait_closed()

@@ -231,6 +231,34 @@ async def test_a_cut_ends_what_was_asked_and_what_was_being_done_for_others():
         await counter.cancelled.reach(1)
 
 
+async def test_a_cut_ends_the_calls_that_were_being_answered():
+    begun, ended = Record(), Record()
+
+    async def slow(request):
+        begun(request)
+        try:
+            await asyncio.Event().wait()
+        finally:
+            ended(request)
+
+    async with (
+        server() as robot,
+        wire(robot.port) as cable,
+        link(url(cable)) as made,
+        link(url(robot)) as asking,
+    ):
+        client = await made.connected()
+        client.serve("/slow", "std_srvs/SetBool", slow)
+        await settled(client)
+        caller = await asking.connected()
+        waiting = asyncio.create_task(caller.call("/slow", SetBoolRequest(), SetBoolResponse, timeout=5.0))
+        await begun.reach(1)
+        cable.cut()
+        await ended.reach(1)
+        with pytest.raises(Refused, match="gone"):
+            await waiting
+
+
 async def test_without_a_connection_there_is_no_goal_and_none_is_sent_later():
     counter = Counter()
     async with server() as robot, link(url(robot)) as far, link("ws://127.0.0.1:1") as made:

@@ -13,11 +13,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bridge.codec import from_builtins, from_cbor, from_json, to_builtins, to_cbor, to_json
+from bridge.codec import from_builtins, from_cbor, from_json, shown, to_builtins, to_cbor, to_json
 from bridge.errors import ProtocolError
 from bridge.msgs import TYPES
 from bridge.msgs.arrays import Float32Array
-from bridge.msgs.geometry_msgs import Twist, Vector3
+from bridge.msgs.geometry_msgs import PoseWithCovariance, Twist, Vector3
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
 from bridge.msgs.pilothouse_msgs import Mission, Waypoint
 from bridge.msgs.sensor_msgs import CompressedImage, JointState, LaserScan, NavSatFix
@@ -172,3 +172,15 @@ def test_what_has_no_form_on_the_wire_is_a_protocol_error_when_sent():
         to_json(Mission(motion="\ud800"))
     with pytest.raises(ProtocolError, match="cannot be sent as CBOR"):
         to_cbor({"a": object()})
+
+
+def test_a_list_may_come_as_a_number_array_of_another_kind():
+    covariance = from_builtins({"covariance": array("B", range(36))}, PoseWithCovariance).covariance
+    assert covariance == [float(each) for each in range(36)]
+    assert {type(each) for each in covariance} == {float}
+    with pytest.raises(ProtocolError, match="must hold 36, not 0"):
+        from_builtins({"covariance": array("B")}, PoseWithCovariance)
+
+
+def test_a_number_with_more_digits_than_python_writes_can_be_shown():
+    assert shown({"a": 2**20_000}) == "a number of more digits than anybody reads"

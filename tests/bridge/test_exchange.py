@@ -7,6 +7,7 @@ from contextlib import asynccontextmanager
 
 import pytest
 
+from bridge import exchange
 from bridge.compat import Compat
 from bridge.errors import Refused
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
@@ -121,6 +122,15 @@ async def test_nobody_takes_the_robots_own_services(service):
         await thief.say(op="advertise_service", service=service, type="pilothouse_msgs/Command")
         await thief.settled()
         assert (await caller.call("/stop"))["values"]["success"] is True
+        providers = await caller.call("/rosapi/nodes")
+        details = [
+            await caller.call("/rosapi/node_details", args={"node": node})
+            for node in providers["values"]["nodes"]
+        ]
+        offered = [
+            each["values"]["services"] for each in details if "/stop" not in each["values"]["services"]
+        ]
+        assert offered == [[], []]
 
 
 async def test_types_of_what_clients_offer_are_told():
@@ -277,3 +287,38 @@ async def test_a_goal_that_does_not_fit_is_refused_with_the_field():
     async with server(actions=[action(endless)]) as robot, peer(robot) as caller:
         await caller.say(op="send_action_goal", id="g", action="/tell", args={"valid_for": "long"})
         assert (await caller.hear())["values"] == 'valid_for must be a number or null, not "long".'
+
+
+DEEP = []
+for _ in range(150):
+    DEEP = [DEEP]
+
+
+async def test_what_is_nested_too_deeply_is_not_passed_on_to_others():
+    async with pair() as (provider, caller):
+        await caller.say(op="call_service", service="/add", id="c", args={"a": DEEP})
+        assert (await caller.hear())["values"] == "args are nested too deeply."
+        await caller.say(op="call_service", service="/add", id="d")
+        call = await provider.hear()
+        answer = {"op": "service_response", "id": call["id"], "service": "/add", "result": True}
+        await provider.say(**answer, values={"sum": DEEP})
+        assert (await caller.hear())["values"] == 'The answer of "/add" is nested too deeply.'
+        await caller.say(op="send_action_goal", id="g", action="/count", args={"to": DEEP})
+        assert (await caller.hear())["values"] == "The goal is nested too deeply."
+        await provider.settled()
+
+
+async def test_who_reads_gets_all_its_refusals_when_who_should_answer_is_gone(monkeypatch):
+    monkeypatch.setattr(exchange, "MOST_CALLS", 600)
+    async with pair() as (provider, caller):
+        for number in range(601):
+            await caller.say(op="call_service", service="/add", id=number)
+        refused = await caller.hear()
+        assert (refused["id"], refused["result"]) == (600, False)
+        assert "600 calls of this client wait for their answer already" in refused["values"]
+        for _ in range(600):
+            await provider.hear()
+        provider.ws.transport.abort()
+        answers = [await caller.hear() for _ in range(600)]
+    assert [answer["id"] for answer in answers] == list(range(600))
+    assert {answer["values"] for answer in answers} == {'The client that answers "/add" is gone.'}

@@ -7,7 +7,16 @@ import json
 import pytest
 
 from bridge.errors import ProtocolError
-from bridge.lanes import MOST_BYTES, MOST_FRAMES, Lane, Lanes, Stream
+from bridge.lanes import (
+    MESSAGE_COST,
+    MOST_BYTES,
+    MOST_FRAMES,
+    MOST_UNCOUNTED,
+    MOST_WAITING,
+    Lane,
+    Lanes,
+    Stream,
+)
 from bridge.msgs.std_msgs import Float64, String
 from bridge.outgoing import Outgoing
 from bridge.protocol import Subscribed
@@ -133,3 +142,80 @@ def test_what_cannot_be_encoded_is_dropped_and_does_not_block_the_rest():
     with pytest.raises(ProtocolError):
         lanes.take(0.0)
     assert taken(lanes) == 2.0
+
+
+def large(data, topic="/any"):
+    """A message of a third of what may wait."""
+    return Outgoing(topic, String(str(data) + "x" * (MOST_WAITING // 3)))
+
+
+def waits(*streams):
+    return [[message.msg.data[0] for message in each.waiting] for each in streams]
+
+
+def test_of_too_many_bytes_the_oldest_samples_are_forgotten_first_and_then_the_oldest_of_bulk():
+    lanes = Lanes()
+    grid, odom, scan = stream("/map", Lane.BULK, queue=4), stream(queue=9), stream("/scan", queue=9)
+    for each, data in ((grid, 1), (scan, 2), (odom, 3)):
+        lanes.offer(each, large(data))
+    assert waits(grid, scan, odom) == [["1"], [], ["3"]]
+    lanes.offer(grid, large(4))
+    assert waits(grid, scan, odom) == [["1", "4"], [], []]
+    lanes.offer(grid, large(5))
+    assert waits(grid) == [["4", "5"]]
+    assert [len(lanes.take(0.0)) > 1000 for _ in range(2)] == [True, True]
+    assert lanes.take(0.0) is None
+
+
+def test_one_message_may_be_larger_than_all_that_may_wait():
+    lanes, odom = Lanes(), stream(queue=9)
+    lanes.offer(odom, number(1))
+    lanes.offer(odom, Outgoing("/any", String("x" * (MOST_WAITING + 1))))
+    assert len(odom.waiting) == 1
+    lanes.offer(odom, large(2))
+    assert waits(odom) == [["2"]]
+
+
+def test_many_small_messages_are_bounded_together_and_the_newest_of_each_topic_stays():
+    lanes, streams = Lanes(), [stream(f"/t{number}", queue=100) for number in range(50)]
+    for value in range(100):
+        for each in streams:
+            lanes.offer(each, Outgoing("/any", String(f"{value:02}" + "x" * 9500)))
+            waiting = sum(len(each.waiting) for each in streams) * (9500 + MESSAGE_COST)
+            assert waiting <= MOST_WAITING + MOST_UNCOUNTED
+    assert waiting > MOST_WAITING // 2
+    left = [[message.msg.data[:2] for message in each.waiting] for each in streams]
+    assert all(of[-1] == "99" and of == sorted(of) for of in left)
+    assert max(map(len, left)) - min(map(len, left)) <= 1
+
+
+def test_what_waits_is_counted_seldom(monkeypatch):
+    counted = []
+    lighten = Lanes._lighten
+    monkeypatch.setattr(Lanes, "_lighten", lambda *told: (counted.append(0), lighten(*told)))
+    lanes, odom = Lanes(), stream(queue=9)
+    for _ in range(100):
+        lanes.offer(odom, Outgoing("/any", String("x" * (MOST_UNCOUNTED // 10))))
+    assert counted == [0] * 10
+
+
+@pytest.mark.parametrize("end", ["sent", "forgotten", "replaced", "shortened"])
+def test_what_waits_no_longer_makes_room(end):
+    lanes, odom, scan = Lanes(), stream(queue=2), stream("/scan", queue=9)
+    for data in range(2):
+        lanes.offer(odom, large(data))
+    if end == "sent":
+        lanes.take(0.0)
+        lanes.take(0.0)
+    elif end == "forgotten":
+        lanes.forget(odom)
+    elif end == "replaced":
+        for value in range(2):
+            lanes.offer(odom, number(value))
+    else:
+        odom.want(Subscribed("/odom", queue=1))
+    kept = 1 if end == "shortened" else 2
+    for data in range(kept):
+        lanes.offer(scan, large(data))
+    assert len(scan.waiting) == kept
+    assert len(odom.waiting) == {"replaced": 2, "shortened": 1}.get(end, 0)

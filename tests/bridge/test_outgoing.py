@@ -10,13 +10,13 @@ from msgspec import Raw
 from websockets.frames import Opcode
 
 from bridge import outgoing as module
-from bridge.codec import to_json
+from bridge.codec import Unread, to_cbor, to_json
 from bridge.errors import ProtocolError
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import LaserScan
 from bridge.msgs.std_msgs import Float64, Header, String, Time
-from bridge.outgoing import Form, Outgoing, ping_frame, said
+from bridge.outgoing import MOST_FORMS, Form, Outgoing, ping_frame, said
 from bridge.protocol import Png, Reduction, Status, pixels
 from bridge.rosbytes import serialize
 from tests.bridge.ws_frames import frames
@@ -115,3 +115,32 @@ def test_operations_are_cut_as_messages_are():
 def test_a_ping_is_one_for_the_library():
     (frame,) = frames(ping_frame(b"12345678"))
     assert (frame.opcode, bytes(frame.data)) == (Opcode.PING, b"12345678")
+
+
+def test_a_message_is_kept_in_so_many_forms_and_no_more():
+    message = Outgoing("/a", Float64(1.5))
+    for size in range(100, 100 + 2 * MOST_FORMS):
+        message.frame(Form("/a", fragment_size=size))
+    assert len(message._frames) == MOST_FORMS
+    last = Form("/a", fragment_size=99 + 2 * MOST_FORMS)
+    assert message.frame(last) is message.frame(last)
+
+
+def test_of_a_large_message_few_forms_are_kept_and_few_ways_to_make_less_of_it(monkeypatch):
+    encoded = []
+    monkeypatch.setattr(module, "to_cbor", lambda *args: encoded.append(1) or to_cbor(*args))
+    large = Outgoing("/n", String("x" * module.LARGE))
+    names = [f"/n{number}" for number in range(3)]
+    for name in names * 2:
+        large.frame(Form(name, "cbor"))
+    assert len(large._frames) == module.MOST_LARGE
+    for beams in range(2 * MOST_FORMS):
+        large.frame(Form("/n", reduction=Reduction(beams=beams + 1)))
+    assert len(large._lesser) == MOST_FORMS
+    assert len(large._bodies) == module.MOST_LARGE
+
+
+def test_a_message_knows_what_it_takes_and_which_is_older():
+    first, second = Outgoing("/n", Raw(b"{}" + b" " * 98)), Outgoing("/n", Unread(b"x" * 200, String))
+    assert (first.size, second.size, first.number < second.number) == (100, 200, True)
+    assert 1000 < Outgoing("/n", String("x" * 1000)).size < 1100

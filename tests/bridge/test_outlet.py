@@ -150,6 +150,36 @@ async def test_while_the_kernel_takes_nothing_nothing_is_written(bench):
     assert len(bench.line.heard) == 3
 
 
+def beside(bench):
+    """Another client of the same server."""
+    line = Line()
+    return line, Outlet(line, bench.round, "somebody else", bench.clock)
+
+
+async def test_clients_that_get_the_same_in_one_step_share_the_bytes(bench):
+    other, outlet = beside(bench)
+    mine, theirs = stream(queue=9), stream(queue=9)
+    for value in range(4):
+        message = number(value)
+        bench.outlet.offer(mine, message)
+        outlet.offer(theirs, message)
+        if value % 2:
+            bench.step()
+    assert bench.line.numbers == [0.0, 1.0, 2.0, 3.0]
+    assert other.writes[1] is bench.line.writes[1]  # behind the first there is a ping, each client's own
+
+
+async def test_clients_that_get_different_messages_in_one_step_get_each_their_own(bench):
+    other, outlet = beside(bench)
+    mine, theirs = stream(queue=9), stream(queue=9)
+    for value in range(3):
+        bench.outlet.offer(mine, number(value))
+        outlet.offer(theirs, number(10 + value))
+    bench.step()
+    found = [json.loads(text)["msg"]["data"] for text in other.heard]
+    assert (bench.line.numbers, found) == ([0.0, 1.0, 2.0], [10.0, 11.0, 12.0])
+
+
 async def test_events_keep_their_order_when_they_had_to_wait(bench):
     bench.fill()
     events = stream("/events", Lane.EVENT, 0)
@@ -169,6 +199,31 @@ async def test_a_client_for_whom_too_much_waits_in_order_is_cut_off(bench, caplo
     bench.outlet.send(Lane.EVENT, text_of(200))
     assert not bench.line.open
     assert "does not read what it asked for" in caplog.text
+
+
+async def test_all_answers_that_a_client_waits_for_may_come_in_one_step(bench):
+    bench.fill()
+    for _ in range(4 * MOST_FRAMES):
+        bench.outlet.send(Lane.REPLY, text_of(200))
+    assert bench.line.open
+
+
+async def test_an_outlet_that_is_closed_keeps_nothing(bench):
+    bench.outlet.send(Lane.REPLY, text_of(1000))
+    bench.outlet.send(Lane.CONTROL, text_of(1000))
+    bench.step()
+    bench.line.paused = True
+    odom = stream(queue=9)
+    for value in range(3):
+        bench.outlet.offer(odom, number(value))
+        bench.outlet.send(Lane.EVENT, text_of(200))
+    bench.outlet.close()
+    assert (list(odom.waiting), odom.gone) == ([], True)
+    bench.line.paused = False
+    bench.line.writes.clear()
+    bench.outlet.pump()
+    bench.step()
+    assert bench.line.heard == []
 
 
 async def test_samples_never_cut_anybody_off(bench):

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import asyncio
 import threading
 
 from bridge.errors import ProtocolError
+from bridge.lanes import Lane, Stream
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
+from bridge.outgoing import Outgoing
+from bridge.protocol import Reduction, Subscribed
+from bridge.reducing import Reducing
 from tests.bridge.peers import peer
-from tests.bridge.wires import server
+from tests.bridge.wires import Record, server
 
 PICTURES = "/camera/image/compressed"
 
@@ -120,22 +125,32 @@ async def test_a_picture_that_cannot_be_made_smaller_is_logged_and_the_next_one_
         assert (await foreign.hear())["msg"]["data"] == b"good"
 
 
+class Outlet:
+    """Keeps what it is to send."""
+
+    def __init__(self):
+        self.offered = Record()
+
+    def offer(self, stream, message):
+        self.offered(stream)
+
+
 async def test_who_unsubscribed_gets_no_picture_that_was_still_being_made():
-    let_go, begun = threading.Semaphore(0), threading.Event()
+    let_go = threading.Semaphore(0)
 
     def slowly(msg, wanted):
-        begun.set()
         let_go.acquire(timeout=5)
         return msg
 
-    async with server(reduce=slowly) as robot, peer(robot) as foreign:
-        await foreign.say(op="subscribe", topic=PICTURES, reduce={"width": 2})
-        await foreign.settled()
-        robot.publish(PICTURES, CompressedImage(data=b"0"))
-        while not begun.is_set():
-            await foreign.settled()
-        await foreign.say(op="unsubscribe", topic=PICTURES)
-        await foreign.settled()
-        let_go.release()
-        for _ in range(3):
-            await foreign.settled()
+    reducing, outlet = Reducing(), Outlet()
+    message = Outgoing(PICTURES, CompressedImage(data=b"0"), slowly)
+    wanted = Subscribed(PICTURES, reduction=Reduction(width=2))
+    left, stays = (Stream(PICTURES, Lane.BULK, wanted) for _ in range(2))
+    for stream in (left, stays):
+        reducing.offer(outlet, stream, message)
+    await asyncio.sleep(0)
+    left.gone = True
+    let_go.release()
+    await outlet.offered.reach(1)
+    await reducing.close()
+    assert outlet.offered == [stays]

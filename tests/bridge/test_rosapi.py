@@ -9,6 +9,7 @@ from msgspec import Raw
 
 from bridge.errors import ProtocolError
 from bridge.params import Params
+from bridge.protocol import LARGEST_ARGUMENTS
 from bridge.rosapi import NODE, Graph, Node, RosApi
 from bridge.topics import TOPICS
 
@@ -131,3 +132,8 @@ def test_types_are_told_as_ros_text_beside_their_topics():
 def test_a_name_that_is_no_text_is_refused():
     with pytest.raises(ProtocolError, match="topic must be a text, not 5"):
         ask("/rosapi/topic_type", b'{"topic":5}')
+
+
+def test_arguments_are_bounded():
+    with pytest.raises(ProtocolError, match=f"args may have at most {LARGEST_ARGUMENTS} bytes"):
+        ask("/rosapi/set_param", b'{"name":"/a","value":"%s"}' % (b"1" * LARGEST_ARGUMENTS))

@@ -18,7 +18,7 @@ from bridge.msgs.pilothouse_msgs import CommandResponse, ControlStatus, Event, R
 from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header
 from bridge.server import BridgeServer
-from tests.bridge.peers import peer
+from tests.bridge.peers import bare, peer
 from tests.bridge.wires import Clock, Record, server, service, url
 
 
@@ -378,10 +378,7 @@ async def test_what_was_never_started_closes_too():
 
 
 async def test_plain_http_on_the_port_is_answered_and_not_logged_as_a_fault(caplog):
-    async with server() as robot:
-        reader, writer = await asyncio.open_connection("127.0.0.1", robot.port)
+    async with server() as robot, bare(robot) as (reader, writer):
         writer.write(b"GET / HTTP/1.1\r\nHost: x\r\n\r\n")
         assert b"426" in await reader.readline()
-        writer.close()
-        await writer.wait_closed()
     assert caplog.text == ""

@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import asyncio
+import json
+import tracemalloc
 
+import pytest
+
+from bridge.msgs.arrays import Float32Array
 from bridge.msgs.nav_msgs import Odometry
-from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header
 from bridge.window import START
 from tests.bridge.peers import peer
+from tests.bridge.test_serving import House, said
 from tests.bridge.wires import server, wire
 
 PICTURES = "/camera/image/compressed"
@@ -61,3 +67,68 @@ async def test_pictures_for_who_stands_still_are_not_piled_up():
         while numbers[-1] != "99":
             numbers.append((await stuck.hear())["msg"]["format"])
         assert len(numbers) < 12
+
+
+STALLS = {
+    "the connection takes no more": lambda line: setattr(line, "paused", True),
+    "nobody answers": lambda line: None,
+}
+
+
+@pytest.mark.parametrize("stall", STALLS)
+async def test_a_client_that_stands_still_costs_no_more_memory_however_long(stall):
+    house = House()
+    client, line = house.join()
+    for topic in ("/odom", "/scan", "/imu/data", "/map", PICTURES):
+        client.hear(said({"op": "subscribe", "topic": topic, "queue_length": 100}))
+    STALLS[stall](line)
+
+    def publish(count):
+        for number in range(count):
+            house.clock.time += 0.01
+            house.switchboard.publish("/odom", Odometry(header=Header(frame_id=str(number))))
+            house.switchboard.publish("/scan", LaserScan(ranges=Float32Array([float(number)] * 360)))
+            house.switchboard.publish(PICTURES, CompressedImage(data=bytes(10_000)))
+            house.step()
+
+    publish(300)
+    written = len(line.writes)
+    tracemalloc.start()
+    try:
+        publish(100)
+        begun = tracemalloc.get_traced_memory()[0]
+        publish(900)
+        grown = tracemalloc.get_traced_memory()[0] - begun
+    finally:
+        tracemalloc.stop()
+    assert grown < 20_000
+    assert len(line.writes) == written
+    await client.close()
+
+
+@pytest.mark.parametrize("stall", STALLS)
+async def test_who_catches_up_gets_no_sample_that_is_older_than_two_periods(stall):
+    house = House()
+    client, line = house.join()
+    client.outlet._clock = house.clock
+    client.hear(said({"op": "subscribe", "topic": "/odom"}))
+    client.outlet.flush()
+
+    def pass_on(seconds):
+        for _ in range(round(20 * seconds)):
+            house.clock.time += 0.05
+            house.switchboard.publish("/odom", Odometry(header=Header(frame_id=str(house.clock.time))))
+            house.step()
+
+    STALLS[stall](line)
+    pass_on(60.0)
+    line.writes.clear()
+    line.paused = False
+    client.pump()
+    for content in line.unanswered:
+        client.answered(content)
+    house.step()
+    found = [house.clock.time - float(json.loads(text)["msg"]["header"]["frame_id"]) for text in line.heard]
+    assert found
+    assert max(found) <= 0.1
+    await client.close()

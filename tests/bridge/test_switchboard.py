@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from bridge import switchboard
+from bridge.codec import Unread
 from bridge.errors import BridgeError, ProtocolError
 from bridge.lanes import Lane
 from bridge.msgs.nav_msgs import Odometry
@@ -166,3 +168,48 @@ def test_every_topic_has_its_lane(board, topic, type, lane, keep):
     want(board, Ear(), topic, type)
     channel = board.channels[topic]
     assert (channel.lane, channel.keep) == (lane, keep)
+
+
+def latch(board, talker, topic, bytes):
+    channel = board.advertise(talker, topic, "std_msgs/String")
+    board.pass_on(channel, Unread(b'{"data":""}'.ljust(bytes), String), talker, latch=True)
+
+
+def test_what_a_client_latches_is_bounded_and_what_is_too_much_is_refused(board, monkeypatch):
+    monkeypatch.setattr(switchboard, "MOST_LATCHED", 1000)
+    latch(board, "a", "/one", 600)
+    ear = Ear()
+    want(board, ear, "/two", "std_msgs/String")
+    with pytest.raises(ProtocolError) as refused:
+        latch(board, "a", "/two", 500)
+    assert str(refused.value) == (
+        "A message of 500 bytes on /two cannot be latched: what one client latched may have at most 1000 bytes,"
+        " and 600 are taken."
+    )
+    assert ear.heard == []
+    latch(board, "b", "/two", 500)
+    latch(board, "a", "/one", 1000)
+    latch(board, "a", "/one", 400)
+    latch(board, "a", "/two", 600)
+
+
+def test_what_all_clients_latch_is_bounded_too_and_freed_when_they_leave(board, monkeypatch):
+    monkeypatch.setattr(switchboard, "MOST_LATCHED_IN_ALL", 1000)
+    for talker in "ab":
+        latch(board, talker, f"/{talker}", 450)
+    with pytest.raises(ProtocolError, match="what all clients latched may have at most 1000 bytes, and 900"):
+        latch(board, "c", "/c", 200)
+    board.unadvertise("a", "/a")
+    latch(board, "c", "/c", 200)
+    for talker in "bc":
+        board.unadvertise(talker, f"/{talker}")
+    latch(board, "c", "/c", 1000)
+
+
+def test_what_the_robot_latches_is_not_bounded(board, monkeypatch):
+    monkeypatch.setattr(switchboard, "MOST_LATCHED", 0)
+    monkeypatch.setattr(switchboard, "MOST_LATCHED_IN_ALL", 0)
+    board.publish("/robot/info", RobotInfo(name="new"))
+    late = Ear()
+    want(board, late, "/robot/info")
+    assert len(late.heard) == 1

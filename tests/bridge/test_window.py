@@ -6,7 +6,7 @@ from collections import deque
 
 import pytest
 
-from bridge.window import CEILING, DEAD, FLOOR, START, Window
+from bridge.window import CEILING, DEAD, FLOOR, MEMORY, START, Window
 
 
 class Link:
@@ -164,3 +164,23 @@ def test_a_message_beyond_the_limit_goes_only_when_hardly_anything_is_before_it(
     assert not window.ping_due(0.0) or window.ping(0.0)
     window.sent += 10
     assert window.ping_due(0.0, waiting=True)
+
+
+def test_after_a_while_of_longer_ways_the_way_is_drained_and_looked_at_anew():
+    window, now = Window(0.0), 0.0
+    window.pong(window.ping(now), now + 0.01)
+
+    def fill():
+        nonlocal now
+        full = window.limit
+        window.sent += full
+        content = window.ping(now)
+        now += 0.05
+        window.pong(content, now)
+        return full
+
+    while now < MEMORY:
+        fill()
+        assert window.limit < START
+    assert fill() + FLOOR == window.limit
+    assert 2 * fill() == window.limit

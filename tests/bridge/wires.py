@@ -135,7 +135,7 @@ class Wire:
         self.port = 0
         self._to = to
         self._open: set[asyncio.StreamWriter] = set()
-        self._pumps: set[asyncio.Task[None]] = set()
+        self._tasks: set[asyncio.Task[None]] = set()
         self._thawed = asyncio.Event()
         self._thawed.set()
 
@@ -153,10 +153,18 @@ class Wire:
         self._thawed.set()
 
     async def _join(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        far_reader, far_writer = await asyncio.open_connection("127.0.0.1", self._to)
-        self._open |= {writer, far_writer}
+        self._open.add(writer)
+        try:
+            far_reader, far_writer = await asyncio.open_connection("127.0.0.1", self._to)
+        except OSError:
+            writer.close()
+            return
+        self._open.add(far_writer)
         for source, sink in ((reader, far_writer), (far_reader, writer)):
-            self._pumps.add(asyncio.create_task(self._pump(source, sink)))
+            self._tasks.add(asyncio.create_task(self._pump(source, sink)))
+
+    def _joined(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        self._tasks.add(asyncio.create_task(self._join(reader, writer)))
 
     async def _pump(self, source: asyncio.StreamReader, sink: asyncio.StreamWriter) -> None:
         try:
@@ -173,14 +181,14 @@ class Wire:
 @asynccontextmanager
 async def wire(to: int) -> AsyncIterator[Wire]:
     made = Wire(to)
-    listening = await asyncio.start_server(made._join, "127.0.0.1", 0)
+    listening = await asyncio.start_server(made._joined, "127.0.0.1", 0)
     made.port = listening.sockets[0].getsockname()[1]
     try:
         yield made
     finally:
         listening.close()
         made.cut()
-        for pump in made._pumps:
-            pump.cancel()
-        await asyncio.gather(*made._pumps, return_exceptions=True)
+        for task in made._tasks:
+            task.cancel()
+        await asyncio.gather(*made._tasks, return_exceptions=True)
         await listening.wait_closed()

@@ -144,9 +144,7 @@ def test_what_it_does_not_offer_is_said_and_never_asked_for(glass: Handheld, str
     glass.until(lambda: any("knows no control" in words for words in glass.words()), "why")
     glass.tap("Drive", "PrimaryButton")
     glass.until(lambda: glass.app.shell.screen == "drive", "the screen that fits it")
-    glass.until(
-        lambda: "This robot offers no tasks." in glass.words(), "why it can neither pause nor go home"
-    )
+    glass.until(lambda: "It offers no tasks." in glass.words(), "why it can neither pause nor go home")
     assert not {"Pause", "Go home"} & set(glass.words())
     called = {str(op["service"]) for op in strange.operations("call_service")}
     assert {name for name in called if not name.startswith("/rosapi/")} == set()

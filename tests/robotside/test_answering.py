@@ -10,9 +10,13 @@ from typing import Any
 import pytest
 
 from bridge.msgs import Msg
+from bridge.msgs.arrays import Int32Array
 from bridge.msgs.pilothouse_msgs import (
+    AcknowledgeEventsRequest,
     CommandRequest,
     Event,
+    GetMissionRequest,
+    GetMissionsRequest,
     Mission,
     Place,
     PlaceArray,
@@ -36,10 +40,15 @@ class Slow:
     """A station on a disk that writes when it is told to."""
 
     def __init__(self) -> None:
+        self.clock = 1000.0
+        self._stored = empty()
+        self.restart()
+
+    def restart(self) -> None:
+        """Start the robot side on what is on the disk."""
         self.disk = Disk()
         self.disk.room = 1000
-        self.clock = 1000.0
-        self.records = Records(empty(), self.disk, lambda: None)
+        self.records = Records(self._stored, self.disk, lambda: None)
         self.station = Station(
             FakeRobot(), self.records, now=1000.0, clock=lambda: self.clock, rng=random.Random(1)
         )
@@ -158,3 +167,71 @@ def test_an_event_is_told_when_it_is_on_the_disk_or_cannot_be(slow: Slow) -> Non
     slow.write()
     known = [event.text for event in slow.station.events.since(1, slow.station.events.boot)]
     assert known[-4:] == ["One.", "Two.", FULL, "The database can be written again."]
+
+
+async def test_an_answer_that_rests_on_what_is_on_its_way_waits_for_it(slow: Slow) -> None:
+    slow.station.events.say("task", "One.")
+    slow.write()
+    number = slow.last("/events").id
+    request = AcknowledgeEventsRequest(client_name="Anna", ids=Int32Array([number]))
+    first = await soon(slow.ask("/events/acknowledge", request))
+    second = await soon(slow.ask("/events/acknowledge", request))
+    slow.write()
+    assert (await first).message == "1 event acknowledged."
+    assert (await second).message == "Somebody has seen to it already."
+    third = slow.ask("/events/acknowledge", request)
+    assert isinstance(third, Msg), "it is on the disk"
+
+
+async def test_what_is_told_on_request_is_on_the_disk(slow: Slow) -> None:
+    mission = SetMissionRequest(mission=Mission(name="Night"))
+    answer = await soon(slow.ask("/mission/set", mission))
+    assert slow.ask("/missions/get", GetMissionsRequest()).names == []  # type: ignore[union-attr]
+    assert slow.ask("/mission/get", GetMissionRequest()).mission.name == ""  # type: ignore[union-attr]
+    slow.write()
+    await answer
+    assert slow.ask("/missions/get", GetMissionsRequest()).names == ["Night"]  # type: ignore[union-attr]
+    assert slow.ask("/mission/get", GetMissionRequest()).mission.name == "Night"  # type: ignore[union-attr]
+
+
+async def test_the_end_of_a_task_is_answered_when_no_restart_would_offer_it_again(slow: Slow) -> None:
+    answer = slow.ask("/mission/set", SetMissionRequest(mission=Mission(waypoints=[Waypoint(3.0, 0.0)])))
+    slow.write()
+    await answer  # type: ignore[misc]
+    started = await soon(slow.ask("/task/start", StartTaskRequest()))
+    slow.write()
+    assert (await started).success
+    canceled = await soon(slow.ask("/task/cancel", CommandRequest()))
+    slow.write()
+    assert (await canceled).success
+    assert slow.records.runs.under_way is None
+
+
+async def test_a_command_that_is_sent_again_after_a_crash_is_not_done_again(slow: Slow) -> None:
+    answer = await soon(slow.ask("/places/set", place(command_id="c1")))
+    slow.write()
+    await answer  # it is on the disk, and the answer got lost
+    slow.restart()
+    assert slow.ask("/places/set", place(command_id="c1")) == SetPlaceResponse(True, "Office 12 is kept.", 1)
+    assert len(slow.records.places.all()) == 1
+    other = slow.ask("/places/set", place(command_id="c2"))
+    assert other == SetPlaceResponse(False, "There is a place 'Office 12' already; choose another name.")
+
+
+async def test_a_command_that_was_not_written_is_done_when_it_is_sent_again_after_a_crash(slow: Slow) -> None:
+    answer = await soon(slow.ask("/places/set", place(command_id="c1")))
+    slow.write(FULL)
+    await answer
+    slow.restart()
+    again = await soon(slow.ask("/places/set", place(command_id="c1")))
+    slow.write()
+    assert (await again).success
+
+
+async def test_the_newest_answers_are_kept(slow: Slow, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("robotside.database.answers.KEPT", 2)
+    for number in range(4):
+        answer = await soon(slow.ask("/places/set", place(f"{number}", f"c{number}")))
+        slow.write()
+        await answer
+    assert [answered.command_id for answered in slow.records.answers.all()] == ["c2", "c3"]

@@ -82,12 +82,23 @@ def test_the_camera_is_wanted_only_while_a_task_runs(scene: Scene) -> None:
     assert not scene.robot.wanted["/camera/image/compressed"]
 
 
-@pytest.mark.parametrize("stop", [True, False])
-def test_an_intruder_is_told_once_and_halts_the_patrol_if_asked(scene: Scene, stop: bool) -> None:
+@pytest.mark.parametrize(
+    ("words", "state", "phase"),
+    [
+        ({"stop_on_intruder": True, "on_intruder": "report"}, "PAUSED", ""),
+        ({"on_intruder": "stop"}, "PAUSED", ""),
+        ({"on_intruder": "report"}, "RUNNING", "driving"),
+        ({}, "RUNNING", "driving"),
+        ({"on_intruder": "circle"}, "RUNNING", "circling"),
+    ],
+)
+def test_an_intruder_is_told_once_and_the_patrol_does_about_it_what_the_mission_says(
+    scene: Scene, words: dict[str, object], state: str, phase: str
+) -> None:
     image, draw = picture()
     focal = 320 / math.tan(0.6)
     cone(draw, 320, 240 + focal * 0.36 / 3.0, 0.6 * focal / 3.0)
-    scene.set(Waypoint(6.0, -4.0), stop_on_intruder=stop)
+    scene.set(Waypoint(6.0, -4.0), **words)
     scene.start()
     scene.run(0.1)
     for n in range(5):
@@ -97,7 +108,8 @@ def test_an_intruder_is_told_once_and_halts_the_patrol_if_asked(scene: Scene, st
     known = scene.station.bus.last("/intruders")
     assert isinstance(known, IntruderArray)
     assert [intruder.id for intruder in known.intruders] == [1]
-    assert scene.task.state == ("PAUSED" if stop else "RUNNING")
+    scene.run(0.1)
+    assert (scene.task.state, scene.task.phase) == (state, phase)
 
 
 def test_a_robot_that_was_carried_away_says_that_it_is_unsure_creeps_and_can_be_placed_again(

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
-from robotside.controls import LAPSE, SILENT, STOP_SENTENCE, VALID, Controls, Ruling
+from robotside.controls import HELD, LAPSE, SILENT, STOP_SENTENCE, VALID, Controls, Ruling
 from robotside.sticks import LET_GO
 from tests.fakes import FakeClient
 
@@ -38,8 +38,8 @@ def test_a_drive_command_expires_after_its_validity_and_only_once(
     controls: Controls, anna: FakeClient
 ) -> None:
     controls.drive(anna, AHEAD, 10.0)
-    assert not controls.expired(10.0 + VALID - 0.01)
-    assert controls.expired(10.0 + VALID)
+    assert not controls.expired(10.0 + HELD - 0.01)
+    assert controls.expired(10.0 + HELD)
     assert not controls.expired(10.0 + VALID + 1.0)
 
 
@@ -81,7 +81,7 @@ def test_control_lapses_when_its_driver_falls_silent(
     controls: Controls, anna: FakeClient, bert: FakeClient
 ) -> None:
     controls.acquire(anna, 10.0)
-    assert controls.lapse(10.0 + LAPSE) == ""
+    assert controls.mind(10.0 + LAPSE) == ""
     assert controls.acquire(bert, 10.0 + LAPSE) != ""
     assert controls.acquire(bert, 10.1 + LAPSE) == ""
 

@@ -4,34 +4,38 @@ from __future__ import annotations
 
 import math
 
+import pytest
+
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
-from robotside.events import KEPT, Events
+from robotside.database import Records
+from robotside.events import Events
 
 
-def test_events_are_numbered_from_one_and_carry_the_boot_and_the_place() -> None:
-    heard: list[Event] = []
-    events = Events("b1", lambda: 12.5, heard.append)
+@pytest.fixture
+def heard() -> list[Event]:
+    return []
+
+
+@pytest.fixture
+def events(heard: list[Event]) -> Events:
+    return Events(Records.in_memory().events, lambda: 12.5, heard.append)
+
+
+def test_events_are_numbered_from_one_and_carry_the_log_and_the_place(
+    events: Events, heard: list[Event]
+) -> None:
     events.say("task", "Started.")
     events.say("intruder", "A cone.", "alarm", at=(1.0, 2.0))
     assert [(e.id, e.boot, e.level, e.stamp) for e in heard] == [
-        (1, "b1", "info", Time(12, 500_000_000)),
-        (2, "b1", "alarm", Time(12, 500_000_000)),
+        (1, events.boot, "info", Time(12, 500_000_000)),
+        (2, events.boot, "alarm", Time(12, 500_000_000)),
     ]
     assert math.isnan(heard[0].position.x)
     assert (heard[1].position.x, heard[1].position.y) == (1.0, 2.0)
+    assert events.since(1, events.boot) == heard[1:]
 
 
-def test_an_event_is_one_line_of_at_most_three_hundred_characters() -> None:
-    events = Events("b1", lambda: 0.0, lambda _: None)
+def test_an_event_is_one_line_of_at_most_three_hundred_characters(events: Events) -> None:
     assert events.say("task", "two\nlines").text == "two lines"
     assert events.say("task", "a" * 900_000).text == "a" * 300
-
-
-def test_the_newest_five_hundred_events_are_kept() -> None:
-    events = Events("b1", lambda: 0.0, lambda _: None)
-    for number in range(KEPT + 20):
-        events.say("task", f"{number}")
-    kept = events.since(0, "b1")
-    assert (len(kept), kept[0].id, kept[-1].id) == (KEPT, 21, KEPT + 20)
-    assert [event.id for event in events.since(KEPT + 18, "b1")] == [KEPT + 19, KEPT + 20]

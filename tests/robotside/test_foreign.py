@@ -44,6 +44,12 @@ class Line:
     def drive(self, twist: Twist) -> None:
         self.sent.append(twist)
 
+    def press_stop(self) -> None:
+        pass
+
+    def release_stop(self) -> None:
+        pass
+
     def want(self, topic: str, wanted: bool) -> None:
         self.wanted.append((topic, wanted))
 
@@ -81,6 +87,7 @@ def test_with_nobody_there_it_says_so_and_commands_go_nowhere() -> None:
         0.5,
         ["front"],
     )
+    assert robot.info.description == "ROS robot"
 
 
 def test_before_anybody_answered_there_is_trouble_too() -> None:
@@ -105,7 +112,7 @@ def test_the_start_waits_for_the_robot_and_for_what_it_sends_once() -> None:
 
     robot = ForeignRobot(URL, connect=Line(meet))
     assert (robot.info.name, robot.info.max_speed, robot.info.radius) == ("Rex", 0.7, 0.18)
-    assert (robot.info.description, robot.info.cameras) == ("Differential drive behind robot:9090", ["mast"])
+    assert (robot.info.description, robot.info.cameras) == ("Differential drive", ["mast"])
     assert [topic for topic, _ in robot.read(0.0)] == ["/map"]
     threads[0].join()
 

@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import AsyncIterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import NamedTuple
 
 from bridge.client import BridgeClient
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Mission, StartTaskRequest, Waypoint
+from bridge.msgs.pilothouse_msgs import (
+    CommandRequest,
+    CommandResponse,
+    Mission,
+    StartTaskRequest,
+    TaskOrder,
+    Waypoint,
+)
 from robotside.foreign import ForeignRobot
 from robotside.pose2 import ORIGIN
 from robotside.serving import Serving
@@ -67,7 +76,47 @@ async def test_the_one_in_front_drives_under_its_own_name_and_its_stop_brings_th
         await until(lambda: SPEED in it.robot.commands)
         assert await order(it.anna, "/stop") == "Stopped."
         await until(lambda: it.robot.at_rest)
-        assert not it.behind.station.controls.stopped
+
+
+async def test_stop_in_front_presses_the_stop_behind_and_releasing_it_releases_that(tmp_path: Path) -> None:
+    async with two(tmp_path) as it:
+        far = it.behind.station.controls
+        await order(it.anna, "/stop")
+        await until(lambda: far.stopped)
+        assert far.stopped_by.startswith("the robot side on ")
+        await until(lambda: it.port.trouble == "")
+        assert await order(it.anna, "/stop/release") == "STOP is released."
+        await until(lambda: not far.stopped)
+
+
+async def test_stop_in_front_is_pressed_behind_as_soon_as_that_is_reached_again(tmp_path: Path) -> None:
+    async with two(tmp_path) as it:
+        it.cable.cut()
+        await until(lambda: "cannot be reached" in it.port.trouble)
+        await order(it.anna, "/stop")
+        await until(lambda: it.behind.station.controls.stopped)
+
+
+async def test_what_somebody_else_pressed_behind_is_not_released_from_the_front(tmp_path: Path) -> None:
+    async with two(tmp_path) as it:
+        await order(it.fred, "/stop")
+        await until(lambda: it.port.trouble == STOPPED)
+        await order(it.anna, "/stop")
+        await order(it.anna, "/stop/release")
+        await asyncio.sleep(0.5)  # long enough for the front to ask for more, which it must not
+        assert it.behind.station.controls.stopped_by == "Fred"
+
+
+async def test_a_stop_that_was_pressed_before_the_robot_was_reached_is_pressed_behind(tmp_path: Path) -> None:
+    loop = asyncio.get_running_loop()
+    async with served(tmp_path, FakeRobot(), "Rex") as behind:
+        with ThreadPoolExecutor(1) as aside:
+            port = ForeignRobot(f"ws://127.0.0.1:{behind.server.port}", patience=0.0)
+            try:
+                port.press_stop()
+                await until(lambda: behind.station.controls.stopped)
+            finally:
+                await loop.run_in_executor(aside, port.close)
 
 
 async def test_a_stop_pressed_behind_is_told_in_front_and_can_be_released_where_it_was_pressed(
@@ -109,7 +158,7 @@ def begin_by_itself(far: Station) -> None:
     far.autonomy.place(ORIGIN)
     far.keep(Mission(waypoints=[Waypoint(4.0, 0.0)]))
     far.controls.release(far.controls.driver.client)  # type: ignore[union-attr]
-    far.autonomy.start_patrol(far.mission, far.now)
+    far.autonomy.start(TaskOrder(task="patrol"), far.now)
     far.show_control()
 
 

@@ -44,6 +44,12 @@ class Far:
     def drive(self, twist: Twist) -> None:
         self._waiting.append(twist)
 
+    def press_stop(self) -> None:
+        pass
+
+    def release_stop(self) -> None:
+        pass
+
     def want(self, topic: str, wanted: bool) -> None:
         pass
 

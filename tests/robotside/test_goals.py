@@ -17,6 +17,7 @@ from bridge.msgs.pilothouse_msgs import (
     RunTaskGoal,
     RunTaskResult,
     StartTaskRequest,
+    TaskOrder,
 )
 from robotside.goals import actions
 from robotside.pose2 import ORIGIN
@@ -158,3 +159,9 @@ async def test_a_goal_ends_with_its_client(tmp_path: Path) -> None:
         await over.until(lambda states: "CANCELED" in states)
         assert station.autonomy.engine.status.reason == "Canceled: script, who asked for it, is gone."
         assert robot.at_rest
+
+
+async def test_a_goal_may_be_any_order(scene: Scene) -> None:
+    goal = await Goal(scene, order=TaskOrder(task="hold", duration=2.0)).begun()
+    scene.run_task()
+    assert (await goal.work).message == "Held for 2 s."  # type: ignore[attr-defined]

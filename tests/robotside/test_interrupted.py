@@ -158,3 +158,14 @@ def test_a_queue_waits_after_a_restart_until_somebody_says_so(scene: Scene, tmp_
     queue = again.station.bus.last("/task/queue")
     assert isinstance(queue, TaskQueue)
     assert queue.orders == []
+
+
+def test_with_a_low_battery_it_is_not_resumed(scene: Scene, tmp_path: Path) -> None:
+    scene.set(*SQUARE)
+    scene.start()
+    again = cut(scene, tmp_path)
+    again.robot.battery = 0.14
+    again.run(1.1)
+    said = "The battery is at 14%; a patrol needs at least 15%."
+    assert again.refused("/task/resume") == said
+    assert again.task.state == "INTERRUPTED"

@@ -3,21 +3,15 @@
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
-from bridge.msgs.pilothouse_msgs import CommandRequest, Mission, SetMissionRequest, StartTaskRequest, Waypoint
-from robotside.orders import services
-from robotside.station import Station
-from sim.robot import SimRobot, make
-from tests.fakes import FakeClient
-from tests.robotside.scene import records_at
+from bridge.msgs.pilothouse_msgs import CommandRequest, Waypoint
+from sim.robot import make
+from tests.robotside.sim_run import HOME, Run
 
-TICK = 1 / 30
-HOME = Waypoint(-17.5, -12.0, math.pi / 2)
 ROUND = [
     Waypoint(-17.5, 7.5),
     Waypoint(0.0, 7.5),
@@ -27,59 +21,6 @@ ROUND = [
     Waypoint(-17.0, -7.5),
 ]
 CONES = [(-19.0, -1.5), (-6.0, 9.1), (4.2, 7.15), (18.6, 3.6), (6.6, -5.4), (-2.6, -9.6)]
-
-
-class Run:
-    """The simulated robot with its station, driven by hand through time."""
-
-    def __init__(self, robot: SimRobot, state: Path) -> None:
-        self.robot = robot
-        self.now = 1000.0
-        self.anna = FakeClient("anna", self.now)
-        self.station = Station(
-            robot, records_at(state), now=self.now, clock=lambda: self.now, rng=random.Random(1)
-        )
-        self._services = {service.name: service for service in services(self.station)}
-        self.until(lambda: self.station.autonomy.whereabouts.pose is not None, 10.0)
-
-    def until(self, done: Callable[[], bool], limit: float) -> None:
-        end = self.now + limit
-        while not done() and self.now < end:
-            self.now += TICK
-            self.anna.last_heard = self.now
-            self.station.step(self.now)
-
-    def wait(self, seconds: float) -> None:
-        self.until(lambda: False, seconds)
-
-    def ask(self, name: str, request: CommandRequest) -> None:
-        answer = self._services[name].call(self.anna, request)  # type: ignore[arg-type]
-        assert answer.success, answer.message  # type: ignore[union-attr]
-
-    def patrol(self, points: list[Waypoint], **words: object) -> None:
-        mission = Mission(waypoints=points, home=[HOME], **{"laps": 1, **words})  # type: ignore[arg-type]
-        self.ask("/mission/set", SetMissionRequest(mission=mission))
-        self.ask("/task/start", StartTaskRequest())
-
-    def finish(self, limit: float = 400.0) -> list[tuple[float, float]]:
-        """Where the robot truly was, up to the end of the task."""
-        trail = []
-        end = self.now + limit
-        while self.station.autonomy.engine.running and self.now < end:
-            self.wait(0.1)
-            trail.append(self.place)
-        return trail
-
-    @property
-    def place(self) -> tuple[float, float]:
-        x, y, _ = self.robot.simulation.pose()
-        return x, y
-
-    @property
-    def error(self) -> float:
-        """Of the believed position [m]."""
-        pose = self.station.autonomy.whereabouts.pose
-        return pose.distance(*self.place) if pose else math.inf
 
 
 @pytest.fixture

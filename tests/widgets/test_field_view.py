@@ -6,13 +6,15 @@ import math
 from typing import ClassVar
 
 import pytest
+from msgspec.structs import replace
 
 import widgets.fields
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import Imu
 from bridge.msgs.std_msgs import String
-from widgets.field_samples import battery, cells, diagnostics, imu, scan
+from widgets.field_samples import battery, cells, diagnostics, imu, log, scan
 from widgets.field_view import FieldView
+from widgets.labels import Icon
 from widgets.theme import theme
 
 
@@ -216,3 +218,96 @@ def has_type(stage, view, width, text):
     view.show(String(text))
     stage.run_for(0.2)
     return next(row for row in shown(view) if row.name == "data").type_width > 0
+
+
+def test_a_unit_stands_behind_its_figure(stage, view):
+    view.show(battery())
+    stage.frames(2)
+    row = next(row for row in shown(view) if row.name == "voltage")
+    assert (row.value, row.unit) == ("24.1300", "V")
+    labels = {label.text: label for label in row.children if getattr(label, "text", "")}
+    assert labels["24.1300"].right <= labels["V"].x + 1
+    assert labels["V"].right == pytest.approx(row.right - 12)
+    assert next(row.unit for row in shown(view) if row.name == "percentage") == ""
+
+
+def test_a_unit_is_known_before_the_first_message(stage, view):
+    view.type = type(battery())
+    stage.frames(2)
+    assert {row.name: (row.value, row.unit) for row in shown(view)}["current"] == ("—", "A")
+
+
+def test_a_tap_opens_a_long_text_and_another_closes_it(stage, view):
+    view.show(log())
+    stage.frames(2)
+    closed = text_row(view).height
+    for opened in (True, False):
+        stage.tap(*text_row(view).to_window(*text_row(view).center))
+        stage.run_for(0.2)
+        row = text_row(view)
+        assert (row.open, row.second == log().msg) == (opened, opened)
+        assert (row.height > closed + 60) is opened
+        second = next(label for label in row.children if getattr(label, "text", "") == row.second)
+        assert row.y <= second.y
+        assert second.top <= row.top - row.lead - row.line + 2
+        assert second.texture_size[1] <= second.height + 1
+
+
+def test_an_open_text_stays_so_with_the_next_message_and_makes_room_where_it_is_narrow(stage, view):
+    view.show(log())
+    view.folds = {("msg",): True}
+    stage.frames(2)
+    before = text_row(view).height
+    view.width = 280
+    view.show(log())
+    stage.run_for(0.2)
+    assert text_row(view).height > before
+
+
+def test_a_text_that_fits_its_line_has_nothing_to_open(stage, view):
+    view.show(
+        Texts(lines=["just a little too long for the first line", "w" * 90, "two\nlines of a text on a line"])
+    )
+    stage.frames(2)
+    assert [row.foldable for row in shown(view)] == [True, False, True, True]
+    view.fold(("lines", 0))
+    assert dict(view.folds) == {}
+
+
+def test_a_text_of_many_lines_is_no_higher_than_a_graphics_card_can_hold(stage, view):
+    view.show(String("W" * 5000))
+    view.folds = {("data",): True}
+    view.width = 280
+    stage.frames(2)
+    row = shown(view)[0]
+    second = next(label for label in row.children if getattr(label, "text", "") == row.second)
+    assert 400 < second.texture_size[1] <= second.height <= row.height < 4096 / 3
+
+
+def test_an_open_text_can_be_closed_when_a_shorter_one_has_come(stage, view):
+    view.show(log())
+    view.folds = {("msg",): True}
+    stage.frames(2)
+    view.show(replace(log(), msg="It found its way round them."))
+    stage.run_for(0.2)
+    assert text_row(view).foldable
+    view.fold(("msg",))
+    stage.run_for(0.2)
+    assert not text_row(view).foldable
+
+
+def text_row(view):
+    return next(row for row in shown(view) if row.name == "msg")
+
+
+def test_a_word_instead_of_fields_has_the_icon_and_the_inset_of_others(stage, view):
+    view.show(Nothing())
+    stage.frames(2)
+    note = view.ids.note
+    icon = next(child for child in note.parent.children if isinstance(child, Icon))
+    assert (icon.name, icon.role, icon.x - view.x) == ("info", "muted", 8.0)
+    assert note.x == icon.right + 8
+    assert note.parent.opacity == 1
+    view.show(battery())
+    stage.run_for(0.2)
+    assert note.parent.opacity == 0

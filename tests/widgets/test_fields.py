@@ -7,13 +7,29 @@ import time
 from typing import ClassVar
 
 import pytest
+from msgspec import defstruct
 
 from bridge.msgs import Msg
 from bridge.msgs.arrays import Float32Array
-from bridge.msgs.geometry_msgs import Twist, Vector3
+from bridge.msgs.geometry_msgs import Point, Pose, Twist, Vector3
+from bridge.msgs.nav_msgs import GridCells
+from bridge.msgs.sensor_msgs import LaserEcho, MultiEchoLaserScan
 from bridge.msgs.std_msgs import Duration, Header, Time
-from widgets.field_samples import battery, cells, diagnostics, imu, scan
-from widgets.fields import ARRAY, BRANCH, LEAF, MORE, clock, describe, number, rows, size_text
+from widgets.field_samples import battery, cells, diagnostics, imu, log, scan
+from widgets.fields import ARRAY, BRANCH, LEAF, MORE, clock, describe, number, rows, size_text, spelled, unit
+
+
+class Texts(Msg, frozen=True, gc=False):
+    MSGTYPE: ClassVar[str] = "x/Texts"
+    text: str = ""
+
+
+class DetectionPose(Msg, frozen=True, gc=False):
+    MSGTYPE: ClassVar[str] = "x/DetectionPose"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("geometry_msgs/Pose", "geometry_msgs/Pose")
+    UNITS: ClassVar[dict[str, str]] = {"one": "pixel"}
+    one: Pose = Pose()
+    other: Pose = Pose()
 
 
 class Notes(Msg, frozen=True, gc=False):
@@ -106,7 +122,7 @@ def test_a_list_without_end_has_bounded_rows():
 
 def test_an_array_says_how_many_the_least_the_greatest_and_the_first():
     told = texts(scan())
-    assert told["ranges"] == ("360 values", "1.00 to 3.00   (inf  inf  inf  inf  inf  inf …)")
+    assert told["ranges"] == ("360 values", "1.00 to 3.00 m   (inf  inf  inf  inf  inf  inf …)")
     assert told["intensities"] == ("empty", "")
     unknown = texts(type(cells())(voltages=Float32Array([math.nan] * 2)))
     assert unknown["voltages"] == ("2 values", "—  —")
@@ -166,3 +182,90 @@ def test_a_long_text_has_a_line_of_its_own():
 @pytest.mark.parametrize(("ahead", "words"), [(0.2, "0.0 s ago"), (0.6, "0.6 s ahead")])
 def test_what_is_hardly_ahead_of_a_clock_that_is_hardly_known_is_from_now(ahead: float, words: str) -> None:
     assert clock(1763719271.0, 1763719271.0 - ahead).endswith(words)
+
+
+# units
+
+
+def units(message, folds=None):
+    return {".".join(map(str, row.path)): unit(row) for row in rows(message, folds or {}) if unit(row)}
+
+
+def test_a_number_has_the_unit_that_its_definition_names():
+    found = units(battery())
+    assert (found["voltage"], found["temperature"]) == ("V", "°C")
+    assert not {"percentage", "present"} & set(found)
+
+
+def test_what_is_in_a_message_has_the_unit_that_is_told_of_the_whole():
+    found = units(imu())
+    assert (found["angular_velocity.x"], found["linear_acceleration.z"]) == ("rad/s", "m/s²")
+    assert not [path for path in found if path.startswith(("orientation", "header"))]
+
+
+def test_a_message_of_its_own_units_keeps_them():
+    pose = DetectionPose(Pose(), Pose())
+    found = units(pose)
+    assert (found["one.position.x"], found["other.position.x"]) == ("m", "m")
+    assert not [path for path in found if "orientation" in path]
+
+
+def test_a_folded_message_of_numbers_has_their_unit_and_an_open_one_leaves_it_to_them():
+    folded = units(Twist(), {("linear",): False})
+    assert folded["linear"] == "m/s"
+    assert (folded.get("angular"), folded["angular.z"]) == (None, "rad/s")
+    assert units(Pose(), {("position",): False})["position"] == "m"
+
+
+def test_parts_of_a_list_have_the_unit_of_the_list():
+    cells = GridCells(cells=[Point(1.0, 2.0, 0.0)])
+    assert units(cells, {("cells", 0): False})["cells.0"] == "m"
+    echoes = MultiEchoLaserScan(ranges=[LaserEcho(Float32Array([1.0, 2.0]))])
+    folds = {("ranges",): True, ("ranges", 0): True}
+    assert texts(echoes, folds=folds)["ranges.0.echoes"] == ("2 values", "1.00 to 2.00 m   (1.00  2.00)")
+
+
+def test_learned_types_have_no_units_and_may_call_a_constant_so():
+    Odd = defstruct(
+        "Odd", [("x", float, 0.0)], bases=(Msg,), namespace={"UNITS": "SI", "ROSTYPES": ("float64",)}
+    )
+    assert units(Odd()) == units(cells()) == {}
+
+
+@pytest.mark.parametrize(
+    ("told", "words"),
+    [
+        ("m/s", "m/s"),
+        ("m/s2", "m/s²"),
+        ("m/s^2", "m/s²"),
+        ("(rad/s)2", "(rad/s)²"),
+        ("m3", "m³"),
+        ("kg m2", "kg m²"),
+        ("N*m", "N·m"),
+        ("deg", "°"),
+        ("deg/s", "°/s"),
+        ("degC", "°C"),
+        ("degC2", "°C²"),
+        ("degree", "degree"),
+        ("m25", "m25"),
+    ],
+)
+def test_a_unit_is_written_as_people_do(told, words):
+    assert spelled(told) == words
+
+
+# long texts
+
+
+def test_a_long_text_is_one_line_until_it_is_opened():
+    assert "\n" not in texts(log())["msg"][1]
+    assert texts(log(), folds={("msg",): True})["msg"] == ("", log().msg)
+
+
+@pytest.mark.parametrize(
+    ("text", "shown", "more"),
+    [("x" * 1000, "x" * 1000, ""), ("x" * 3000, "x" * 1000, "2000"), ("a\n" * 45, "a\n" * 39 + "a", "10")],
+)
+def test_of_an_endless_text_the_beginning_is_shown(text, shown, more):
+    said = texts(Texts(text), folds={("text",): True})["text"][1]
+    assert said == (f"{shown}\n… and {more} more letters" if more else shown)

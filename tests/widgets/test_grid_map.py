@@ -434,3 +434,14 @@ def test_a_fit_of_nothing_changes_nothing(map_):
 @pytest.mark.parametrize("name", samples())
 def test_every_sample_can_be_shown(stage, name):
     assert stage.show(samples()[name]()).height > 0
+
+
+def test_the_age_stands_in_the_middle_of_what_is_free_at_its_top(stage, map_):
+    map_.insets = [100, 0, 0, 20]
+    map_.state, map_.age = "stale", 12.0
+    stage.frames(1)
+    x, y = map_.badge_pos
+    assert x + map_.badge_size[0] / 2 == pytest.approx(map_.x + 250)
+    assert y + map_.badge_size[1] <= map_.top - 20
+    map_.badge_span = [map_.x + 200, map_.x + 300]
+    assert map_.badge_pos[0] >= map_.x + 200

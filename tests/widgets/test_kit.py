@@ -31,6 +31,7 @@ from widgets.kit import (
     ValueUnit,
     spaced,
 )
+from widgets.labels import wrapped
 from widgets.stepper import StepperEnd
 from widgets.theme import theme
 
@@ -354,3 +355,14 @@ def test_a_wrong_field_has_a_sign_beside_its_text(stage):
     drawn = [one.texture for one in field.canvas.after.children if getattr(one, "texture", None)]
     assert field.sign in drawn
     assert field.padding[2] >= before + field.sign.width
+
+
+def test_a_long_name_is_broken_between_its_parts_and_shown_whole():
+    name = "/left_arm_controller/follow_joint_trajectory/feedback"
+    for room in (80.0, 160.0, 240.0):
+        lines = wrapped(name, room, 18).split("\n")
+        assert "".join(lines) == name
+        assert all(line[-1] in "/_" for line in lines[:-1])
+        assert all(line.strip("/") for line in lines), "no stroke stands alone"
+    assert wrapped(name, 2000.0, 18) == name
+    assert wrapped("", 100.0, 18) == ""

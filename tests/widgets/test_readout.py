@@ -96,7 +96,9 @@ def test_its_figures_do_not_dance(stage):
     assert len(widths) == 1
 
 
-@pytest.mark.parametrize(("width", "said"), [(300, "Speed · 34 s old"), (90, "34 s old")])
+@pytest.mark.parametrize(
+    ("width", "said"), [(300, "Speed · 34 s old"), (110, "Speed 34 s"), (76, "34 s old")]
+)
 def test_where_name_and_age_have_no_room_the_age_is_said(width: int, said: str) -> None:
     readout = Readout(name="Speed", fitted=False, state="stale", age=34.0, width=width)
     assert readout.heading == said

@@ -125,3 +125,12 @@ def test_its_words_fit_into_it(stage, size, upright, phase):
     assert column.width <= button.width
     assert column.height <= button.height
     assert button.ids.sentence.font_size >= 12
+
+
+@pytest.mark.parametrize("local", [False, True])
+@pytest.mark.parametrize("phase", PHASES)
+def test_on_a_phones_corner_its_words_keep_off_its_edges(stage, phase, local):
+    button = stage.show(StopButton(phase=phase, local=local), size=(158, 106))
+    stage.frames(3)
+    assert button.children[0].height <= button.height - 12
+    assert button.upright is (phase == "ready")

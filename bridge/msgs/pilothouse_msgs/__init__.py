@@ -23,13 +23,13 @@ from bridge.msgs.pilothouse_msgs.part1 import (
     GetHistoryRequest,
     GetHistoryResponse,
     GetMissionRequest,
-    GetMissionResponse,
     Mission,
     TaskOrder,
     TaskRun,
     Waypoint,
 )
 from bridge.msgs.pilothouse_msgs.part2 import (
+    GetMissionResponse,
     GetMissionsRequest,
     GetMissionsResponse,
     Intruder,
@@ -51,12 +51,12 @@ from bridge.msgs.pilothouse_msgs.part2 import (
     SetModeResponse,
     SetOptionRequest,
     SetOptionResponse,
-    SetPlaceRequest,
-    SetPlaceResponse,
     StartTaskRequest,
     TaskProgress,
 )
 from bridge.msgs.pilothouse_msgs.part3 import (
+    SetPlaceRequest,
+    SetPlaceResponse,
     SetQueueRequest,
     SetQueueResponse,
     SetScheduleRequest,

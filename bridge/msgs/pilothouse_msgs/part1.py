@@ -33,7 +33,6 @@ __all__ = [
     "GetHistoryRequest",
     "GetHistoryResponse",
     "GetMissionRequest",
-    "GetMissionResponse",
     "Mission",
     "TaskOrder",
     "TaskRun",
@@ -46,6 +45,7 @@ class CommandRequest(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/CommandRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     command_id: str = ""
     """Unique per command; the same id sent again gets the first answer and is not executed twice."""
     stamp: float = math.nan
@@ -63,6 +63,7 @@ class AcknowledgeEventsRequest(CommandRequest, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/AcknowledgeEventsRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "int32[]")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     ids: Int32Array = field(default_factory=Int32Array)
     """Their numbers."""
 
@@ -90,6 +91,7 @@ class Bumper(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Bumper"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "bool", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"bearing": "rad"}
     header: Header = Header()
     """Frame base_link."""
     pressed: bool = False
@@ -174,6 +176,7 @@ class DeletePlaceRequest(CommandRequest, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/DeletePlaceRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "int32")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     id: int32 = 0
     """Of the place."""
 
@@ -190,6 +193,7 @@ class DeleteScheduleRequest(CommandRequest, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/DeleteScheduleRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "int32")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     id: int32 = 0
     """Of the scheduled task."""
 
@@ -216,6 +220,7 @@ class Event(Msg, frozen=True, gc=False):
         "string",
         "time",
     )
+    UNITS: ClassVar[dict[str, str]] = {"position": "m"}
     id: int32 = 0
     """Counts from 1, over restarts of the robot side."""
     boot: str = ""
@@ -241,6 +246,7 @@ class Following(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Following"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "bool", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"distance": "m"}
     header: Header = Header()
     """When it was measured, robot's clock; frame base_link."""
     present: bool = False
@@ -282,6 +288,7 @@ class GetHistoryRequest(CommandRequest, frozen=True, gc=False):
         "int32",
         "int32",
     )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     before: int32 = 0
     """Only runs with a smaller number; 0 begins with the newest."""
     limit: int32 = 50
@@ -293,6 +300,7 @@ class Waypoint(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Waypoint"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("float64", "float64", "float64", "string")
+    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "yaw": "rad"}
     x: float = 0.0
     """East of the map's origin [m]."""
     y: float = 0.0
@@ -320,6 +328,7 @@ class TaskOrder(Msg, frozen=True, gc=False):
         "float64",
         "float64",
     )
+    UNITS: ClassVar[dict[str, str]] = {"heading": "rad", "speed": "m/s", "duration": "s"}
     id: int32 = 0
     """Given by the robot; 0 for a new one."""
     task: str = ""
@@ -357,6 +366,7 @@ class TaskRun(Msg, frozen=True, gc=False):
         "int32",
         "string",
     )
+    UNITS: ClassVar[dict[str, str]] = {"distance": "m"}
     id: int32 = 0
     """Number of this run, as in TaskStatus."""
     order: TaskOrder = field(default_factory=TaskOrder)
@@ -408,6 +418,7 @@ class Mission(Msg, frozen=True, gc=False):
         "string",
         "string",
     )
+    UNITS: ClassVar[dict[str, str]] = {"dwell": "s"}
     stamp: Time = Time()
     """When the robot stored it; 0 when it never was."""
     waypoints: list[Waypoint] = []
@@ -426,16 +437,3 @@ class Mission(Msg, frozen=True, gc=False):
     """What it is kept as; empty for a mission without a name."""
     on_intruder: str = ""
     """stop, report or circle when an intruder is found; empty reports it."""
-
-
-class GetMissionResponse(Msg, frozen=True, gc=False):
-    """What `GetMission` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "pilothouse_msgs/Mission")
-    success: bool = False
-    """Always true."""
-    message: str = ""
-    """One sentence when none was stored yet, else empty."""
-    mission: Mission = field(default_factory=Mission)
-    """The stored mission."""

@@ -14,6 +14,7 @@ from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse, M
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "GetMissionResponse",
     "GetMissionsRequest",
     "GetMissionsResponse",
     "Intruder",
@@ -35,8 +36,6 @@ __all__ = [
     "SetModeResponse",
     "SetOptionRequest",
     "SetOptionResponse",
-    "SetPlaceRequest",
-    "SetPlaceResponse",
     "StartTaskRequest",
     "TaskProgress",
 ]
@@ -44,11 +43,25 @@ __all__ = [
 _Boolx7: TypeAlias = Annotated[list[bool], Meta(min_length=7, max_length=7)]
 
 
+class GetMissionResponse(Msg, frozen=True, gc=False):
+    """What `GetMission` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "pilothouse_msgs/Mission")
+    success: bool = False
+    """Always true."""
+    message: str = ""
+    """One sentence when none was stored yet, else empty."""
+    mission: Mission = field(default_factory=Mission)
+    """The stored mission."""
+
+
 class GetMissionsRequest(CommandRequest, frozen=True, gc=False):
     """Ask for the names of the missions that are kept."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionsRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
 
 
 class GetMissionsResponse(CommandResponse, frozen=True, gc=False):
@@ -65,6 +78,7 @@ class Intruder(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/Intruder"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string", "geometry_msgs/Point", "time", "int32")
+    UNITS: ClassVar[dict[str, str]] = {"position": "m"}
     id: int32 = 0
     """Counts from 1 for each run of the robot side."""
     class_id: str = "cone"
@@ -102,6 +116,16 @@ class Limits(Msg, frozen=True, gc=False):
         "geometry_msgs/Polygon[]",
         "geometry_msgs/Polygon[]",
     )
+    UNITS: ClassVar[dict[str, str]] = {
+        "max_speed": "m/s",
+        "max_yaw_rate": "rad/s",
+        "min_depth": "m",
+        "max_depth": "m",
+        "max_height": "m",
+        "max_slope": "rad",
+        "keep_in": "m",
+        "keep_out": "m",
+    }
     max_speed: float = math.nan
     """Greatest speed, along any direction [m/s]; NaN for none beside RobotInfo's."""
     max_yaw_rate: float = math.nan
@@ -135,6 +159,7 @@ class Place(Msg, frozen=True, gc=False):
         "string",
         "string",
     )
+    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "yaw": "rad"}
     id: int32 = 0
     """Given by the robot and never used again; 0 asks for a new place."""
     name: str = ""
@@ -171,6 +196,7 @@ class RecallMissionRequest(CommandRequest, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/RecallMissionRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     name: str = ""
     """What it was stored as."""
 
@@ -200,6 +226,14 @@ class RobotInfo(Msg, frozen=True, gc=False):
         "float64",
         "float64",
     )
+    UNITS: ClassVar[dict[str, str]] = {
+        "max_speed": "m/s",
+        "max_yaw_rate": "rad/s",
+        "radius": "m",
+        "latitude": "deg",
+        "longitude": "deg",
+        "camera_fov": "rad",
+    }
     name: str = ""
     """What people call it, as in Patrol-1."""
     kind: str = ""
@@ -231,6 +265,7 @@ class TaskProgress(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskProgress"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"distance_to_next": "m", "time_left": "s", "distance_driven": "m"}
     stamp: Time = Time()
     """When it was reckoned."""
     task_id: int32 = 0
@@ -250,6 +285,7 @@ class RunTaskFeedback(TaskProgress, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskFeedback"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"distance_to_next": "m", "time_left": "s", "distance_driven": "m"}
 
 
 class StartTaskRequest(CommandRequest, frozen=True, gc=False):
@@ -265,6 +301,7 @@ class StartTaskRequest(CommandRequest, frozen=True, gc=False):
         "string",
         "pilothouse_msgs/TaskOrder",
     )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     task: str = "patrol"
     """patrol or go_home; counts only while the order's own task is empty."""
     order: TaskOrder = field(default_factory=TaskOrder)
@@ -284,6 +321,7 @@ class RunTaskGoal(StartTaskRequest, frozen=True, gc=False):
         "string",
         "pilothouse_msgs/TaskOrder",
     )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
 
 
 class RunTaskResult(Msg, frozen=True, gc=False):
@@ -314,6 +352,7 @@ class ScheduledTask(Msg, frozen=True, gc=False):
         "float64",
         "time",
     )
+    UNITS: ClassVar[dict[str, str]] = {"every": "s"}
     id: int32 = 0
     """Given by the robot; 0 asks for a new one."""
     enabled: bool = True
@@ -353,6 +392,7 @@ class SetMissionRequest(CommandRequest, frozen=True, gc=False):
         "string",
         "pilothouse_msgs/Mission",
     )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     mission: Mission = field(default_factory=Mission)
     """Replaces what was stored."""
 
@@ -369,6 +409,7 @@ class SetModeRequest(CommandRequest, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetModeRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     mode: str = ""
     """MANUAL pauses the task, AUTO goes on with it."""
 
@@ -393,6 +434,7 @@ class SetOptionRequest(CommandRequest, frozen=True, gc=False):
         "string",
         "string",
     )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     name: str = ""
     """follow_link or lost_link_stops_task."""
     value: str = ""
@@ -404,28 +446,3 @@ class SetOptionResponse(CommandResponse, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionResponse"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
-
-
-class SetPlaceRequest(CommandRequest, frozen=True, gc=False):
-    """Store a place, or change the one with its id."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetPlaceRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "string",
-        "float64",
-        "float64",
-        "string",
-        "string",
-        "pilothouse_msgs/Place",
-    )
-    place: Place = Place()
-    """Replaces what was stored under its id; 0 makes a new one."""
-
-
-class SetPlaceResponse(CommandResponse, frozen=True, gc=False):
-    """What `SetPlace` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetPlaceResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "int32")
-    id: int32 = 0
-    """Of the place; 0 when it was not accepted."""

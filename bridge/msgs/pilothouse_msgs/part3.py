@@ -9,10 +9,12 @@ from msgspec import field
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse, TaskOrder
-from bridge.msgs.pilothouse_msgs.part2 import ScheduledTask
+from bridge.msgs.pilothouse_msgs.part2 import Place, ScheduledTask
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "SetPlaceRequest",
+    "SetPlaceResponse",
     "SetQueueRequest",
     "SetQueueResponse",
     "SetScheduleRequest",
@@ -22,6 +24,32 @@ __all__ = [
     "TaskQueue",
     "TaskStatus",
 ]
+
+
+class SetPlaceRequest(CommandRequest, frozen=True, gc=False):
+    """Store a place, or change the one with its id."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetPlaceRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "pilothouse_msgs/Place",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    place: Place = Place()
+    """Replaces what was stored under its id; 0 makes a new one."""
+
+
+class SetPlaceResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetPlace` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetPlaceResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "int32")
+    id: int32 = 0
+    """Of the place; 0 when it was not accepted."""
 
 
 class SetQueueRequest(CommandRequest, frozen=True, gc=False):
@@ -37,6 +65,7 @@ class SetQueueRequest(CommandRequest, frozen=True, gc=False):
         "int32",
         "pilothouse_msgs/TaskOrder[]",
     )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     revision: int32 = 0
     """That of the TaskQueue it was made from; refused when the queue has changed since."""
     orders: list[TaskOrder] = []
@@ -62,6 +91,7 @@ class SetScheduleRequest(CommandRequest, frozen=True, gc=False):
         "string",
         "pilothouse_msgs/ScheduledTask",
     )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     task: ScheduledTask = field(default_factory=ScheduledTask)
     """Replaces what was stored under its id; 0 makes a new one."""
 

@@ -18,10 +18,10 @@ from bridge.msgs.sensor_msgs.part1 import (
     LaserEcho,
     LaserScan,
     MagneticField,
-    MultiDOFJointState,
     RegionOfInterest,
 )
 from bridge.msgs.sensor_msgs.part2 import (
+    MultiDOFJointState,
     MultiEchoLaserScan,
     NavSatFix,
     NavSatStatus,

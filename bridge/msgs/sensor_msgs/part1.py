@@ -9,7 +9,7 @@ from msgspec import Meta, field
 
 from bridge.msgs.arrays import Float32Array, Float64Array, Int32Array
 from bridge.msgs.base import Msg, uint8, uint32
-from bridge.msgs.geometry_msgs import Quaternion, Transform, Twist, Vector3, Wrench
+from bridge.msgs.geometry_msgs import Quaternion, Vector3
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
@@ -28,7 +28,6 @@ __all__ = [
     "LaserEcho",
     "LaserScan",
     "MagneticField",
-    "MultiDOFJointState",
     "RegionOfInterest",
 ]
 
@@ -58,6 +57,16 @@ class BatteryState(Msg, frozen=True, gc=False):
         "string",
         "string",
     )
+    UNITS: ClassVar[dict[str, str]] = {
+        "voltage": "V",
+        "temperature": "degC",
+        "current": "A",
+        "charge": "Ah",
+        "capacity": "Ah",
+        "design_capacity": "Ah",
+        "cell_voltage": "V",
+        "cell_temperature": "degC",
+    }
 
     POWER_SUPPLY_STATUS_UNKNOWN: ClassVar[int] = 0
     POWER_SUPPLY_STATUS_CHARGING: ClassVar[int] = 1
@@ -124,6 +133,12 @@ class RegionOfInterest(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "sensor_msgs/RegionOfInterest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("uint32", "uint32", "uint32", "uint32", "bool")
+    UNITS: ClassVar[dict[str, str]] = {
+        "x_offset": "pixel",
+        "y_offset": "pixel",
+        "height": "pixel",
+        "width": "pixel",
+    }
     x_offset: uint32 = 0
     """Of its left edge [pixel]."""
     y_offset: uint32 = 0
@@ -155,6 +170,7 @@ class CameraInfo(Msg, frozen=True, gc=False):
         "uint32",
         "sensor_msgs/RegionOfInterest",
     )
+    UNITS: ClassVar[dict[str, str]] = {"height": "pixel", "width": "pixel", "k": "pixel", "p": "pixel"}
     header: Header = Header()
     height: uint32 = 0
     """Of the full picture [pixel]."""
@@ -206,6 +222,7 @@ class FluidPressure(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "sensor_msgs/FluidPressure"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"fluid_pressure": "Pa", "variance": "Pa2"}
     header: Header = Header()
     fluid_pressure: float = 0.0
     """[Pa], absolute."""
@@ -218,6 +235,7 @@ class Illuminance(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "sensor_msgs/Illuminance"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"illuminance": "lux", "variance": "lux2"}
     header: Header = Header()
     illuminance: float = 0.0
     """[lux]"""
@@ -238,6 +256,7 @@ class Image(Msg, frozen=True, gc=False):
         "uint32",
         "uint8[]",
     )
+    UNITS: ClassVar[dict[str, str]] = {"height": "pixel", "width": "pixel", "step": "byte"}
     header: Header = Header()
     """When it was taken, in the camera's optical frame (z ahead, x right, y down)."""
     height: uint32 = 0
@@ -267,6 +286,13 @@ class Imu(Msg, frozen=True, gc=False):
         "geometry_msgs/Vector3",
         "float64[9]",
     )
+    UNITS: ClassVar[dict[str, str]] = {
+        "orientation_covariance": "rad2",
+        "angular_velocity": "rad/s",
+        "angular_velocity_covariance": "(rad/s)2",
+        "linear_acceleration": "m/s2",
+        "linear_acceleration_covariance": "(m/s2)2",
+    }
     header: Header = Header()
     orientation: Quaternion = Quaternion()
     orientation_covariance: _Float64x9 = field(default_factory=lambda: [0.0] * 9)
@@ -346,7 +372,7 @@ class LaserEcho(Msg, frozen=True, gc=False):
     MSGTYPE: ClassVar[str] = "sensor_msgs/LaserEcho"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("float32[]",)
     echoes: Float32Array = field(default_factory=Float32Array)
-    """[m] for ranges, in the sensor's own unit for intensities; the first is the nearest."""
+    """Metres for ranges, in the sensor's own unit for intensities; the first is the nearest."""
 
 
 class LaserScan(Msg, frozen=True, gc=False):
@@ -365,6 +391,16 @@ class LaserScan(Msg, frozen=True, gc=False):
         "float32[]",
         "float32[]",
     )
+    UNITS: ClassVar[dict[str, str]] = {
+        "angle_min": "rad",
+        "angle_max": "rad",
+        "angle_increment": "rad",
+        "time_increment": "s",
+        "scan_time": "s",
+        "range_min": "m",
+        "range_max": "m",
+        "ranges": "m",
+    }
     header: Header = Header()
     """When the first beam was measured."""
     angle_min: float = 0.0
@@ -392,26 +428,9 @@ class MagneticField(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "sensor_msgs/MagneticField"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "geometry_msgs/Vector3", "float64[9]")
+    UNITS: ClassVar[dict[str, str]] = {"magnetic_field": "T", "magnetic_field_covariance": "T2"}
     header: Header = Header()
     magnetic_field: Vector3 = Vector3()
     """[T]; NaN for what is not measured."""
     magnetic_field_covariance: _Float64x9 = field(default_factory=lambda: [0.0] * 9)
     """3 x 3 [T2]; all 0 when it is not known."""
-
-
-class MultiDOFJointState(Msg, frozen=True, gc=False):
-    """Joints that move in several ways, by name; each list is as long as joint_names or empty."""
-
-    MSGTYPE: ClassVar[str] = "sensor_msgs/MultiDOFJointState"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "std_msgs/Header",
-        "string[]",
-        "geometry_msgs/Transform[]",
-        "geometry_msgs/Twist[]",
-        "geometry_msgs/Wrench[]",
-    )
-    header: Header = Header()
-    joint_names: list[str] = []
-    transforms: list[Transform] = []
-    twist: list[Twist] = []
-    wrench: list[Wrench] = []

@@ -9,11 +9,12 @@ from msgspec import Meta, field
 
 from bridge.msgs.base import Msg, int8, uint8, uint16, uint32
 from bridge.msgs.builtin_interfaces import Time
-from bridge.msgs.geometry_msgs import Point32
+from bridge.msgs.geometry_msgs import Point32, Transform, Twist, Wrench
 from bridge.msgs.sensor_msgs.part1 import CameraInfo, ChannelFloat32, LaserEcho
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "MultiDOFJointState",
     "MultiEchoLaserScan",
     "NavSatFix",
     "NavSatStatus",
@@ -29,6 +30,24 @@ __all__ = [
 ]
 
 _Float64x9: TypeAlias = Annotated[list[float], Meta(min_length=9, max_length=9)]
+
+
+class MultiDOFJointState(Msg, frozen=True, gc=False):
+    """Joints that move in several ways, by name; each list is as long as joint_names or empty."""
+
+    MSGTYPE: ClassVar[str] = "sensor_msgs/MultiDOFJointState"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "std_msgs/Header",
+        "string[]",
+        "geometry_msgs/Transform[]",
+        "geometry_msgs/Twist[]",
+        "geometry_msgs/Wrench[]",
+    )
+    header: Header = Header()
+    joint_names: list[str] = []
+    transforms: list[Transform] = []
+    twist: list[Twist] = []
+    wrench: list[Wrench] = []
 
 
 class MultiEchoLaserScan(Msg, frozen=True, gc=False):
@@ -47,6 +66,16 @@ class MultiEchoLaserScan(Msg, frozen=True, gc=False):
         "sensor_msgs/LaserEcho[]",
         "sensor_msgs/LaserEcho[]",
     )
+    UNITS: ClassVar[dict[str, str]] = {
+        "angle_min": "rad",
+        "angle_max": "rad",
+        "angle_increment": "rad",
+        "time_increment": "s",
+        "scan_time": "s",
+        "range_min": "m",
+        "range_max": "m",
+        "ranges": "m",
+    }
     header: Header = Header()
     """When the first beam was measured."""
     angle_min: float = 0.0
@@ -106,6 +135,12 @@ class NavSatFix(Msg, frozen=True, gc=False):
         "float64[9]",
         "uint8",
     )
+    UNITS: ClassVar[dict[str, str]] = {
+        "latitude": "deg",
+        "longitude": "deg",
+        "altitude": "m",
+        "position_covariance": "m2",
+    }
 
     COVARIANCE_TYPE_UNKNOWN: ClassVar[int] = 0
     COVARIANCE_TYPE_APPROXIMATED: ClassVar[int] = 1
@@ -135,6 +170,7 @@ class PointCloud(Msg, frozen=True, gc=False):
         "geometry_msgs/Point32[]",
         "sensor_msgs/ChannelFloat32[]",
     )
+    UNITS: ClassVar[dict[str, str]] = {"points": "m"}
     header: Header = Header()
     points: list[Point32] = []
     """[m]"""
@@ -147,6 +183,7 @@ class PointField(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "sensor_msgs/PointField"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "uint32", "uint8", "uint32")
+    UNITS: ClassVar[dict[str, str]] = {"offset": "byte"}
 
     INT8: ClassVar[int] = 1
     UINT8: ClassVar[int] = 2
@@ -182,6 +219,7 @@ class PointCloud2(Msg, frozen=True, gc=False):
         "uint8[]",
         "bool",
     )
+    UNITS: ClassVar[dict[str, str]] = {"point_step": "byte", "row_step": "byte"}
     header: Header = Header()
     height: uint32 = 0
     """Rows; 1 when they are in no order."""
@@ -213,6 +251,12 @@ class Range(Msg, frozen=True, gc=False):
         "float32",
         "float32",
     )
+    UNITS: ClassVar[dict[str, str]] = {
+        "field_of_view": "rad",
+        "min_range": "m",
+        "max_range": "m",
+        "range": "m",
+    }
 
     ULTRASOUND: ClassVar[int] = 0
     INFRARED: ClassVar[int] = 1
@@ -266,6 +310,7 @@ class Temperature(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "sensor_msgs/Temperature"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"temperature": "degC", "variance": "degC2"}
     header: Header = Header()
     temperature: float = 0.0
     """[degC]"""

@@ -1,4 +1,4 @@
-"""How alembic runs the migrations: over the connection it is handed, each migration whole or not at all where it can."""
+"""How alembic runs the migrations: over the connection it is handed, within the transaction that is open there."""
 
 from __future__ import annotations
 
@@ -9,10 +9,6 @@ from robotside.database.tables import Base
 connection = context.config.attributes.get("connection")
 if connection is None:
     raise RuntimeError("These migrations are run by robotside.database.opening, which hands in a connection.")
-context.configure(
-    connection=connection,
-    target_metadata=Base.metadata,
-    transactional_ddl=connection.dialect.name not in ("mysql", "mariadb"),
-)
+context.configure(connection=connection, target_metadata=Base.metadata)
 with context.begin_transaction():
     context.run_migrations()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from array import array
 from typing import ClassVar
 
 import cbor2
@@ -12,9 +13,10 @@ import pytest
 from bridge.codec import from_builtins, from_cbor, to_cbor
 from bridge.errors import ProtocolError
 from bridge.msgs import Msg
-from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
+from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist, Vector3
 from bridge.msgs.nav_msgs import Odometry
-from bridge.msgs.sensor_msgs import Imu, JointState, NavSatFix
+from bridge.msgs.sensor_msgs import CompressedImage, Imu, JointState, LaserScan, NavSatFix
+from bridge.msgs.std_msgs import Empty, Int64, String
 
 
 class Numbers(Msg, frozen=True, gc=False):
@@ -92,3 +94,44 @@ def test_numbers_are_little_endian():
     assert cbor2.loads(to_cbor(msgspec.structs.replace(NUMBERS, b=[258, 1])))["b"].value == struct.pack(
         "<2H", 258, 1
     )
+
+
+@pytest.mark.parametrize("number", [0, 23, 24, 255, 256, 65535, 65536, 2**32 - 1, 2**32, 2**63 - 1])
+def test_whole_numbers_are_as_short_as_can_be(number):
+    assert to_cbor(Int64(number)) == cbor2.dumps({"data": number})
+    assert to_cbor(Int64(-1 - number)) == cbor2.dumps({"data": -1 - number})
+
+
+@pytest.mark.parametrize("length", [0, 23, 24, 255, 256, 65535, 65536])
+def test_texts_and_bytes_of_any_length_are_told_their_length(length):
+    assert to_cbor(String("é" + "x" * length)) == cbor2.dumps({"data": "é" + "x" * length})
+    assert cbor2.loads(to_cbor(CompressedImage(data=b"x" * length)))["data"] == b"x" * length
+
+
+def test_a_message_of_nothing_is_an_empty_map():
+    assert to_cbor(Empty()) == cbor2.dumps({})
+
+
+def test_floats_keep_all_their_digits():
+    assert cbor2.loads(to_cbor(Vector3(0.1, -1e-300, 1e300))) == {"x": 0.1, "y": -1e-300, "z": 1e300}
+
+
+@pytest.mark.parametrize(
+    "msg",
+    [
+        Int64(2**64),
+        Int64("1"),
+        String(5),
+        String("\ud800"),
+        Vector3("fast"),
+        Vector3(10**400),
+        Twist(linear=None),
+        JointState(name=5),
+        LaserScan(ranges=array("u", "x")),
+        LaserScan(ranges=None),
+        CompressedImage(data=5),
+    ],
+)
+def test_a_value_that_is_none_of_its_field_is_a_protocol_error(msg):
+    with pytest.raises(ProtocolError, match="cannot be sent as CBOR"):
+        to_cbor(msg)

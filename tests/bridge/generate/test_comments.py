@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from bridge.generate.comments import read_comments, without_comment
+from bridge.generate.comments import read_comments, unit_in, without_comment
 
 
 def of(text: str, name: str) -> str:
@@ -86,3 +86,24 @@ def test_constants_arrays_and_bounds_are_named_as_fields_are():
 )
 def test_a_sign_within_a_text_begins_no_comment(line, code, comment):
     assert without_comment(line) == (code, comment)
+
+
+@pytest.mark.parametrize(
+    ("comment", "unit"),
+    [
+        ("[m/s]", "m/s"),
+        ("Down from\nthe surface [m], positive.", "m"),
+        ("3 x 3 [(rad/s)2]; a first element of -1 means none.", "(rad/s)2"),
+        ("[m], again [m]", "m"),
+        ("[degC]", "degC"),
+        ("[%]", "%"),
+        ("[m] or [rad]", ""),
+        ("The camera matrix; k[0] of 0 means none, and a[i] too.", ""),
+        ("In [0, 1].", ""),
+        ("[x, y, z]", ""),
+        ("[]", ""),
+        ("", ""),
+    ],
+)
+def test_a_unit_stands_in_square_brackets_and_two_are_none(comment, unit):
+    assert unit_in(comment) == unit

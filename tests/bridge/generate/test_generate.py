@@ -230,6 +230,38 @@ def test_parts_may_be_empty(tmp_path):
     assert things.IdleResult.ROSTYPES == ()
 
 
+def test_it_knows_the_units_that_comments_name(boats):
+    assert boats.Boat.UNITS == {"draught": "m", "currents": "A"}
+    assert boats.Sail.UNITS == {"area": "m2", "foot": "m"}
+
+
+def test_what_names_no_unit_has_no_table_of_them(tmp_path):
+    assert not hasattr(made(tmp_path, "float64 x\nstring name  # At most 5 [m] long.\n"), "UNITS")
+
+
+def test_a_unit_of_the_whole_is_that_of_all_its_numbers(tmp_path):
+    things = made(
+        tmp_path,
+        "# A place [km].\n\nfloat64 from\nfloat64 x\n---\n# Off [m].\n\nbool far\nfloat64 x\n",
+        "Go.srv",
+    )
+    assert things.GoRequest.UNITS == {"from_": "km", "x": "km"}
+    assert not hasattr(things.GoResponse, "UNITS")
+
+
+def test_a_unit_of_a_message_is_kept_for_what_is_in_it_and_a_moment_has_its_own(tmp_path):
+    things = made(tmp_path, "geometry_msgs/Vector3 speed  # [m/s]\ntime at  # [s]\n")
+    assert things.Thing.UNITS == {"speed": "m/s"}
+
+
+def test_a_text_may_have_a_constant_or_a_field_called_units(tmp_path):
+    things = made(tmp_path, 'string UNITS="SI"\nfloat64 x  # [m]\n---\nfloat64 UNITS  # [m]\n', "Go.srv")
+    assert things.GoRequest.UNITS == "SI"
+    assert (tmp_path / "out" / "thing_msgs.py").read_text().count("    UNITS: ") == 2  # one of each class
+    assert things.GoResponse.UNITS == {"UNITS_": "m"}
+    assert to_json(things.GoResponse(2.0)) == b'{"UNITS":2.0}'
+
+
 @pytest.mark.parametrize("name", ["from", "bytes", "field", "list", "uint8", "MSGTYPE", "float"])
 def test_a_field_that_python_cannot_name_has_an_underscore_and_travels_under_its_own(tmp_path, name):
     things = made(tmp_path, f"uint8 {name} 3\nuint8[] data\nfloat64[2] pair\nuint8 last\nfloat64 x\n")

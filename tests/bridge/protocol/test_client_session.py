@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cbor2
 import pytest
 from msgspec import UNSET, Raw
 
@@ -210,3 +211,18 @@ def test_every_frame_that_servers_write_is_taken(said):
 def test_pictures_are_unpacked():
     op = Unadvertise(topic="/a")
     assert ClientSession().receive(encode(to_png(encode(op))), 0.0) == [op]
+
+
+@pytest.mark.parametrize("lost", [False, True])
+def test_what_is_costly_to_read_in_cbor_is_not_taken_from_a_server_either(lost):
+    session = ClientSession()
+    if lost:
+        session.lose()
+    publish = {"op": "publish", "topic": "/n", "msg": {"data": cbor2.CBORTag(4, [1, 10**30])}}
+    (told,) = session.receive(cbor2.dumps(publish), 0.0)
+    assert str(told) == "A binary frame may hold no CBOR tags but those of number arrays, not 4."
+    many = cbor2.dumps({"op": "publish", "topic": "/n", "msg": {"data": [[]] * 250_000}})
+    (told,) = session.receive(many, 0.0)
+    assert str(told) == "A binary frame may hold at most 250000 values outside number arrays."
+    (told,) = session.receive(cbor2.dumps(publish | {"msg": {"data": [0.5] * 100_000}}), 0.0)
+    assert told.topic == "/n"

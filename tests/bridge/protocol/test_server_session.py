@@ -434,3 +434,22 @@ def test_a_vanished_client_leaves_nothing_but_its_goals():
     kept = (session.subscriptions, session.advertised, session.services, session.actions, session.goals)
     assert kept == ({},) * 5
     assert session.lose() == []
+
+
+def test_a_client_has_a_hundred_goals_under_way_at_most_and_each_id_once():
+    session = ServerSession()
+    for number in range(module.MOST_GOALS):
+        session.begin_goal(SendActionGoal(action="/dock", id=number))
+    with pytest.raises(ProtocolError, match="A goal with the id 7 is under way already"):
+        session.begin_goal(SendActionGoal(action="/fly", id=7))
+    with pytest.raises(ProtocolError, match="at most 100 goals under way"):
+        session.begin_goal(SendActionGoal(action="/dock", id="one too many"))
+    session.end_goal(7)
+    session.begin_goal(SendActionGoal(action="/dock", id="one too many"))
+
+
+def test_who_is_gone_leaves_no_unfinished_texts():
+    session = ServerSession()
+    session.receive('{"op": "fragment", "id": "f", "data": "x", "num": 0, "total": 2}', 0.0)
+    session.lose()
+    assert session.expire(100.0) == []

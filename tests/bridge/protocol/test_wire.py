@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import math
+import sys
 
 import cbor2
 import msgspec
@@ -30,7 +31,7 @@ from bridge.protocol import (
     parse_each,
     too_deep,
 )
-from bridge.protocol.wire import MOST_OPERATIONS
+from bridge.protocol.wire import LARGEST_ARGUMENTS, LARGEST_SHARED, MOST_OPERATIONS
 
 DEEP = 100_000
 
@@ -298,3 +299,63 @@ def test_a_request_that_is_neither_is_refused(args):
 def test_a_request_too_deep_to_read_is_refused():
     with pytest.raises(ProtocolError, match="cannot be read"):
         arguments(Raw(b"[" * 5000 + b"]" * 5000), CommandRequest)
+
+
+def steps(work, *about):
+    """How many lines of Python are executed: what is to stay small however long a text is."""
+    count = 0
+
+    def trace(frame, event, arg):
+        nonlocal count
+        count += event == "line"
+        return trace
+
+    before = sys.gettrace()
+    sys.settrace(trace)
+    try:
+        work(*about)
+    finally:
+        sys.settrace(before)
+    return count
+
+
+MANY = 20_000
+COSTLY = {
+    "lists of an unknown message": b'{"op":"publish","topic":"/a","msg":{"a":[%s]}}',
+    "lists in the place of the op": b'{"op":[%s]}',
+    "lists in the place of a topic": b'{"op":"publish","topic":[%s]}',
+    "lists in a reduction": b'{"op":"subscribe","topic":"/a","reduce":{"beams":1.5,"x":[%s]},"queue_length":null}',
+    "lists where a whole number belongs": b'{"op":"action_result","action":"a","status":[%s]}',
+    "texts after a bare NaN": b'{"op":"publish","topic":"/a","msg":[NaN,[%s]]}',
+}
+
+
+@pytest.mark.parametrize("what", COSTLY)
+@pytest.mark.parametrize("each", [b"[]", b'""', b'{"a":1}'])
+def test_a_long_text_is_read_by_no_loop_of_python(what, each):
+    text = COSTLY[what] % b",".join([each] * MANY)
+    assert steps(parse_each, text) < 500
+    assert steps(too_deep, text) < 5000
+
+
+def test_bare_nans_are_not_looked_for_in_too_many_places():
+    text = b'{"op":"publish","topic":"/a","msg":[%s]}'
+    few = text % b",".join([b'NaN,"x"'] * 1000)
+    assert isinstance(parse_each(few)[0], Publish)
+    assert isinstance(parse_each(text % b",".join([b'NaN,"x"'] * 100_001))[0], ProtocolError)
+
+
+def test_a_large_frame_is_not_looked_through_for_several_operations():
+    one = b'{"op":"unsubscribe","topic":"/a"}'
+    assert len(parse_each(one * 2 + b" " * (LARGEST_SHARED - 2 * len(one)))) == 2
+    assert len(parse_each(one * 2 + b" " * (LARGEST_SHARED - 2 * len(one) + 1))) == 1
+
+
+def test_arguments_are_bounded_and_a_list_may_be_longer_than_the_fields():
+    fields = msgspec.structs.astuple(CommandRequest(command_id="7"))
+    assert arguments(Raw(msgspec.json.encode([*fields, [], {}])), CommandRequest).command_id == "7"
+    text = b'["%s"]' % (b"x" * LARGEST_ARGUMENTS)
+    with pytest.raises(ProtocolError, match=f"may have at most {LARGEST_ARGUMENTS} bytes, not {len(text)}"):
+        arguments(Raw(text), CommandRequest)
+    with pytest.raises(ProtocolError, match="may have at most"):
+        arguments(Raw(b'{"a":%s}' % text), CommandRequest)

@@ -76,13 +76,12 @@ def test_the_card_of_the_addressee_answers_and_another_one_is_told_of_once(
 
 def test_an_answer_from_before_it_was_asked_does_not_count() -> None:
     stage = Stage()
-    _, tree = deliver([SHOP, LAB], "", "", stage.guide, stage.situation, stage.say)
-    stage.situation.confirmed_by = "Anna"
-    stage.tick(tree, 1.0)
-    stage.situation.confirmed_by = "Anna"
-    stage.tick(tree)
-    until_asked(stage, tree)
+    course, tree = deliver([SHOP, LAB], "", "", stage.guide, stage.situation, stage.say)
+    while not stage.situation.doing.asks:
+        stage.situation.confirmed_by, stage.situation.tag = "Anna", "card-12"
+        assert stage.tick(tree) is Status.RUNNING
     assert stage.tick(tree, 1.0) is Status.RUNNING
+    assert course.visited == 0
 
 
 def test_a_place_without_a_card_says_that_only_a_tap_answers() -> None:

@@ -2,103 +2,84 @@
 
 from __future__ import annotations
 
-import contextlib
+import asyncio
 import os
 import pwd
 import shutil
+import signal
 import subprocess
 import tempfile
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from sqlalchemy import text
+from sqlalchemy.engine import make_url
+from sqlalchemy.exc import OperationalError
 
 from robotside.database import Records
 from robotside.database.opening import open_records
 from robotside.database.storage import engine_of
 from robotside.database.tables import Base
 
-OTHERS = "PILOTHOUSE_TEST_DATABASES"
-"""Environment variable with URLs, separated by spaces, of empty databases to run the same tests on."""
-URLS = os.environ.get(OTHERS, "").split()
+URLS = os.environ.get("PILOTHOUSE_TEST_DATABASES", "").split()
+"""Of empty databases to run the same tests on, separated by spaces."""
+OWNER = "postgres"
+"""Who runs the server where the tests are run by root, whom it does not obey."""
 
 Open = Callable[[], Records]
 
 
-def _postgres() -> Path | None:
-    found = [
-        *Path("/usr/lib/postgresql").glob("*/bin/initdb"),
-        *map(Path, filter(None, [shutil.which("initdb")])),
-    ]
-    return found[-1].resolve().parent if found else None
+def run_by() -> str | None:
+    """Who the server is to be run by, None for whoever runs the tests."""
+    if os.getuid():
+        return None
+    try:
+        pwd.getpwnam(OWNER)
+    except KeyError:
+        pytest.skip(f"Root runs the tests, and there is no user {OWNER} to run a server.")
+    return OWNER
 
 
 @pytest.fixture(scope="session")
 def postgresql() -> Iterator[str]:
     """URL of a PostgreSQL server of our own, without a port, that ends with the tests."""
-    programs = _postgres()
     pytest.importorskip("psycopg")
-    if programs is None:
+    found = sorted(Path("/usr/lib/postgresql").glob("*/bin/initdb"))
+    if not found:
         pytest.skip("No PostgreSQL server is installed here.")
-    owner = {} if os.getuid() else {"user": "postgres"}
-    with contextlib.suppress(KeyError):
-        if owner:
-            pwd.getpwnam("postgres")
+    programs, owner = found[-1].parent, run_by()
     folder = Path(tempfile.mkdtemp(prefix="pg"))
     try:
         if owner:
-            shutil.chown(folder, "postgres")
-        data = folder / "data"
-        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-        subprocess.run(
-            [programs / "initdb", "-D", data, "-A", "trust", "-U", "robot", "-E", "UTF8", "--locale=C"],
-            check=True,
-            **quiet,
-            **owner,
-        )  # type: ignore[call-overload]
-        server = subprocess.Popen(
-            [
-                programs / "postgres",
-                "-D",
-                data,
-                "-k",
-                folder,
-                "-c",
-                "listen_addresses=",
-                "-c",
-                "max_connections=20",
-            ],
-            **quiet,
-            **owner,
-        )  # type: ignore[call-overload]
-        try:
-            url = f"postgresql+psycopg://robot@/postgres?host={folder}"
-            _await(url)
-            yield url
-        finally:
-            server.send_signal(2)
-            server.wait()
+            shutil.chown(folder, owner)
+        make = [programs / "initdb", "-D", folder / "data", "-A", "trust", "-U", "robot", "-E", "UTF8"]
+        subprocess.run([*make, "--locale=C"], check=True, capture_output=True, user=owner)
+        serve = [programs / "postgres", "-D", folder / "data", "-k", folder, "-c", "listen_addresses="]
+        with subprocess.Popen(serve, stderr=subprocess.DEVNULL, user=owner) as server:
+            try:
+                url = f"postgresql+psycopg://robot@/postgres?host={folder}"
+                until_it_answers(url)
+                yield url
+            finally:
+                server.send_signal(signal.SIGINT)
     finally:
         shutil.rmtree(folder)
 
 
-def _await(url: str) -> None:
-    import time
-
-    from sqlalchemy.engine import make_url
-
-    end = time.monotonic() + 20.0
-    engine = engine_of(make_url(url))
+def until_it_answers(url: str) -> None:
+    end, engine = time.monotonic() + 20.0, engine_of(make_url(url))
     while True:
         try:
-            with engine.connect():
-                break
-        except Exception:
+            engine.connect().close()
+        except OperationalError:
             if time.monotonic() > end:
                 raise
-            time.sleep(0.1)
-    engine.dispose()
+            time.sleep(0.05)
+        else:
+            engine.dispose()
+            return
 
 
 @pytest.fixture(params=["sqlite", "postgresql", *URLS])
@@ -107,8 +88,6 @@ def url(request: pytest.FixtureRequest) -> str | None:
     if request.param == "sqlite":
         return None
     found = request.getfixturevalue("postgresql") if request.param == "postgresql" else request.param
-    from sqlalchemy.engine import make_url
-
     engine = engine_of(make_url(found))
     with engine.begin() as connection:
         Base.metadata.drop_all(connection)
@@ -120,7 +99,5 @@ def url(request: pytest.FixtureRequest) -> str | None:
 @pytest.fixture
 async def start(tmp_path: Path, url: str | None) -> Open:
     """Opens the records as a robot side does that starts."""
-    import asyncio
-
     loop = asyncio.get_running_loop()
-    return lambda: open_records(tmp_path, url, loop.call_soon_threadsafe)
+    return lambda: open_records(tmp_path, url, loop.call_soon_threadsafe, patience=1.0)

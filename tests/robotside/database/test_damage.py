@@ -220,3 +220,48 @@ async def test_what_waits_at_the_end_is_written(tmp_path: Path) -> None:
     records = await opened(tmp_path)
     assert len(records.places.all()) == 100
     records.close()
+
+
+async def test_a_disk_that_is_full_at_the_start_costs_no_robot_and_is_said_until_there_is_room(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    records = await opened(tmp_path)
+    assert await keep(records, OFFICE) == ""
+    records.close()
+    real, full = storage_module.write, [True]
+
+    def write(*arguments: object) -> None:
+        if full:
+            raise sqlite3.OperationalError("database or disk is full")
+        real(*arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(storage_module, "write", lambda *a: _as_sqlalchemy(write, *a))
+    records = await opened(tmp_path)
+    troubles: list[str] = []
+    records.on_trouble(troubles.append)
+    said = "The disk is full: nothing was stored. Make room on the robot's computer."
+    assert records.problems == [said]
+    assert records.places.named("Office 12") is not None
+    assert await keep(records, LAB) == said
+    full.clear()
+    await until(lambda: troubles == [""])
+    assert await keep(records, LAB) == ""
+    records.close()
+    with closing(sqlite3.connect(tmp_path / "records.sqlite3")) as database:
+        assert database.execute("SELECT value FROM facts WHERE name = 'clean'").fetchone() == ("1",)
+
+
+async def test_what_could_not_be_written_is_written_at_the_end_if_it_can_be_then(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("robotside.database.writer.RETRY", 60.0)
+    records = await opened(tmp_path, patience=0.05)
+    with closing(sqlite3.connect(tmp_path / "records.sqlite3")) as other:
+        other.execute("BEGIN IMMEDIATE")
+        heard: list[Event] = []
+        records.events.add(Event(text="happened"), heard.append)
+        await until(lambda: heard)
+    records.close()
+    records = await opened(tmp_path)
+    assert [event.text for event in records.events.since(0, "")] == ["happened"]
+    records.close()

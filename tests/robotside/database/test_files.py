@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import os
 import sqlite3
 from contextlib import closing
 from pathlib import Path
@@ -28,13 +30,15 @@ def content(path: Path) -> list[str]:
 
 def test_the_newest_backups_and_one_of_each_day_are_kept(tmp_path: Path) -> None:
     now = [1_795_000_000.0]
-    files = Files(database(tmp_path / "records.sqlite3"), lambda: now[0])
+    files = Files(database(tmp_path / "records.sqlite3"), lambda: now[0], backups=7)
     for _ in range(40):
         now[0] += DAY / 4
         files.back_up()
     kept = [backup.name for backup in files.backups()]
-    assert len(kept) == 9  # the four newest are of two days
-    assert len({name[:16] for name in kept}) == 7
+    assert len(kept) == 7
+    assert len({name[:16] for name in kept}) in (4, 5), (
+        "four are of today and yesterday, three of the days before"
+    )
     assert content(files.backups()[-1]) == ["x"]
     assert not list(files.backups_in.glob("*.new*"))
 
@@ -47,6 +51,7 @@ def test_a_backup_is_whole_while_somebody_writes(tmp_path: Path) -> None:
         writer.commit()
         writer.execute("INSERT INTO t VALUES ('on its way')")
         backup = Files(path).back_up()
+    assert backup is not None
     assert content(backup) == ["x", "kept"]
     assert [each.name for each in backup.parent.iterdir()] == [backup.name]
 
@@ -82,3 +87,22 @@ def test_a_whole_file_has_no_fault_and_neither_has_none(tmp_path: Path) -> None:
     assert files.fault() == ""
     files.path.write_bytes(b"no database" * 100)
     assert files.fault() == "file is not a database"
+
+
+def test_who_wants_no_backups_has_none(tmp_path: Path) -> None:
+    files = Files(database(tmp_path / "records.sqlite3"), backups=0)
+    assert files.back_up() is None
+    assert files.backups() == []
+
+
+def test_how_old_the_newest_backup_is_tells_when_the_next_one_is_due(tmp_path: Path) -> None:
+    now = [0.0]
+    files = Files(database(tmp_path / "records.sqlite3"), lambda: now[0])
+    assert files.backup_age() == math.inf
+    backup = files.back_up()
+    assert backup is not None
+    os.utime(backup, (1000.0, 1000.0))
+    now[0] = 1600.0
+    assert files.backup_age() == 600.0
+    now[0] = 900.0
+    assert files.backup_age() == math.inf

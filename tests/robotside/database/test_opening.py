@@ -11,7 +11,7 @@ import msgspec
 import pytest
 from alembic.autogenerate import compare_metadata
 from alembic.migration import MigrationContext
-from sqlalchemy import create_engine, text
+from sqlalchemy import create_engine, event, inspect, text
 from sqlalchemy.engine import make_url
 
 from bridge.codec import to_json
@@ -151,8 +151,18 @@ async def test_a_commit_is_on_the_disk_and_readers_do_not_wait_for_writers(tmp_p
     engine.dispose()
 
 
+async def test_a_second_robot_side_is_refused_until_the_first_one_ends(start: Open, url: str | None) -> None:
+    if url and "mariadb" in url:
+        pytest.skip("MariaDB's locks outlive a robot without power.")
+    first = start()
+    with pytest.raises(CannotOpen, match="Another robot side keeps its records in "):
+        start()
+    first.close()
+    start().close()
+
+
 async def test_a_second_robot_side_is_told_that_the_records_are_taken(tmp_path: Path) -> None:
-    first = open_records(tmp_path, None, lambda call, *arguments: call(*arguments))
+    first = open_records(tmp_path, None, print)
     with pytest.raises(
         CannotOpen, match="Another robot side keeps its records in .*; end it or name another --state."
     ):
@@ -223,3 +233,43 @@ def test_rows_that_cannot_be_read_are_left_out_and_said(tmp_path: Path) -> None:
     records = open_records(tmp_path, None, print)
     assert records.problems == ["1 of the missions in the database cannot be read (7) and are left out."]
     records.close()
+
+
+async def test_a_server_that_was_away_is_found_again(start: Open, url: str | None) -> None:
+    if not url or "postgresql" not in url:
+        pytest.skip("Of a server that can be told to cut its connections.")
+    records = start()
+    await fill(records)
+    engine = engine_of(make_url(url))
+    with engine.connect() as connection:
+        others = "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE pid != pg_backend_pid() AND backend_type = 'client backend'"
+        connection.execute(text(others))
+    engine.dispose()
+    with records.together() as job:
+        records.places.set(Place(name="Lab"))
+    assert await job.kept(10.0) == ""
+    records.close()
+    again = start()
+    assert len(again.places.all()) == 3
+    again.close()
+
+
+async def test_a_migration_that_is_cut_leaves_nothing_half_and_is_done_again(
+    tmp_path: Path, url: str | None
+) -> None:
+    engine = engine_of(make_url(url or f"sqlite:///{tmp_path / 'x.sqlite3'}"))
+    cut = [True]
+
+    @event.listens_for(engine, "before_cursor_execute")
+    def fail(_: object, __: object, statement: str, *___: object) -> None:
+        if cut and "CREATE TABLE" in statement and "runs" in statement:
+            raise RuntimeError("The power is gone.")
+
+    with pytest.raises(RuntimeError, match="The power is gone."):
+        upgrade(engine)
+    if engine.dialect.name != "mariadb":
+        assert inspect(engine).get_table_names() == []
+    cut.clear()
+    upgrade(engine)
+    assert set(inspect(engine).get_table_names()) == {"alembic_version", *Base.metadata.tables}
+    engine.dispose()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import queue
 import threading
 from collections.abc import Callable, Iterator
@@ -25,6 +26,7 @@ class Paper(Keeper):
         self.bad: object = None
         self.rebuilt: list[Put] | None = None
         self.backups = 0
+        self.age = math.inf
         self.closed = False
 
     def write(self, puts: list[Put]) -> None:
@@ -41,6 +43,9 @@ class Paper(Keeper):
 
     def back_up(self) -> None:
         self.backups += 1
+
+    def backup_age(self) -> float:
+        return self.age
 
     def close(self) -> None:
         self.closed = True
@@ -150,6 +155,16 @@ def test_a_backup_is_made_soon_after_the_start(writer: Threaded, paper: Paper, d
     desk.look(1)
     writer.close()
     assert paper.backups == 1
+
+
+def test_a_backup_that_is_young_will_do_for_now(paper: Paper, desk: Desk) -> None:
+    paper.age = 100.0
+    writer = Threaded(paper, desk.soon)
+    writer.start()
+    writer.submit(job(1), desk.hear)
+    desk.look(1)
+    writer.close()
+    assert paper.backups == 0
 
 
 def test_a_loop_that_has_ended_stops_nothing(paper: Paper) -> None:

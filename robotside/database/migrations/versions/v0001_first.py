@@ -26,6 +26,7 @@ def upgrade() -> None:
         sa.Column("yaw", sa.Double(), nullable=True),
         *map(_text, ("tag", "note")),
     )
+    _table("answers", _id(), *map(_text, ("sender", "service", "command_id", "content")))
     _table("missions", _id(), *map(_text, ("name", "content")))
     _table("schedule", _id(), sa.Column("enabled", sa.Boolean(), nullable=False), _text("content"))
     _table("queue", _id(), sa.Column("position", sa.Integer(), nullable=False), _text("content"))

@@ -1,0 +1,32 @@
+"""What was answered to commands that changed something, so that one that is sent again after a crash is not done again."""
+
+from __future__ import annotations
+
+from robotside.database.ledger import Ledger
+from robotside.database.rows import Answered
+
+__all__ = ["KEPT", "Answers"]
+
+KEPT = 256
+"""Answers that are kept."""
+
+
+class Answers:
+    """The newest answers, kept in the transaction of what they tell of."""
+
+    def __init__(self, ledger: Ledger) -> None:
+        self._ledger = ledger
+
+    def all(self) -> list[Answered]:
+        """Oldest first."""
+        rows = self._ledger.rows("answers")
+        return [rows[key] for key in sorted(rows)]
+
+    def keep(self, answered: Answered) -> None:
+        """Keep one with what is changed together with it."""
+        ledger = self._ledger
+        with ledger.together():
+            number = ledger.count("last answer")
+            ledger.order("answers", number, answered)
+            for old in sorted(ledger.rows("answers"))[:-KEPT]:
+                ledger.fact("answers", old, None)

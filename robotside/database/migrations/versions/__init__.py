@@ -1,0 +1,1 @@
+"""Each step one file; alembic finds them by the revisions they name."""

@@ -1,0 +1,63 @@
+"""Which drive commands are too late to count, and which never were in time.
+
+Pure: every call is told the time. Times are seconds of the operators' clock.
+"""
+
+from __future__ import annotations
+
+import math
+
+from robotside.authority import Operator
+from robotside.words import number
+
+__all__ = ["AHEAD", "HELD", "UNSTAMPED", "VALID", "Expiry"]
+
+VALID = 0.3
+"""A drive command older than this does not count [s]."""
+
+HELD = 0.28
+"""As long after it was given a drive command is in force [s]: the next look after it comes within VALID."""
+
+AHEAD = 1.0
+"""A command from further in the future than this comes from a wrong clock [s]."""
+
+UNSTAMPED = 0.7
+"""A command without a stamp counts when it is certain to be younger than this [s]."""
+
+
+class Expiry:
+    """Judges the commands of all connections by their age and order."""
+
+    def __init__(self) -> None:
+        self._newest: dict[str, float] = {}
+
+    def fault(self, client: Operator, now: float, stamp: float | None, *, rest: bool) -> str:
+        """Why a drive command that has just come does not count, as one sentence; empty when it does.
+
+        `stamp` is when it was given [s]; None and NaN when nobody said: then it is as old as it can be at most. `rest`
+        is for a command of zero, which without a stamp is as right late as in time.
+        """
+        if stamp is None or math.isnan(stamp):
+            return "" if rest else _untold(now - client.answered)
+        if not client.asked_time:
+            said = "its stamp is of a clock that was never compared with the robot's"
+            return f"A drive command was dropped: {said}; ask /rosapi/get_time first."
+        if now - stamp > VALID:
+            return f"A drive command was dropped: it came {number(now - stamp)} s late and is valid for {VALID} s."
+        if stamp - now > AHEAD:
+            return f"A drive command was dropped: its clock is {number(stamp - now)} s ahead of the robot's."
+        if stamp <= self._newest.get(client.id, -math.inf):
+            return "A drive command was dropped: a newer one came before it."
+        self._newest[client.id] = stamp
+        return ""
+
+    def forget(self, client: Operator) -> None:
+        """A connection ended."""
+        self._newest.pop(client.id, None)
+
+
+def _untold(age: float) -> str:
+    if age <= UNSTAMPED:
+        return ""
+    may, allowed = f"it has no stamp and may be {number(age)} s old", f"{UNSTAMPED} s is allowed"
+    return f"A drive command was dropped: {may}; {allowed}."

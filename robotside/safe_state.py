@@ -1,0 +1,185 @@
+"""What a robot does when nobody drives it any more, per kind: the link or the driver is lost, and it must not be left to itself.
+
+Pure: what the robot measures and the time are passed in; what comes out goes to the robot's port. A robot side that
+dies cannot do any of this: there the robot's own drive has to.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from bridge.msgs.geometry_msgs import Twist, Vector3
+from bridge.units import wrap
+from robotside.config import SafeStateSettings
+from robotside.limits import Measured
+
+__all__ = ["BRAKE", "Act", "SafeState"]
+
+TURN_GAIN, TURN_MOST = 0.8, 0.4
+"""Towards the heading that is held [1/s, rad/s]."""
+LEVEL_GAIN, LEVEL_MOST = 1.0, 0.3
+"""Towards lying level [1/s, rad/s]."""
+DEPTH_GAIN, DEPTH_MOST = 0.8, 0.2
+"""Towards the depth or height that is held [1/s, m/s]."""
+RISING, SINKING = 0.2, 0.3
+"""How fast it surfaces, and lands [m/s]."""
+SURFACE, GROUND = -0.05, 0.08
+"""From this height on it has surfaced, up to this one it has landed [m]."""
+LONGEST = 120.0
+"""Surfacing or landing ends after this at the latest, for one that does not measure its height [s]."""
+STANDS = 0.02
+"""Slower than this it stands [m/s]."""
+STRAIGHT = 10.0
+"""Braking straight ends after this at the latest, for one that does not measure its speed [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Act:
+    """What the robot is to do now."""
+
+    twist: Twist | None
+    """To drive with; None for braking to rest and staying there."""
+    phase: str = ""
+    """What it is about, as an event tells it: `holds its depth`."""
+    home: bool = False
+    """It is to go home by a task of its own, if it can."""
+
+
+BRAKE = Act(None, "brakes")
+_AT_REST = Act(None, "is at rest")
+
+
+@dataclass(frozen=True, slots=True)
+class _Usual:
+    """What a kind does unless it is told otherwise."""
+
+    action: str
+    hold_for: float = math.inf
+    then: str = "stay"
+
+
+_USUAL = {
+    "wheels": _Usual("brake"),
+    "ackermann": _Usual("brake_straight"),
+    "boat": _Usual("hold_heading"),
+    "hexapod": _Usual("hold_depth", 60.0, "surface"),
+    "quadrotor": _Usual("hover", 10.0, "land"),
+}
+
+
+class SafeState:
+    """The safe state of one robot. It is entered when a command has run out, and left when somebody drives or a task begins."""
+
+    def __init__(self, kind: str, settings: SafeStateSettings) -> None:
+        """`settings` go before what robots of a `kind` usually do; an unknown kind brakes."""
+        usual = _USUAL.get(kind, _USUAL["wheels"])
+        self._action = settings.action or usual.action
+        self._usual_then = self._then = settings.then or usual.then
+        self._hold_for = usual.hold_for if settings.hold_for is None else settings.hold_for
+        if settings.then and settings.hold_for is None and math.isinf(self._hold_for):
+            self._hold_for = 30.0
+        self._begun: float | None = None
+        self._lost: float | None = None
+        self._after: float | None = None
+        self._held = Measured()
+        self._acts: dict[str, Callable[[float, Measured], Act]] = {
+            "brake": lambda _, __: BRAKE,
+            "brake_straight": self._brake_straight,
+            "hold_heading": self._hold_heading,
+            "hold_depth": self._hold_depth,
+            "hover": self._hover,
+        }
+        self._afterwards: dict[str, Callable[[float, Measured], Act]] = {
+            "surface": self._surface,
+            "land": self._land,
+            "return": lambda _, __: Act(None, "goes home", home=True),
+        }
+
+    @property
+    def active(self) -> bool:
+        """It is in its safe state."""
+        return self._begun is not None
+
+    @property
+    def brakes(self) -> bool:
+        """All that it does is to brake, and to stay where it is."""
+        return self._action in ("brake", "brake_straight") and self._usual_then == "stay"
+
+    def enter(self, now: float, measured: Measured) -> None:
+        """Nobody drives it from `now` on [s]; what it holds is what is `measured` now. Again changes nothing."""
+        if self._begun is None:
+            self._begun, self._held = now, measured
+
+    def leave(self) -> None:
+        """Somebody or something drives it."""
+        self._begun = self._lost = self._after = None
+        self._then = self._usual_then
+
+    def cannot_return(self) -> None:
+        """It cannot go home, or has been there: until it is left it comes down, or up, or stays where it is."""
+        self._then = {"hover": "land", "hold_depth": "surface"}.get(self._action, "stay")
+
+    def step(self, now: float, measured: Measured, *, lost: bool) -> Act:
+        """What to do at `now` [s]; `lost` while nobody is there who could drive it."""
+        if self._begun is None:
+            return BRAKE
+        self._lost = (now if self._lost is None else self._lost) if lost else None
+        due = self._lost is not None and now - self._lost >= self._hold_for
+        if self._then == "stay" or not (due or self._after is not None):
+            self._after = None
+            return self._acts[self._action](now - self._begun, measured)
+        if not lost:
+            # somebody is back in mid-way: it stays where it is now
+            self._after, self._begun, self._held = None, now, measured
+            return self._acts[self._action](0.0, measured)
+        self._after = now if self._after is None else self._after
+        return self._afterwards[self._then](now - self._after, measured)
+
+    def _brake_straight(self, since: float, measured: Measured) -> Act:
+        """No speed and the wheels straight, so that it does not swing into what is beside it."""
+        if since >= STRAIGHT or (since > 0 and measured.moving.speed < STANDS):
+            return _AT_REST
+        return Act(Twist(), "brakes straight")
+
+    def _hold_heading(self, _: float, measured: Measured) -> Act:
+        return Act(Twist(angular=Vector3(0.0, 0.0, self._turning(measured))), "idles and holds its heading")
+
+    def _hold_depth(self, _: float, measured: Measured) -> Act:
+        twist = Twist(Vector3(0.0, 0.0, self._rising(measured)), self._levelling(measured))
+        return Act(twist, "holds its depth")
+
+    def _hover(self, _: float, measured: Measured) -> Act:
+        twist = Twist(Vector3(0.0, 0.0, self._rising(measured)), Vector3(0.0, 0.0, self._turning(measured)))
+        return Act(twist, "hovers")
+
+    def _surface(self, since: float, measured: Measured) -> Act:
+        if measured.height >= SURFACE or since >= LONGEST:
+            return Act(None, "has surfaced")
+        return Act(Twist(Vector3(0.0, 0.0, RISING), self._levelling(measured)), "surfaces")
+
+    def _land(self, since: float, measured: Measured) -> Act:
+        if measured.height <= GROUND or since >= LONGEST:
+            return Act(None, "has landed")
+        turn = Vector3(0.0, 0.0, self._turning(measured))
+        return Act(Twist(Vector3(0.0, 0.0, -SINKING), turn), "lands")
+
+    def _turning(self, measured: Measured) -> float:
+        """Towards the heading at the beginning; 0 when it is not known."""
+        if measured.pose is None or self._held.pose is None:
+            return 0.0
+        return _within(TURN_GAIN * wrap(self._held.pose.yaw - measured.pose.yaw), TURN_MOST)
+
+    def _rising(self, measured: Measured) -> float:
+        """Towards the height at the beginning; 0 when it is not known."""
+        off = self._held.height - measured.height
+        return 0.0 if math.isnan(off) else _within(DEPTH_GAIN * off, DEPTH_MOST)
+
+    def _levelling(self, measured: Measured) -> Vector3:
+        roll, pitch = (_within(-LEVEL_GAIN * tilt, LEVEL_MOST) for tilt in (measured.roll, measured.pitch))
+        return Vector3(roll, pitch, self._turning(measured))
+
+
+def _within(value: float, most: float) -> float:
+    return max(-most, min(most, value))

@@ -1,0 +1,176 @@
+"""Who has control, and how it goes from one to another."""
+
+from __future__ import annotations
+
+import pytest
+
+from robotside.authority import AGAIN, LAPSE, SILENT, TO_OBJECT, Authority
+from tests.fakes import FakeClient
+
+NOW = 10.0
+
+
+@pytest.fixture
+def authority() -> Authority:
+    return Authority()
+
+
+@pytest.fixture
+def anna(authority: Authority) -> FakeClient:
+    return known(authority, "anna")
+
+
+@pytest.fixture
+def bert(authority: Authority) -> FakeClient:
+    return known(authority, "bert")
+
+
+def known(authority: Authority, name: str, now: float = NOW) -> FakeClient:
+    client = FakeClient(name, now)
+    authority.introduce(client, f"tablet-{name}", name.capitalize())
+    return client
+
+
+def driver(authority: Authority) -> str:
+    return authority.driver.name if authority.driver else ""
+
+
+def pass_time(authority: Authority, seconds: float, *clients: FakeClient, start: float = NOW) -> float:
+    for client in clients:
+        client.last_heard = start + seconds
+    authority.mind(start + seconds)
+    return start + seconds
+
+
+def test_who_asks_for_free_control_has_it_at_once(authority: Authority, anna: FakeClient) -> None:
+    assert authority.request(anna, NOW) == ""
+    assert (driver(authority), authority.asker) == ("Anna", None)
+
+
+def test_control_goes_over_when_the_driver_does_not_object_for_ten_seconds(
+    authority: Authority, anna: FakeClient, bert: FakeClient
+) -> None:
+    authority.acquire(anna, NOW)
+    assert authority.request(bert, NOW) == ""
+    pass_time(authority, TO_OBJECT - 0.1, anna, bert)
+    assert driver(authority) == "Anna"
+    assert authority.asker is not None
+    assert (authority.asker.name, authority.asker.due) == ("Bert", NOW + TO_OBJECT)
+    pass_time(authority, TO_OBJECT, anna, bert)
+    assert (driver(authority), authority.asker) == ("Bert", None)
+
+
+def test_asking_again_does_not_start_the_time_anew(
+    authority: Authority, anna: FakeClient, bert: FakeClient
+) -> None:
+    authority.acquire(anna, NOW)
+    authority.request(bert, NOW)
+    later = pass_time(authority, 6.0, anna, bert)
+    assert authority.request(bert, later) == ""
+    pass_time(authority, TO_OBJECT, anna, bert)
+    assert driver(authority) == "Bert"
+
+
+def test_a_driver_who_objects_keeps_control_and_is_not_asked_again_at_once(
+    authority: Authority, anna: FakeClient, bert: FakeClient
+) -> None:
+    authority.acquire(anna, NOW)
+    authority.request(bert, NOW)
+    assert authority.object(anna, NOW + 1.0) == ""
+    pass_time(authority, TO_OBJECT + 1.0, anna, bert)
+    assert driver(authority) == "Anna"
+    assert authority.request(bert, NOW + 11.0) == "Anna has objected; ask again in 20.0 s."
+    later = pass_time(authority, 1.0 + AGAIN, anna, bert)
+    assert authority.request(bert, later) == ""
+    assert authority.asker is not None
+
+
+def test_an_objection_does_not_count_for_the_next_driver(
+    authority: Authority, anna: FakeClient, bert: FakeClient
+) -> None:
+    carl = known(authority, "carl")
+    authority.acquire(anna, NOW)
+    authority.request(bert, NOW)
+    authority.object(anna, NOW)
+    authority.release(anna)
+    authority.acquire(carl, NOW)
+    assert authority.request(bert, NOW) == ""
+
+
+def test_a_driver_may_hand_over_at_once(authority: Authority, anna: FakeClient, bert: FakeClient) -> None:
+    authority.acquire(anna, NOW)
+    authority.request(bert, NOW)
+    assert authority.grant(anna) == ""
+    assert driver(authority) == "Bert"
+
+
+def test_only_the_driver_answers_who_asks(authority: Authority, anna: FakeClient, bert: FakeClient) -> None:
+    assert authority.grant(anna) == "Nobody asks for control."
+    authority.acquire(anna, NOW)
+    assert authority.object(anna, NOW) == "Nobody asks for control."
+    authority.request(bert, NOW)
+    assert authority.grant(bert) == "Anna has control; only its holder can answer."
+    assert authority.object(bert, NOW) == "Anna has control; only its holder can answer."
+    assert driver(authority) == "Anna"
+
+
+def test_there_is_one_who_asks_at_a_time(authority: Authority, anna: FakeClient, bert: FakeClient) -> None:
+    authority.acquire(anna, NOW)
+    authority.request(bert, NOW)
+    said = authority.request(known(authority, "carl"), NOW)
+    assert said == "Bert has asked Anna for control already; wait for the answer."
+
+
+def test_control_that_is_given_back_goes_to_who_asks_and_not_to_who_is_quicker(
+    authority: Authority, anna: FakeClient, bert: FakeClient
+) -> None:
+    carl = known(authority, "carl")
+    authority.acquire(anna, NOW)
+    authority.request(bert, NOW)
+    assert authority.release(anna) == ""
+    assert driver(authority) == "Bert"
+    assert authority.acquire(carl, NOW).startswith("Bert has control")
+
+
+@pytest.mark.parametrize("cut", ["silent", "gone"])
+def test_control_of_a_driver_who_is_lost_goes_to_who_asks(
+    authority: Authority, anna: FakeClient, bert: FakeClient, cut: str
+) -> None:
+    authority.acquire(anna, NOW)
+    authority.request(bert, NOW)
+    if cut == "gone":
+        assert authority.gone(anna)
+    else:
+        pass_time(authority, LAPSE + 0.1, bert)
+    assert driver(authority) == "Bert"
+
+
+@pytest.mark.parametrize("cut", ["silent", "gone", "taken back"])
+def test_who_asks_and_is_lost_asks_no_longer(
+    authority: Authority, anna: FakeClient, bert: FakeClient, cut: str
+) -> None:
+    authority.acquire(anna, NOW)
+    authority.request(bert, NOW)
+    if cut == "gone":
+        assert not authority.gone(bert)
+    elif cut == "taken back":
+        assert authority.release(bert) == ""
+    else:
+        pass_time(authority, LAPSE + 0.1, anna)
+    assert authority.asker is None
+    pass_time(authority, TO_OBJECT, anna)
+    assert driver(authority) == "Anna"
+
+
+def test_who_comes_back_over_another_connection_answers_from_there(
+    authority: Authority, anna: FakeClient, bert: FakeClient
+) -> None:
+    authority.acquire(anna, NOW)
+    authority.request(bert, NOW)
+    again = FakeClient("7", NOW + SILENT + 0.1)
+    authority.introduce(again, "tablet-anna", "Anna")
+    assert authority.grant(again).startswith("Anna has control")
+    assert authority.acquire(again, NOW + SILENT + 0.1) == ""
+    assert authority.object(again, NOW + SILENT + 0.1) == ""
+    assert authority.holds(again)
+    assert not authority.holds(anna)

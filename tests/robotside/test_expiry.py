@@ -1,0 +1,56 @@
+"""Which drive commands come too late."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from robotside.expiry import UNSTAMPED, VALID, Expiry
+from tests.fakes import FakeClient
+
+NOW = 100.0
+
+
+@pytest.fixture
+def client() -> FakeClient:
+    return FakeClient("anna", NOW)
+
+
+def test_a_stamp_of_a_clock_that_was_never_compared_does_not_count(client: FakeClient) -> None:
+    client.asked_time = False
+    said = Expiry().fault(client, NOW, NOW, rest=False)
+    assert said.endswith("never compared with the robot's; ask /rosapi/get_time first.")
+    client.asked_time = True
+    assert Expiry().fault(client, NOW, NOW, rest=False) == ""
+
+
+@pytest.mark.parametrize(("age", "counts"), [(0.0, True), (VALID, True), (VALID + 0.01, False)])
+def test_a_command_is_too_old_after_three_tenths_of_a_second(
+    client: FakeClient, age: float, counts: bool
+) -> None:
+    assert (Expiry().fault(client, NOW, NOW - age, rest=False) == "") == counts
+
+
+@pytest.mark.parametrize("stamp", [None, math.nan])
+def test_one_that_is_not_stamped_counts_while_the_link_shows_that_it_cannot_be_old(
+    client: FakeClient, stamp: float | None
+) -> None:
+    client.answered = NOW - UNSTAMPED + 0.01
+    assert Expiry().fault(client, NOW, stamp, rest=False) == ""
+    client.answered = NOW - 3.0
+    said = "A drive command was dropped: it has no stamp and may be 3.0 s old; 0.7 s is allowed."
+    assert Expiry().fault(client, NOW, stamp, rest=False) == said
+
+
+def test_a_zero_that_is_not_stamped_is_as_right_late_as_in_time(client: FakeClient) -> None:
+    client.answered = NOW - 60.0
+    assert Expiry().fault(client, NOW, None, rest=True) == ""
+
+
+def test_who_went_leaves_no_order_behind(client: FakeClient) -> None:
+    expiry = Expiry()
+    assert expiry.fault(client, NOW, NOW, rest=False) == ""
+    assert "a newer one came before it" in expiry.fault(client, NOW, NOW, rest=False)
+    expiry.forget(client)
+    assert expiry.fault(client, NOW, NOW, rest=False) == ""
