@@ -22,6 +22,10 @@ AT_ONCE = 30
 """Runs asked for at a time."""
 
 
+def nobody(*_: object) -> None:
+    """Listens to what is told."""
+
+
 class Robot(Protocol):
     """What is needed of the session."""
 
@@ -40,9 +44,9 @@ class Tasking:
         self.queue = QueueEditor(
             send=lambda revision, orders: robot.command("queue", revision=revision, orders=list(orders))
         )
-        self.on_forgotten: Callable[[str, Callable[[], None]], object] = lambda _, __: None
+        self.on_forgotten: Callable[[str, Callable[[], None]], object] = nobody
         """Called with what was deleted and how to take that back, once the robot has confirmed it."""
-        self.on_history: Callable[[GetHistoryResponse], object] = lambda _: None
+        self.on_history: Callable[[GetHistoryResponse], object] = nobody
         """Called with each part of the history that comes."""
         self._waits_for_mission: TaskOrder | None = None
         self._deleted: dict[tuple[str, int], Callable[[], None]] = {}
@@ -102,6 +106,10 @@ class Tasking:
                 self.on_forgotten(words, undo)
         elif outcome.name == "history" and accepted:
             self.on_history(outcome.answer)
+
+    def deaf(self) -> None:
+        """Nobody listens any more: the screens are left."""
+        self.on_forgotten = self.on_history = self.queue.on_change = nobody
 
     def dropped(self) -> None:
         """The link is another one now: what was under way has no answer."""

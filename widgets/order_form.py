@@ -145,7 +145,11 @@ class OrderForm(Control, BoxLayout):
         self.list = PlaceList()
         """Where places are chosen; over the fields while `picking`."""
         self.dial = HeadingDial(pos_hint={"center_x": 0.5})
+        hints = {"message": "What to tell the person", "recipient_tag": "Tag of the addressee"}
+        self._texts = {name: TextField(hint_text=hint) for name, hint in hints.items()}
         super().__init__(**kwargs)
+        for field in self._texts.values():
+            field.bind(text=self._typed)
         self._roll = self.ids.roll.__self__
         self.list.bind(on_command=lambda _, place: self.pick(place))
         self.dial.bind(on_command=lambda _, yaw: self.set(heading=yaw))
@@ -266,8 +270,8 @@ class OrderForm(Control, BoxLayout):
             "stops": self._stops,
             "points": self._points,
             "reaction": self._reaction,
-            "message": lambda: [self._text("message", "What to tell the person")],
-            "recipient": lambda: [self._text("recipient_tag", "Tag of the addressee")],
+            "message": lambda: [self._text("message")],
+            "recipient": lambda: [self._text("recipient_tag")],
             "heading": lambda: [self.dial],
             "speed": self._speed,
             "duration": self._duration,
@@ -319,15 +323,17 @@ class OrderForm(Control, BoxLayout):
         choice.bind(on_choose=lambda _, reaction: self.dispatch("on_react", reaction))
         return [SectionLabel(title="When it finds an intruder"), choice]
 
-    def _text(self, name: str, hint: str) -> TextField:
-        field = TextField(hint_text=hint, text=getattr(self, name))
-        field.bind(text=lambda one, text: self._typed(one, name, text))
+    def _text(self, name: str) -> TextField:
+        field = self._texts[name]
+        if field.text != getattr(self, name):
+            field.text = getattr(self, name)
         return field
 
-    def _typed(self, field: TextField, name: str, text: str) -> None:
+    def _typed(self, field: TextField, text: str) -> None:
+        name = next(name for name, one in self._texts.items() if one is field)
         if len(text) > LONGEST_TEXT:
             field.text = text[:LONGEST_TEXT]
-        else:
+        elif text != getattr(self, name):
             self.set(**{name: text})
 
     def _speed(self) -> list[Widget]:

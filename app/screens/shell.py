@@ -196,6 +196,7 @@ class Shell(FloatLayout):
         theme.unbind(target=self._arrange)
         if self._hear in self.session.listeners:
             self.session.listeners.remove(self._hear)
+        self.session.tasking.deaf()
         for screen in self.screens.values():
             screen.leave()
 
