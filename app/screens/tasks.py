@@ -150,10 +150,9 @@ class TasksScreen(FloatLayout):
 
     def _bind(self) -> None:
         bind, tasking = self.dashboard.bind, self.session.tasking
-        for widget in (self.now.card,):
-            bind(widget, "/task/status")
-            bind(widget, "/task/progress", fresh=False)
-        bind(self.schedule, "/schedule")
+        bind(self.now.card, "/task/status")
+        bind(self.now.card, "/task/progress", fresh=False)
+        bind(self.schedule, "/schedule", fresh=False)
         bind(self.places, "/places")
         bind(self.form, "/places", self._name_places, fresh=False)
         for widget in (self.places, self.form, self.pane.form):
@@ -221,9 +220,7 @@ class TasksScreen(FloatLayout):
         clock = self.session.link.robot_time()
         if math.isfinite(clock) and not abs(clock - self.schedule.now) < 5.0:
             self.schedule.now = self.runs.now = clock
-        for widget in (self.schedule, self.places):
-            if not self.mine:
-                widget.state = "disabled"
+        self.schedule.state = self.session.feeds.state("/schedule") if self.mine else "disabled"
         self._show_buttons()
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:

@@ -410,3 +410,26 @@ def test_the_points_of_a_running_patrol_are_changed(glass: Glass, robot: FakeRob
     glass.tap(send)
     assert robot.until(lambda: asked(robot, "/mission/set"))
     assert len(asked(robot, "/mission/set")[0].mission.waypoints) == 3
+
+
+@pytest.mark.parametrize("size", [(412, 892), (892, 412), (1280, 800)])
+def test_no_card_covers_stop_or_leaves_the_glass(
+    glass: Glass, robot: FakeRobot, tasks: Any, size: tuple[int, int]
+) -> None:
+    glass.app.shell.size = glass.app.root.size = size
+    reason = (
+        "The robot's computer restarted in the middle of a delivery; resume to go on, cancel to discard it."
+    )
+    cut = TaskStatus(task="deliver", state="INTERRUPTED", places=["Office 12", "Lab"], reason=reason)
+    robot.publish("/task/status", cut)
+    card, stop = glass.app.shell.question, glass.app.shell.stop
+    for screen in ("tasks", "mission", "drive", "topics"):
+        glass.app.show(screen)
+        glass.until(lambda: card.parent is not None and card.height > 100, f"not on {screen}")
+        glass.stage.frames(6)
+        x, y = card.to_window(card.x, card.y)
+        assert not (x < stop.right and stop.x < x + card.width and y < stop.top and stop.y < y + card.height)
+        assert x >= 0
+        assert x + card.width <= size[0]
+        assert y >= 0
+        assert y + card.height <= size[1]
