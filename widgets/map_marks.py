@@ -110,7 +110,11 @@ def waypoint_marks(
 def place_marks(
     shapes: Shapes, view: View, places: Sequence[tuple[float, float, str, str]], size: float
 ) -> Iterator[Word]:
-    """Places that have names: the sign of their kind in a square, and the name under it; `places` are x, y, name, kind."""
+    """Places that have names: the sign of their kind in a square, and the name under it; `places` are x, y, name, kind.
+
+    A name that would lie on another one is left out until the map is larger.
+    """
+    named: list[tuple[float, float, float]] = []
     for x, y, name, kind in places:
         px, py = view.to_screen(x, y)
         corners = [
@@ -124,8 +128,11 @@ def place_marks(
         shapes.polygon(inner, theme.bg)
         sign = KINDS.get(kind, KINDS["place"])[0]
         yield Word(icon(sign), px, py, size * 1.35, theme.accent, font=theme.icons)
-        label = name if len(name) <= SHORT else f"{name[: SHORT - 1]}…"
-        yield from outlined(Word(label, px, py - size - dp(9), sp(13), theme.text, True))
+        label, low = name if len(name) <= SHORT else f"{name[: SHORT - 1]}…", py - size - dp(9)
+        half = text_texture(label, round(sp(13), 1), bold=True).width / 2 + dp(3)
+        if all(abs(px - ox) > half + wide or abs(low - oy) > dp(17) for ox, oy, wide in named):
+            named.append((px, low, half))
+            yield from outlined(Word(label, px, low, sp(13), theme.text, True))
 
 
 def home_mark(shapes: Shapes, view: View, home: Place, radius: float) -> Word:

@@ -52,3 +52,22 @@ def test_the_robot_being_placed_is_hollow_and_the_robot_keeps_its_colour(stage, 
     assert real == [False]
     assert all(colour[:3] == tuple(theme.plan[:3]) and dashes for colour, dashes in shapes.rings)
     assert len(shapes.rings) == 2
+
+
+def test_a_name_of_a_place_that_would_lie_on_another_is_left_out_until_there_is_room():
+    places = [(0.0, 0.0, "Charger", "dock"), (0.5, 0.0, "Reception", "reception")]
+
+    def names(scale: float) -> set[str]:
+        view = View.centred(0, 0, at=(0.0, 0.0), scale=scale)
+        words = marks.place_marks(Shapes(), view, places, 12.0)
+        return {word.text for word in words if word.text in ("Charger", "Reception")}
+
+    assert names(20.0) == {"Charger"}
+    assert names(400.0) == {"Charger", "Reception"}
+
+
+def test_a_long_name_of_a_place_is_cut():
+    view = View.centred(0, 0, at=(0.0, 0.0), scale=20.0)
+    place = (0.0, 0.0, "The room behind the second door", "place")
+    texts = {word.text for word in marks.place_marks(Shapes(), view, [place], 12.0)}
+    assert "The room behind…" in texts
