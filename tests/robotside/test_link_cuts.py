@@ -115,7 +115,7 @@ class Trial:
         """Let time pass, tick by tick; the robot rests in time."""
         scene, closed = self.scene, cut.how != "closed"
         while scene.clock < until:
-            step = min(TICK, until - scene.clock)
+            step, moved = min(TICK, until - scene.clock), self.robot.moving
             scene.now += step
             scene.clock += step
             if scene.clock < end:
@@ -125,7 +125,7 @@ class Trial:
                 closed = True
             if step == TICK or scene.clock >= until:
                 scene.station.step(scene.now)
-            if self.robot.moving:
+            if moved:  # until now at least
                 self.worst = max(self.worst, scene.clock - valid)
                 assert scene.clock - valid <= VALID, (cut, scene.clock - valid)
         return valid
