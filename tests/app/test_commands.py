@@ -289,7 +289,9 @@ def test_two_taps_on_start_send_one_order_though_it_leaves_the_speed_open() -> N
     robot = Robot(0.2, YES)
 
     async def what(commands: Commands) -> None:
-        orders = [TaskOrder(task="deliver", places=["Office 12", "Lab"]) for _ in range(2)]
+        orders = [
+            TaskOrder(task="deliver", places=["Office 12", "Lab"], speed=float("nan")) for _ in range(2)
+        ]
         await asyncio.gather(*(commands.send("start", order=order) for order in orders))
 
     run(robot, what)
