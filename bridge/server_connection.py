@@ -155,7 +155,7 @@ class HeardConnection(ServerConnection):
         if self.protocol.state is State.CLOSED:
             self._rest.clear()  # nothing is read of a connection that is lost
         while self._rest and not self._behind and not self._deaf:
-            piece = bytes(self._rest[:PIECE])
+            piece = self._rest[:PIECE]
             del self._rest[:PIECE]
             self._together(take, piece)
             if self.clock() >= self._until:
