@@ -4,8 +4,9 @@ The acknowledgement of a picture takes the way there and back (`base`), the time
 the time that it waits behind others. Only the last two can be mended from here, so `base` is taken off: it is the
 least latency of late, and it is believed only once pictures of the coarsest level went through, whose bytes hardly
 count. What is left decides the pause before the next picture (the link is kept about four fifths busy, so that
-nothing queues) and the level: coarser at once when a picture takes too long, finer after a while in which the finer
-one would have fitted, and the more reluctantly the more often that was a mistake.
+nothing queues) and the level: coarser when most pictures of late took too long, or one far too long, finer after a
+while in which the finer ones would mostly have fitted, and the more reluctantly the more often that was a mistake. A
+single late one says little: the watcher was busy, and a coarser picture would have waited just as long.
 
 Pure: every call is told the time [s] of one and the same clock.
 """
@@ -14,6 +15,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from statistics import median
 from typing import NamedTuple
 
 __all__ = ["COARSEST", "LEVELS", "Quality"]
@@ -23,7 +25,11 @@ LEVELS = 4
 COARSEST = LEVELS - 1
 
 SLOW = 0.12
-"""A picture that takes longer than this beyond the way there and back is too large for the link [s]."""
+"""Pictures that take longer than this beyond the way there and back are too large for the link [s]."""
+FAR_TOO_SLOW = 0.3
+"""One that takes this long is enough to know [s]."""
+OF_LATE = 5
+"""Pictures of a level by which it is judged; the one in the middle counts."""
 FITS = 0.07
 """The finer picture is tried when it would take less than this [s]."""
 LONGEST_PAUSE = 0.5
@@ -61,6 +67,7 @@ class Quality:
         self._sizes = [math.nan] * LEVELS
         self._last = -math.inf
         self._bases: deque[float] = deque(maxlen=64)
+        self._excesses: deque[float] = deque(maxlen=OF_LATE)
         self._good_since = math.inf
         self._patience = PATIENCE[0]
         self._climbed = -math.inf
@@ -105,9 +112,11 @@ class Quality:
         self.pause = wanted if wanted > self.pause else (self.pause + wanted) / 2
         if sent.level != self.level:
             return  # says nothing about the level that is sent now
-        if excess > SLOW:
+        self._excesses.append(excess)
+        usual = median([*self._excesses, *[0.0] * (OF_LATE - len(self._excesses))])
+        if usual > SLOW or excess > FAR_TOO_SLOW:
             self._coarser(now)
-        elif self._finer_would_take(excess) < FITS:
+        elif self._finer_would_take(usual) < FITS:
             self._finer(now)
         else:
             self._good_since = math.inf
@@ -121,6 +130,7 @@ class Quality:
         self._good_since = math.inf
         if self.level == self._coarsest:
             return
+        self._excesses.clear()
         if now - self._climbed < 2.0 * self._patience:
             self._patience = min(PATIENCE[1], 2.0 * self._patience)
         else:
@@ -131,4 +141,5 @@ class Quality:
         self._good_since = min(self._good_since, now)
         if self.level and now - self._good_since >= self._patience:
             self.level -= 1
+            self._excesses.clear()
             self._climbed, self._good_since = now, math.inf

@@ -30,7 +30,7 @@ MOST = 128
 """Connections open at a time; for one more the oldest that has not shaken hands is closed, else that one."""
 MOST_PIECES = 1000
 """Frames that one message may come in."""
-PIECE = 4096
+PIECE = 32_768
 """So much of what came is looked at before the clock is [byte]."""
 TURN = 0.005
 """After so long with one connection the others have their turn [s]."""
@@ -155,7 +155,7 @@ class HeardConnection(ServerConnection):
         if self.protocol.state is State.CLOSED:
             self._rest.clear()  # nothing is read of a connection that is lost
         while self._rest and not self._behind and not self._deaf:
-            piece = bytes(self._rest[:PIECE])
+            piece = self._rest[:PIECE]
             del self._rest[:PIECE]
             self._together(take, piece)
             if self.clock() >= self._until:

@@ -28,6 +28,11 @@ class Probe:
         self._robot = robot
         self.info = robot.info
 
+    @property
+    def trouble(self) -> str:
+        """As the robot does."""
+        return self._robot.trouble
+
     def drive(self, twist: Twist) -> None:
         """Tell when the command came to the port."""
         tell("drive", time.monotonic(), twist.linear.x, twist.angular.z)

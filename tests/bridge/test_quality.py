@@ -21,6 +21,8 @@ class Link:
         self.rate, self.way, self.judge = rate, way, judge or Quality()
         self.now = 0.0
         self.stalled_until = 0.0
+        self.busy = 0.0
+        """For so long out of each second the watcher does something else and acknowledges nothing [s]."""
         self.free = 0.0
         self.ages: list[tuple[float, float]] = []
         self.levels: list[int] = []
@@ -59,7 +61,9 @@ class Link:
         self.levels.append(level)
         self.judge.sent(seq, SIZES[level], level, self.now)
         self.free = max(self.now, self.free, self.stalled_until) + SIZES[level] / self.rate
-        heapq.heappush(self._acks, (self.free + self.way, seq, taken))
+        heard = self.free + self.way
+        distracted = max(0.0, self.busy - heard % 1.0)
+        heapq.heappush(self._acks, (heard + distracted, seq, taken))
 
     def late(self, seconds: float) -> list[float]:
         """How old the pictures of the last `seconds` were when they came [s]."""
@@ -81,6 +85,28 @@ def test_one_megabit_carries_smaller_pictures_at_the_cameras_rate_and_young():
     assert set(link.levels[150:]) <= {1, 2, 3}
     assert len(link.late(20)) > 20 * 9
     assert link.p95(20) < 0.2
+
+
+def test_a_watcher_who_is_busy_now_and_then_keeps_the_best_pictures():
+    link = Link(10e6 / 8)
+    link.busy = 0.2
+    link.run(30)
+    assert set(link.levels) == {0}
+
+
+def test_a_watcher_who_is_busy_now_and_then_gets_the_best_pictures_back():
+    link = Link(0.5e6 / 8).run(10)
+    assert link.levels[-1] >= 2
+    link.rate, link.busy = 10e6 / 8, 0.2
+    link.run(70)
+    assert link.levels[-1] == 0
+
+
+def test_one_picture_that_takes_far_too_long_is_enough():
+    link = Link(10e6 / 8).run(10)
+    link.rate = 0.3e6 / 8
+    link.run(1.0)
+    assert link.levels[-1] >= 1
 
 
 def test_without_a_judge_the_same_link_shows_old_pictures():

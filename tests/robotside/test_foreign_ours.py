@@ -125,8 +125,8 @@ async def test_a_stop_pressed_behind_is_told_in_front_and_can_be_released_where_
     async with two(tmp_path) as it:
         await order(it.fred, "/stop")
         await until(lambda: it.port.trouble == STOPPED)
-        it.anna.publish("/cmd_vel", SPEED)
         await until(lambda: STOPPED in said(it.front))
+        it.anna.publish("/cmd_vel", SPEED)
         await until(lambda: it.behind.station.controls.driver is None)
         assert await order(it.fred, "/stop/release") == "STOP is released."
         await until(lambda: it.port.trouble == DRIVEN)

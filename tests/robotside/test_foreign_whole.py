@@ -32,6 +32,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskStatus,
     Waypoint,
 )
+from bridge.msgs.sensor_msgs import LaserScan
 from tests.bridge.foreign_robot import chart
 from tests.bridge.foreign_server import ForeignServer, foreign
 from tests.bridge.wires import Wire, link, wire
@@ -50,7 +51,7 @@ class Handheld:
         self.said: list[str] = []
         self.last: dict[str, Any] = {}
         client.subscribe("/events", Event, lambda msg, _: self.said.append(msg.text))
-        for topic, kind in (("/task/status", TaskStatus), ("/odom", Odometry)):
+        for topic, kind in (("/task/status", TaskStatus), ("/odom", Odometry), ("/scan", LaserScan)):
             client.subscribe(topic, kind, self._keep(topic))
 
     def _keep(self, topic: str) -> Callable[[Any, float], None]:
@@ -120,7 +121,7 @@ async def everything(state: Path, ros: int) -> AsyncIterator[tuple[ForeignServer
             handheld(address) as anna,
             handheld(address) as ben,
         ):
-            await until(lambda: "/odom" in anna.last)
+            await until(lambda: anna.last.keys() >= {"/odom", "/scan"})
             yield server, cable, anna, ben
 
 
@@ -155,8 +156,8 @@ async def test_a_cut_line_pauses_the_task_and_rest_is_the_first_word_after_it(tm
         anna.place(0.0, 0.0)
         await until(lambda: any("placed the robot" in said for said in anna.said))
         mission = Mission(waypoints=[Waypoint(3.0, 0.0)], laps=1)
-        await anna.ask("/mission/set", SetMissionRequest(mission=mission))
-        await anna.ask("/task/start", StartTaskRequest())
+        assert await anna.ask("/mission/set", SetMissionRequest(mission=mission)) == "Stored 1 point."
+        assert await anna.ask("/task/start", StartTaskRequest()) == "Patrol started: 1 point, loop."
         await until(lambda: server.robot.speed > 0.05)
         heard = Heard(server)
         cable.cut()
