@@ -15,6 +15,7 @@ from bridge.choice import CAMERA, DRIVE, OURS, command, source
 from bridge.errors import BridgeError, NoReply, NotConnected
 from bridge.msgs import Msg, ros1_name
 from bridge.msgs.geometry_msgs import TwistStamped
+from bridge.msgs.rosapi_msgs import ServicesResponse, TopicsResponse
 from bridge.topics import TOPICS
 
 __all__ = ["CAMERA", "DRIVE", "POSE", "Offer", "ask"]
@@ -101,31 +102,20 @@ NOTHING = Offer({}, frozenset(), rosapi=False)
 """Of a robot that tells nothing."""
 
 
-class _Topics(Msg, frozen=True, gc=False):
-    """What `/rosapi/topics` answers."""
-
-    topics: list[str] = []
-    types: list[str] = []
-
-
-class _Services(Msg, frozen=True, gc=False):
-    """What `/rosapi/services` answers."""
-
-    services: list[str] = []
-
-
 async def ask(call: Callable[..., Awaitable[Any]], before: Offer | None = None) -> Offer:
     """Find out what a robot offers, by a client's `call`. Raises NoReply or NotConnected."""
     found = await asyncio.gather(
-        call("/rosapi/topics", None, _Topics, timeout=PATIENCE),
-        call("/rosapi/services", None, _Services, timeout=PATIENCE),
+        call("/rosapi/topics", None, TopicsResponse, timeout=PATIENCE),
+        call("/rosapi/services", None, ServicesResponse, timeout=PATIENCE),
         return_exceptions=True,
     )
     for one in found:
         if isinstance(one, NoReply | NotConnected) or not isinstance(one, Msg | BridgeError):
             raise one
     topics, services = found
-    if not isinstance(topics, _Topics):
+    if not isinstance(topics, TopicsResponse):
         return NOTHING
     known = {name: ros1_name(kind) for name, kind in zip(topics.topics, topics.types, strict=False)}
-    return Offer.of(known, frozenset(services.services if isinstance(services, _Services) else ()), before)
+    return Offer.of(
+        known, frozenset(services.services if isinstance(services, ServicesResponse) else ()), before
+    )

@@ -11,7 +11,7 @@ from msgspec import Raw
 
 from bridge.codec import from_json, to_json
 from bridge.errors import NoReply, NotConnected, ProtocolError, Refused
-from bridge.goals import Goal, action_of, part_of
+from bridge.goals import Goal, action_of, part_of, reason
 from bridge.msgs import TYPES, Msg, ros1_name
 from bridge.protocol import ClientSession, Op, ServiceResponse, ros2_name
 
@@ -62,7 +62,7 @@ class Asking:
         if found is None:
             raise NotConnected(f"The connection was cut before the robot answered {service}.")
         if not found.result or bytes(found.values).startswith(b'"'):
-            raise Refused(_reason(found) or f"The robot refused {service}.")
+            raise Refused(reason(found.values) or f"The robot refused {service}.")
         return found.values
 
     async def learn(self, type_name: str, *, timeout: float = 3.0) -> type[Msg]:
@@ -119,8 +119,3 @@ class Asking:
     def _cancel(self, id: Any) -> bool:
         op = self._session.cancel(id)
         return op is not None and self._send(op)
-
-
-def _reason(answer: ServiceResponse) -> str:
-    said = msgspec.json.decode(answer.values)
-    return said if isinstance(said, str) else ""

@@ -8,13 +8,14 @@ from collections.abc import Callable
 from typing import Any, Generic, TypeVar, cast
 
 import msgspec
+from msgspec import Raw
 
 from bridge.codec import from_json
 from bridge.errors import NoReply, NotConnected, ProtocolError, Refused
 from bridge.msgs import TYPES, Msg
 from bridge.protocol import ActionFeedback, ActionResult, goal_status
 
-__all__ = ["CANCELED", "SUCCEEDED", "Goal", "action_of", "part_of"]
+__all__ = ["CANCELED", "SUCCEEDED", "Goal", "action_of", "part_of", "reason"]
 
 log = logging.getLogger(__name__)
 R = TypeVar("R", bound=Msg)
@@ -66,7 +67,7 @@ class Goal(Generic[R]):
         if found is None:
             raise NotConnected(f"The connection was cut before {self.action} was finished.")
         if not found.result:
-            raise Refused(_reason(found) or f"The robot refused {self.action}.")
+            raise Refused(reason(found.values) or f"The robot refused {self.action}.")
         if self.status in (CANCELED, ABORTED):
             word = "cancelled" if self.status == CANCELED else "aborted"
             raise Refused(f"{self.action} was {word}.")
@@ -99,14 +100,15 @@ def action_of(goal: Msg) -> str:
     return name.removesuffix("Goal")
 
 
+def reason(values: Raw) -> str:
+    """Why a call or a goal was refused, which stands in the place of its values; empty when nothing was said."""
+    said = cast(object, msgspec.json.decode(values))
+    return said if isinstance(said, str) else ""
+
+
 def part_of(name: str, part: str) -> type[Msg]:
     """A service's or action's `Request`, `Response`, `Goal`, `Result` or `Feedback`; ProtocolError when it is not known."""
     found = TYPES.get(f"{name}{part}")
     if found is None:
         raise ProtocolError(f"{name}{part} is no known type.")
     return found
-
-
-def _reason(op: ActionResult) -> str:
-    said = cast(object, msgspec.json.decode(op.values))
-    return said if isinstance(said, str) else ""

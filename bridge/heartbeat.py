@@ -12,8 +12,7 @@ from bridge.codec import from_json
 from bridge.connection import Connection
 from bridge.errors import ProtocolError
 from bridge.liveness import Liveness
-from bridge.msgs import Msg
-from bridge.msgs.std_msgs import Time
+from bridge.msgs.rosapi_msgs import GetTimeResponse
 from bridge.pings import Ping, Pings
 from bridge.protocol import ClientSession, Id, Op, ServiceResponse
 from bridge.route import Changes, Network
@@ -24,12 +23,6 @@ PING_PERIOD = 0.5
 """[s]"""
 _ASKED = 10
 """So many questions for the time wait for their answer at most."""
-
-
-class GetTimeResponse(Msg, frozen=True, gc=False):
-    """What `/rosapi/get_time` answers."""
-
-    time: Time = Time()
 
 
 class Heartbeat:

@@ -13,6 +13,7 @@ from typing import Annotated, Any
 import msgspec
 from msgspec import Meta
 
+from bridge.codec.fields import CODES, fields_of
 from bridge.errors import ProtocolError
 from bridge.msgs import TYPES, Msg, base
 from bridge.msgs.arrays import ARRAYS
@@ -54,18 +55,7 @@ _OTHER_NAMES = {
     "Header": "std_msgs/Header",
 }
 """What rosapi calls types beside their names in ROS text: those of IDL, and a bounded text's class."""
-_CODES = {
-    "float32": "f",
-    "float64": "d",
-    "int8": "b",
-    "int16": "h",
-    "int32": "i",
-    "int64": "q",
-    "uint16": "H",
-    "uint32": "I",
-    "uint64": "Q",
-}
-_ARRAY_OF = {kind: cls for kind, code in _CODES.items() for cls in ARRAYS.values() if cls.code == code}
+_ARRAY_OF = {kind: cls for kind, code in CODES.items() for cls in ARRAYS.values() if cls.code == code}
 _ZEROS: dict[Any, Any] = {"bool": False, "string": "", "wstring": "", "float32": 0.0, "float64": 0.0}
 _BYTES = ("uint8", "char", "byte")
 _BUILT_IN: dict[str, type[Msg]] = {"time": Time, "duration": Duration}
@@ -249,19 +239,8 @@ def _elements(length: int, inner: type[Msg] | None) -> int:
 
 @functools.lru_cache(maxsize=1024)
 def _held(type: builtins.type[Msg]) -> int:
-    total = 0
-    for field, rostype in zip(msgspec.structs.fields(type), type.ROSTYPES, strict=False):
-        found = re.search(r"\[(<=)?(\d*)\]", rostype)
-        count = 1 if not found else 0 if found[1] or not found[2] else int(found[2])
-        inner = _inner(field.type)
-        total += count * (_held(inner) if inner else 1)
-    return max(total, 1)
-
-
-def _inner(hint: Any) -> type[Msg] | None:
-    if isinstance(hint, type):
-        return hint if issubclass(hint, Msg) else None
-    return next((found for each in getattr(hint, "__args__", ()) if (found := _inner(each))), None)
+    lengths = [((field.length or 0) if field.array else -1, field.type) for field in fields_of(type)]
+    return max(sum(_elements(length, inner) for length, inner in lengths), 1)
 
 
 def _field(name: str, kind: str, length: int, inner: type[Msg] | None) -> tuple[str, Any, Any]:

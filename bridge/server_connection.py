@@ -21,6 +21,7 @@ from websockets.frames import CloseCode, Frame, Opcode
 from websockets.protocol import Event, State
 
 from bridge.outlet import Round
+from bridge.sockets import TURN
 
 __all__ = ["Ears", "HeardConnection"]
 
@@ -32,8 +33,6 @@ MOST_PIECES = 1000
 """Frames that one message may come in."""
 PIECE = 32_768
 """So much of what came is looked at before the clock is [byte]."""
-TURN = 0.005
-"""After so long with one connection the others have their turn [s]."""
 _DATA = (Opcode.TEXT, Opcode.BINARY, Opcode.CONT)
 
 

@@ -56,7 +56,7 @@ from bridge.protocol import (
 from bridge.pulse import Pulse
 from bridge.reducing import Reducing
 from bridge.rosapi import RosApi
-from bridge.sockets import end
+from bridge.sockets import TURN, end
 from bridge.switchboard import Channel, Switchboard
 
 __all__ = ["Client", "Offer"]
@@ -78,8 +78,6 @@ MOST_CALLS = 256
 
 LARGEST_READ = 1_048_576
 """The longest message of a client that is read and not passed on as it is [byte]; what is wrong is looked for in Python."""
-TURN = 0.005
-"""After so long with one frame the others have their turn [s]; a frame may hold a thousand operations."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,10 @@ import asyncio
 from collections.abc import AsyncIterator
 from typing import Protocol
 
-__all__ = ["Socket", "end", "wait"]
+__all__ = ["TURN", "Socket", "end", "wait"]
+
+TURN = 0.005
+"""After so long with one client the others have their turn [s]; what it sent in one frame may hold a thousand operations."""
 
 
 class Socket(Protocol):

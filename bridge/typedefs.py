@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import builtins
 import functools
-import re
 from typing import Any
 
 import msgspec
 
+from bridge.codec.fields import Field, fields_of
 from bridge.msgs import TYPES, Msg
 
 __all__ = ["constants", "typedefs"]
 
-_ROSTYPE = re.compile(r"(?P<base>[\w/]+)(?:<=\d+)?(?P<array>\[(?P<bound><=)?(?P<length>\d*)\])?")
 _BUILT_IN = ("time", "duration")
 
 
@@ -31,7 +30,7 @@ def typedefs(type: str | builtins.type[Msg]) -> list[dict[str, Any]]:
         known = waiting.pop()
         if known.MSGTYPE not in found and known.MSGTYPE not in _BUILT_IN:
             found[known.MSGTYPE] = _definition(known)
-            waiting += reversed(_inside(known))
+            waiting += reversed([field.type for field in fields_of(known) if field.type is not None])
     return [{**each} for each in found.values()]
 
 
@@ -47,46 +46,21 @@ def constants(type: builtins.type[Msg]) -> dict[str, Any]:
 
 @functools.lru_cache(maxsize=1024)
 def _definition(type: builtins.type[Msg]) -> dict[str, Any]:
-    fields = [field for field in msgspec.structs.fields(type) if field.name not in _unsent(type)]
-    kinds = [_kind(rostype) for rostype in type.ROSTYPES]
+    fields = fields_of(type)
+    defaults = {field.name: field.default for field in msgspec.structs.fields(type)}
     told = constants(type)
     return {
         "type": type.MSGTYPE,
-        "fieldnames": [field.encode_name for field in fields],
-        "fieldtypes": [kind for kind, _ in kinds],
-        "fieldarraylen": [length for _, length in kinds],
-        "examples": [_example(field, *kind) for field, kind in zip(fields, kinds, strict=True)],
+        "fieldnames": [field.key for field in fields],
+        "fieldtypes": [field.base for field in fields],
+        "fieldarraylen": [(field.length or 0) if field.array else -1 for field in fields],
+        "examples": [_example(field, defaults[field.name]) for field in fields],
         "constnames": list(told),
         "constvalues": [str(value) for value in told.values()],
     }
 
 
-def _unsent(type: builtins.type[Msg]) -> tuple[str, ...]:
-    return type.__struct_fields__[len(type.ROSTYPES) :]
-
-
-def _inside(type: builtins.type[Msg]) -> list[builtins.type[Msg]]:
-    """The classes of its fields, in their order."""
-    hints = (field.type for field in msgspec.structs.fields(type))
-    return [found for hint in hints if (found := _message(hint)) is not None]
-
-
-def _message(hint: Any) -> type[Msg] | None:
-    """The message class within an annotation, if there is one."""
-    if isinstance(hint, type):
-        return hint if issubclass(hint, Msg) else None
-    inner = (_message(each) for each in getattr(hint, "__args__", ()))
-    return next((found for found in inner if found is not None), None)
-
-
-def _kind(rostype: str) -> tuple[str, int]:
-    found = _ROSTYPE.fullmatch(rostype)
-    if found is None or not found["array"]:
-        return found["base"] if found else rostype, -1
-    return found["base"], 0 if found["bound"] else int(found["length"] or 0)
-
-
-def _example(field: msgspec.structs.FieldInfo, kind: str, length: int) -> str:
-    if length >= 0:
+def _example(field: Field, default: object) -> str:
+    if field.array:
         return "[]"
-    return "{}" if "/" in kind or kind in _BUILT_IN else str(field.default)
+    return "{}" if field.type is not None else str(default)

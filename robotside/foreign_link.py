@@ -19,6 +19,7 @@ from bridge.errors import BridgeError, NotConnected
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, ControlStatus
+from bridge.msgs.rosapi_msgs import TopicsResponse
 from bridge.network import NetworkThread
 from robotside.autonomy import CAMERA
 from robotside.foreign_topics import CONTROL, Found, match, usual
@@ -36,13 +37,6 @@ AGAIN = 0.3
 
 _BINARY = {"/scan", "/map", CAMERA}
 """Worth to be sent as CBOR."""
-
-
-class _Topics(Msg, frozen=True, gc=False):
-    """What `/rosapi/topics` answers."""
-
-    topics: list[str] = []
-    types: list[str] = []
 
 
 class Listener(Protocol):
@@ -158,7 +152,7 @@ class ForeignLink:
 
     async def _offer(self) -> Found:
         try:
-            told = await self._client.call("/rosapi/topics", None, _Topics, timeout=ASKING)
+            told = await self._client.call("/rosapi/topics", None, TopicsResponse, timeout=ASKING)
         except BridgeError as error:
             log.info("%s does not tell its topics: %s", self._client.place, error)
             return usual()

@@ -23,6 +23,7 @@ from app.session import Session
 from app.topics import Line, Topics
 from widgets import FieldView
 from widgets.base import age_text
+from widgets.cards import Card
 
 __all__ = ["TopicRow", "TopicsScreen"]
 
@@ -167,22 +168,8 @@ Builder.load_string("""
             padding: dp(6), dp(10)
 
 <TopicDetail>:
-    orientation: 'vertical'
     padding: dp(12), dp(10), dp(6), dp(10)
     spacing: dp(8)
-    canvas.before:
-        Color:
-            rgba: theme.line
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.radius]
-        Color:
-            rgba: theme.surface
-        SmoothRoundedRectangle:
-            pos: self.x + theme.outline, self.y + theme.outline
-            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
-            radius: [theme.radius - theme.outline]
     BoxLayout:
         size_hint_y: None
         height: max(theme.target, titles.height + dp(6)) if root.name else 0
@@ -305,7 +292,7 @@ class TopicList(BoxLayout):
         """Something else is looked for."""
 
 
-class TopicDetail(BoxLayout):
+class TopicDetail(Card):
     """One topic, live."""
 
     __events__ = ("on_close",)
