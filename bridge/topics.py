@@ -54,7 +54,20 @@ TOPICS: tuple[Topic, ...] = (
     Topic("/scan", sensor_msgs.LaserScan, 10, "handheld", "the laser's last sweep"),
     Topic("/bumper", pilothouse_msgs.Bumper, 10, "handheld", "the bumper ring"),
     Topic("/battery_state", sensor_msgs.BatteryState, 1, "handheld", "the battery"),
-    Topic("/joint_states", sensor_msgs.JointState, 20, "handheld", "wheel angles and speeds"),
+    Topic(
+        "/joint_states", sensor_msgs.JointState, 20, "handheld", "angles and speeds of wheels, legs or rotors"
+    ),
+    Topic(
+        "/motors", pilothouse_msgs.MotorArray, 5, "handheld", "speeds, torques, temperatures of the motors"
+    ),
+    Topic("/manoeuvre", pilothouse_msgs.Manoeuvre, 10, "handheld", "the order that it moves by"),
+    Topic("/sonar", pilothouse_msgs.SonarRing, 10, "handheld", "distances all round by ultrasound"),
+    Topic("/ackermann", pilothouse_msgs.AckermannState, 20, "handheld", "steering, wheels, turning radius"),
+    Topic("/rudder", pilothouse_msgs.RudderState, 10, "handheld", "rudder and propeller"),
+    Topic("/compass", pilothouse_msgs.Compass, 10, "handheld", "heading, roll and pitch by compass"),
+    Topic("/depth", sensor_msgs.FluidPressure, 10, "handheld", "pressure of water and air where it is"),
+    Topic("/range/down", sensor_msgs.Range, 20, "handheld", "height above what is under it, by ultrasound"),
+    Topic("/flight", pilothouse_msgs.FlightState, 10, "handheld", "whether it is in the air"),
     Topic(
         "/camera/image/compressed",
         sensor_msgs.CompressedImage,
@@ -62,6 +75,17 @@ TOPICS: tuple[Topic, ...] = (
         "handheld",
         "the camera for clients without a binary socket",
         on_demand=True,
+    ),
+    *(
+        Topic(
+            f"/camera/{name}/image/compressed",
+            sensor_msgs.CompressedImage,
+            15,
+            "handheld",
+            f"the camera that looks {where}",
+            on_demand=True,
+        )
+        for name, where in (("rear", "back"), ("down", "down"))
     ),
     Topic(
         "/detections",

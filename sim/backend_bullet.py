@@ -16,14 +16,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.bodies import GRAVITY, STEPS_PER_SECOND, Contact, Floating, Joint, State, Wheeled
 from sim.shapes import Quat, Shape, Vec3, place
 
-__all__ = ["STEPS_PER_SECOND", "Bullet", "Contact", "Joint", "State", "Wheeled"]
-
-STEPS_PER_SECOND = 240
-"""Fixed physics steps in a second of simulated time."""
-GRAVITY = 9.81
-"""[m/s2]"""
+__all__ = ["GRAVITY", "STEPS_PER_SECOND", "Bullet", "Contact", "Joint", "State", "Wheeled"]
 
 SKY = (160, 200, 238)
 """What `Bullet.picture` shows where there is nothing: red, green, blue, 0 to 255."""
@@ -33,8 +29,10 @@ Picture = NDArray[np.uint8]
 _NOTHING = 0.99999
 """Depth, 0 near to 1 far, from which on a pixel shows nothing."""
 _EVERYTHING = -1
-_OWN_BODIES = 64
-"""Collision group of vehicles, which their own lasers look through."""
+_FIRST_GROUP, _GROUPS = 64, 24
+"""Collision groups of vehicles, one each, so that a vehicle's own rays look through it; the 25th shares the first's."""
+_KNUCKLE = 0.5
+"""Mass of what a steered wheel hangs on [kg], and its moments of inertia [kg m2]."""
 
 
 @contextlib.contextmanager
@@ -62,64 +60,6 @@ with _quiet():
     import pybullet as p
 
 
-@dataclass(frozen=True, slots=True)
-class State:
-    """Where a body is and how it moves, in the world's frame."""
-
-    position: Vec3
-    """Of its frame's origin [m]."""
-    rotation: Quat
-    velocity: Vec3
-    """Of its centre of mass [m/s]."""
-    turning: Vec3
-    """[rad/s]"""
-
-
-@dataclass(frozen=True, slots=True)
-class Joint:
-    """A wheel's joint."""
-
-    angle: float
-    """[rad], not wrapped."""
-    speed: float
-    """[rad/s]"""
-    torque: float
-    """That its motor gave in the last step [N m]."""
-
-
-@dataclass(frozen=True, slots=True)
-class Contact:
-    """A place where a vehicle's shell touches something."""
-
-    body: int
-    """What it touches."""
-    position: Vec3
-    """In the world's frame [m]."""
-
-
-@dataclass(frozen=True, slots=True)
-class Wheeled:
-    """A body on driven wheels and sliding casters; its frame lies on the ground, x forward."""
-
-    shell: Shape
-    mass: float
-    """Of the whole without wheels and casters [kg]."""
-    inertia: Vec3
-    """About the axes through the centre of mass [kg m2]."""
-    centre_of_mass: Vec3
-    wheels: tuple[Vec3, ...]
-    """Centres of the wheels; they turn about y."""
-    wheel_radius: float
-    wheel_mass: float
-    wheel_friction: float
-    casters: tuple[Vec3, ...]
-    """Centres of the casters."""
-    caster_radius: float
-    caster_mass: float
-    friction: float
-    """Of the shell against other things."""
-
-
 class Bullet:
     """One world of rigid bodies in discrete time."""
 
@@ -139,11 +79,12 @@ class Bullet:
         if gui:
             p.configureDebugVisualizer(p.COV_ENABLE_GUI, 0, physicsClientId=self._client)
         self._below: dict[int, Vec3] = {}
+        self._groups: dict[int, int] = {}
 
-    def add_ground(self) -> int:
-        """The level ground at z = 0; its number."""
+    def add_ground(self, height: float = 0.0) -> int:
+        """The level ground at z = `height` [m]; its number."""
         shape = p.createCollisionShape(p.GEOM_PLANE, physicsClientId=self._client)
-        return int(p.createMultiBody(0, shape, physicsClientId=self._client))
+        return int(p.createMultiBody(0, shape, basePosition=(0, 0, height), physicsClientId=self._client))
 
     def add_static(self, shapes: Sequence[Shape]) -> int:
         """One thing made of solids that nothing moves; its number.
@@ -178,41 +119,70 @@ class Bullet:
         return body
 
     def add_wheeled(self, spec: Wheeled, position: Vec3, rotation: Quat) -> int:
-        """A wheeled vehicle; its number. Its wheels are joints 0, 1, … in the order of `spec.wheels`."""
+        """A wheeled vehicle; its number.
+
+        Its joints are the driven wheels in the order of `spec.wheels`, then the knuckles of the steered wheels, then
+        the steered wheels.
+        """
         com = spec.centre_of_mass
-        wheels, casters = len(spec.wheels), len(spec.casters)
-        count = wheels + casters
         wheel = self._collision(Shape("sphere", (2 * spec.wheel_radius,) * 3))
-        caster = self._collision(Shape("sphere", (2 * spec.caster_radius,) * 3))
-        centres = [
-            tuple(a - b for a, b in zip(centre, com, strict=True)) for centre in spec.wheels + spec.casters
+        links = [_Link(_less(centre, com), spec.wheel_mass, wheel) for centre in spec.wheels]
+        knuckles = [_Link(_less(centre, com), _KNUCKLE, axis=(0, 0, 1)) for centre in spec.steered]
+        links += knuckles
+        links += [
+            _Link((0.0, 0.0, 0.0), spec.wheel_mass, wheel, parent=len(spec.wheels) + number + 1)
+            for number in range(len(knuckles))
         ]
-        offset = tuple(a - b for a, b in zip(spec.shell.position, com, strict=True))
-        start = place(com, position, rotation)
+        if spec.casters:
+            caster = self._collision(Shape("sphere", (2 * spec.caster_radius,) * 3))
+            links += [
+                _Link(_less(centre, com), spec.caster_mass, caster, kind=p.JOINT_FIXED)
+                for centre in spec.casters
+            ]
+        body = self._add_moving(spec, links, position, rotation)
+        self._set_wheels(body, spec)
+        return body
+
+    def add_floating(self, spec: Floating, position: Vec3, rotation: Quat) -> int:
+        """A single free body; its number."""
+        return self._add_moving(spec, [], position, rotation)
+
+    def _add_moving(
+        self, spec: Wheeled | Floating, links: list[_Link], position: Vec3, rotation: Quat
+    ) -> int:
+        com = spec.centre_of_mass
+        offset = _less(spec.shell.position, com)
         body = int(
             p.createMultiBody(
                 baseMass=spec.mass,
                 baseCollisionShapeIndex=self._collision(spec.shell, offset),
                 baseVisualShapeIndex=self._visual(spec.shell, offset),
-                basePosition=start,
+                basePosition=place(com, position, rotation),
                 baseOrientation=rotation,
-                linkMasses=[spec.wheel_mass] * wheels + [spec.caster_mass] * casters,
-                linkCollisionShapeIndices=[wheel] * wheels + [caster] * casters,
-                linkVisualShapeIndices=[-1] * count,
-                linkPositions=centres,
-                linkOrientations=[(0, 0, 0, 1)] * count,
-                linkInertialFramePositions=[(0, 0, 0)] * count,
-                linkInertialFrameOrientations=[(0, 0, 0, 1)] * count,
-                linkParentIndices=[0] * count,
-                linkJointTypes=[p.JOINT_REVOLUTE] * wheels + [p.JOINT_FIXED] * casters,
-                linkJointAxis=[(0, 1, 0)] * count,
+                linkMasses=[link.mass for link in links],
+                linkCollisionShapeIndices=[link.collision for link in links],
+                linkVisualShapeIndices=[-1] * len(links),
+                linkPositions=[link.position for link in links],
+                linkOrientations=[(0, 0, 0, 1)] * len(links),
+                linkInertialFramePositions=[(0, 0, 0)] * len(links),
+                linkInertialFrameOrientations=[(0, 0, 0, 1)] * len(links),
+                linkParentIndices=[link.parent for link in links],
+                linkJointTypes=[link.kind for link in links],
+                linkJointAxis=[link.axis for link in links],
                 physicsClientId=self._client,
             )
         )
         self._undamp(body)
-        self._set_friction(body, spec)
-        for link in range(-1, count):
-            p.setCollisionFilterGroupMask(body, link, _OWN_BODIES, _EVERYTHING, physicsClientId=self._client)
+        p.changeDynamics(
+            body,
+            -1,
+            lateralFriction=spec.friction,
+            localInertiaDiagonal=spec.inertia,
+            physicsClientId=self._client,
+        )
+        self._groups[body] = group = _FIRST_GROUP << (len(self._groups) % _GROUPS)
+        for link in range(-1, len(links)):
+            p.setCollisionFilterGroupMask(body, link, group, _EVERYTHING, physicsClientId=self._client)
         self._below[body] = (-com[0], -com[1], -com[2])
         return body
 
@@ -222,8 +192,7 @@ class Bullet:
 
     def state(self, body: int) -> State:
         """Where `body` is and how it moves."""
-        position, rotation = p.getBasePositionAndOrientation(body, physicsClientId=self._client)
-        velocity, turning = p.getBaseVelocity(body, physicsClientId=self._client)
+        position, rotation, velocity, turning = self.moving(body)
         return State(place(self._below[body], position, rotation), rotation, velocity, turning)
 
     def place(self, body: int, position: Vec3, rotation: Quat) -> None:
@@ -244,10 +213,32 @@ class Bullet:
             body, joint, p.VELOCITY_CONTROL, targetVelocity=speed, force=torque, physicsClientId=self._client
         )
 
+    def steer(self, body: int, joint: int, angle: float, torque: float) -> None:
+        """Let the motor of `joint` hold `angle` [rad] with at most `torque` [N m], until told otherwise."""
+        p.setJointMotorControl2(
+            body, joint, p.POSITION_CONTROL, targetPosition=angle, force=torque, physicsClientId=self._client
+        )
+
+    def push(self, body: int, at: Vec3, force: Vec3, torque: Vec3) -> None:
+        """Let `force` [N] act on `body` `at` a point [m], and `torque` [N m], for one step; all in the world's frame."""
+        client = self._client
+        p.applyExternalForce(body, -1, force, at, p.WORLD_FRAME, physicsClientId=client)
+        p.applyExternalTorque(body, -1, torque, p.WORLD_FRAME, physicsClientId=client)
+
+    def moving(self, body: int) -> tuple[Vec3, Quat, Vec3, Vec3]:
+        """Position [m], rotation, velocity [m/s] and turning [rad/s] of the centre of mass of `body`."""
+        position, rotation = p.getBasePositionAndOrientation(body, physicsClientId=self._client)
+        velocity, turning = p.getBaseVelocity(body, physicsClientId=self._client)
+        return position, rotation, velocity, turning
+
+    def throw(self, body: int, velocity: Vec3, turning: Vec3) -> None:
+        """Let the centre of mass of `body` move with `velocity` [m/s] and turn with `turning` [rad/s] from now on."""
+        p.resetBaseVelocity(body, velocity, turning, physicsClientId=self._client)
+
     def rays(self, body: int, start: Sequence[Vec3], end: Sequence[Vec3]) -> NDArray[np.float64]:
         """How far each ray gets, as a part of its length: 1 when it hits nothing.
 
-        `start` and `end` are in the frame of the body's centre of mass, see `ray_points`; vehicles are not hit.
+        `start` and `end` are in the frame of the body's centre of mass, see `ray_points`; the body itself is not hit.
         """
         hits = p.rayTestBatch(
             start,
@@ -255,7 +246,7 @@ class Bullet:
             numThreads=1,
             parentObjectUniqueId=body,
             parentLinkIndex=-1,
-            collisionFilterMask=_EVERYTHING ^ _OWN_BODIES,
+            collisionFilterMask=_EVERYTHING ^ self._groups.get(body, 0),
             physicsClientId=self._client,
         )
         return np.fromiter((hit[2] for hit in hits), dtype=np.float64, count=len(hits))
@@ -317,7 +308,7 @@ class Bullet:
         """Put something made by `add_looks` somewhere else."""
         p.resetBasePositionAndOrientation(number, position, rotation, physicsClientId=self._client)
 
-    def _collision(self, shape: Shape, offset: tuple[float, ...] = (0, 0, 0)) -> int:
+    def _collision(self, shape: Shape, offset: Vec3 = (0.0, 0.0, 0.0)) -> int:
         geometry = _geometry(shape)
         if "radius" in geometry and "length" in geometry:
             geometry["height"] = geometry.pop("length")
@@ -340,7 +331,7 @@ class Bullet:
             )
         )
 
-    def _visual(self, shape: Shape, offset: tuple[float, ...] = (0, 0, 0), *, wanted: bool = False) -> int:
+    def _visual(self, shape: Shape, offset: Vec3 = (0.0, 0.0, 0.0), *, wanted: bool = False) -> int:
         if not (self._gui or wanted):
             return -1
         geometry = _geometry(shape)
@@ -364,21 +355,39 @@ class Bullet:
                 physicsClientId=self._client,
             )
 
-    def _set_friction(self, body: int, spec: Wheeled) -> None:
-        wheels = len(spec.wheels)
-        p.changeDynamics(
-            body,
-            -1,
-            lateralFriction=spec.friction,
-            localInertiaDiagonal=spec.inertia,
-            physicsClientId=self._client,
-        )
-        for link in range(wheels):
+    def _set_wheels(self, body: int, spec: Wheeled) -> None:
+        wheels, steered = len(spec.wheels), len(spec.steered)
+        rolling = [*range(wheels), *range(wheels + steered, wheels + 2 * steered)]
+        for link in rolling:
             p.changeDynamics(
                 body, link, lateralFriction=spec.wheel_friction, jointDamping=0, physicsClientId=self._client
             )
-        for link in range(wheels, wheels + len(spec.casters)):
+        for link in range(wheels, wheels + steered):
+            p.changeDynamics(
+                body, link, localInertiaDiagonal=(_KNUCKLE,) * 3, jointDamping=0, physicsClientId=self._client
+            )
+        for link in rolling[wheels:]:
+            p.setJointMotorControl2(body, link, p.VELOCITY_CONTROL, force=0, physicsClientId=self._client)
+        for link in range(wheels + 2 * steered, p.getNumJoints(body, physicsClientId=self._client)):
             p.changeDynamics(body, link, lateralFriction=0, physicsClientId=self._client)
+
+
+@dataclass(frozen=True, slots=True)
+class _Link:
+    """A part that hangs on a body by a joint."""
+
+    position: Vec3
+    """Relative to the parent's centre of mass [m]."""
+    mass: float
+    collision: int = -1
+    kind: int = p.JOINT_REVOLUTE
+    axis: tuple[int, int, int] = (0, 1, 0)
+    parent: int = 0
+    """0 the body itself, then the links from 1 on."""
+
+
+def _less(a: Vec3, b: Vec3) -> Vec3:
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def _geometry(shape: Shape) -> dict[str, Any]:

@@ -6,6 +6,7 @@ for topic, message in robot.read(now): ...
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from bridge.msgs import Msg
@@ -51,7 +52,8 @@ class SimRobot:
         self._origin: float | None = None
         self.info = info_of(simulation, camera=camera)
         """Who it is."""
-        self._camera = Camera(simulation.world, simulation.vehicle.parameters.camera) if camera else None
+        cameras = simulation.vehicle.parameters.cameras
+        self._camera = Camera(simulation.world, cameras[0]) if camera and cameras else None
 
     def drive(self, twist: Twist) -> None:
         """Go for `twist` in `base_link`, within its limits, until the next `drive` or `stop`."""
@@ -112,11 +114,12 @@ def info_of(simulation: Simulation, *, camera: bool) -> RobotInfo:
         world=world.name,
         max_speed=parameters.limits.speed,
         max_yaw_rate=parameters.limits.yaw_rate,
-        radius=parameters.body.radius,
-        cameras=[parameters.camera.name] if camera else [],
+        radius=parameters.radius,
+        cameras=[each.name for each in parameters.cameras] if camera else [],
         latitude=world.datum.latitude,
         longitude=world.datum.longitude,
-        camera_fov=parameters.camera.field_of_view,
+        camera_fov=parameters.cameras[0].field_of_view if parameters.cameras else math.nan,
+        manoeuvres=list(simulation.vehicle.MANOEUVRES),
     )
 
 

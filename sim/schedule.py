@@ -22,6 +22,10 @@ class Schedule:
         self._next = dict.fromkeys(rates, 0)
         self._soonest = 0
 
+    def falls(self, name: str, step: int) -> bool:
+        """Whether `name` will be among those due at `step`, which was not asked for yet."""
+        return self._next[name] <= step
+
     def due(self, step: int) -> tuple[str, ...]:
         """The names that fall due at `step`, in the order given; steps are asked for in order, none left out."""
         if step < self._soonest:

@@ -1,32 +1,58 @@
-"""A world and the robot in it, stepped in fixed steps."""
+"""A world and the robots in it, stepped in fixed steps."""
 
 from __future__ import annotations
 
 from sim.backend_bullet import STEPS_PER_SECOND, Bullet
+from sim.scene import Scene
+from sim.sensors.noise import Noise
 from sim.shapes import yaw_of
 from sim.vehicles.model import Model, Vehicle
-from sim.world import World
+from sim.weather import Weather
+from sim.world import Spot, World
 
 __all__ = ["Simulation"]
+
+SETTLING = STEPS_PER_SECOND // 2
+"""Steps after which everything stands still on its wheels."""
 
 
 class Simulation:
     """The truth: what really is where. Sensors tell robots about it, tests look at it directly."""
 
     def __init__(
-        self, world: World, model: Model, *, seed: int = 0, noise: bool = True, gui: bool = False
+        self,
+        world: World,
+        model: Model,
+        *more: tuple[Model, Spot],
+        seed: int = 0,
+        noise: bool = True,
+        gui: bool = False,
     ) -> None:
-        """A robot of `model` at the start of `world`; the same `seed` gives the same run, bit for bit."""
+        """A robot of `model` at the start of `world`, and `more` elsewhere; the same `seed` gives the same run, bit for bit.
+
+        Raises ValueError with one sentence when one of them does not belong into this world.
+        """
+        for each in (model, *(entry for entry, _ in more)):
+            _check(each, world)
         self.world = world
         self.backend = Bullet(gui=gui)
-        self.backend.add_ground()
+        self.backend.add_ground(world.bottom)
         for prop in world.props:
             self.backend.add_static(prop.solids)
-        self.vehicle: Vehicle = model.build(
-            self.backend, world, seed=seed, noise=noise, parameters=model.parameters
-        )
+        self.weather = Weather(world, Noise(seed, "gusts", on=noise))
+        self.vehicles: list[Vehicle] = [
+            each.build(Scene(self.backend, world, self.weather, start, seed, noise, number), each.parameters)
+            for number, (each, start) in enumerate(((model, world.start), *more))
+        ]
         self.steps = 0
         """Physics steps done."""
+        for _ in range(SETTLING):
+            self._push()
+
+    @property
+    def vehicle(self) -> Vehicle:
+        """The first robot."""
+        return self.vehicles[0]
 
     @property
     def time(self) -> float:
@@ -35,19 +61,35 @@ class Simulation:
 
     @property
     def contacts(self) -> int:
-        """Distinct bumps of the robot with anything but the ground."""
+        """Distinct bumps of the first robot with anything but the ground."""
         return self.vehicle.bumper.bumps
 
-    def pose(self) -> tuple[float, float, float]:
-        """Where the robot really is: x, y [m] and yaw [rad] in `map`."""
-        state = self.vehicle.state()
+    def pose(self, number: int = 0) -> tuple[float, float, float]:
+        """Where a robot really is: x, y [m] and yaw [rad] in `map`."""
+        state = self.vehicles[number].state()
         return state.position[0], state.position[1], yaw_of(state.rotation)
 
     def advance(self) -> None:
         """One physics step."""
-        self.vehicle.advance()
+        self.weather.step()
+        self._push()
+        for vehicle in self.vehicles:
+            vehicle.feel()
         self.steps += 1
 
     def close(self) -> None:
         """Free the physics."""
         self.backend.close()
+
+    def _push(self) -> None:
+        for vehicle in self.vehicles:
+            vehicle.push()
+        self.backend.step()
+
+
+def _check(model: Model, world: World) -> None:
+    name = model.parameters.info.model
+    if model.element == "water" and world.water is None:
+        raise ValueError(f"{name} needs water, and there is none in {world.name}.")
+    if model.element == "land" and world.water is not None:
+        raise ValueError(f"{name} needs dry land, and {world.name} is under water.")

@@ -136,6 +136,44 @@ class Tree(Tall, frozen=True):
     height: Positive = 6.0
 
 
+class Wave(_Entry, frozen=True):
+    """A train of regular waves in deep water."""
+
+    height: Positive
+    """From trough to crest [m]."""
+    period: Positive
+    """[s]"""
+    direction: Finite = 0.0
+    """Where it runs to [deg] from east, anticlockwise."""
+    phase: Finite = 0.0
+    """At the map's origin at the beginning [deg]."""
+
+
+class Water(_Entry, frozen=True):
+    """Water over all of the world; its surface lies at z = 0, the ground under it."""
+
+    depth: Positive
+    """[m]"""
+    density: Annotated[float, msgspec.Meta(ge=900, le=1200)] = 1000.0
+    """[kg/m3]"""
+    current: tuple[Finite, Finite] = (0.0, 0.0)
+    """Along x and y [m/s]."""
+    waves: tuple[Wave, ...] = ()
+
+
+class Wind(_Entry, frozen=True):
+    """The wind over all of the world."""
+
+    speed: Annotated[float, msgspec.Meta(ge=0, le=60)]
+    """[m/s]"""
+    direction: Finite = 0.0
+    """Where it blows to [deg] from east, anticlockwise."""
+    gusts: Annotated[float, msgspec.Meta(ge=0, le=20)] = 0.0
+    """Standard deviation of what comes and goes, along x and y; half of it upward [m/s]."""
+    gust_time: Positive = 2.0
+    """Over which a gust is correlated [s]."""
+
+
 class World(_Entry, frozen=True, dict=True):
     """Everything the file says; x east, y north, z up from the ground [m]."""
 
@@ -154,6 +192,14 @@ class World(_Entry, frozen=True, dict=True):
     lamps: tuple[Lamp, ...] = ()
     cones: tuple[Cone, ...] = ()
     trees: tuple[Tree, ...] = ()
+    water: Water | None = None
+    """None on dry land."""
+    wind: Wind | None = None
+
+    @property
+    def bottom(self) -> float:
+        """Height of the ground, which is under water where there is some [m]."""
+        return -self.water.depth if self.water else 0.0
 
     @cached_property
     def props(self) -> tuple[Prop, ...]:

@@ -51,6 +51,7 @@ ALSO: dict[str, dict[str, tuple[str, ...]]] = {
     "pilothouse_msgs": {
         "bridge.msgs.additions": (
             "LONGEST_DWELL",
+            "MANOEUVRES",
             "MOST_LAPS",
             "MOTIONS",
             "PLACE_KINDS",
@@ -75,6 +76,10 @@ DEFAULTS = {
     "pilothouse_msgs/Limits": dict.fromkeys(
         ("max_speed", "max_yaw_rate", "min_depth", "max_depth", "max_height", "max_slope"), "math.nan"
     ),
+    "pilothouse_msgs/Manoeuvre": dict.fromkeys(("speed", "throttle", "yaw", "height"), "math.nan"),
+    "pilothouse_msgs/Compass": {"heading": "math.nan"},
+    "pilothouse_msgs/FlightState": {"height": "math.nan"},
+    "pilothouse_msgs/AckermannState": {"turning_radius": "math.inf"},
     "pilothouse_msgs/Following": {"distance": "math.nan"},
     "pilothouse_msgs/RunTaskGoal": {"stamp": "math.nan"},
     "pilothouse_msgs/RunTaskFeedback": dict.fromkeys(

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "LONGEST_DWELL",
+    "MANOEUVRES",
     "MOST_LAPS",
     "MOTIONS",
     "PLACE_KINDS",
@@ -29,6 +30,8 @@ MOTIONS = ("loop", "random", "intermittent")
 """In what order and with which pauses a mission's points are visited."""
 LONGEST_DWELL = 600.0
 """Longest stay at a point in intermittent motion [s]."""
+MANOEUVRES = ("twist", "steer", "course", "tilt", "hover", "take_off", "land", "surface", "rest")
+"""How a robot may be told to move."""
 MOST_LAPS = 999
 PLACE_KINDS = ("place", "office", "home", "dock", "reception", "lab", "hall")
 """What a named place may be."""

@@ -2,63 +2,78 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import msgspec
 
 from bridge.msgs.sensor_msgs import BatteryState
 from bridge.msgs.std_msgs import Header, Time
 from sim.backend_bullet import GRAVITY
 
-__all__ = ["Battery", "BatteryParameters"]
+__all__ = ["Battery", "BatteryParameters", "DriveBattery", "DriveBatteryParameters"]
 
 _DISCHARGING = 2
 _LITHIUM_ION = 2
 _SWING = 0.11
 """How far the open voltage is above the nominal when full, and below when empty, as a part of it."""
 
+Positive = Annotated[float, msgspec.Meta(gt=0)]
+Part = Annotated[float, msgspec.Meta(ge=0, le=1)]
 
-class BatteryParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+
+class BatteryParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """The `[battery]` table of a vehicle's file."""
 
-    rate: float
-    capacity: float
-    voltage: float
-    idle: float
-    rolling: float
-    efficiency: float
-    resistance: float
-    charge: float
+    rate: Positive
+    """[Hz]"""
+    capacity: Positive
+    """[A h]"""
+    voltage: Positive
+    """Nominal [V]."""
+    idle: Positive
+    """What computer and sensors take [W]."""
+    resistance: Positive
+    """[ohm]"""
+    charge: Part
+    """At the beginning; 1 is full."""
+
+
+class DriveBatteryParameters(BatteryParameters, frozen=True, kw_only=True):
+    """The same with the figures of a drive that is known by its speed alone."""
+
+    rolling: Positive
+    """Rolling resistance as a part of the weight."""
+    efficiency: Positive
+    """Of motors and gears."""
 
 
 class Battery:
     """Feeds the computer all the time and the motors as they work."""
 
-    def __init__(self, parameters: BatteryParameters, mass: float) -> None:
-        """The battery of a vehicle of `mass` [kg]."""
-        self._parameters, self._mass = parameters, mass
+    def __init__(self, parameters: BatteryParameters) -> None:
+        """As full as the parameters say."""
+        self._parameters = parameters
         self.charge = parameters.charge
         """0 empty to 1 full; may be set."""
-        self._power = parameters.idle
-        self._speed = 0.0
+        self.power = parameters.idle
+        """That it gives [W]."""
 
     @property
     def empty(self) -> bool:
         """The motors get nothing any more."""
         return self.charge <= 0.0
 
-    def work(self, speed: float, period: float) -> None:
-        """Feed `period` [s] of driving that ends at `speed` [m/s]."""
+    def feed(self, motors: float, period: float) -> None:
+        """Feed computer and `motors` [W] for `period` [s]."""
         parameters = self._parameters
-        pull = (abs(speed) - abs(self._speed)) / period * self._mass
-        resist = parameters.rolling * self._mass * GRAVITY
-        motors = max(0.0, resist + pull) * abs(speed) / parameters.efficiency
-        self._speed, self._power = speed, parameters.idle + motors
+        self.power = parameters.idle + motors
         energy = parameters.capacity * 3600 * parameters.voltage
-        self.charge = max(0.0, self.charge - self._power * period / energy)
+        self.charge = max(0.0, self.charge - self.power * period / energy)
 
     def message(self, stamp: float) -> BatteryState:
         """The battery at `stamp` [s]."""
         parameters = self._parameters
-        current = self._power / parameters.voltage
+        current = self.power / parameters.voltage
         open_voltage = parameters.voltage * (1 + _SWING * (2 * self.charge - 1))
         return BatteryState(
             header=Header(Time.at(stamp), "base_link"),
@@ -71,3 +86,20 @@ class Battery:
             power_supply_status=_DISCHARGING,
             power_supply_technology=_LITHIUM_ION,
         )
+
+
+class DriveBattery(Battery):
+    """The battery of a vehicle on wheels whose motors' work is reckoned from its speed."""
+
+    def __init__(self, parameters: DriveBatteryParameters, mass: float) -> None:
+        """The battery of a vehicle of `mass` [kg]."""
+        super().__init__(parameters)
+        self._drive, self._mass = parameters, mass
+        self._speed = 0.0
+
+    def work(self, speed: float, period: float) -> None:
+        """Feed `period` [s] of driving that ends at `speed` [m/s]."""
+        pull = (abs(speed) - abs(self._speed)) / period * self._mass
+        resist = self._drive.rolling * self._mass * GRAVITY
+        self._speed = speed
+        self.feed(max(0.0, resist + pull) * abs(speed) / self._drive.efficiency, period)

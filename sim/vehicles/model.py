@@ -4,27 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, ClassVar, Literal, Protocol
 
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
-from sim.backend_bullet import Bullet, State
+from bridge.msgs.pilothouse_msgs import Manoeuvre
+from sim.backend_bullet import State
+from sim.scene import Scene
 from sim.sensors.bumper import BumperRing
-from sim.shapes import Quat, Shape, Vec3
+from sim.shapes import Shape
 from sim.vehicles.parameters import Parameters
-from sim.world import World
 
 __all__ = ["Model", "Vehicle"]
 
 
 class Vehicle(Protocol):
-    """A robot in the physics, with its drive and its sensors."""
+    """A robot in the physics, with its drive and its sensors; `sim.vehicles.chassis` has what all share."""
 
-    parameters: Parameters
+    MANOEUVRES: ClassVar[tuple[str, ...]]
+    """The orders that it knows."""
     body: int
     """Its number in the physics."""
     bumper: BumperRing
     """Counts its bumps."""
+
+    @property
+    def parameters(self) -> Parameters:
+        """Its numbers."""
 
     def drive(self, twist: Twist) -> None:
         """Go for `twist` in `base_link` until told otherwise."""
@@ -32,8 +38,14 @@ class Vehicle(Protocol):
     def stop(self) -> None:
         """Brake to rest."""
 
-    def advance(self) -> None:
-        """One physics step."""
+    def manoeuvre(self, order: Manoeuvre) -> None:
+        """Move by `order` until told otherwise; ValueError with one sentence when it cannot."""
+
+    def push(self) -> None:
+        """Act on the body for the physics step that follows."""
+
+    def feel(self) -> None:
+        """Take in what the physics step did."""
 
     def state(self) -> State:
         """Where it really is and how it moves, in `map`."""
@@ -42,22 +54,15 @@ class Vehicle(Protocol):
         """Topic and message of what is due after this step, with `stamp` [s]; ground truth only with `truth`."""
 
 
-class Build(Protocol):
-    """Puts a vehicle into a world that already has its ground and its things."""
-
-    def __call__(
-        self, backend: Bullet, world: World, *, seed: int, noise: bool, parameters: Parameters
-    ) -> Vehicle:
-        """It stands still at the world's start; with `noise` False every sensor is exact."""
-
-
 @dataclass(frozen=True, slots=True)
 class Model:
     """One line of `sim.robot.ROBOTS`."""
 
-    build: Build
-    """The vehicle's class."""
+    build: Callable[[Scene, Any], Vehicle]
+    """The vehicle's class: puts one with the `parameters` into a scene, at rest at its start."""
     parameters: Parameters
     """Its numbers."""
-    looks: Callable[[Parameters, Vec3, Quat], tuple[Shape, ...]]
-    """The shapes to draw of one at a position [m], turned by a rotation."""
+    looks: Callable[[Any, tuple[float, float, float], tuple[float, float, float, float]], tuple[Shape, ...]]
+    """The shapes to draw of one with its parameters, at a position [m], turned by a rotation."""
+    element: Literal["land", "water", "air"] = "land"
+    """Where it moves."""

@@ -1,29 +1,35 @@
-"""The numbers of a wheeled vehicle, read from its TOML file and checked."""
+"""The numbers of a vehicle, read from its TOML file and checked: what all kinds have in common."""
 
 from __future__ import annotations
 
 import tomllib
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, TypeVar
 
 import msgspec
 
-from sim.sensors.battery import BatteryParameters
-from sim.sensors.gps import GpsParameters
-from sim.sensors.imu import ImuParameters
-from sim.sensors.laser import LaserParameters
-from sim.sensors.odometry import OdometryParameters
-
-__all__ = ["CameraParameters", "Limits", "Parameters", "load"]
+__all__ = [
+    "CameraParameters",
+    "Info",
+    "Limits",
+    "Motor",
+    "Parameters",
+    "Part",
+    "Positive",
+    "Rate",
+    "Table",
+    "load",
+]
 
 Positive = Annotated[float, msgspec.Meta(gt=0)]
+Part = Annotated[float, msgspec.Meta(gt=0, le=1)]
 
 
-class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """One table of the file."""
 
 
-class Info(_Table, frozen=True):
+class Info(Table, frozen=True, kw_only=True):
     """What people and programs call it."""
 
     name: str
@@ -32,77 +38,24 @@ class Info(_Table, frozen=True):
     description: str
 
 
-class Body(_Table, frozen=True):
-    """The body without wheels, an upright cylinder."""
-
-    mass: Positive
-    """[kg]"""
-    radius: Positive
-    """[m]"""
-    height: Positive
-    """Of its top above the ground [m]."""
-    clearance: Positive
-    """Of its bottom above the ground [m]."""
-    centre_of_mass: Positive
-    """Above the ground [m]."""
-    inertia: tuple[Positive, Positive, Positive]
-    """About x, y and z through the centre of mass [kg m2]."""
-    friction: Positive
-
-
-class Wheels(_Table, frozen=True):
-    """The two driven wheels."""
-
-    base: Positive
-    """Between their middles [m]."""
-    radius: Positive
-    """[m]"""
-    mass: Positive
-    """Of one [kg]."""
-    friction: Positive
-    torque: Positive
-    """The most at one wheel [N m]."""
-    ticks: Positive
-    """Of the encoder in a turn."""
-
-
-class Casters(_Table, frozen=True):
-    """The two sliding supports."""
-
-    radius: Positive
-    """[m]"""
-    offset: Positive
-    """From the axle [m]."""
-    mass: Positive
-    """Of one [kg]."""
-
-
-class Limits(_Table, frozen=True):
+class Limits(Table, frozen=True, kw_only=True):
     """What the drive does at most."""
 
     speed: Positive
     """[m/s]"""
     yaw_rate: Positive
     """[rad/s]"""
-    acceleration: Positive
-    """[m/s2]"""
-    yaw_acceleration: Positive
-    """[rad/s2]"""
-    braking: Positive
-    """How fast it loses speed when it is told to stop [m/s2]."""
-    yaw_braking: Positive
-    """The same for turning [rad/s2]."""
 
 
-class Rate(_Table, frozen=True):
+class Rate(Table, frozen=True, kw_only=True):
     """A sensor that has nothing but a rate."""
 
     rate: Positive
     """[Hz]"""
 
 
-class CameraParameters(_Table, frozen=True):
-    """The camera, looking ahead."""
+class CameraParameters(Table, frozen=True, kw_only=True):
+    """A camera."""
 
     name: str
     rate: Positive
@@ -115,29 +68,49 @@ class CameraParameters(_Table, frozen=True):
     """Horizontal [rad]."""
     position: tuple[float, float, float]
     """In `base_link` [m]."""
+    yaw: float = 0.0
+    """Where it looks, from straight ahead to the left [rad]."""
+    pitch: float = 0.0
+    """How far it looks down [rad]."""
 
 
-class Parameters(_Table, frozen=True):
-    """The whole file."""
+class Motor(Table, frozen=True, kw_only=True):
+    """One of the motors with its gear, all alike."""
+
+    efficiency: Part
+    """Of motor and gear, without the losses in the winding."""
+    copper: Positive
+    """What the winding loses at 1 N m of what the motor turns, growing with the torque's square [W/(N m)2]."""
+    heat_capacity: Positive
+    """[J/K]"""
+    cooling: Positive
+    """To the surroundings [W/K]."""
+
+
+class Parameters(Table, frozen=True, kw_only=True):
+    """What the file of every vehicle says; each kind has a class with more."""
 
     info: Info
-    body: Body
-    wheels: Wheels
-    casters: Casters
     limits: Limits
-    odometry: OdometryParameters
-    laser: LaserParameters
-    imu: ImuParameters
-    gps: GpsParameters
-    bumper: Rate
-    battery: BatteryParameters
-    camera: CameraParameters
     truth: Rate
 
+    @property
+    def radius(self) -> float:
+        """Of the circle round `base_link` that the body fits in [m]."""
+        raise NotImplementedError
 
-def load(path: Path) -> Parameters:
-    """The numbers in the file at `path`; ValueError names the file, the key and what is wrong."""
+    @property
+    def cameras(self) -> tuple[CameraParameters, ...]:
+        """Its cameras, the first one is the main one."""
+        return ()
+
+
+P = TypeVar("P", bound=Parameters)
+
+
+def load(path: Path, kind: type[P]) -> P:
+    """The numbers of a `kind` of vehicle in the file at `path`; ValueError names the file, the key and what is wrong."""
     try:
-        return msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), Parameters)
+        return msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), kind)
     except (tomllib.TOMLDecodeError, msgspec.ValidationError) as fault:
         raise ValueError(f"{path.name}: {fault}.") from fault

@@ -8,7 +8,7 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Twist
 from sim.vehicles.parameters import load
-from sim.vehicles.patrol import PARAMETERS
+from sim.vehicles.patrol import PARAMETERS, PatrolParameters
 from tests.sim.rooms import robot_in, room
 
 
@@ -151,4 +151,4 @@ def test_a_faulty_parameter_is_named_with_its_key(tmp_path):
     file = tmp_path / "bad.toml"
     file.write_text("[info]\nname = 3\n", encoding="utf-8")
     with pytest.raises(ValueError, match=r"bad\.toml: .*\$\.info\.name"):
-        load(file)
+        load(file, PatrolParameters)

@@ -7,13 +7,14 @@ from typing import ClassVar
 
 from msgspec import field
 
-from bridge.msgs.arrays import Int32Array
+from bridge.msgs.arrays import Float64Array, Int32Array
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "AckermannState",
     "AcknowledgeEventsRequest",
     "AcknowledgeEventsResponse",
     "Bumper",
@@ -21,23 +22,57 @@ __all__ = [
     "Checklist",
     "CommandRequest",
     "CommandResponse",
+    "Compass",
     "ControlStatus",
     "DeletePlaceRequest",
     "DeletePlaceResponse",
     "DeleteScheduleRequest",
     "DeleteScheduleResponse",
     "Event",
+    "FlightState",
     "Following",
     "GetEventsRequest",
     "GetEventsResponse",
     "GetHistoryRequest",
-    "GetHistoryResponse",
-    "GetMissionRequest",
-    "Mission",
     "TaskOrder",
-    "TaskRun",
     "Waypoint",
 ]
+
+
+class AckermannState(Msg, frozen=True, gc=False):
+    """How a vehicle with steered front wheels drives, as its encoders tell."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/AckermannState"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "std_msgs/Header",
+        "float64",
+        "float64",
+        "float64",
+        "string[]",
+        "float64[]",
+        "float64[]",
+    )
+    UNITS: ClassVar[dict[str, str]] = {
+        "speed": "m/s",
+        "steering": "rad",
+        "turning_radius": "m",
+        "wheel_angles": "rad",
+        "wheel_speeds": "m/s",
+    }
+    header: Header = Header()
+    """Frame base_link, the middle of the rear axle."""
+    speed: float = 0.0
+    """Of the middle of the rear axle, ahead [m/s]."""
+    steering: float = 0.0
+    """Of a wheel in the middle of the front axle [rad], positive to the left."""
+    turning_radius: float = math.inf
+    """Of the middle of the rear axle [m], positive to the left; +inf straight ahead."""
+    wheels: list[str] = []
+    """Names of the wheels."""
+    wheel_angles: Float64Array = field(default_factory=Float64Array)
+    """How far each is steered [rad], positive to the left."""
+    wheel_speeds: Float64Array = field(default_factory=Float64Array)
+    """At the rim of each [m/s]."""
 
 
 class CommandRequest(Msg, frozen=True, gc=False):
@@ -122,6 +157,22 @@ class Checklist(Msg, frozen=True, gc=False):
     """When it changed, operators' clock."""
     checks: list[Check] = []
     """Always the same ones in the same order."""
+
+
+class Compass(Msg, frozen=True, gc=False):
+    """A compass that a tilt does not disturb: the magnetic field turned level by the accelerometer."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Compass"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"heading": "deg", "roll": "rad", "pitch": "rad"}
+    header: Header = Header()
+    """Frame base_link."""
+    heading: float = math.nan
+    """Of the bow [deg], 0 north, clockwise, 0 to 360; NaN while the unit falls freely."""
+    roll: float = 0.0
+    """As the accelerometer has it [rad]."""
+    pitch: float = 0.0
+    """[rad], positive nose down."""
 
 
 class ControlStatus(Msg, frozen=True, gc=False):
@@ -241,6 +292,22 @@ class Event(Msg, frozen=True, gc=False):
     """When, operators' clock; 0 while nobody has."""
 
 
+class FlightState(Msg, frozen=True, gc=False):
+    """Whether something that flies is in the air."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/FlightState"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "string", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"height": "m", "climb": "m/s"}
+    header: Header = Header()
+    """Frame map."""
+    phase: str = ""
+    """landed, taking_off, flying, landing."""
+    height: float = math.nan
+    """Above the ground right under it, as its ultrasound has it [m]; NaN when that is out of reach."""
+    climb: float = 0.0
+    """Upward speed [m/s]."""
+
+
 class Following(Msg, frozen=True, gc=False):
     """Whether the person who is led comes along; /following."""
 
@@ -349,91 +416,3 @@ class TaskOrder(Msg, frozen=True, gc=False):
     """How fast [m/s]; NaN for the robot's cruising speed."""
     duration: float = math.nan
     """How long to hold or to follow the heading [s]; NaN until stopped."""
-
-
-class TaskRun(Msg, frozen=True, gc=False):
-    """A task that was done or is under way, as the robot's history has it."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskRun"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "int32",
-        "pilothouse_msgs/TaskOrder",
-        "time",
-        "time",
-        "string",
-        "string",
-        "float64",
-        "int32",
-        "string",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"distance": "m"}
-    id: int32 = 0
-    """Number of this run, as in TaskStatus."""
-    order: TaskOrder = field(default_factory=TaskOrder)
-    """What was asked."""
-    started: Time = Time()
-    """When it began, operators' clock."""
-    ended: Time = Time()
-    """When it ended, operators' clock; 0 while it runs."""
-    state: str = ""
-    """As in TaskStatus: RUNNING, PAUSED, SUCCEEDED, CANCELED, FAILED or INTERRUPTED."""
-    reason: str = ""
-    """One sentence: what became of it and why."""
-    distance: float = 0.0
-    """Driven in this run [m]."""
-    visited: int32 = 0
-    """Waypoints or places reached."""
-    by: str = ""
-    """Who started it; empty when the schedule or the robot did."""
-
-
-class GetHistoryResponse(CommandResponse, frozen=True, gc=False):
-    """What `GetHistory` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetHistoryResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "pilothouse_msgs/TaskRun[]")
-    runs: list[TaskRun] = []
-    """Newest first."""
-
-
-class GetMissionRequest(Msg, frozen=True, gc=False):
-    """Ask for the stored mission."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ()
-
-
-class Mission(Msg, frozen=True, gc=False):
-    """Where to patrol and how."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Mission"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "time",
-        "pilothouse_msgs/Waypoint[]",
-        "pilothouse_msgs/Waypoint[]",
-        "string",
-        "float64",
-        "int32",
-        "bool",
-        "string",
-        "string",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"dwell": "s"}
-    stamp: Time = Time()
-    """When the robot stored it; 0 when it never was."""
-    waypoints: list[Waypoint] = []
-    """Where to go, in the map frame."""
-    home: list[Waypoint] = []
-    """The place to return to: one waypoint, or none when it is not set."""
-    motion: str = "loop"
-    """loop, random or intermittent."""
-    dwell: float = 5.0
-    """How long to stand at each point in intermittent motion [s]."""
-    laps: int32 = 0
-    """Rounds to make; 0 goes on until stopped."""
-    stop_on_intruder: bool = False
-    """Pause when an intruder is found, whatever `on_intruder` says."""
-    name: str = ""
-    """What it is kept as; empty for a mission without a name."""
-    on_intruder: str = ""
-    """stop, report or circle when an intruder is found; empty reports it."""

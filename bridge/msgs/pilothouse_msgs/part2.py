@@ -3,44 +3,125 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, ClassVar, TypeAlias
+from typing import ClassVar
 
-from msgspec import Meta, field
+from msgspec import field
 
+from bridge.msgs.arrays import Float64Array
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
-from bridge.msgs.geometry_msgs import Point, Polygon
-from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse, Mission, TaskOrder
+from bridge.msgs.geometry_msgs import Point, Polygon, Twist
+from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse, TaskOrder, Waypoint
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "GetHistoryResponse",
+    "GetMissionRequest",
     "GetMissionResponse",
     "GetMissionsRequest",
     "GetMissionsResponse",
     "Intruder",
     "IntruderArray",
     "Limits",
+    "Manoeuvre",
+    "Mission",
+    "MotorArray",
     "Place",
     "PlaceArray",
     "RecallMissionRequest",
     "RecallMissionResponse",
     "RobotInfo",
-    "RunTaskFeedback",
-    "RunTaskGoal",
-    "RunTaskResult",
-    "Schedule",
-    "ScheduledTask",
-    "SetMissionRequest",
-    "SetMissionResponse",
-    "SetModeRequest",
-    "SetModeResponse",
-    "SetOptionRequest",
-    "SetOptionResponse",
-    "StartTaskRequest",
-    "TaskProgress",
+    "RudderState",
+    "TaskRun",
 ]
 
-_Boolx7: TypeAlias = Annotated[list[bool], Meta(min_length=7, max_length=7)]
+
+class TaskRun(Msg, frozen=True, gc=False):
+    """A task that was done or is under way, as the robot's history has it."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskRun"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "int32",
+        "pilothouse_msgs/TaskOrder",
+        "time",
+        "time",
+        "string",
+        "string",
+        "float64",
+        "int32",
+        "string",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"distance": "m"}
+    id: int32 = 0
+    """Number of this run, as in TaskStatus."""
+    order: TaskOrder = field(default_factory=TaskOrder)
+    """What was asked."""
+    started: Time = Time()
+    """When it began, operators' clock."""
+    ended: Time = Time()
+    """When it ended, operators' clock; 0 while it runs."""
+    state: str = ""
+    """As in TaskStatus: RUNNING, PAUSED, SUCCEEDED, CANCELED, FAILED or INTERRUPTED."""
+    reason: str = ""
+    """One sentence: what became of it and why."""
+    distance: float = 0.0
+    """Driven in this run [m]."""
+    visited: int32 = 0
+    """Waypoints or places reached."""
+    by: str = ""
+    """Who started it; empty when the schedule or the robot did."""
+
+
+class GetHistoryResponse(CommandResponse, frozen=True, gc=False):
+    """What `GetHistory` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetHistoryResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "pilothouse_msgs/TaskRun[]")
+    runs: list[TaskRun] = []
+    """Newest first."""
+
+
+class GetMissionRequest(Msg, frozen=True, gc=False):
+    """Ask for the stored mission."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ()
+
+
+class Mission(Msg, frozen=True, gc=False):
+    """Where to patrol and how."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Mission"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "time",
+        "pilothouse_msgs/Waypoint[]",
+        "pilothouse_msgs/Waypoint[]",
+        "string",
+        "float64",
+        "int32",
+        "bool",
+        "string",
+        "string",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"dwell": "s"}
+    stamp: Time = Time()
+    """When the robot stored it; 0 when it never was."""
+    waypoints: list[Waypoint] = []
+    """Where to go, in the map frame."""
+    home: list[Waypoint] = []
+    """The place to return to: one waypoint, or none when it is not set."""
+    motion: str = "loop"
+    """loop, random or intermittent."""
+    dwell: float = 5.0
+    """How long to stand at each point in intermittent motion [s]."""
+    laps: int32 = 0
+    """Rounds to make; 0 goes on until stopped."""
+    stop_on_intruder: bool = False
+    """Pause when an intruder is found, whatever `on_intruder` says."""
+    name: str = ""
+    """What it is kept as; empty for a mission without a name."""
+    on_intruder: str = ""
+    """stop, report or circle when an intruder is found; empty reports it."""
 
 
 class GetMissionResponse(Msg, frozen=True, gc=False):
@@ -144,6 +225,81 @@ class Limits(Msg, frozen=True, gc=False):
     """Areas in map [m] that it never enters, holes of the others included."""
 
 
+class Manoeuvre(Msg, frozen=True, gc=False):
+    """How a robot moves until it is told otherwise, for what a twist alone does not say. To the robot an
+    order; on /manoeuvre what it follows now.
+    Which kinds a robot knows is in its RobotInfo. What a kind does not name below is not looked at.
+    """
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Manoeuvre"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "std_msgs/Header",
+        "string",
+        "geometry_msgs/Twist",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+    )
+    UNITS: ClassVar[dict[str, str]] = {
+        "speed": "m/s",
+        "steering": "rad",
+        "roll": "rad",
+        "pitch": "rad",
+        "yaw": "rad",
+        "height": "m",
+    }
+    header: Header = Header()
+    """Frame map."""
+    kind: str = ""
+    """twist, steer, course, tilt, hover, take_off, land, surface or rest."""
+    twist: Twist = Twist()
+    """twist: all of it. tilt: climb in linear.z, turn in angular.z."""
+    speed: float = math.nan
+    """steer, course: ahead [m/s]; NaN where the throttle says it."""
+    throttle: float = math.nan
+    """steer, course: share of the full power, -1 to 1; NaN where the speed says it."""
+    steering: float = 0.0
+    """steer: angle of the front wheels [rad], of the rudder [rad]; positive to the left."""
+    roll: float = 0.0
+    """tilt: to hold [rad]."""
+    pitch: float = 0.0
+    """tilt: to hold [rad], positive nose down."""
+    yaw: float = math.nan
+    """course, hover: to hold in map [rad]; NaN the present one."""
+    height: float = math.nan
+    """course, hover, take_off: to hold above the map's origin [m], below water negative; NaN the present
+    or the usual one.
+    """
+
+
+class MotorArray(Msg, frozen=True, gc=False):
+    """The motors of a robot: wheels, propeller, legs or rotors."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/MotorArray"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "std_msgs/Header",
+        "string[]",
+        "float64[]",
+        "float64[]",
+        "float64[]",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"speeds": "rad/s", "torques": "N m", "temperatures": "degC"}
+    header: Header = Header()
+    """Frame base_link."""
+    names: list[str] = []
+    """Of each motor."""
+    speeds: Float64Array = field(default_factory=Float64Array)
+    """Of what the motor turns [rad/s]; of a leg its swing's greatest."""
+    torques: Float64Array = field(default_factory=Float64Array)
+    """There [N m]."""
+    temperatures: Float64Array = field(default_factory=Float64Array)
+    """Of the winding [degC]."""
+
+
 class Place(Msg, frozen=True, gc=False):
     """A named pose, so that people say Office 12 and never coordinates."""
 
@@ -225,6 +381,7 @@ class RobotInfo(Msg, frozen=True, gc=False):
         "float64",
         "float64",
         "float64",
+        "string[]",
     )
     UNITS: ClassVar[dict[str, str]] = {
         "max_speed": "m/s",
@@ -258,191 +415,23 @@ class RobotInfo(Msg, frozen=True, gc=False):
     """Of the map frame's origin [deg]."""
     camera_fov: float = math.nan
     """Horizontal field of view of the first camera [rad]."""
+    manoeuvres: list[str] = []
+    """Which kinds of pilothouse_msgs/Manoeuvre it knows; empty for one that knows twists only."""
 
 
-class TaskProgress(Msg, frozen=True, gc=False):
-    """How far the running task is; /task/progress at 2 Hz, only while one runs."""
+class RudderState(Msg, frozen=True, gc=False):
+    """The rudder and the propeller of a boat."""
 
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskProgress"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
-    UNITS: ClassVar[dict[str, str]] = {"distance_to_next": "m", "time_left": "s", "distance_driven": "m"}
-    stamp: Time = Time()
-    """When it was reckoned."""
-    task_id: int32 = 0
-    """That of TaskStatus."""
-    progress: float = math.nan
-    """Of this lap, or of the whole where laps are counted: 0 to 1."""
-    distance_to_next: float = math.nan
-    """Along the path [m]."""
-    time_left: float = math.nan
-    """Estimate to the end of this lap, or of the whole where laps are counted [s]."""
-    distance_driven: float = 0.0
-    """In this run [m]."""
-
-
-class RunTaskFeedback(TaskProgress, frozen=True, gc=False):
-    """How far `RunTask` is."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskFeedback"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
-    UNITS: ClassVar[dict[str, str]] = {"distance_to_next": "m", "time_left": "s", "distance_driven": "m"}
-
-
-class StartTaskRequest(CommandRequest, frozen=True, gc=False):
-    """Start a task."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/StartTaskRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "string",
-        "float64",
-        "float64",
-        "string",
-        "string",
-        "string",
-        "pilothouse_msgs/TaskOrder",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
-    task: str = "patrol"
-    """patrol or go_home; counts only while the order's own task is empty."""
-    order: TaskOrder = field(default_factory=TaskOrder)
-    """What to do; with its task empty, the field `task` says it."""
-
-
-class RunTaskGoal(StartTaskRequest, frozen=True, gc=False):
-    """Run a task and be told what became of it. Taking the goal back ends the task."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskGoal"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "string",
-        "float64",
-        "float64",
-        "string",
-        "string",
-        "string",
-        "pilothouse_msgs/TaskOrder",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
-
-
-class RunTaskResult(Msg, frozen=True, gc=False):
-    """What `RunTask` came to."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskResult"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string", "string", "int32")
-    task_id: int32 = 0
-    """Number of this run, as in TaskStatus."""
-    state: str = ""
-    """SUCCEEDED; whatever else became of it is told as a failure with its reason."""
-    message: str = ""
-    """One sentence: what was done."""
-    visited: int32 = 0
-    """Waypoints reached."""
-
-
-class ScheduledTask(Msg, frozen=True, gc=False):
-    """A task that starts by itself, at a time of day or every so often."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/ScheduledTask"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "int32",
-        "bool",
-        "pilothouse_msgs/TaskOrder",
-        "string",
-        "bool[7]",
-        "float64",
-        "time",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"every": "s"}
-    id: int32 = 0
-    """Given by the robot; 0 asks for a new one."""
-    enabled: bool = True
-    """It starts when its time comes; kept and not started otherwise."""
-    order: TaskOrder = field(default_factory=TaskOrder)
-    """What to do."""
-    at: str = ""
-    """Time of day as HH:MM, local time of the robot; empty when `every` says it."""
-    days: _Boolx7 = field(default_factory=lambda: [True, True, True, True, True, True, True])
-    """Days on which `at` counts, Monday first."""
-    every: float = 0.0
-    """From one start to the next [s]; 0 when `at` says it."""
-    next: Time = Time()
-    """When it starts next, operators' clock, told by the robot; 0 for never."""
-
-
-class Schedule(Msg, frozen=True, gc=False):
-    """All that starts by itself; latched on /schedule, sent once per change."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Schedule"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "pilothouse_msgs/ScheduledTask[]")
-    stamp: Time = Time()
-    """When it changed, operators' clock."""
-    tasks: list[ScheduledTask] = []
-    """In the order of their ids."""
-
-
-class SetMissionRequest(CommandRequest, frozen=True, gc=False):
-    """Store a mission on the robot."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetMissionRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "string",
-        "float64",
-        "float64",
-        "string",
-        "string",
-        "pilothouse_msgs/Mission",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
-    mission: Mission = field(default_factory=Mission)
-    """Replaces what was stored."""
-
-
-class SetMissionResponse(CommandResponse, frozen=True, gc=False):
-    """What `SetMission` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetMissionResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
-
-
-class SetModeRequest(CommandRequest, frozen=True, gc=False):
-    """Give the robot to a person or to its task."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetModeRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
-    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
-    mode: str = ""
-    """MANUAL pauses the task, AUTO goes on with it."""
-
-
-class SetModeResponse(CommandResponse, frozen=True, gc=False):
-    """What `SetMode` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetModeResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
-
-
-class SetOptionRequest(CommandRequest, frozen=True, gc=False):
-    """Change one of the robot's settings; it is kept over restarts."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "string",
-        "float64",
-        "float64",
-        "string",
-        "string",
-        "string",
-        "string",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
-    name: str = ""
-    """follow_link or lost_link_stops_task."""
-    value: str = ""
-    """on or off."""
-
-
-class SetOptionResponse(CommandResponse, frozen=True, gc=False):
-    """What `SetOption` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RudderState"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64", "float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"angle": "rad", "wanted": "rad", "thrust": "N"}
+    header: Header = Header()
+    """Frame base_link."""
+    angle: float = 0.0
+    """[rad], positive turns the boat to the left."""
+    wanted: float = 0.0
+    """Where the rudder is told to go [rad]."""
+    throttle: float = 0.0
+    """Told to the propeller, a share of its full thrust, -1 to 1."""
+    thrust: float = 0.0
+    """Of the propeller [N], negative astern."""

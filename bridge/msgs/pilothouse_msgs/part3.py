@@ -2,28 +2,234 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+import math
+from typing import Annotated, ClassVar, TypeAlias
 
-from msgspec import field
+from msgspec import Meta, field
 
+from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse, TaskOrder
-from bridge.msgs.pilothouse_msgs.part2 import Place, ScheduledTask
+from bridge.msgs.pilothouse_msgs.part2 import Mission, Place
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "RunTaskFeedback",
+    "RunTaskGoal",
+    "RunTaskResult",
+    "Schedule",
+    "ScheduledTask",
+    "SetMissionRequest",
+    "SetMissionResponse",
+    "SetModeRequest",
+    "SetModeResponse",
+    "SetOptionRequest",
+    "SetOptionResponse",
     "SetPlaceRequest",
     "SetPlaceResponse",
     "SetQueueRequest",
     "SetQueueResponse",
     "SetScheduleRequest",
     "SetScheduleResponse",
+    "SonarRing",
+    "StartTaskRequest",
     "StartTaskResponse",
     "TagRead",
+    "TaskProgress",
     "TaskQueue",
     "TaskStatus",
 ]
+
+_Boolx7: TypeAlias = Annotated[list[bool], Meta(min_length=7, max_length=7)]
+
+
+class TaskProgress(Msg, frozen=True, gc=False):
+    """How far the running task is; /task/progress at 2 Hz, only while one runs."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskProgress"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"distance_to_next": "m", "time_left": "s", "distance_driven": "m"}
+    stamp: Time = Time()
+    """When it was reckoned."""
+    task_id: int32 = 0
+    """That of TaskStatus."""
+    progress: float = math.nan
+    """Of this lap, or of the whole where laps are counted: 0 to 1."""
+    distance_to_next: float = math.nan
+    """Along the path [m]."""
+    time_left: float = math.nan
+    """Estimate to the end of this lap, or of the whole where laps are counted [s]."""
+    distance_driven: float = 0.0
+    """In this run [m]."""
+
+
+class RunTaskFeedback(TaskProgress, frozen=True, gc=False):
+    """How far `RunTask` is."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskFeedback"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"distance_to_next": "m", "time_left": "s", "distance_driven": "m"}
+
+
+class StartTaskRequest(CommandRequest, frozen=True, gc=False):
+    """Start a task."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/StartTaskRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "string",
+        "pilothouse_msgs/TaskOrder",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    task: str = "patrol"
+    """patrol or go_home; counts only while the order's own task is empty."""
+    order: TaskOrder = field(default_factory=TaskOrder)
+    """What to do; with its task empty, the field `task` says it."""
+
+
+class RunTaskGoal(StartTaskRequest, frozen=True, gc=False):
+    """Run a task and be told what became of it. Taking the goal back ends the task."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskGoal"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "string",
+        "pilothouse_msgs/TaskOrder",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+
+
+class RunTaskResult(Msg, frozen=True, gc=False):
+    """What `RunTask` came to."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskResult"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string", "string", "int32")
+    task_id: int32 = 0
+    """Number of this run, as in TaskStatus."""
+    state: str = ""
+    """SUCCEEDED; whatever else became of it is told as a failure with its reason."""
+    message: str = ""
+    """One sentence: what was done."""
+    visited: int32 = 0
+    """Waypoints reached."""
+
+
+class ScheduledTask(Msg, frozen=True, gc=False):
+    """A task that starts by itself, at a time of day or every so often."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/ScheduledTask"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "int32",
+        "bool",
+        "pilothouse_msgs/TaskOrder",
+        "string",
+        "bool[7]",
+        "float64",
+        "time",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"every": "s"}
+    id: int32 = 0
+    """Given by the robot; 0 asks for a new one."""
+    enabled: bool = True
+    """It starts when its time comes; kept and not started otherwise."""
+    order: TaskOrder = field(default_factory=TaskOrder)
+    """What to do."""
+    at: str = ""
+    """Time of day as HH:MM, local time of the robot; empty when `every` says it."""
+    days: _Boolx7 = field(default_factory=lambda: [True, True, True, True, True, True, True])
+    """Days on which `at` counts, Monday first."""
+    every: float = 0.0
+    """From one start to the next [s]; 0 when `at` says it."""
+    next: Time = Time()
+    """When it starts next, operators' clock, told by the robot; 0 for never."""
+
+
+class Schedule(Msg, frozen=True, gc=False):
+    """All that starts by itself; latched on /schedule, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Schedule"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "pilothouse_msgs/ScheduledTask[]")
+    stamp: Time = Time()
+    """When it changed, operators' clock."""
+    tasks: list[ScheduledTask] = []
+    """In the order of their ids."""
+
+
+class SetMissionRequest(CommandRequest, frozen=True, gc=False):
+    """Store a mission on the robot."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetMissionRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "pilothouse_msgs/Mission",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    mission: Mission = field(default_factory=Mission)
+    """Replaces what was stored."""
+
+
+class SetMissionResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetMission` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetMissionResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+
+
+class SetModeRequest(CommandRequest, frozen=True, gc=False):
+    """Give the robot to a person or to its task."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetModeRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    mode: str = ""
+    """MANUAL pauses the task, AUTO goes on with it."""
+
+
+class SetModeResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetMode` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetModeResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+
+
+class SetOptionRequest(CommandRequest, frozen=True, gc=False):
+    """Change one of the robot's settings; it is kept over restarts."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "string",
+        "string",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    name: str = ""
+    """follow_link or lost_link_stops_task."""
+    value: str = ""
+    """on or off."""
+
+
+class SetOptionResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetOption` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
 
 
 class SetPlaceRequest(CommandRequest, frozen=True, gc=False):
@@ -103,6 +309,43 @@ class SetScheduleResponse(CommandResponse, frozen=True, gc=False):
     ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "int32")
     id: int32 = 0
     """Of the scheduled task; 0 when it was not accepted."""
+
+
+class SonarRing(Msg, frozen=True, gc=False):
+    """Distances all round by ultrasound, each the nearest thing in a cone."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SonarRing"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "std_msgs/Header",
+        "float64[]",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "float32[]",
+    )
+    UNITS: ClassVar[dict[str, str]] = {
+        "bearings": "rad",
+        "field_of_view": "rad",
+        "radius": "m",
+        "range_min": "m",
+        "range_max": "m",
+        "ranges": "m",
+    }
+    header: Header = Header()
+    """Frame base_link."""
+    bearings: Float64Array = field(default_factory=Float64Array)
+    """Of each cone's middle in base_link [rad], 0 ahead, positive to the left."""
+    field_of_view: float = 0.0
+    """Width of a cone [rad]."""
+    radius: float = 0.0
+    """From the middle of the robot to each sonar [m]."""
+    range_min: float = 0.0
+    """Shortest that can be measured [m]."""
+    range_max: float = 0.0
+    """Longest [m]."""
+    ranges: Float32Array = field(default_factory=Float32Array)
+    """From each sonar [m]; +inf nothing in range, -inf too close (REP-117)."""
 
 
 class StartTaskResponse(CommandResponse, frozen=True, gc=False):

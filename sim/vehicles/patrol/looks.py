@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from sim.shapes import Quat, Shape, Vec3
-from sim.vehicles.parameters import Parameters
+
+if TYPE_CHECKING:
+    from sim.vehicles.patrol import PatrolParameters
 
 __all__ = ["looks"]
 
@@ -12,7 +16,7 @@ _ACCENT = (0.18, 0.62, 0.92)
 _POLES = ((0.11, 0.10), (0.11, -0.10), (-0.12, 0.10), (-0.12, -0.10))
 
 
-def looks(parameters: Parameters, position: Vec3, rotation: Quat) -> tuple[Shape, ...]:
+def looks(parameters: PatrolParameters, position: Vec3, rotation: Quat) -> tuple[Shape, ...]:
     """The shapes to draw of a robot at `position`, turned by `rotation`."""
     body = parameters.body
     across = 2 * body.radius

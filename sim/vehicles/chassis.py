@@ -1,0 +1,101 @@
+"""What all vehicles have in common: a body, its sensors, its bumper, and the orders that it may be given."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Generic, TypeVar
+
+import msgspec
+
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import Manoeuvre
+from bridge.msgs.std_msgs import Header, Time
+from sim.backend_bullet import State
+from sim.scene import Scene
+from sim.sensors.bumper import BumperRing
+from sim.vehicles.parameters import Parameters
+from sim.vehicles.suite import Measurement, Suite, as_odometry
+
+__all__ = ["Chassis"]
+
+MANOEUVRE_RATE = 10.0
+
+P = TypeVar("P", bound=Parameters)
+
+
+class Chassis(Generic[P]):
+    """A vehicle of the figures `P`; each kind has a subclass with its drive, its forces and its sensors."""
+
+    MANOEUVRES: ClassVar[tuple[str, ...]] = ("twist", "rest")
+    """The orders that it knows."""
+
+    def __init__(self, scene: Scene, parameters: P, body: int) -> None:
+        """At rest; `body` is its number in the physics."""
+        self.scene, self.parameters, self.body = scene, parameters, body
+        self.bumper = BumperRing()
+        self.suite = Suite()
+        self.order = Manoeuvre(kind="rest")
+        """What it moves by."""
+        self._step = 0
+
+    def drive(self, twist: Twist) -> None:
+        """Go for `twist` until told otherwise."""
+        self.manoeuvre(Manoeuvre(kind="twist", twist=twist))
+
+    def stop(self) -> None:
+        """Come to rest."""
+        self.manoeuvre(Manoeuvre(kind="rest"))
+
+    def manoeuvre(self, order: Manoeuvre) -> None:
+        """Move by `order` until told otherwise; ValueError with one sentence when it cannot, which changes nothing."""
+        known = self.MANOEUVRES
+        if order.kind not in known:
+            name = self.parameters.info.name
+            raise ValueError(f"{name} knows no manoeuvre {order.kind!r}; it knows {', '.join(known)}.")
+        self.begin(order)
+        self.order = order
+
+    def begin(self, order: Manoeuvre) -> None:
+        """Take up an order of a known kind."""
+        raise NotImplementedError
+
+    def push(self) -> None:
+        """Act on the body for the physics step that follows."""
+        raise NotImplementedError
+
+    def feel(self) -> None:
+        """Take in what the physics step did."""
+        self._step += 1
+        contacts = self.scene.backend.touching(self.body)
+        self.bumper.update(self._step, contacts, self.state() if contacts else None)
+
+    def state(self) -> State:
+        """Where it really is and how it moves, in `map`."""
+        return self.scene.backend.state(self.body)
+
+    def measure(self, stamp: float, *, truth: bool) -> Iterator[Measurement]:
+        """What is due after this step, with `stamp` [s]; ground truth only when `truth` asks for it."""
+        if self.bumper.changed and not self.suite.due("bumper", self._step):
+            yield "/bumper", self.bumper.message(stamp)
+        for topic, message in self.suite.measure(self._step, self.state, stamp):
+            if truth or topic != "/sim/ground_truth":
+                yield topic, message
+
+    def add_truth(self) -> None:
+        """Where it really is, as a sensor."""
+        self.suite.add(
+            "truth",
+            self.parameters.truth.rate,
+            lambda state, stamp: [("/sim/ground_truth", as_odometry(state, stamp))],
+        )
+
+    def add_order(self) -> None:
+        """The order that it moves by, as a sensor."""
+        self.suite.add("manoeuvre", MANOEUVRE_RATE, self._tell_order)
+
+    def tell_bumper(self, _: State, stamp: float) -> Iterator[Measurement]:
+        """The bumper, as a sensor; what has just changed is told anyway."""
+        yield "/bumper", self.bumper.message(stamp)
+
+    def _tell_order(self, state: State, stamp: float) -> Iterator[Measurement]:
+        yield "/manoeuvre", msgspec.structs.replace(self.order, header=Header(Time.at(stamp), "map"))

@@ -1,0 +1,73 @@
+"""The sensors of a vehicle together: each measures at its own rate."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Pose,
+    PoseWithCovariance,
+    Quaternion,
+    Twist,
+    TwistWithCovariance,
+    Vector3,
+)
+from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.std_msgs import Header, Time
+from sim.backend_bullet import State
+from sim.schedule import Schedule
+from sim.shapes import rotate_back
+
+__all__ = ["Measurement", "Suite", "as_odometry"]
+
+Measurement = tuple[str, Msg]
+"""A topic and what is said on it."""
+Measure = Callable[[State, float], Iterable[Measurement]]
+"""What one sensor says of a body in a state, with a stamp [s]."""
+
+
+class Suite:
+    """Asks every sensor when it is due, in the order in which they were added."""
+
+    def __init__(self) -> None:
+        """No sensors yet."""
+        self._sensors: dict[str, tuple[float, Measure]] = {}
+        self._schedule: Schedule | None = None
+
+    def add(self, name: str, rate: float, measure: Measure) -> None:
+        """One more, that measures `rate` times a second; before the first `measure`."""
+        if name in self._sensors:
+            raise ValueError(f"There is a sensor {name!r} already.")
+        self._sensors[name] = (rate, measure)
+
+    def due(self, name: str, step: int) -> bool:
+        """Whether the sensor of this name measures after `step`, which was not asked for yet."""
+        return name in self._sensors and self._planned().falls(name, step)
+
+    def measure(self, step: int, state: Callable[[], State], stamp: float) -> Iterator[Measurement]:
+        """What is due after `step`; the `state` is asked for only if something is."""
+        due = self._planned().due(step)
+        if not due:
+            return
+        now = state()
+        for name in due:
+            yield from self._sensors[name][1](now, stamp)
+
+    def _planned(self) -> Schedule:
+        if self._schedule is None:
+            self._schedule = Schedule({name: rate for name, (rate, _) in self._sensors.items()})
+        return self._schedule
+
+
+def as_odometry(state: State, stamp: float, frame: str = "map") -> Odometry:
+    """A body's `state` as a message, `frame` to `base_link`; the velocity is the centre of mass's."""
+    ahead = rotate_back(state.rotation, state.velocity)
+    turning = rotate_back(state.rotation, state.turning)
+    return Odometry(
+        Header(Time.at(stamp), frame),
+        "base_link",
+        PoseWithCovariance(Pose(Point(*state.position), Quaternion(*state.rotation))),
+        TwistWithCovariance(Twist(Vector3(*ahead), Vector3(*turning))),
+    )
