@@ -121,18 +121,15 @@ class Bullet:
     def add_wheeled(self, spec: Wheeled, position: Vec3, rotation: Quat) -> int:
         """A wheeled vehicle; its number.
 
-        Its joints are the driven wheels in the order of `spec.wheels`, then the knuckles of the steered wheels, then
-        the steered wheels.
+        Its joints are the driven wheels in the order of `spec.wheels`, then of each steered wheel the knuckle and the
+        wheel itself.
         """
         com = spec.centre_of_mass
         wheel = self._collision(Shape("sphere", (2 * spec.wheel_radius,) * 3))
         links = [_Link(_less(centre, com), spec.wheel_mass, wheel) for centre in spec.wheels]
-        knuckles = [_Link(_less(centre, com), _KNUCKLE, axis=(0, 0, 1)) for centre in spec.steered]
-        links += knuckles
-        links += [
-            _Link((0.0, 0.0, 0.0), spec.wheel_mass, wheel, parent=len(spec.wheels) + number + 1)
-            for number in range(len(knuckles))
-        ]
+        for centre in spec.steered:
+            links.append(_Link(_less(centre, com), _KNUCKLE, axis=(0, 0, 1)))
+            links.append(_Link((0.0, 0.0, 0.0), spec.wheel_mass, wheel, parent=len(links)))
         if spec.casters:
             caster = self._collision(Shape("sphere", (2 * spec.caster_radius,) * 3))
             links += [
@@ -357,12 +354,13 @@ class Bullet:
 
     def _set_wheels(self, body: int, spec: Wheeled) -> None:
         wheels, steered = len(spec.wheels), len(spec.steered)
-        rolling = [*range(wheels), *range(wheels + steered, wheels + 2 * steered)]
+        knuckles = range(wheels, wheels + 2 * steered, 2)
+        rolling = [*range(wheels), *(link + 1 for link in knuckles)]
         for link in rolling:
             p.changeDynamics(
                 body, link, lateralFriction=spec.wheel_friction, jointDamping=0, physicsClientId=self._client
             )
-        for link in range(wheels, wheels + steered):
+        for link in knuckles:
             p.changeDynamics(
                 body, link, localInertiaDiagonal=(_KNUCKLE,) * 3, jointDamping=0, physicsClientId=self._client
             )

@@ -11,18 +11,19 @@ from collections.abc import Iterator
 
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import RobotInfo
+from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from sim.backend_bullet import STEPS_PER_SECOND
 from sim.camera import Camera
 from sim.occupancy import occupancy
 from sim.simulation import Simulation
+from sim.vehicles.commander import COMMANDER
 from sim.vehicles.model import Model
 from sim.vehicles.patrol import PATROL
 from sim.world import WORLDS, load
 
 __all__ = ["ROBOTS", "WORLDS", "SimRobot", "make", "model_of"]
 
-ROBOTS: dict[str, Model] = {"patrol": PATROL}
+ROBOTS: dict[str, Model] = {"patrol": PATROL, "commander": COMMANDER}
 """The robots that can be simulated, by name."""
 
 CAMERA_TOPIC = "/camera/image/compressed"
@@ -57,7 +58,15 @@ class SimRobot:
 
     def drive(self, twist: Twist) -> None:
         """Go for `twist` in `base_link`, within its limits, until the next `drive` or `stop`."""
-        self.simulation.vehicle.drive(twist)
+        self.manoeuvre(Manoeuvre(kind="twist", twist=twist))
+
+    def manoeuvre(self, order: Manoeuvre) -> None:
+        """Move by `order`, within its limits, until told otherwise; `info.manoeuvres` names the kinds that it knows.
+
+        ValueError with one sentence for what it cannot do or what is no number; it then goes on as before.
+        """
+        _check(order)
+        self.simulation.vehicle.manoeuvre(order)
 
     def stop(self) -> None:
         """Brake to rest as hard as the drive does."""
@@ -101,6 +110,22 @@ class SimRobot:
         if self._camera is not None and self._camera.due(simulation.steps) and CAMERA_TOPIC in self._wanted:
             for image in self._camera.shoot(simulation.vehicle.state(), stamp):
                 yield CAMERA_TOPIC, image
+
+
+def _check(order: Manoeuvre) -> None:
+    """Raise ValueError when a part of `order` that must be a number is none, or one that may be NaN is infinite."""
+    linear, angular = order.twist.linear, order.twist.angular
+    needed = {
+        "twist": (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z),
+        "steering": (order.steering,),
+        "roll": (order.roll,),
+        "pitch": (order.pitch,),
+    }
+    free = {"speed": order.speed, "throttle": order.throttle, "yaw": order.yaw, "height": order.height}
+    wrong = [name for name, values in needed.items() if not all(map(math.isfinite, values))]
+    wrong += [name for name, value in free.items() if math.isinf(value)]
+    if wrong:
+        raise ValueError(f"The {wrong[0]} of an order must be a number; the robot goes on as before.")
 
 
 def info_of(simulation: Simulation, *, camera: bool) -> RobotInfo:

@@ -17,7 +17,7 @@ __all__ = ["Laser", "LaserParameters"]
 
 
 class LaserParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The `[laser]` table of a vehicle's file."""
+    """The `[laser]` table of a vehicle's file; `ahead` of the middle [m], and the sweep's breadth round straight ahead [rad]."""
 
     rate: float
     beams: int
@@ -25,19 +25,23 @@ class LaserParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     range_min: float
     range_max: float
     noise: float
+    ahead: float = 0.0
+    field_of_view: float = math.tau
 
 
 class Laser:
-    """Beams from `base_link`'s axis at one height, the first one to the rear, then anticlockwise."""
+    """Beams from one point, the first one farthest to the right, then anticlockwise."""
 
     def __init__(self, parameters: LaserParameters, backend: Bullet, body: int, noise: Noise) -> None:
         """A laser on `body`."""
         self._parameters, self._backend, self._body, self._noise = parameters, backend, body, noise
-        step = math.tau / parameters.beams
-        angles = [-math.pi + step * i for i in range(parameters.beams)]
-        reach, height = parameters.range_max, parameters.height
-        ends = [(reach * math.cos(angle), reach * math.sin(angle), height) for angle in angles]
-        self._from = backend.ray_points(body, [(0.0, 0.0, height)] * len(angles))
+        breadth = parameters.field_of_view
+        whole = breadth >= math.tau
+        step = breadth / (parameters.beams if whole else parameters.beams - 1)
+        angles = [-breadth / 2 + step * i for i in range(parameters.beams)]
+        reach, height, ahead = parameters.range_max, parameters.height, parameters.ahead
+        ends = [(ahead + reach * math.cos(angle), reach * math.sin(angle), height) for angle in angles]
+        self._from = backend.ray_points(body, [(ahead, 0.0, height)] * len(angles))
         self._to = backend.ray_points(body, ends)
         self._blank = LaserScan(
             angle_min=angles[0],

@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from bridge.msgs import Msg
 from sim.robot import SimRobot
 from sim.simulation import Simulation
+from sim.vehicles.model import Model
 from sim.vehicles.patrol import PATROL
 from sim.world import World, parse
 
@@ -30,17 +32,38 @@ yaw = {yaw}
 
 
 def room(
-    length: float = 40.0, width: float = 40.0, x: float = 0.0, y: float = 0.0, yaw: float = 0.0
+    length: float = 40.0,
+    width: float = 40.0,
+    x: float = 0.0,
+    y: float = 0.0,
+    yaw: float = 0.0,
+    extra: str = "",
 ) -> World:
-    """An empty room with walls, the robot at (x, y) [m] facing `yaw` [deg]."""
-    return parse(ROOM.format(length=length, width=width, x=x, y=y, yaw=yaw), "room.toml")
+    """An empty room with walls, the robot at (x, y) [m] facing `yaw` [deg]; `extra` is more TOML."""
+    return parse(ROOM.format(length=length, width=width, x=x, y=y, yaw=yaw) + extra, "room.toml")
+
+
+def plain(extra: str = "") -> World:
+    """Level ground without end and without anything on it; `extra` is more TOML."""
+    text = ROOM.replace("[wall]\nheight = 0.5\nthickness = 0.2\n", "")
+    return parse(text.format(length=10.0, width=10.0, x=0.0, y=0.0, yaw=0.0) + extra, "plain.toml")
+
+
+def alone(model: Model, world: World, *, seed: int = 0, noise: bool = False) -> SimRobot:
+    """A robot of `model` without camera, exact unless `noise`; its clock has been started at 0."""
+    robot = SimRobot(Simulation(world, model, seed=seed, noise=noise), camera=False)
+    robot.read(0.0)
+    return robot
+
+
+def until(robot: SimRobot, seconds: float) -> list[tuple[str, Msg]]:
+    """Everything measured in the next `seconds`."""
+    return robot.read(robot.simulation.time + seconds)
 
 
 def robot_in(world: World, *, seed: int = 0, noise: bool = False) -> SimRobot:
     """The patrol robot without camera, exact unless `noise`; its clock has been started at 0."""
-    robot = SimRobot(Simulation(world, PATROL, seed=seed, noise=noise), camera=False)
-    robot.read(0.0)
-    return robot
+    return alone(PATROL, world, seed=seed, noise=noise)
 
 
 def orange(picture: NDArray[np.uint8]) -> NDArray[np.bool_]:

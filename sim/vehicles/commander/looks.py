@@ -1,0 +1,60 @@
+"""What the commander looks like: bonnet, cabin, load bed, four wheels, laser and cameras."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from sim.shapes import Quat, Shape, Vec3
+
+if TYPE_CHECKING:
+    from sim.vehicles.commander import CommanderParameters
+
+__all__ = ["looks"]
+
+_BODY, _TRIM, _GLASS, _RUBBER = (0.27, 0.33, 0.22), (0.12, 0.12, 0.13), (0.10, 0.14, 0.19), (0.06, 0.06, 0.07)
+_LYING: Quat = (0.7071067811865476, 0.0, 0.0, 0.7071067811865476)
+
+
+def looks(parameters: CommanderParameters, position: Vec3, rotation: Quat) -> tuple[Shape, ...]:
+    """The shapes to draw of one at `position`, turned by `rotation`."""
+    body, axles = parameters.body, parameters.axles
+    height = body.height - body.clearance
+    across = 2 * axles.radius
+    shapes = [
+        Shape(
+            "box",
+            (body.length, body.width, height * 0.55),
+            (body.ahead, 0.0, body.clearance + height * 0.275),
+            colour=_BODY,
+            gloss=0.3,
+        ),
+        Shape(
+            "box",
+            (body.length * 0.42, body.width * 0.94, 0.85),
+            (body.ahead + 0.25, 0.0, body.clearance + height * 0.55 + 0.42),
+            colour=_GLASS,
+            taper=(0.72, 0.86),
+            gloss=0.8,
+        ),
+        Shape(
+            "box",
+            (body.length * 0.32, body.width * 0.96, 0.34),
+            (body.ahead - body.length * 0.33, 0.0, body.clearance + height * 0.55 + 0.17),
+            colour=_BODY,
+        ),
+        Shape(
+            "box", (0.14, 0.14, 0.10), (parameters.laser.ahead, 0.0, parameters.laser.height), colour=_TRIM
+        ),
+        *(
+            Shape(
+                "cylinder", (across, across, 0.22), (x, side * axles.track / 2, axles.radius), _LYING, _RUBBER
+            )
+            for x in (0.0, axles.base)
+            for side in (-1, 1)
+        ),
+        *(
+            Shape("box", (0.06, 0.12, 0.06), camera.position, colour=_TRIM, gloss=0.6)
+            for camera in parameters.cameras
+        ),
+    ]
+    return tuple(shape.at(position, rotation) for shape in shapes)
