@@ -1,0 +1,151 @@
+"""What water and wind do to a hull that floats: buoyancy on waves, damping, drag across, windage."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sim.backend_bullet import GRAVITY
+from sim.shapes import Vec3
+from sim.vehicles.parameters import Positive, Table
+from sim.vehicles.sixdof import Inertia, SixDof
+from sim.weather import Weather
+
+__all__ = ["Hull", "HullParameters", "inertia_of"]
+
+AIR = 1.225
+"""Density of air [kg/m3]."""
+_GAUSS = ((0.1127016653792583, 5 / 18), (0.5, 8 / 18), (0.8872983346207417, 5 / 18))
+"""Places and weights that integrate a polynomial over [0, 1] exactly up to the fifth power."""
+
+
+class HullParameters(Table, frozen=True, kw_only=True):
+    """The hull; its origin lies in the waterline at half its length. Linear damping is what a unit of speed costs."""
+
+    mass: Positive
+    """[kg]"""
+    length: Positive
+    """[m]"""
+    beam: Positive
+    """Over all [m]."""
+    draft: Positive
+    """[m]"""
+    depth: Positive
+    """From keel to deck [m]."""
+    centre_of_mass: tuple[float, float, float]
+    """[m]"""
+    inertia: tuple[Positive, Positive, Positive]
+    """About x, y and z through the centre of mass [kg m2]."""
+    product: float = 0.0
+    """Its element xz [kg m2]."""
+    added_mass: tuple[Positive, Positive, Positive]
+    """[kg]"""
+    added_inertia: tuple[Positive, Positive, Positive]
+    """[kg m2]"""
+    waterplane: Positive
+    """Area at the waterline [m2]."""
+    flotation: float = 0.0
+    """Where its middle lies, ahead of the origin [m]."""
+    metacentric: tuple[Positive, Positive]
+    """Heights across and along [m]."""
+    damping: tuple[float, float, float]
+    """Along x, y, z [N s/m]."""
+    rotary_damping: tuple[float, float, float]
+    """About x, y, z [N m s]."""
+    yaw_quadratic: float
+    """About z, growing with the square [N m s2]."""
+    cross_drag: Positive
+    """Coefficient of the drag across."""
+    friction: Positive
+    """Against what it bumps into."""
+    windage: tuple[Positive, Positive]
+    """Area of what is above the water, seen from ahead and from the side [m2]."""
+    wind_drag: Positive
+    """Its coefficient."""
+
+
+def inertia_of(hull: HullParameters) -> Inertia:
+    """What the hull sets against being moved."""
+    return Inertia(
+        hull.mass, hull.centre_of_mass, hull.inertia, hull.product, hull.added_mass, hull.added_inertia
+    )
+
+
+class Hull:
+    """A hull in the weather of a world: the forces on it, reckoned of how it lies and moves."""
+
+    def __init__(
+        self,
+        parameters: HullParameters,
+        weather: Weather,
+        stations: Sequence[tuple[float, float]] | None = None,
+    ) -> None:
+        """A hull at its waterline. `stations` are where the drag across is taken, ahead of the middle, and for what length [m]."""
+        self._parameters, self._weather = parameters, weather
+        water = weather.density * GRAVITY
+        self._stiffness = water * parameters.waterplane
+        across, along = parameters.metacentric
+        self._righting = (parameters.mass * GRAVITY * across, parameters.mass * GRAVITY * along)
+        half = parameters.length / 2
+        gauss = [(side * half * at, half * weight) for side in (-1, 1) for at, weight in _GAUSS]
+        drag = weather.density / 2 * parameters.draft * parameters.cross_drag
+        self._stations = [(at, drag * length) for at, length in stations or gauss]
+        self._sink = parameters.mass * GRAVITY / self._stiffness
+        self.wet = 1.0
+        """How far it lies in the water, 0 out of it to 1 as it floats."""
+
+    def forces(self, body: SixDof) -> tuple[Vec3, Vec3]:
+        """Force [N] and torque [N m] about the origin along the body's axes, weight and buoyancy included."""
+        u, v, w = body.through
+        p, q, r = body.turning
+        lift, k, m = self._buoyancy(body)
+        wet, parameters = self.wet, self._parameters
+        dx, dy, dz = parameters.damping
+        dp, dq, dr = parameters.rotary_damping
+        y = n = 0.0
+        for station, strength in self._stations:
+            across = v + station * r
+            drag = strength * across * abs(across)
+            y -= drag
+            n -= station * drag
+        windy, blow = self._wind(body)
+        ux, uy, uz = body.axes[6:]
+        n -= dr * r + parameters.yaw_quadratic * abs(r) * r
+        force = (
+            lift * ux - wet * dx * u + windy,
+            lift * uy + wet * (y - dy * v) + blow,
+            lift * uz - wet * dz * w,
+        )
+        return force, (k - wet * dp * p, m - lift * parameters.flotation * uz - wet * dq * q, wet * n)
+
+    def _buoyancy(self, body: SixDof) -> tuple[float, float, float]:
+        """Buoyancy less weight [N], upward, and the righting moments [N m] on the sea as it is round the hull."""
+        parameters, weather = self._parameters, self._weather
+        x, y, z = body.position
+        a, _, _, d, _, _, ux, uy, uz = body.axes
+        level = slope_x = slope_y = 0.0
+        if weather.waves:
+            half, side = parameters.length / 3, parameters.beam / 3
+            bow, stern = (weather.surface(x + a * s, y + d * s) for s in (half, -half))
+            left, right = (weather.surface(x - d * s, y + a * s) for s in (side, -side))
+            level = (bow + stern + left + right) / 4
+            along, across = (bow - stern) / 2 / half, (left - right) / 2 / side
+            slope_x, slope_y = a * along - d * across, d * along + a * across
+        sink = self._sink + level - (z + ux * parameters.flotation)
+        under = min(max(sink, 0.0), parameters.depth / parameters.draft * self._sink)
+        self.wet = min(1.0, under / self._sink)
+        # the sea's normal, seen from the body
+        _, b, _, _, e, _, _, _, _ = body.axes
+        nx, ny = ux - a * slope_x - d * slope_y, uy - b * slope_x - e * slope_y
+        roll, pitch = self._righting
+        return self._stiffness * (under - self._sink), -roll * ny * self.wet, pitch * nx * self.wet
+
+    def _wind(self, body: SixDof) -> tuple[float, float]:
+        """Of the air on what is above the water, ahead and to the left [N]."""
+        wx, wy, _ = self._weather.wind
+        cx, cy, _ = self._weather.current
+        a, b, _, d, e, _, _, _, _ = body.axes
+        wx, wy = wx - cx, wy - cy
+        ahead, left = a * wx + d * wy - body.through[0], b * wx + e * wy - body.through[1]
+        strength = AIR / 2 * self._parameters.wind_drag * (ahead * ahead + left * left) ** 0.5
+        front, side = self._parameters.windage
+        return strength * front * ahead, strength * side * left
