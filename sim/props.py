@@ -27,16 +27,16 @@ class Prop:
     """A thing in its own frame or, after `at`, in the world's."""
 
     kind: str
-    """`car`, `cone`, `lamp`, `wall`, `block` or `tree`."""
+    """`car`, `cone`, `lamp`, `wall`, `block`, `tree`, `buoy`, `coral` or `diver`."""
     solids: tuple[Shape, ...]
     """What bodies bump into and lasers hit."""
     visuals: tuple[Shape, ...]
     """What cameras see."""
     position: Vec3 = (0.0, 0.0, 0.0)
 
-    def at(self, x: float, y: float, yaw: float) -> Prop:
-        """The same thing standing at (x, y) [m], turned to `yaw` [rad]."""
-        position, rotation = (x, y, 0.0), from_yaw(yaw)
+    def at(self, x: float, y: float, yaw: float, z: float = 0.0) -> Prop:
+        """The same thing standing at (x, y) [m], `z` above 0, turned to `yaw` [rad]."""
+        position, rotation = (x, y, z), from_yaw(yaw)
         return Prop(
             self.kind,
             tuple(shape.at(position, rotation) for shape in self.solids),

@@ -17,13 +17,14 @@ from sim.camera import Camera
 from sim.occupancy import occupancy
 from sim.simulation import Simulation
 from sim.vehicles.commander import COMMANDER
+from sim.vehicles.minnow import MINNOW
 from sim.vehicles.model import Model
 from sim.vehicles.patrol import PATROL
 from sim.world import WORLDS, load
 
 __all__ = ["ROBOTS", "WORLDS", "SimRobot", "make", "model_of"]
 
-ROBOTS: dict[str, Model] = {"patrol": PATROL, "commander": COMMANDER}
+ROBOTS: dict[str, Model] = {"patrol": PATROL, "commander": COMMANDER, "minnow": MINNOW}
 """The robots that can be simulated, by name."""
 
 CAMERA_TOPIC = "/camera/image/compressed"

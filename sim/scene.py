@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from sim.backend_bullet import Bullet
 from sim.sensors.noise import Noise
 from sim.weather import Weather
-from sim.world import Spot, World
+from sim.world import Start, World
 
 __all__ = ["Scene"]
 
@@ -19,7 +19,7 @@ class Scene:
     backend: Bullet
     world: World
     weather: Weather
-    start: Spot
+    start: Start
     """Where it stands, floats or lies at first."""
     seed: int = 0
     noise: bool = True

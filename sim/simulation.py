@@ -8,7 +8,7 @@ from sim.sensors.noise import Noise
 from sim.shapes import yaw_of
 from sim.vehicles.model import Model, Vehicle
 from sim.weather import Weather
-from sim.world import Spot, World
+from sim.world import Start, World
 
 __all__ = ["Simulation"]
 
@@ -23,7 +23,7 @@ class Simulation:
         self,
         world: World,
         model: Model,
-        *more: tuple[Model, Spot],
+        *more: tuple[Model, Start],
         seed: int = 0,
         noise: bool = True,
         gui: bool = False,

@@ -7,11 +7,12 @@ import re
 import tomllib
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import msgspec
 
-from sim.props import CAR_MODELS, Prop, car, cone, lamp, tree, wall
+from sim.props import CAR_MODELS, Prop, block, car, cone, lamp, tree, wall
+from sim.props_water import buoy, coral, diver
 from sim.shapes import Shape
 
 __all__ = ["WORLDS", "World", "WorldError", "load"]
@@ -52,6 +53,8 @@ class Ground(_Entry, frozen=True):
     """Along x [m]."""
     width: Positive
     """Along y [m]."""
+    look: Literal["asphalt", "water", "floor", "grass"] = "asphalt"
+    """Of what one sees at z = 0, for pictures."""
 
 
 class Wall(_Entry, frozen=True):
@@ -77,6 +80,13 @@ class Spot(_Entry, frozen=True):
     def angle(self) -> float:
         """`yaw` in [rad]."""
         return math.radians(self.yaw)
+
+
+class Start(Spot, frozen=True):
+    """Where a robot is at first."""
+
+    z: Finite = 0.0
+    """Of one that swims, its depth below 0 [m]; others stand on the ground or float."""
 
 
 class Bays(_Entry, frozen=True):
@@ -136,6 +146,39 @@ class Tree(Tall, frozen=True):
     height: Positive = 6.0
 
 
+class Tinted(Spot, frozen=True):
+    """A thing with a colour."""
+
+    colour: tuple[Part, Part, Part] = (0.94, 0.72, 0.08)
+
+
+class Block(Tinted, frozen=True, kw_only=True):
+    """A plain box; with `z` above 0 it hangs there."""
+
+    length: Positive
+    """Along its own x [m]."""
+    width: Positive
+    """[m]"""
+    height: Positive
+    """[m]"""
+    z: Finite = 0.0
+    """Of its bottom [m]."""
+    colour: tuple[Part, Part, Part] = (0.72, 0.71, 0.68)
+
+
+class Diver(Spot, frozen=True):
+    """A diver who swims towards `yaw`."""
+
+    z: Finite = -2.0
+    """[m]"""
+
+
+class Coral(Tall, frozen=True):
+    """A coral on the ground."""
+
+    height: Positive = 0.7
+
+
 class Wave(_Entry, frozen=True):
     """A train of regular waves in deep water."""
 
@@ -181,7 +224,7 @@ class World(_Entry, frozen=True, dict=True):
     description: str
     datum: Datum
     ground: Ground
-    start: Spot
+    start: Start
     """Where the robot starts."""
     wall: Wall | None = None
     bays: tuple[Bays, ...] = ()
@@ -192,6 +235,10 @@ class World(_Entry, frozen=True, dict=True):
     lamps: tuple[Lamp, ...] = ()
     cones: tuple[Cone, ...] = ()
     trees: tuple[Tree, ...] = ()
+    blocks: tuple[Block, ...] = ()
+    buoys: tuple[Tinted, ...] = ()
+    divers: tuple[Diver, ...] = ()
+    corals: tuple[Coral, ...] = ()
     water: Water | None = None
     """None on dry land."""
     wind: Wind | None = None
@@ -209,6 +256,15 @@ class World(_Entry, frozen=True, dict=True):
             *(car(entry.model, entry.colour).at(entry.x, entry.y, entry.angle) for entry in self.cars),
             *(lamp(entry.height).at(entry.x, entry.y, entry.angle) for entry in self.lamps),
             *(tree(entry.height).at(entry.x, entry.y, entry.angle) for entry in self.trees),
+            *(
+                block(entry.length, entry.width, entry.height, entry.colour).at(
+                    entry.x, entry.y, entry.angle, entry.z
+                )
+                for entry in self.blocks
+            ),
+            *(buoy(entry.colour).at(entry.x, entry.y, entry.angle) for entry in self.buoys),
+            *(coral(entry.height).at(entry.x, entry.y, entry.angle, self.bottom) for entry in self.corals),
+            *(diver().at(entry.x, entry.y, entry.angle, entry.z) for entry in self.divers),
             *(cone(entry.height).at(entry.x, entry.y, entry.angle) for entry in self.cones),
         )
 
@@ -231,17 +287,15 @@ class World(_Entry, frozen=True, dict=True):
         if self.wall is None:
             return ()
         length, width, thick = self.ground.length, self.ground.width, self.wall.thickness
-        long, short = (
-            wall(length + 2 * thick, self.wall.height, thick),
-            wall(width, self.wall.height, thick),
-        )
+        height, bottom = self.wall.height - self.bottom, self.bottom
+        long, short = wall(length + 2 * thick, height, thick), wall(width, height, thick)
         north, east = (width + thick) / 2, (length + thick) / 2
         quarter = math.pi / 2
         return (
-            long.at(0.0, north, 0.0),
-            long.at(0.0, -north, 0.0),
-            short.at(east, 0.0, quarter),
-            short.at(-east, 0.0, quarter),
+            long.at(0.0, north, 0.0, bottom),
+            long.at(0.0, -north, 0.0, bottom),
+            short.at(east, 0.0, quarter, bottom),
+            short.at(-east, 0.0, quarter, bottom),
         )
 
 
@@ -298,6 +352,10 @@ def _check(world: World, source: str) -> None:
         "cars": world.cars,
         "lamps": world.lamps,
         "cones": world.cones,
+        "blocks": world.blocks,
+        "buoys": world.buoys,
+        "divers": world.divers,
+        "corals": world.corals,
     }
     for key, spots in inside.items():
         for number, spot in enumerate(spots):

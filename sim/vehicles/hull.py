@@ -121,7 +121,7 @@ class Hull:
         """Buoyancy less weight [N], upward, and the righting moments [N m] on the sea as it is round the hull."""
         parameters, weather = self._parameters, self._weather
         x, y, z = body.position
-        a, _, _, d, _, _, ux, uy, uz = body.axes
+        a, b, _, d, e, _, ux, uy, _ = body.axes
         level = slope_x = slope_y = 0.0
         if weather.waves:
             half, side = parameters.length / 3, parameters.beam / 3
@@ -134,7 +134,6 @@ class Hull:
         under = min(max(sink, 0.0), parameters.depth / parameters.draft * self._sink)
         self.wet = min(1.0, under / self._sink)
         # the sea's normal, seen from the body
-        _, b, _, _, e, _, _, _, _ = body.axes
         nx, ny = ux - a * slope_x - d * slope_y, uy - b * slope_x - e * slope_y
         roll, pitch = self._righting
         return self._stiffness * (under - self._sink), -roll * ny * self.wet, pitch * nx * self.wet

@@ -97,7 +97,11 @@ class SixDof:
         jx, jy, jz = mass * gu, mass * gv, mass * gw
         kx, ky, kz = ax * u, ay * v, az * w
         hx, hy, hz = ix * p + ixz * r, iy * q, iz * r + ixz * p
-        lx, ly, lz = hx + cy * jz - cz * jy + ap * p, hy + cz * jx - cx * jz + aq * q, hz + cx * jy - cy * jx + ar * r
+        lx, ly, lz = (
+            hx + cy * jz - cz * jy + ap * p,
+            hy + cz * jx - cx * jz + aq * q,
+            hz + cx * jy - cy * jx + ar * r,
+        )
         tx, ty, tz = jx + kx, jy + ky, jz + kz
         fx, fy, fz = force[0] - q * tz + r * ty, force[1] - r * tx + p * tz, force[2] - p * ty + q * tx
         if self._munk:

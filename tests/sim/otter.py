@@ -5,7 +5,6 @@ Figures: PythonVehicleSimulator 1.0.1, `vehicles/otter.py` (MIT licence). Fossen
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 
 from sim.backend_bullet import GRAVITY, STEPS_PER_SECOND, Bullet
@@ -56,7 +55,12 @@ def sail(revolutions: Callable[[float], tuple[float, float]], seconds: float) ->
     backend = Bullet()
     shell = Shape("box", (2.0, 1.08, 0.4), (0.0, 0.0, 0.0))
     spec = Floating(shell, MASS, OTTER.inertia, OTTER.centre_of_mass, 0.4)
-    body = SixDof(backend, backend.add_floating(spec, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)), inertia_of(OTTER), munk=True)
+    body = SixDof(
+        backend,
+        backend.add_floating(spec, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)),
+        inertia_of(OTTER),
+        munk=True,
+    )
     hull = Hull(OTTER, Weather(plain(WATER), Noise(0, "gusts", on=False)), STATIONS)
     turning, yaw, rows = (0.0, 0.0), 0.0, []
     for step in range(round(seconds * STEPS_PER_SECOND)):
@@ -69,7 +73,9 @@ def sail(revolutions: Callable[[float], tuple[float, float]], seconds: float) ->
         )
         backend.step()
         told = revolutions(step / STEPS_PER_SECOND)
-        turning = tuple(now + (goal - now) / 0.1 / STEPS_PER_SECOND for now, goal in zip(turning, told, strict=True))
+        turning = tuple(
+            now + (goal - now) / 0.1 / STEPS_PER_SECOND for now, goal in zip(turning, told, strict=True)
+        )
         body.look((0.0, 0.0, 0.0))
         yaw += body.turning[2] / STEPS_PER_SECOND
         rows.append((*body.position[:2], yaw, *body.through[:2], body.turning[2]))

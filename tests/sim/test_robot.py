@@ -12,6 +12,7 @@ from sim.robot import ROBOTS, WORLDS, make
 from sim.vehicles.model import Model
 from sim.vehicles.patrol import PARAMETERS, Patrol
 from sim.vehicles.patrol.looks import looks
+from sim.world import load
 from tests.sim.rooms import robot_in, room
 
 STREAMS = ("/odom", "/imu/data", "/fix", "/scan", "/bumper", "/battery_state", "/joint_states")
@@ -28,9 +29,15 @@ def count(messages):
     return collections.Counter(name for name, _ in messages)
 
 
-def test_every_robot_can_be_made_in_every_world():
-    for name in ROBOTS:
+def test_every_robot_can_be_made_in_every_world_that_is_its_element():
+    wet = {world: load(world).water is not None for world in WORLDS}
+    assert set(wet.values()) == {True, False}
+    for name, model in ROBOTS.items():
         for world in WORLDS:
+            if model.element not in ("air", "water" if wet[world] else "land"):
+                with pytest.raises(ValueError, match=f"{name} needs"):
+                    make(name, world, camera=False)
+                continue
             robot = make(name, world, camera=False)
             assert (robot.info.model, robot.info.world) == (name, world)
             robot.close()

@@ -1,0 +1,91 @@
+"""Dead reckoning of what has no wheels: a speed log and a gyro, with the errors that they add up."""
+
+from __future__ import annotations
+
+import math
+
+import msgspec
+
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Pose,
+    PoseWithCovariance,
+    Quaternion,
+    Twist,
+    TwistWithCovariance,
+    Vector3,
+)
+from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.std_msgs import Header, Time
+from sim.backend_bullet import State
+from sim.sensors.noise import Noise, Wander
+from sim.shapes import Quat, compose, from_yaw, rotate, rotate_back
+
+__all__ = ["Reckoning", "ReckoningParameters"]
+
+
+class ReckoningParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """The `[reckoning]` table of a vehicle's file."""
+
+    rate: float
+    """[Hz]"""
+    scale_error: float
+    """Standard deviation of the log's scale, one draw a run."""
+    speed_error: float
+    """Standard deviation of what wanders, along each axis [m/s]."""
+    wander: float
+    """Its time constant [s]."""
+    yaw_drift: float
+    """Standard deviation of the drift of the yaw, one draw a run [rad/s]."""
+    height_noise: float
+    """Standard deviation of the height, which a gauge measures [m]."""
+
+
+class Reckoning:
+    """Adds up measured velocities from the pose that it is told; height, roll and pitch it measures anew each time."""
+
+    def __init__(
+        self, parameters: ReckoningParameters, pose: tuple[float, float, float], noise: Noise
+    ) -> None:
+        """`pose` is x, y [m], yaw [rad] in `odom`."""
+        self._parameters, self._noise = parameters, noise
+        self._scale = 1 + noise.normal(parameters.scale_error)
+        self._drift = noise.normal(parameters.yaw_drift)
+        self._errors = tuple(
+            Wander(noise, parameters.speed_error, parameters.wander, 1 / parameters.rate) for _ in range(3)
+        )
+        self.pose = pose
+        """Believed x, y [m], yaw [rad] in `odom`; yaw is not wrapped."""
+        self._stamp: float | None = None
+        self._rotation: Quat = (0.0, 0.0, 0.0, 1.0)
+        self._way = 0.0
+
+    def measure(self, state: State, stamp: float) -> Odometry:
+        """The belief at `stamp` [s] of a body in `state`, `odom` to `base_link`."""
+        period = 0.0 if self._stamp is None else stamp - self._stamp
+        u, v, w = (
+            part * self._scale + error.step()
+            for part, error in zip(rotate_back(state.rotation, state.velocity), self._errors, strict=True)
+        )
+        turning = rotate_back(state.rotation, state.turning)
+        x, y, yaw = self.pose
+        true_yaw = Quaternion(*state.rotation).yaw
+        if self._stamp is not None:
+            last = Quaternion(*self._rotation).yaw
+            yaw += math.remainder(true_yaw - last, math.tau) + self._drift * period
+        self._stamp, self._rotation = stamp, state.rotation
+        tilted = compose(from_yaw(yaw - true_yaw), state.rotation)
+        dx, dy, _ = rotate(tilted, (u, v, w))
+        self.pose = (x + dx * period, y + dy * period, yaw)
+        self._way += math.hypot(u, v) * period
+        height = state.position[2] + self._noise.normal(self._parameters.height_noise)
+        variance = (0.02 * self._way) ** 2 + 1e-4
+        covariance = [0.0] * 36
+        covariance[0] = covariance[7] = variance
+        covariance[14], covariance[35] = self._parameters.height_noise**2 + 1e-6, 1e-4 * (1 + self._way)
+        return Odometry(
+            Header(Time.at(stamp), "odom"),
+            "base_link",
+            PoseWithCovariance(Pose(Point(*self.pose[:2], height), Quaternion(*tilted)), covariance),
+            TwistWithCovariance(Twist(Vector3(u, v, w), Vector3(*turning))),
+        )

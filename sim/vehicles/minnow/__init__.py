@@ -1,0 +1,164 @@
+"""The minnow: a boat with rudder and throttle, satellite receiver, compass and camera."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import ClassVar
+
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import Manoeuvre, RudderState
+from bridge.msgs.std_msgs import Header, Time
+from sim.backend_bullet import STEPS_PER_SECOND, State
+from sim.bodies import Floating
+from sim.motors import Motors
+from sim.scene import Scene
+from sim.sensors.battery import Battery
+from sim.sensors.compass import Compass
+from sim.sensors.gps import Gps
+from sim.sensors.imu import InertialUnit
+from sim.sensors.reckoning import Reckoning
+from sim.shapes import Shape, from_yaw, yaw_of
+from sim.vehicles.boat import BoatParameters, Drive, Helmsman
+from sim.vehicles.chassis import Chassis
+from sim.vehicles.control import given
+from sim.vehicles.hull import Hull, HullParameters, inertia_of
+from sim.vehicles.minnow.looks import looks
+from sim.vehicles.model import Model
+from sim.vehicles.parameters import load
+from sim.vehicles.sixdof import SixDof
+from sim.vehicles.suite import Measurement
+
+__all__ = ["MINNOW", "PARAMETERS", "Minnow"]
+
+PARAMETERS: BoatParameters = load(Path(__file__).parent / "minnow.toml", BoatParameters)
+"""The boat's numbers."""
+
+WORK_STEPS = STEPS_PER_SECOND // 20
+MOTORS_RATE, RUDDER_RATE = 5.0, 10.0
+_STILL = 0.03
+"""Slower than this it lies still [m/s]."""
+
+
+def body_of(hull: HullParameters) -> Floating:
+    """The rigid body that the physics needs."""
+    shell = Shape("box", (hull.length, hull.beam, hull.depth), (0.0, 0.0, hull.depth / 2 - hull.draft))
+    return Floating(shell, hull.mass, hull.inertia, hull.centre_of_mass, hull.friction)
+
+
+class Minnow(Chassis[BoatParameters]):
+    """The boat on the water of a world."""
+
+    MANOEUVRES: ClassVar[tuple[str, ...]] = ("twist", "steer", "course", "hover", "rest")
+
+    def __init__(self, scene: Scene, parameters: BoatParameters) -> None:
+        """Float still at the start."""
+        start, weather = scene.start, scene.weather
+        body = scene.backend.add_floating(
+            body_of(parameters.hull), (start.x, start.y, 0.0), from_yaw(start.angle)
+        )
+        super().__init__(scene, parameters, body)
+        self.hull = Hull(parameters.hull, weather)
+        self.dynamics = SixDof(scene.backend, body, inertia_of(parameters.hull))
+        self.works = Drive(parameters, weather.density)
+        """Propeller and rudder."""
+        self._helmsman = Helmsman(parameters, self.works)
+        self._course = start.angle
+        self.battery = Battery(parameters.battery)
+        self.motors = Motors(parameters.motor, ["propeller"])
+        self._add_sensors()
+
+    def _add_sensors(self) -> None:
+        parameters, scene, suite = self.parameters, self.scene, self.suite
+        start = scene.start
+        imu = InertialUnit(parameters.imu, scene.generator("imu"))
+        gps = Gps(parameters.gps, scene.world.datum, scene.generator("gps"))
+        compass = Compass(parameters.compass, scene.generator("compass"))
+        reckoning = Reckoning(
+            parameters.reckoning, (start.x, start.y, start.angle), scene.generator("reckoning")
+        )
+        suite.add("bumper", parameters.bumper.rate, self.tell_bumper)
+        suite.add("imu", parameters.imu.rate, lambda state, at: [("/imu/data", imu.measure(state, at))])
+        suite.add(
+            "odometry", parameters.reckoning.rate, lambda state, at: [("/odom", reckoning.measure(state, at))]
+        )
+        suite.add("gps", parameters.gps.rate, lambda state, at: [("/fix", gps.measure(state, at))])
+        suite.add(
+            "compass", parameters.compass.rate, lambda state, at: [("/compass", compass.measure(state, at))]
+        )
+        suite.add("rudder", RUDDER_RATE, self._tell_rudder)
+        suite.add("motors", MOTORS_RATE, lambda _, at: [("/motors", self.motors.message(at))])
+        suite.add(
+            "battery", parameters.battery.rate, lambda _, at: [("/battery_state", self.battery.message(at))]
+        )
+        self.add_order()
+        self.add_truth()
+
+    def begin(self, order: Manoeuvre) -> None:
+        """Take up a twist, throttle and rudder, a course, waiting on a course, or lying still."""
+        present = yaw_of(self.state().rotation)
+        if order.kind != self.order.kind:
+            self._helmsman.ease()
+            self._course = present
+        if order.kind in ("course", "hover"):
+            self._course = given(order.yaw, self._course)
+
+    def push(self) -> None:
+        """Let rudder and propeller follow the order, and water and wind act on the hull."""
+        body, works = self.dynamics, self.works
+        body.look(self.scene.weather.current)
+        if self.battery.empty:
+            works.throttle = 0.0
+        else:
+            self._steer(body)
+        (fx, fy, fz), (mx, my, mz) = self.hull.forces(body)
+        (thrust, side, _), moment = works.step(body.through[0])
+        wet = self.hull.wet
+        body.push((fx + wet * thrust, fy + wet * side, fz), (mx, my, mz + wet * moment))
+
+    def feel(self) -> None:
+        """Take in what the physics step did, and pay for it."""
+        super().feel()
+        if self._step % WORK_STEPS == 0:
+            speed, torque = self.works.turning
+            power = self.motors.work([speed], [torque], WORK_STEPS / STEPS_PER_SECOND)
+            self.battery.feed(power, WORK_STEPS / STEPS_PER_SECOND)
+
+    def _steer(self, body: SixDof) -> None:
+        order, works, helmsman = self.order, self.works, self._helmsman
+        speed, turning = body.through[0], body.turning[2]
+        kind = order.kind
+        if kind == "steer":
+            works.wanted = order.steering
+            works.throttle = self._throttle(order, speed)
+        elif kind == "twist":
+            twist: Twist = order.twist
+            works.throttle = helmsman.throttle_for(twist.linear.x, speed)
+            if abs(twist.angular.z) > 0.02 and abs(works.throttle) < helmsman.STEERING_WAY:
+                works.throttle = helmsman.STEERING_WAY
+            helmsman.turn(twist.angular.z, turning, speed)
+        elif kind in ("course", "hover"):
+            works.throttle = self._throttle(order, speed) if kind == "course" else 0.0
+            helmsman.course(yaw_of(body.rotation), self._course, turning, speed)
+        else:
+            works.wanted = 0.0
+            works.throttle = helmsman.throttle_for(0.0, speed) if abs(speed) > _STILL else 0.0
+
+    def _throttle(self, order: Manoeuvre, speed: float) -> float:
+        if math.isnan(order.speed):
+            return given(order.throttle, 0.0)
+        return self._helmsman.throttle_for(order.speed, speed)
+
+    def _tell_rudder(self, _: State, stamp: float) -> Iterator[Measurement]:
+        works = self.works
+        yield (
+            "/rudder",
+            RudderState(
+                Header(Time.at(stamp), "base_link"), works.angle, works.wanted, works.throttle, works.thrust
+            ),
+        )
+
+
+MINNOW = Model(Minnow, PARAMETERS, looks, "water")
+"""All that is needed to make one."""
