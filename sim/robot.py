@@ -16,6 +16,7 @@ from sim.backend_bullet import STEPS_PER_SECOND
 from sim.camera import Camera
 from sim.occupancy import occupancy
 from sim.simulation import Simulation
+from sim.vehicles.aqua import AQUA
 from sim.vehicles.commander import COMMANDER
 from sim.vehicles.minnow import MINNOW
 from sim.vehicles.model import Model
@@ -24,7 +25,7 @@ from sim.world import WORLDS, load
 
 __all__ = ["ROBOTS", "WORLDS", "SimRobot", "make", "model_of"]
 
-ROBOTS: dict[str, Model] = {"patrol": PATROL, "commander": COMMANDER, "minnow": MINNOW}
+ROBOTS: dict[str, Model] = {"patrol": PATROL, "commander": COMMANDER, "minnow": MINNOW, "aqua": AQUA}
 """The robots that can be simulated, by name."""
 
 CAMERA_TOPIC = "/camera/image/compressed"

@@ -43,9 +43,9 @@ def room(
     return parse(ROOM.format(length=length, width=width, x=x, y=y, yaw=yaw) + extra, "room.toml")
 
 
-def plain(extra: str = "") -> World:
-    """Level ground without end and without anything on it; `extra` is more TOML."""
-    text = ROOM.replace("[wall]\nheight = 0.5\nthickness = 0.2\n", "")
+def plain(extra: str = "", z: float = 0.0) -> World:
+    """Level ground without end and without anything on it, the robot at height `z` [m]; `extra` is more TOML."""
+    text = ROOM.replace("[wall]\nheight = 0.5\nthickness = 0.2\n", "").replace("[start]", f"[start]\nz = {z}")
     return parse(text.format(length=10.0, width=10.0, x=0.0, y=0.0, yaw=0.0) + extra, "plain.toml")
 
 

@@ -1,0 +1,129 @@
+"""The aqua: a swimmer with six fins, depth gauge, compass and camera."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import ClassVar
+
+from bridge.msgs.arrays import Float64Array
+from bridge.msgs.pilothouse_msgs import Manoeuvre
+from bridge.msgs.sensor_msgs import JointState
+from bridge.msgs.std_msgs import Header, Time
+from sim.backend_bullet import STEPS_PER_SECOND, State
+from sim.bodies import Floating
+from sim.motors import Motors
+from sim.scene import Scene
+from sim.sensors.battery import Battery
+from sim.sensors.compass import Compass
+from sim.sensors.depth import DepthGauge
+from sim.sensors.imu import InertialUnit
+from sim.sensors.reckoning import Reckoning
+from sim.shapes import Shape, from_yaw
+from sim.vehicles.aqua.looks import looks
+from sim.vehicles.aqua.pilot import Pilot
+from sim.vehicles.chassis import Chassis
+from sim.vehicles.fins import LEGS, Fins
+from sim.vehicles.model import Model
+from sim.vehicles.parameters import load
+from sim.vehicles.sixdof import SixDof
+from sim.vehicles.suite import Measurement
+from sim.vehicles.swimmer import Float, SwimmerBody, SwimmerParameters, inertia_of
+
+__all__ = ["AQUA", "PARAMETERS", "Aqua"]
+
+PARAMETERS: SwimmerParameters = load(Path(__file__).parent / "aqua.toml", SwimmerParameters)
+"""The swimmer's numbers."""
+
+WORK_STEPS = STEPS_PER_SECOND // 20
+LEGS_RATE, MOTORS_RATE = 20.0, 5.0
+
+
+def body_of(body: SwimmerBody) -> Floating:
+    """The rigid body that the physics needs."""
+    shell = Shape("box", (body.length, body.width, body.height))
+    return Floating(shell, body.mass, body.inertia, (0.0, 0.0, 0.0), body.friction)
+
+
+class Aqua(Chassis[SwimmerParameters]):
+    """The swimmer in the water of a world."""
+
+    MANOEUVRES: ClassVar[tuple[str, ...]] = ("twist", "course", "tilt", "hover", "surface", "rest")
+
+    def __init__(self, scene: Scene, parameters: SwimmerParameters) -> None:
+        """Lie still at the start; where that is not under water, at the surface."""
+        start, own = scene.start, parameters.body
+        afloat = own.height / 2 - own.height / own.buoyancy
+        at = (start.x, start.y, min(start.z, afloat))
+        body = scene.backend.add_floating(body_of(own), at, from_yaw(start.angle))
+        super().__init__(scene, parameters, body)
+        self.float = Float(own, scene.weather)
+        self.dynamics = SixDof(scene.backend, body, inertia_of(own))
+        self.fins = Fins(parameters.fins, scene.weather.density)
+        self._pilot = Pilot(parameters, self.float.drag[0])
+        self.battery = Battery(parameters.battery)
+        self.motors = Motors(parameters.motor, LEGS)
+        self._add_sensors()
+
+    def _add_sensors(self) -> None:
+        parameters, scene, suite = self.parameters, self.scene, self.suite
+        start = scene.start
+        imu = InertialUnit(parameters.imu, scene.generator("imu"))
+        compass = Compass(parameters.compass, scene.generator("compass"))
+        depth = DepthGauge(parameters.depth, scene.weather, scene.generator("depth"))
+        reckoning = Reckoning(
+            parameters.reckoning, (start.x, start.y, start.angle), scene.generator("reckoning")
+        )
+        suite.add("bumper", parameters.bumper.rate, self.tell_bumper)
+        suite.add("imu", parameters.imu.rate, lambda state, at: [("/imu/data", imu.measure(state, at))])
+        suite.add(
+            "odometry", parameters.reckoning.rate, lambda state, at: [("/odom", reckoning.measure(state, at))]
+        )
+        suite.add(
+            "compass", parameters.compass.rate, lambda state, at: [("/compass", compass.measure(state, at))]
+        )
+        suite.add("depth", parameters.depth.rate, lambda state, at: [("/depth", depth.measure(state, at))])
+        suite.add("legs", LEGS_RATE, self._tell_legs)
+        suite.add("motors", MOTORS_RATE, lambda _, at: [("/motors", self.motors.message(at))])
+        suite.add(
+            "battery", parameters.battery.rate, lambda _, at: [("/battery_state", self.battery.message(at))]
+        )
+        self.add_order()
+        self.add_truth()
+
+    def begin(self, order: Manoeuvre) -> None:
+        """Take up a twist, a course, a tilt, holding depth and heading, surfacing, or lying still."""
+        self.dynamics.look(self.scene.weather.current)
+        self._pilot.begin(order, self.dynamics, fresh=order.kind != self.order.kind)
+
+    def push(self) -> None:
+        """Let the fins follow the order, and the water act on the body."""
+        body, fins = self.dynamics, self.fins
+        body.look(self.scene.weather.current)
+        if self.order.kind == "rest" or self.battery.empty:
+            fins.rest()
+        else:
+            fins.tell(*self._pilot.wants(body, self.float.wet))
+        (fx, fy, fz), (mx, my, mz) = self.float.forces(body)
+        (ahead, up), (roll, pitch, yaw) = fins.step()
+        wet = self.float.wet
+        body.push((fx + wet * ahead, fy, fz + wet * up), (mx + wet * roll, my + wet * pitch, mz + wet * yaw))
+
+    def feel(self) -> None:
+        """Take in what the physics step did, and pay for it."""
+        super().feel()
+        if self._step % WORK_STEPS == 0:
+            period = WORK_STEPS / STEPS_PER_SECOND
+            self.battery.feed(self.motors.work(self.fins.speeds, self.fins.torques, period), period)
+
+    def _tell_legs(self, _: State, stamp: float) -> Iterator[Measurement]:
+        names = [f"{leg}_leg_joint" for leg in LEGS]
+        header = Header(Time.at(stamp), "base_link")
+        yield (
+            "/joint_states",
+            JointState(header, names, Float64Array(self.fins.angles), Float64Array(self.fins.speeds)),
+        )
+
+
+AQUA = Model(Aqua, PARAMETERS, looks, "water")
+"""All that is needed to make one."""
