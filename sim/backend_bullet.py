@@ -80,11 +80,16 @@ class Bullet:
             p.configureDebugVisualizer(p.COV_ENABLE_GUI, 0, physicsClientId=self._client)
         self._below: dict[int, Vec3] = {}
         self._groups: dict[int, int] = {}
+        self.ground = -1
+        """Number of the ground; -1 when there is none."""
 
     def add_ground(self, height: float = 0.0) -> int:
         """The level ground at z = `height` [m]; its number."""
         shape = p.createCollisionShape(p.GEOM_PLANE, physicsClientId=self._client)
-        return int(p.createMultiBody(0, shape, basePosition=(0, 0, height), physicsClientId=self._client))
+        self.ground = int(
+            p.createMultiBody(0, shape, basePosition=(0, 0, height), physicsClientId=self._client)
+        )
+        return self.ground
 
     def add_static(self, shapes: Sequence[Shape]) -> int:
         """One thing made of solids that nothing moves; its number.

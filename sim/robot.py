@@ -17,6 +17,7 @@ from sim.camera import Camera
 from sim.occupancy import occupancy
 from sim.simulation import Simulation
 from sim.vehicles.aqua import AQUA
+from sim.vehicles.ardrone import ARDRONE
 from sim.vehicles.commander import COMMANDER
 from sim.vehicles.minnow import MINNOW
 from sim.vehicles.model import Model
@@ -25,7 +26,13 @@ from sim.world import WORLDS, load
 
 __all__ = ["ROBOTS", "WORLDS", "SimRobot", "make", "model_of"]
 
-ROBOTS: dict[str, Model] = {"patrol": PATROL, "commander": COMMANDER, "minnow": MINNOW, "aqua": AQUA}
+ROBOTS: dict[str, Model] = {
+    "patrol": PATROL,
+    "commander": COMMANDER,
+    "minnow": MINNOW,
+    "aqua": AQUA,
+    "ardrone": ARDRONE,
+}
 """The robots that can be simulated, by name."""
 
 CAMERA_TOPIC = "/camera/image/compressed"

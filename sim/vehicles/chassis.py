@@ -36,6 +36,8 @@ class Chassis(Generic[P]):
         self.suite = Suite()
         self.order = Manoeuvre(kind="rest")
         """What it moves by."""
+        self.grounded = False
+        """Its shell touches the ground or something else."""
         self._step = 0
 
     def drive(self, twist: Twist) -> None:
@@ -66,7 +68,10 @@ class Chassis(Generic[P]):
     def feel(self) -> None:
         """Take in what the physics step did."""
         self._step += 1
-        contacts = self.scene.backend.touching(self.body)
+        backend = self.scene.backend
+        touched = backend.touching(self.body)
+        contacts = [contact for contact in touched if contact.body != backend.ground]
+        self.grounded = bool(touched)
         self.bumper.update(self._step, contacts, self.state() if contacts else None)
 
     def state(self) -> State:

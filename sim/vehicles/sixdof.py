@@ -65,6 +65,8 @@ class SixDof:
         p, q, r = a * wx + d * wy + g * wz, b * wx + e * wy + h * wz, c * wx + f * wy + i * wz
         self.turning = (p, q, r)
         """About the body's axes [rad/s]."""
+        self.velocity = (vx, vy, vz)
+        """Of the centre of mass in the world [m/s]."""
         vx, vy, vz = vx - flow[0], vy - flow[1], vz - flow[2]
         cx, cy, cz = self._inertia.centre
         self.through = (

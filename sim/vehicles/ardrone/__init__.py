@@ -1,0 +1,144 @@
+"""The ardrone: a quadrotor with cameras ahead and down, inertial unit and ultrasound."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import ClassVar
+
+from bridge.msgs.pilothouse_msgs import FlightState, Manoeuvre
+from bridge.msgs.std_msgs import Header, Time
+from sim.backend_bullet import GRAVITY, STEPS_PER_SECOND, State
+from sim.bodies import Floating
+from sim.motors import Motors
+from sim.scene import Scene
+from sim.sensors.battery import Battery
+from sim.sensors.height import Height
+from sim.sensors.imu import InertialUnit
+from sim.sensors.reckoning import Reckoning
+from sim.shapes import Shape, from_yaw
+from sim.vehicles.ardrone.looks import looks
+from sim.vehicles.ardrone.pilot import Motion, Pilot
+from sim.vehicles.chassis import Chassis
+from sim.vehicles.control import within
+from sim.vehicles.model import Model
+from sim.vehicles.parameters import load
+from sim.vehicles.quadrotor import ROTORS, QuadrotorBody, QuadrotorParameters, Rotors
+from sim.vehicles.sixdof import Inertia, SixDof
+from sim.vehicles.suite import Measurement
+
+__all__ = ["ARDRONE", "PARAMETERS", "Ardrone"]
+
+PARAMETERS: QuadrotorParameters = load(Path(__file__).parent / "ardrone.toml", QuadrotorParameters)
+"""The quadrotor's numbers."""
+
+WORK_STEPS = STEPS_PER_SECOND // 20
+FLIGHT_RATE, MOTORS_RATE = 10.0, 5.0
+LAST = 0.05
+"""With less charge than this it lands by itself."""
+
+
+def body_of(body: QuadrotorBody) -> Floating:
+    """The rigid body that the physics needs."""
+    shell = Shape("box", (body.width, body.width, body.height))
+    return Floating(shell, body.mass, body.inertia, (0.0, 0.0, 0.0), body.friction)
+
+
+class Ardrone(Chassis[QuadrotorParameters]):
+    """The quadrotor in a world."""
+
+    MANOEUVRES: ClassVar[tuple[str, ...]] = ("twist", "course", "tilt", "hover", "take_off", "land", "rest")
+
+    def __init__(self, scene: Scene, parameters: QuadrotorParameters) -> None:
+        """Stand on the ground at the start, or on a raft where there is water."""
+        start, own = scene.start, parameters.body
+        at = (start.x, start.y, own.height / 2)
+        body = scene.backend.add_floating(body_of(own), at, from_yaw(start.angle))
+        super().__init__(scene, parameters, body)
+        if scene.world.water:
+            raft = Shape("box", (1.0, 1.0, 0.2), (start.x, start.y, -0.1), from_yaw(start.angle))
+            scene.backend.add_static([raft])
+        self.dynamics = SixDof(scene.backend, body, Inertia(own.mass, (0.0, 0.0, 0.0), own.inertia))
+        self.rotors = Rotors(parameters.rotors)
+        self.pilot = Pilot(parameters, at)
+        self.battery = Battery(parameters.battery)
+        self.motors = Motors(parameters.motor, ROTORS)
+        self._add_sensors()
+
+    def _add_sensors(self) -> None:
+        parameters, scene, suite = self.parameters, self.scene, self.suite
+        start = scene.start
+        imu = InertialUnit(parameters.imu, scene.generator("imu"))
+        self._height = Height(
+            parameters.range, scene.backend, self.body, scene.weather, scene.generator("range")
+        )
+        reckoning = Reckoning(
+            parameters.reckoning, (start.x, start.y, start.angle), scene.generator("reckoning")
+        )
+        suite.add("bumper", parameters.bumper.rate, self.tell_bumper)
+        suite.add("imu", parameters.imu.rate, lambda state, at: [("/imu/data", imu.measure(state, at))])
+        suite.add(
+            "odometry", parameters.reckoning.rate, lambda state, at: [("/odom", reckoning.measure(state, at))]
+        )
+        suite.add(
+            "range",
+            parameters.range.rate,
+            lambda state, at: [("/range/down", self._height.measure(state, at))],
+        )
+        suite.add("flight", FLIGHT_RATE, self._tell_flight)
+        suite.add("motors", MOTORS_RATE, lambda _, at: [("/motors", self.motors.message(at))])
+        suite.add(
+            "battery", parameters.battery.rate, lambda _, at: [("/battery_state", self.battery.message(at))]
+        )
+        self.add_order()
+        self.add_truth()
+
+    def begin(self, order: Manoeuvre) -> None:
+        """Take up a twist, a course, a tilt; hover, take off or land. At rest in the air it hovers."""
+        self.dynamics.look((0.0, 0.0, 0.0))
+        self.pilot.begin(order, self.motion())
+
+    def motion(self) -> Motion:
+        """How it flies, as it was last looked at."""
+        body = self.dynamics
+        a, _, _, d, _, _, ux, uy, uz = body.axes
+        angles = (math.atan2(uy, uz), -math.asin(within(ux, 1.0)), math.atan2(d, a))
+        return Motion(body.position, body.velocity, angles, body.turning, uz)
+
+    def push(self) -> None:
+        """Let the rotors follow the order, and the air act on the body."""
+        body, rotors = self.dynamics, self.rotors
+        body.look(self.scene.weather.wind)
+        told = None if self.battery.empty else self.pilot.fly(self.motion())
+        if told is None:
+            rotors.stop()
+        else:
+            rotors.tell(*told)
+        thrust, torque = rotors.step()
+        weight = self.parameters.body.mass * GRAVITY
+        dx, dy, dz = self.parameters.body.drag
+        u, v, w = body.through
+        ux, uy, uz = body.axes[6:]
+        force = (-weight * ux - dx * u, -weight * uy - dy * v, thrust - weight * uz - dz * w)
+        body.push(force, torque)
+
+    def feel(self) -> None:
+        """Take in what the physics step did, and pay for it."""
+        super().feel()
+        if self.grounded:
+            self.dynamics.look((0.0, 0.0, 0.0))
+            self.pilot.touched(self.motion())
+        if self._step % WORK_STEPS == 0:
+            period = WORK_STEPS / STEPS_PER_SECOND
+            self.battery.feed(self.motors.work(self.rotors.speeds, self.rotors.torques, period), period)
+            if self.battery.charge < LAST and self.pilot.phase == "flying":
+                self.manoeuvre(Manoeuvre(kind="land"))
+
+    def _tell_flight(self, state: State, stamp: float) -> Iterator[Measurement]:
+        header = Header(Time.at(stamp), "map")
+        yield "/flight", FlightState(header, self.pilot.phase, self._height.last, state.velocity[2])
+
+
+ARDRONE = Model(Ardrone, PARAMETERS, looks, "air")
+"""All that is needed to make one."""

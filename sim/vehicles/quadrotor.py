@@ -1,0 +1,144 @@
+"""A quadrotor: its figures, its rotors, and the forces on it."""
+
+from __future__ import annotations
+
+import math
+
+from sim.backend_bullet import GRAVITY, STEPS_PER_SECOND
+from sim.sensors.battery import BatteryParameters
+from sim.sensors.height import HeightParameters
+from sim.sensors.imu import ImuParameters
+from sim.sensors.reckoning import ReckoningParameters
+from sim.shapes import Vec3
+from sim.vehicles.parameters import CameraParameters, Limits, Motor, Parameters, Positive, Rate, Table
+
+__all__ = ["ROTORS", "QuadrotorBody", "QuadrotorLimits", "QuadrotorParameters", "RotorParameters", "Rotors"]
+
+ROTORS = ["front_left", "front_right", "rear_right", "rear_left"]
+_PLACES = ((1, 1, -1), (1, -1, 1), (-1, -1, -1), (-1, 1, 1))
+"""Of each rotor: ahead or behind, left or right, and which way its drag turns the body."""
+
+
+class QuadrotorBody(Table, frozen=True, kw_only=True):
+    """The body, a flat square box."""
+
+    mass: Positive
+    """[kg]"""
+    inertia: tuple[Positive, Positive, Positive]
+    """[kg m2]"""
+    width: Positive
+    """[m]"""
+    height: Positive
+    """[m]"""
+    drag: tuple[Positive, Positive, Positive]
+    """Linear, along x, y and z [N s/m]."""
+    friction: Positive
+
+
+class RotorParameters(Table, frozen=True, kw_only=True):
+    """The rotors, all alike."""
+
+    arm: Positive
+    """From the middle of the body to an axis [m]."""
+    lift: Positive
+    """[N/(rad/s)2]"""
+    torque: Positive
+    """[N m/(rad/s)2]"""
+    lag: Positive
+    """Time constant of their speed [s]."""
+    speed: Positive
+    """The most [rad/s]."""
+    gear: Positive
+    """Turns of a motor for one of its rotor."""
+
+
+class QuadrotorLimits(Limits, frozen=True, kw_only=True):
+    """What it does at most."""
+
+    climb: Positive
+    """Upward and downward [m/s]."""
+    tilt: Positive
+    """Roll and pitch [rad]."""
+    height: Positive
+    """Above where it started [m]."""
+
+
+class QuadrotorParameters(Parameters, frozen=True, kw_only=True):
+    """The whole file of a quadrotor."""
+
+    body: QuadrotorBody
+    rotors: RotorParameters
+    limits: QuadrotorLimits
+    motor: Motor
+    reckoning: ReckoningParameters
+    imu: ImuParameters
+    range: HeightParameters
+    battery: BatteryParameters
+    front: CameraParameters
+    down: CameraParameters
+    bumper: Rate
+
+    @property
+    def radius(self) -> float:
+        """Of the circle that the body fits in [m]."""
+        return self.body.width / math.sqrt(2)
+
+    @property
+    def cameras(self) -> tuple[CameraParameters, ...]:
+        """Ahead and down."""
+        return (self.front, self.down)
+
+    @property
+    def hover(self) -> float:
+        """Speed of the rotors that carries its weight [rad/s]."""
+        return math.sqrt(self.body.mass * GRAVITY / 4 / self.rotors.lift)
+
+
+class Rotors:
+    """The four rotors, which follow what they are told a little late."""
+
+    def __init__(self, parameters: RotorParameters) -> None:
+        """At rest."""
+        self._parameters = parameters
+        self._reach = parameters.arm / math.sqrt(2)
+        self._keep = math.exp(-1 / (parameters.lag * STEPS_PER_SECOND))
+        self._yaw = parameters.torque / parameters.lift
+        self.speeds = [0.0] * 4
+        """[rad/s]"""
+        self.told = [0.0] * 4
+        """[rad/s]"""
+
+    @property
+    def torques(self) -> list[float]:
+        """Drag of each [N m]."""
+        return [self._parameters.torque * speed * speed for speed in self.speeds]
+
+    def tell(self, thrust: float, torque: Vec3) -> None:
+        """Give `thrust` upward [N] and `torque` [N m] as far as the rotors can; the thrust goes before the yaw."""
+        roll, pitch, yaw = torque[0] / 4 / self._reach, torque[1] / 4 / self._reach, torque[2] / 4 / self._yaw
+        most = self._parameters.lift * self._parameters.speed**2
+        tilting = [thrust / 4 + y * roll - x * pitch for x, y, _ in _PLACES]
+        spare = max(0.0, min(*tilting, most - max(tilting)))
+        yaw = min(max(yaw, -spare), spare)
+        for number, (lift, (_, _, turns)) in enumerate(zip(tilting, _PLACES, strict=True)):
+            wanted = min(max(lift + turns * yaw, 0.0), most)
+            self.told[number] = math.sqrt(wanted / self._parameters.lift)
+
+    def stop(self) -> None:
+        """Turn no more."""
+        self.told = [0.0] * 4
+
+    def step(self) -> tuple[float, Vec3]:
+        """One step later: thrust upward [N] and torque [N m] on the body."""
+        keep, lift = self._keep, self._parameters.lift
+        thrust = roll = pitch = yaw = 0.0
+        for number, (x, y, turns) in enumerate(_PLACES):
+            told = self.told[number]
+            speed = told + keep * (self.speeds[number] - told)
+            self.speeds[number] = speed
+            force = lift * speed * speed
+            thrust += force
+            roll += y * force
+            pitch -= x * force
+            yaw += turns * force
+        return thrust, (roll * self._reach, pitch * self._reach, yaw * self._yaw)
