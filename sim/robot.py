@@ -22,12 +22,14 @@ from sim.vehicles.commander import COMMANDER
 from sim.vehicles.minnow import MINNOW
 from sim.vehicles.model import Model
 from sim.vehicles.patrol import PATROL
+from sim.vehicles.scout import SCOUT
 from sim.world import WORLDS, load
 
 __all__ = ["ROBOTS", "WORLDS", "SimRobot", "make", "model_of"]
 
 ROBOTS: dict[str, Model] = {
     "patrol": PATROL,
+    "scout": SCOUT,
     "commander": COMMANDER,
     "minnow": MINNOW,
     "aqua": AQUA,
