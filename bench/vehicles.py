@@ -1,0 +1,162 @@
+"""The simulated vehicles: what a step of each costs, of several in one world, and of a beam.
+
+CPU time of the whole process, without sockets and cameras: each vehicle drives by itself with all its sensors, then one of
+each together over the lake's model of water, then one to twenty patrol robots in one car park. A beam's cost is the
+difference of two sweeps of the truck's laser. The shares of a core are at 240 steps a second, in real time.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+
+import msgspec
+
+from bench.support.figures import Figure
+from bench.support.harness import Context, Sides
+from bridge.msgs.geometry_msgs import Twist, Vector3
+from bridge.msgs.pilothouse_msgs import Manoeuvre
+from sim.backend_bullet import STEPS_PER_SECOND
+from sim.robot import ROBOTS
+from sim.sensors.laser import Laser
+from sim.sensors.noise import Noise
+from sim.simulation import Simulation
+from sim.vehicles.commander import PARAMETERS
+from sim.vehicles.model import Vehicle
+from sim.world import Start, World, load, parse
+
+KINDS = tuple(ROBOTS)
+CROWDS = (1, 5, 20)
+FIGURES = (
+    *(Figure(name, "µs", f"a step of 1/240 s of one {name} with its sensors") for name in KINDS),
+    Figure("together", "%", "of a core in real time: one of each in one world", target=12),
+    *(
+        Figure(
+            f"patrols {count}",
+            "×",
+            f"faster than real time: {count} patrol robots in one world",
+            target,
+            "more",
+        )
+        for count, target in zip(CROWDS, (40, None, 1), strict=True)
+    ),
+    Figure("added patrol", "µs", "a step more for each patrol robot more, of twenty"),
+    Figure("beam", "µs", "each more of a laser's beams"),
+    Figure("half beams", "µs", "the same in the upper half of the beams: equal where the cost is linear"),
+)
+REPEATS = 3
+SWEEPS = 60
+SECONDS = 4.0
+"""Simulated of each [s]."""
+GOING = Twist(Vector3(0.4, 0.0, 0.0), Vector3(0.0, 0.0, 0.3))
+
+BOTH = """
+name = "everything"
+description = "Level ground that is a lake, too, for those who float"
+[datum]
+latitude = 45.0
+longitude = -73.0
+[ground]
+length = 40.0
+width = 40.0
+[start]
+x = 0.0
+y = 0.0
+[water]
+depth = 5.0
+[[water.waves]]
+height = 0.05
+period = 2.5
+"""
+
+
+@contextmanager
+def prepare(_: Context) -> Iterator[Sides]:
+    """Nothing is kept from one sample to the next."""
+    yield Sides(ours)
+
+
+def ours() -> dict[str, float]:
+    """One sample of every figure."""
+    values = {name: alone(name) * 1e6 for name in KINDS}
+    values["together"] = together() * STEPS_PER_SECOND * 100
+    crowds = [crowd(count) for count in CROWDS]
+    for count, step in zip(CROWDS, crowds, strict=True):
+        values[f"patrols {count}"] = 1 / (step * STEPS_PER_SECOND)
+    values["added patrol"] = (crowds[-1] - crowds[0]) / (CROWDS[-1] - CROWDS[0]) * 1e6
+    few, half, all_ = (sweep(beams) for beams in (90, 540, 1080))
+    values["beam"] = (half - few) / 450 * 1e6
+    values["half beams"] = (all_ - half) / 540 * 1e6
+    return values
+
+
+def home(name: str) -> World:
+    """A world in which this robot can be."""
+    return load("lake" if ROBOTS[name].element == "water" else "parking_lot")
+
+
+def alone(name: str) -> float:
+    """CPU time of a step of one robot [s]."""
+    return driving(Simulation(home(name), ROBOTS[name]))
+
+
+def together() -> float:
+    """CPU time of a step of one of each [s]; here those that need dry land drive on the bottom of the water."""
+    models = [replace(ROBOTS[name], element="air") for name in KINDS]
+    others = [(model, Start(3.0 * number, 5.0)) for number, model in enumerate(models[1:], 1)]
+    return driving(Simulation(parse(BOTH, "everything"), models[0], *others))
+
+
+def crowd(count: int) -> float:
+    """CPU time of a step of so many patrol robots in the car park [s]."""
+    others = [(ROBOTS["patrol"], Start(-17.0 + 1.5 * number, -6.5)) for number in range(count - 1)]
+    return driving(Simulation(load("parking_lot"), ROBOTS["patrol"], *others))
+
+
+def driving(simulation: Simulation) -> float:
+    """CPU time of a step of everything in it [s]; frees it."""
+    for vehicle in simulation.vehicles:
+        set_going(vehicle)
+    measure(simulation, 1.0)
+    spent = measure(simulation, SECONDS)
+    simulation.close()
+    return spent / (SECONDS * STEPS_PER_SECOND)
+
+
+def set_going(vehicle: Vehicle) -> None:
+    """Off the ground, if it flies, and round in a circle."""
+    if "take_off" in vehicle.MANOEUVRES:
+        vehicle.manoeuvre(Manoeuvre(kind="take_off"))
+    else:
+        vehicle.drive(GOING)
+
+
+def measure(simulation: Simulation, seconds: float) -> float:
+    """CPU time of so many simulated seconds with every sensor [s]."""
+    started = time.process_time()
+    for _ in range(round(seconds * STEPS_PER_SECOND)):
+        simulation.advance()
+        for vehicle in simulation.vehicles:
+            for _message in vehicle.measure(simulation.time, truth=False):
+                pass
+    return time.process_time() - started
+
+
+def sweep(beams: int) -> float:
+    """CPU time of one sweep of so many beams in the car park [s]."""
+    simulation = Simulation(load("parking_lot"), ROBOTS["commander"])
+    laser = Laser(
+        msgspec.structs.replace(PARAMETERS.laser, beams=beams),
+        simulation.backend,
+        simulation.vehicle.body,
+        Noise(0, "bench"),
+    )
+    laser.measure(0.0)
+    started = time.process_time()
+    for _ in range(SWEEPS):
+        laser.measure(0.0)
+    spent = time.process_time() - started
+    simulation.close()
+    return spent / SWEEPS
