@@ -198,11 +198,14 @@ class Bullet:
         return State(place(self._below[body], position, rotation), rotation, velocity, turning)
 
     def place(self, body: int, position: Vec3, rotation: Quat) -> None:
-        """Put `body` somewhere else, at rest."""
+        """Put `body` somewhere else, at rest, its joints as they are."""
         below = self._below[body]
         centre = place((-below[0], -below[1], -below[2]), position, rotation)
         p.resetBasePositionAndOrientation(body, centre, rotation, physicsClientId=self._client)
         p.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0), physicsClientId=self._client)
+        for joint in range(p.getNumJoints(body, physicsClientId=self._client)):
+            angle = p.getJointState(body, joint, physicsClientId=self._client)[0]
+            p.resetJointState(body, joint, angle, 0.0, physicsClientId=self._client)
 
     def joints(self, body: int, count: int) -> list[Joint]:
         """The first `count` joints of `body`."""

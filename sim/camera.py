@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import logging
+import math
+from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
@@ -15,7 +17,7 @@ from bridge.msgs.std_msgs import Header, Time
 from sim.backend_bullet import State
 from sim.renderer import NoRendererError, Renderer
 from sim.schedule import Schedule
-from sim.shapes import place
+from sim.shapes import Shape, compose, from_yaw, place
 from sim.tiny_renderer import TinyRenderer
 from sim.vehicles.parameters import CameraParameters
 from sim.view import View
@@ -35,8 +37,11 @@ Picture = NDArray[np.uint8]
 class Eye(Protocol):
     """Something that draws views, at once or a little later."""
 
-    def show(self, view: View, stamp: float) -> list[tuple[float, Picture]]:
-        """Draw `view` as of `stamp`; gives the pictures that are ready, oldest first, each with its stamp."""
+    def show(self, view: View, stamp: float, moving: Sequence[Shape] = ()) -> list[tuple[float, Picture]]:
+        """Draw `view` as of `stamp`; gives the pictures that are ready, oldest first, each with its stamp.
+
+        `moving` are the other robots, which one that draws slowly may leave out.
+        """
 
     def ready(self) -> list[tuple[float, Picture]]:
         """Pictures that became ready since the last call, without waiting."""
@@ -51,8 +56,8 @@ class _Quick:
     def __init__(self, world: World) -> None:
         self._renderer = Renderer(world)
 
-    def show(self, view: View, stamp: float) -> list[tuple[float, Picture]]:
-        return [(stamp, self._renderer.render(view))]
+    def show(self, view: View, stamp: float, moving: Sequence[Shape] = ()) -> list[tuple[float, Picture]]:
+        return [(stamp, self._renderer.render(view, moving))]
 
     def ready(self) -> list[tuple[float, Picture]]:
         return []
@@ -70,24 +75,30 @@ def _eye(world: World) -> Eye:
 
 
 class Camera:
-    """Looks ahead from its place on the vehicle."""
+    """Looks out from its place on the vehicle."""
 
-    def __init__(self, world: World, parameters: CameraParameters) -> None:
-        """A camera in `world`; where OpenGL cannot draw without a window it is a smaller one, and the log says so."""
+    def __init__(self, world: World, parameters: CameraParameters, *, first: int = 0) -> None:
+        """A camera in `world`, from the `first` step on; where OpenGL cannot draw without a window it is a smaller one, and the log says so."""
         self._parameters = parameters
         self._eye = _eye(world)
-        self._schedule = Schedule({"camera": parameters.rate})
+        self._schedule, self._first = Schedule({"camera": parameters.rate}), first
+        down = (0.0, math.sin(parameters.pitch / 2), 0.0, math.cos(parameters.pitch / 2))
+        self._turned = compose(from_yaw(parameters.yaw), down)
 
     def due(self, step: int) -> bool:
         """It is time for a picture after physics step `step`; to be asked after every step."""
-        return bool(self._schedule.due(step))
+        return bool(self._schedule.due(step - self._first))
 
-    def shoot(self, state: State, stamp: float) -> list[CompressedImage]:
-        """Take a picture from a vehicle in `state` at `stamp` [s]; gives those that are ready, oldest first."""
+    def shoot(self, state: State, stamp: float, moving: Sequence[Shape] = ()) -> list[CompressedImage]:
+        """Take a picture from a vehicle in `state` at `stamp` [s]; gives those that are ready, oldest first.
+
+        `moving` is what is seen of other robots.
+        """
         parameters = self._parameters
         eye = place(parameters.position, state.position, state.rotation)
-        view = View(eye, state.rotation, (parameters.width, parameters.height), parameters.field_of_view)
-        return [_message(picture, taken) for taken, picture in self._eye.show(view, stamp)]
+        rotation = compose(state.rotation, self._turned)
+        view = View(eye, rotation, (parameters.width, parameters.height), parameters.field_of_view)
+        return [_message(picture, taken) for taken, picture in self._eye.show(view, stamp, moving)]
 
     def collect(self) -> list[CompressedImage]:
         """Pictures taken earlier that have become ready."""

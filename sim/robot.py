@@ -7,25 +7,30 @@ for topic, message in robot.read(now): ...
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections import deque
+from collections.abc import Iterator, Sequence
+
+import msgspec
 
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
-from sim.backend_bullet import STEPS_PER_SECOND
-from sim.camera import Camera
+from bridge.msgs.pilothouse_msgs import Event, Manoeuvre, RobotInfo
+from sim.cameras import CAMERA_TOPIC, Cameras
+from sim.mishaps import Mishaps
 from sim.occupancy import occupancy
+from sim.orders import check, cut
+from sim.run import Run
 from sim.simulation import Simulation
 from sim.vehicles.aqua import AQUA
 from sim.vehicles.ardrone import ARDRONE
 from sim.vehicles.commander import COMMANDER
 from sim.vehicles.minnow import MINNOW
-from sim.vehicles.model import Model
+from sim.vehicles.model import Model, Vehicle
 from sim.vehicles.patrol import PATROL
 from sim.vehicles.scout import SCOUT
-from sim.world import WORLDS, load
+from sim.world import WORLDS, Start, World, load
 
-__all__ = ["ROBOTS", "WORLDS", "SimRobot", "make", "model_of"]
+__all__ = ["CAMERA_TOPIC", "ROBOTS", "WORLDS", "SimRobot", "make", "make_several", "model_of"]
 
 ROBOTS: dict[str, Model] = {
     "patrol": PATROL,
@@ -37,11 +42,9 @@ ROBOTS: dict[str, Model] = {
 }
 """The robots that can be simulated, by name."""
 
-CAMERA_TOPIC = "/camera/image/compressed"
 TRUTH_TOPIC = "/sim/ground_truth"
-
-_SLACK = 1e-3
-"""Part of a step by which `now` may fall short of it: the clock's own rounding is no reason to wait."""
+UNREAD = 50_000
+"""Messages that are kept of a robot that nobody reads while others in its world are read; the oldest go first."""
 
 
 class SimRobot:
@@ -50,22 +53,29 @@ class SimRobot:
     Nothing moves between calls: `read(now)` does all the physics up to `now`. It never skips any, so a caller in real
     time that was held up for long gets the whole backlog computed in one call (about a fiftieth of its length without
     camera); to bound a call, hand it a `now` that is at most a little after the last one.
+    Robots that share a world move on together, whichever of them is read.
     Not thread-safe; calls may come from different threads, one at a time.
     """
 
     trouble = ""
     """It is always at hand."""
 
-    def __init__(self, simulation: Simulation, *, camera: bool) -> None:
-        """The robot of `simulation`, which it owns from now on."""
-        self.simulation = simulation
+    def __init__(self, simulation: Simulation | Run, *, camera: bool, number: int = 0) -> None:
+        """A robot of `simulation`, which it owns from now on, alone or with the others of the run."""
+        self._run = simulation if isinstance(simulation, Run) else Run(simulation)
+        self.simulation = self._run.simulation
         """The truth, for tests and benches."""
+        self._number = number
+        self._vehicle = self.simulation.vehicles[number]
         self._wanted: set[str] = set()
-        self._origin: float | None = None
-        self.info = info_of(simulation, camera=camera)
+        self._met = False
+        self._unread: deque[tuple[str, Msg]] = deque(maxlen=UNREAD)
+        self._excess = ""
+        self.info = info_of(self._vehicle, self.simulation.world, camera=camera)
         """Who it is."""
-        cameras = simulation.vehicle.parameters.cameras
-        self._camera = Camera(simulation.world, cameras[0]) if camera and cameras else None
+        self._mishaps = Mishaps(self._vehicle.parameters.info, self.simulation.world)
+        self._cameras = Cameras(self.simulation, number) if camera else None
+        self._run.join(self._collect)
 
     def drive(self, twist: Twist) -> None:
         """Go for `twist` in `base_link`, within its limits, until the next `drive` or `stop`."""
@@ -74,14 +84,24 @@ class SimRobot:
     def manoeuvre(self, order: Manoeuvre) -> None:
         """Move by `order`, within its limits, until told otherwise; `info.manoeuvres` names the kinds that it knows.
 
-        ValueError with one sentence for what it cannot do or what is no number; it then goes on as before.
+        What is beyond its limits is cut to them, which is said on `/events`. ValueError with one sentence for what it
+        cannot do or what is no number; it then goes on as before.
         """
-        _check(order)
-        self.simulation.vehicle.manoeuvre(order)
+        check(order)
+        order, excess = cut(order, self.info)
+        self._vehicle.manoeuvre(order)
+        if excess and not self._excess:
+            self._unread.append(("/events", Event(level="info", kind="robot", text=excess)))
+        self._excess = excess
 
     def stop(self) -> None:
-        """Brake to rest as hard as the drive does."""
-        self.simulation.vehicle.stop()
+        """Brake to rest as hard as the drive does; what flies stays in the air."""
+        self._vehicle.stop()
+
+    def reset(self) -> None:
+        """Put it back to where it started, at rest, with fresh odometry: for one that turned over, sank or went astray."""
+        self._vehicle.reset()
+        self._excess = ""
 
     def want(self, topic: str, wanted: bool) -> None:
         """Measure an on-demand topic or no longer; other topics always come."""
@@ -96,52 +116,41 @@ class SimRobot:
         The first call sets the origin, simulates nothing and gives the map and one message of each sensor. A `now`
         before the last one gives nothing.
         """
-        if self._origin is None:
-            self._origin = now
+        if not self._met:
+            self._met = True
+            self._run.advance(now)
+            self._unread.clear()
             return [("/map", occupancy(self.simulation.world, now)), *self._measure()]
-        goal = int((now - self._origin) * STEPS_PER_SECOND + _SLACK)
-        measured: list[tuple[str, Msg]] = []
-        while self.simulation.steps < goal:
-            self.simulation.advance()
-            measured.extend(self._measure())
-        if self._camera is not None:
-            measured.extend((CAMERA_TOPIC, image) for image in self._camera.collect())
+        self._run.advance(now)
+        measured = [*self._unread]
+        self._unread.clear()
+        if self._cameras is not None:
+            measured.extend(self._cameras.collect())
         return measured
 
     def close(self) -> None:
-        """Free everything; closing twice does nothing."""
-        if self._camera is not None:
-            self._camera.close()
-        self.simulation.close()
+        """Free everything, the world too when no other robot is in it; closing twice does nothing."""
+        if self._cameras is not None:
+            self._cameras.close()
+        self._run.leave(self._collect)
+
+    def _collect(self) -> None:
+        if self._met:
+            self._unread.extend(self._measure())
 
     def _measure(self) -> Iterator[tuple[str, Msg]]:
-        simulation = self.simulation
-        stamp = (self._origin or 0.0) + simulation.time
-        yield from simulation.vehicle.measure(stamp, truth=TRUTH_TOPIC in self._wanted)
-        if self._camera is not None and self._camera.due(simulation.steps) and CAMERA_TOPIC in self._wanted:
-            for image in self._camera.shoot(simulation.vehicle.state(), stamp):
-                yield CAMERA_TOPIC, image
+        simulation, vehicle, stamp = self.simulation, self._vehicle, self._run.now
+        yield from vehicle.measure(stamp, truth=TRUTH_TOPIC in self._wanted)
+        if self._mishaps.due(simulation.steps):
+            for event in self._mishaps.look(vehicle.state()):
+                yield "/events", event
+        if self._cameras is not None:
+            yield from self._cameras.shoot(self._wanted, stamp)
 
 
-def _check(order: Manoeuvre) -> None:
-    """Raise ValueError when a part of `order` that must be a number is none, or one that may be NaN is infinite."""
-    linear, angular = order.twist.linear, order.twist.angular
-    needed = {
-        "twist": (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z),
-        "steering": (order.steering,),
-        "roll": (order.roll,),
-        "pitch": (order.pitch,),
-    }
-    free = {"speed": order.speed, "throttle": order.throttle, "yaw": order.yaw, "height": order.height}
-    wrong = [name for name, values in needed.items() if not all(map(math.isfinite, values))]
-    wrong += [name for name, value in free.items() if math.isinf(value)]
-    if wrong:
-        raise ValueError(f"The {wrong[0]} of an order must be a number; the robot goes on as before.")
-
-
-def info_of(simulation: Simulation, *, camera: bool) -> RobotInfo:
+def info_of(vehicle: Vehicle, world: World, *, camera: bool) -> RobotInfo:
     """Who the simulated robot is, as it tells the handheld."""
-    parameters, world = simulation.vehicle.parameters, simulation.world
+    parameters = vehicle.parameters
     return RobotInfo(
         name=parameters.info.name,
         kind=parameters.info.kind,
@@ -155,7 +164,7 @@ def info_of(simulation: Simulation, *, camera: bool) -> RobotInfo:
         latitude=world.datum.latitude,
         longitude=world.datum.longitude,
         camera_fov=parameters.cameras[0].field_of_view if parameters.cameras else math.nan,
-        manoeuvres=list(simulation.vehicle.MANOEUVRES),
+        manoeuvres=list(vehicle.MANOEUVRES),
     )
 
 
@@ -176,3 +185,37 @@ def make(
     """
     model = model_of(robot)
     return SimRobot(Simulation(load(world), model, seed=seed, noise=noise, gui=gui), camera=camera)
+
+
+def make_several(
+    robots: Sequence[str | tuple[str, Start]],
+    world: str,
+    *,
+    seed: int = 0,
+    camera: bool = True,
+    noise: bool = True,
+) -> list[SimRobot]:
+    """Several robots in one `world`, each by its name or with the place where it starts; they see and bump into each other.
+
+    Those without a place stand beside the world's own start. Raises ValueError like `make`.
+    """
+    loaded = load(world)
+    entries = [(entry, None) if isinstance(entry, str) else entry for entry in robots]
+    if not entries:
+        raise ValueError("A world needs one robot at least.")
+    models = [model_of(name) for name, _ in entries]
+    starts = [start or _beside(loaded.start, number) for number, (_, start) in enumerate(entries)]
+    run = Run(Simulation(loaded, *zip(models, starts, strict=True), seed=seed, noise=noise))
+    return [SimRobot(run, camera=camera, number=number) for number in range(len(models))]
+
+
+def _beside(start: Start, number: int) -> Start:
+    """The place of the robot of this number: beside the first one, to the right and left by turns."""
+    aside = (number + 1) // 2 * _APART * (-1 if number % 2 else 1)
+    return msgspec.structs.replace(
+        start, x=start.x - aside * math.sin(start.angle), y=start.y + aside * math.cos(start.angle)
+    )
+
+
+_APART = 2.0
+"""Between robots that nobody placed [m]."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from sim.backend_bullet import STEPS_PER_SECOND, Bullet
 from sim.scene import Scene
 from sim.sensors.noise import Noise
-from sim.shapes import yaw_of
+from sim.shapes import Shape, yaw_of
 from sim.vehicles.model import Model, Vehicle
 from sim.weather import Weather
 from sim.world import Start, World
@@ -22,18 +22,18 @@ class Simulation:
     def __init__(
         self,
         world: World,
-        model: Model,
-        *more: tuple[Model, Start],
+        *robots: Model | tuple[Model, Start],
         seed: int = 0,
         noise: bool = True,
         gui: bool = False,
     ) -> None:
-        """A robot of `model` at the start of `world`, and `more` elsewhere; the same `seed` gives the same run, bit for bit.
+        """`robots` in `world`, at its start or at their own; the same `seed` gives the same run, bit for bit.
 
         Raises ValueError with one sentence when one of them does not belong into this world.
         """
-        for each in (model, *(entry for entry, _ in more)):
-            _check(each, world)
+        placed = [(entry, world.start) if isinstance(entry, Model) else entry for entry in robots]
+        for model, _ in placed:
+            _check(model, world)
         self.world = world
         self.backend = Bullet(gui=gui)
         self.backend.add_ground(world.bottom)
@@ -41,9 +41,12 @@ class Simulation:
             self.backend.add_static(prop.solids)
         self.weather = Weather(world, Noise(seed, "gusts", on=noise))
         self.vehicles: list[Vehicle] = [
-            each.build(Scene(self.backend, world, self.weather, start, seed, noise, number), each.parameters)
-            for number, (each, start) in enumerate(((model, world.start), *more))
+            model.build(
+                Scene(self.backend, world, self.weather, start, seed, noise, number), model.parameters
+            )
+            for number, (model, start) in enumerate(placed)
         ]
+        self._looks = [model.looks for model, _ in placed]
         self.steps = 0
         """Physics steps done."""
         for _ in range(SETTLING):
@@ -68,6 +71,16 @@ class Simulation:
         """Where a robot really is: x, y [m] and yaw [rad] in `map`."""
         state = self.vehicles[number].state()
         return state.position[0], state.position[1], yaw_of(state.rotation)
+
+    def looks(self, *, but: int) -> tuple[Shape, ...]:
+        """What is seen of all robots `but` one."""
+        return tuple(
+            shape
+            for number, (vehicle, looks) in enumerate(zip(self.vehicles, self._looks, strict=True))
+            if number != but
+            for state in (vehicle.state(),)
+            for shape in looks(vehicle.parameters, state.position, state.rotation)
+        )
 
     def advance(self) -> None:
         """One physics step."""

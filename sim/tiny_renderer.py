@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import logging
 import multiprocessing
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 
@@ -50,8 +50,11 @@ class TinyRenderer:
         self._stamp: float | None = None
         self._receive(START)
 
-    def show(self, view: View, stamp: float) -> list[tuple[float, Picture]]:
-        """Ask for `view` as of `stamp`; gives the picture asked for before, waiting for it if need be."""
+    def show(self, view: View, stamp: float, moving: Sequence[Shape] = ()) -> list[tuple[float, Picture]]:
+        """Ask for `view` as of `stamp`; gives the picture asked for before, waiting for it if need be.
+
+        What is `moving` is left out.
+        """
         pictures = self._take(PATIENCE)
         if self._process is not None:
             self._stamp = stamp

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Generic, TypeVar
+from typing import ClassVar, Generic, Protocol, TypeVar
 
 import msgspec
 
@@ -19,6 +19,14 @@ from sim.vehicles.suite import Measurement, Suite, as_odometry
 __all__ = ["Chassis"]
 
 MANOEUVRE_RATE = 10.0
+
+
+class Odometer(Protocol):
+    """Something that adds up a way."""
+
+    pose: tuple[float, float, float]
+    """Believed x, y [m], yaw [rad] in `odom`."""
+
 
 P = TypeVar("P", bound=Parameters)
 
@@ -36,6 +44,10 @@ class Chassis(Generic[P]):
         self.suite = Suite()
         self.order = Manoeuvre(kind="rest")
         """What it moves by."""
+        self.odometer: Odometer | None = None
+        """What tells how far it has come."""
+        home = scene.backend.state(body)
+        self._home = home.position, home.rotation
         self.grounded = False
         """Its shell touches the ground or something else."""
         self._step = 0
@@ -56,6 +68,14 @@ class Chassis(Generic[P]):
             raise ValueError(f"{name} knows no manoeuvre {order.kind!r}; it knows {', '.join(known)}.")
         self.begin(order)
         self.order = order
+
+    def reset(self) -> None:
+        """Go back to the start, at rest, and believe to be there."""
+        self.scene.backend.place(self.body, *self._home)
+        if self.odometer is not None:
+            start = self.scene.start
+            self.odometer.pose = (start.x, start.y, start.angle)
+        self.stop()
 
     def begin(self, order: Manoeuvre) -> None:
         """Take up an order of a known kind."""

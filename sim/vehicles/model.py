@@ -41,6 +41,9 @@ class Vehicle(Protocol):
     def manoeuvre(self, order: Manoeuvre) -> None:
         """Move by `order` until told otherwise; ValueError with one sentence when it cannot."""
 
+    def reset(self) -> None:
+        """Go back to the start, at rest, and believe to be there."""
+
     def push(self) -> None:
         """Act on the body for the physics step that follows."""
 

@@ -46,9 +46,9 @@ def test_the_picture_shows_the_robot_that_is_asked_for(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (["--world", "moon"], "sim: There is no world 'moon'; there is parking_lot"),
+        (["--world", "moon"], "sim: There is no world 'moon'; there is lake"),
         (["--wrold", "moon"], "sim: Unrecognized arguments: --wrold moon.\n"),
-        (["--robot", "foo"], "sim: There is no simulated robot 'foo'; there is patrol."),
+        (["--robot", "foo"], "sim: There is no simulated robot 'foo'; there is patrol, scout"),
         (["--picture", "lot.xyz"], "sim: lot.xyz has no ending of a picture; use .png or .jpg."),
         (["--gui"], "sim: --gui needs a display, and DISPLAY is not set."),
     ],

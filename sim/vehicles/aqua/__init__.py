@@ -71,7 +71,7 @@ class Aqua(Chassis[SwimmerParameters]):
         imu = InertialUnit(parameters.imu, scene.generator("imu"))
         compass = Compass(parameters.compass, scene.generator("compass"))
         depth = DepthGauge(parameters.depth, scene.weather, scene.generator("depth"))
-        reckoning = Reckoning(
+        self.odometer = reckoning = Reckoning(
             parameters.reckoning, (start.x, start.y, start.angle), scene.generator("reckoning")
         )
         suite.add("bumper", parameters.bumper.rate, self.tell_bumper)

@@ -73,7 +73,7 @@ class Ardrone(Chassis[QuadrotorParameters]):
         self._height = Height(
             parameters.range, scene.backend, self.body, scene.weather, scene.generator("range")
         )
-        reckoning = Reckoning(
+        self.odometer = reckoning = Reckoning(
             parameters.reckoning, (start.x, start.y, start.angle), scene.generator("reckoning")
         )
         suite.add("bumper", parameters.bumper.rate, self.tell_bumper)
@@ -98,6 +98,12 @@ class Ardrone(Chassis[QuadrotorParameters]):
         """Take up a twist, a course, a tilt; hover, take off or land. At rest in the air it hovers."""
         self.dynamics.look((0.0, 0.0, 0.0))
         self.pilot.begin(order, self.motion())
+
+    def reset(self) -> None:
+        """Stand where it started, rotors still."""
+        self.rotors.speeds = [0.0] * len(ROTORS)
+        self.pilot = Pilot(self.parameters, self._home[0])
+        super().reset()
 
     def motion(self) -> Motion:
         """How it flies, as it was last looked at."""

@@ -75,7 +75,7 @@ class Minnow(Chassis[BoatParameters]):
         imu = InertialUnit(parameters.imu, scene.generator("imu"))
         gps = Gps(parameters.gps, scene.world.datum, scene.generator("gps"))
         compass = Compass(parameters.compass, scene.generator("compass"))
-        reckoning = Reckoning(
+        self.odometer = reckoning = Reckoning(
             parameters.reckoning, (start.x, start.y, start.angle), scene.generator("reckoning")
         )
         suite.add("bumper", parameters.bumper.rate, self.tell_bumper)

@@ -57,7 +57,7 @@ class Patrol(Chassis[PatrolParameters]):
         laser = Laser(parameters.laser, scene.backend, self.body, scene.generator("laser"))
         imu = InertialUnit(parameters.imu, scene.generator("imu"))
         gps = Gps(parameters.gps, scene.world.datum, scene.generator("gps"))
-        self._odometry = WheelOdometry(
+        self.odometer = self._odometry = WheelOdometry(
             parameters.odometry,
             radius=parameters.wheels.radius,
             base=parameters.wheels.base,

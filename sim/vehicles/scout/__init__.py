@@ -66,7 +66,7 @@ class Scout(Chassis[ScoutParameters]):
         start = scene.start
         sonar = Sonar(parameters.sonar, scene.backend, self.body, scene.generator("sonar"))
         imu = InertialUnit(parameters.imu, scene.generator("imu"))
-        self._odometry = WheelOdometry(
+        self.odometer = self._odometry = WheelOdometry(
             parameters.odometry,
             radius=parameters.wheels.radius,
             base=parameters.wheels.base,
