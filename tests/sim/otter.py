@@ -5,7 +5,9 @@ Figures: PythonVehicleSimulator 1.0.1, `vehicles/otter.py` (MIT licence). Fossen
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
+from pathlib import Path
 
 from sim.backend_bullet import GRAVITY, STEPS_PER_SECOND, Bullet
 from sim.bodies import Floating
@@ -45,6 +47,16 @@ OTTER = HullParameters(
 STATIONS = [(0.1 * number - 1.0, 0.1) for number in range(21)]
 """His sum over the length counts both ends in full."""
 WATER = "[water]\ndepth = 20.0\ndensity = 1025.0\n"
+
+TOLD: dict[str, Callable[[float], tuple[float, float]]] = {
+    "straight": lambda _: (80.0, 80.0),
+    "turn": lambda _: (80.0, 60.0),
+    "zig-zag": lambda time: (90.0, 70.0) if int(time / 10) % 2 == 0 else (70.0, 90.0),
+}
+"""How its propellers are told to turn in each of these [rad/s]."""
+_FILE = json.loads((Path(__file__).parent / "otter_published.json").read_text(encoding="utf-8"))
+PUBLISHED: dict[str, list[list[float]]] = {name: _FILE[name] for name in TOLD}
+"""Where Fossen's own equations take it, second by second: time, ahead, left, yaw, speeds ahead and left, turn rate."""
 
 Row = tuple[float, float, float, float, float, float]
 """Ahead, to the left [m], yaw [rad], speed ahead, to the left [m/s], turn rate [rad/s]."""
