@@ -51,6 +51,8 @@ class _Sheet:
 @lru_cache(maxsize=4)
 def markings(world: World) -> tuple[tuple[int, int], bytes]:
     """Size in pixels and two bytes a pixel, row by row from the south-west corner: signs, and light left by shadows."""
+    if world.water:
+        return (1, 1), bytes((0, 255))  # nothing is painted on it, and no shadow falls
     paint = _signs(world).blurred(0.012)
     shapes = world.visuals
     shadow = _shadows(world, shapes).blurred(0.03).point(lambda v: int(255 - _SHADOW_DEPTH * v))

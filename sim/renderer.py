@@ -21,6 +21,12 @@ from sim.world import World
 __all__ = ["NoRendererError", "Renderer"]
 
 HAZE: Colour = (0.72, 0.78, 0.80)
+DEEP: Colour = (0.09, 0.33, 0.38)
+"""What everything fades to under water."""
+MURK = 0.16
+"""How much of it a metre of water brings."""
+LOOKS = ("asphalt", "water", "floor", "grass", "sand")
+"""As `ground.frag.glsl` numbers them."""
 
 _SHADERS = Path(__file__).parent / "shaders"
 _LAYOUT = "3f 4f 3f 2f 3f 2f/i"
@@ -105,7 +111,8 @@ class Renderer:
         with self._context:
             drawn, resolved = self._target(view.size)
             drawn.use()
-            drawn.clear(*HAZE, 1.0)
+            self._dive(view)
+            drawn.clear(*(DEEP if self._under else HAZE), 1.0)
             self._draw(view, moving)
             if resolved is not drawn:
                 self._context.copy_framebuffer(resolved, drawn)
@@ -161,9 +168,23 @@ class Renderer:
         self._ground["markings"], self._ground["grain"] = 0, 1
         self._ground["extent"] = (world.ground.length, world.ground.width)
         self._paint(world)
-        self._ground["haze"] = self._solid["haze"] = HAZE
+        self._ground["horizon"] = HORIZON
+        self._world, self._under = world, False
         self._solid["sun"] = tuple(part / length for part in SUN)
         self._solid["zenith"], self._solid["horizon"] = ZENITH, HORIZON
+
+    def _dive(self, view: View) -> None:
+        """Set what is seen of the ground: from under water its bottom, in a haze."""
+        world = self._world
+        wet = world.water is not None
+        self._under = wet and not view.flat and view.eye[2] < 0.0
+        look = "sand" if self._under else world.ground.look
+        self._ground["look"] = LOOKS.index(look)
+        # a map shows what lies under water
+        self._ground["level"] = world.bottom if self._under or (wet and view.flat) else 0.0
+        for program in (self._ground, self._solid):
+            program["haze"] = DEEP if self._under else HAZE
+            program["murk"] = MURK if self._under else 0.0
 
     def _paint(self, world: World) -> None:
         """Hand the painted lines over; a world without any gets one far away."""
@@ -197,7 +218,7 @@ class Renderer:
         context.enable_only(moderngl.DEPTH_TEST)
         self._ground["centre"], self._ground["reach"] = view.eye[:2], 390.0
         self._ground_array.render()
-        if not view.flat:
+        if not (view.flat or self._under):
             # The dome lies at the very end of the depth range.
             context.depth_func = "<="
             self._sky_array.render()

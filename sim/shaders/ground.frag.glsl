@@ -1,10 +1,14 @@
 #version 330
-// Asphalt with painted lines and baked shadows where the lot is, grass round it. ROWS and LINES are set per world.
+// The ground with painted lines and baked shadows where the world is, grass round it; or water. ROWS and LINES are set per world.
 uniform sampler2D markings;   // red: painted signs; green: light that is left by shadows
 uniform sampler2D grain;
 uniform vec2 extent;          // of the lot, centred on the origin [m]
 uniform vec3 eye;
 uniform vec3 haze;
+uniform float murk;           // how much of the haze a metre of water brings; 0 in air
+uniform float level;          // height of this plane [m]
+uniform int look;             // 0 asphalt, 1 water, 2 floor, 3 grass, 4 sand
+uniform vec3 horizon;
 uniform vec4 rows[ROWS];      // rows of bays: x and y of the south-west corner, breadth of a bay, depth [m]
 uniform float bays[ROWS];     // bays in the row
 uniform vec4 lines[LINES];    // from x, y to x, y [m]
@@ -42,18 +46,39 @@ float lines_here() {
     return most;
 }
 
+// What the ground is made of, without paint.
+vec3 bare(float rough) {
+    if (look == 2) {
+        vec2 tile = abs(fract(place * 1.6667) - 0.5);
+        float joint = smoothstep(0.485, 0.5, max(tile.x, tile.y));
+        return mix(vec3(0.70, 0.69, 0.66) * (0.96 + 0.06 * rough), vec3(0.52, 0.51, 0.49), joint);
+    }
+    if (look == 3) return mix(vec3(0.30, 0.40, 0.19), vec3(0.44, 0.53, 0.28), rough);
+    if (look == 4) return vec3(0.63, 0.60, 0.47) * (0.82 + 0.34 * rough);
+    return vec3(0.415, 0.425, 0.44) * (0.87 + 0.26 * rough);
+}
+
+// The surface from above: deep where one looks down, the sky's edge where one looks along it.
+vec3 water(vec3 back) {
+    float ripple = texture(grain, place * 0.23).r * 0.6 + texture(grain, place.yx * 0.071).r * 0.4;
+    float along = pow(1.0 - clamp(back.z + (ripple - 0.5) * 0.16, 0.0, 1.0), 3.0);
+    return mix(vec3(0.07, 0.24, 0.29) * (0.85 + 0.35 * ripple), horizon, along * 0.75);
+}
+
 void main() {
-    float away = distance(vec3(place, 0.0), eye);
+    vec3 way = eye - vec3(place, level);
+    float away = length(way);
     float rough = texture(grain, place * 0.43).r;
     vec2 outside = abs(place) - extent * 0.5;
-    if (max(outside.x, outside.y) < 0.0) {
+    if (look == 1 && max(outside.x, outside.y) < 0.0) {
+        colour = water(way / away);
+    } else if (max(outside.x, outside.y) < 0.0 || look == 4) {
         vec2 mark = texture(markings, place / extent + 0.5, -1.5).rg;
-        vec3 asphalt = vec3(0.415, 0.425, 0.44) * (0.87 + 0.26 * rough);
         float paint = max(mark.r, lines_here());
-        colour = mix(asphalt, vec3(0.92, 0.93, 0.92), paint * (0.78 + 0.20 * rough)) * mark.g;
+        colour = mix(bare(rough), vec3(0.92, 0.93, 0.92), paint * (0.78 + 0.20 * rough)) * mark.g;
     } else {
         colour = mix(vec3(0.26, 0.37, 0.18), vec3(0.42, 0.53, 0.28), rough);
     }
     float far = max(away - 12.0, 0.0) * 0.006;
-    colour = mix(colour, haze, far / (1.0 + far));
+    colour = mix(colour, haze, murk > 0.0 ? 1.0 - exp(-away * murk) : far / (1.0 + far));
 }

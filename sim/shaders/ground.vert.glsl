@@ -3,10 +3,11 @@
 uniform mat4 view_projection;
 uniform vec2 centre;
 uniform float reach;
+uniform float level;           // its height [m]
 in vec2 corner;
 out vec2 place;
 
 void main() {
     place = centre + corner * reach;
-    gl_Position = view_projection * vec4(place, 0.0, 1.0);
+    gl_Position = view_projection * vec4(place, level, 1.0);
 }

@@ -5,6 +5,7 @@ uniform vec3 sun;
 uniform vec3 zenith;
 uniform vec3 horizon;
 uniform vec3 haze;
+uniform float murk;           // how much of the haze a metre of water brings; 0 in air
 in vec3 place;
 in vec3 facing;
 flat in vec3 paint;
@@ -28,5 +29,6 @@ void main() {
         colour = mix(colour, sky, surface.x * (0.10 + 0.55 * grazing));
         colour += surface.x * pow(max(dot(mirrored, sun), 0.0), 48.0) * 0.8;
     }
-    colour = mix(colour, haze, 1.0 - exp(-max(away - 12.0, 0.0) * 0.005));
+    float through = murk > 0.0 ? away * murk : max(away - 12.0, 0.0) * 0.005;
+    colour = mix(colour, haze, 1.0 - exp(-through));
 }

@@ -37,7 +37,7 @@ def looks(parameters: SwimmerParameters, position: Vec3, rotation: Quat) -> tupl
             Shape(
                 "box",
                 (fins.length, fins.tip * 0.6, 0.012),
-                (x - fins.length / 3, side * fins.aside, 0.0),
+                (x - fins.length / 3, side * (body.width / 2 + 0.04), 0.0),
                 colour=_FIN,
             )
             for x in fins.places
