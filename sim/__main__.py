@@ -6,6 +6,7 @@ import argparse
 import os
 import sys
 import time
+from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NoReturn
@@ -63,12 +64,27 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+_NAMES = {
+    "car": "cars",
+    "cone": "cones",
+    "lamp": "lamp posts",
+    "tree": "trees",
+    "fruit_tree": "fruit trees",
+    "table": "tables",
+    "person": "people",
+    "buoy": "buoys",
+    "coral": "corals",
+    "diver": "divers",
+    "block": "blocks and walls",
+}
+
+
 def summary(world: World) -> str:
     """What stands in the world, in one sentence."""
-    ground = world.ground
-    kinds = {"cars": world.cars, "cones": world.cones, "lamp posts": world.lamps, "trees": world.trees}
-    things = ", ".join(f"{len(entries)} {name}" for name, entries in kinds.items() if entries)
-    return f"{world.name}: {ground.length:g} x {ground.width:g} m; {things or 'empty'}."
+    ground, counts = world.ground, Counter(prop.kind for prop in world.props)
+    things = ", ".join(f"{counts[kind]} {name}" for kind, name in _NAMES.items() if counts[kind])
+    water = f"{world.water.depth:g} m of water; " if world.water else ""
+    return f"{world.name}: {ground.length:g} x {ground.width:g} m; {water}{things or 'empty'}."
 
 
 def picture(world: World, model: Model, path: Path) -> str:

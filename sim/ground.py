@@ -55,7 +55,8 @@ def markings(world: World) -> tuple[tuple[int, int], bytes]:
         return (1, 1), bytes((0, 255))  # nothing is painted on it, and no shadow falls
     paint = _signs(world).blurred(0.012)
     shapes = world.visuals
-    shadow = _shadows(world, shapes).blurred(0.03).point(lambda v: int(255 - _SHADOW_DEPTH * v))
+    sunny = () if world.ground.look == "floor" else shapes
+    shadow = _shadows(world, sunny).blurred(0.03).point(lambda v: int(255 - _SHADOW_DEPTH * v))
     contact = _contacts(world, shapes).blurred(0.16).point(lambda v: int(255 - _CONTACT_DEPTH * v))
     light = ImageChops.multiply(shadow, contact)
     return paint.size, Image.merge("LA", (paint, light)).tobytes()

@@ -11,7 +11,9 @@ from typing import Annotated, Literal
 
 import msgspec
 
+from bridge.msgs.additions import PLACE_KINDS
 from sim.props import CAR_MODELS, Prop, block, car, cone, lamp, tree, wall
+from sim.props_people import fruit_tree, person, table
 from sim.props_water import buoy, coral, diver
 from sim.shapes import Shape
 
@@ -25,6 +27,10 @@ WORLDS: tuple[str, ...] = tuple(sorted(path.stem for path in _FOLDER.glob("*.tom
 Positive = Annotated[float, msgspec.Meta(gt=0)]
 Finite = Annotated[float, msgspec.Meta(ge=-1000, le=1000)]
 Part = Annotated[float, msgspec.Meta(ge=0, le=1)]
+
+
+_LOOSE = ("cone", "person", "diver")
+"""Kinds that are not always where they are."""
 
 
 class WorldError(ValueError):
@@ -179,6 +185,47 @@ class Coral(Tall, frozen=True):
     height: Positive = 0.7
 
 
+class Person(Tinted, frozen=True):
+    """Somebody who looks towards `yaw`, in a shirt of the colour: not on the robot's map."""
+
+    colour: tuple[Part, Part, Part] = (0.24, 0.42, 0.66)
+
+
+class Table(Spot, frozen=True):
+    """A table."""
+
+    length: Positive = 1.4
+    """[m]"""
+    width: Positive = 0.7
+    """[m]"""
+    height: Positive = 0.74
+    """[m]"""
+
+
+class FruitTree(Tall, frozen=True):
+    """An orange tree, its fruit towards `yaw`."""
+
+    height: Positive = 1.8
+    fruits: Annotated[int, msgspec.Meta(ge=0, le=200)] = 12
+
+
+class Partition(Line, frozen=True, rename={"start": "from", "end": "to"}):
+    """A wall from one point to another."""
+
+    width: Positive = 0.15
+    height: Positive = 2.4
+    """[m]"""
+    colour: tuple[Part, Part, Part] = (0.86, 0.85, 0.81)
+
+
+class Place(Spot, frozen=True, kw_only=True):
+    """A place that has a name."""
+
+    name: str
+    kind: str = "place"
+    """As in `bridge.msgs.additions.PLACE_KINDS`."""
+
+
 class Wave(_Entry, frozen=True):
     """A train of regular waves in deep water."""
 
@@ -236,6 +283,12 @@ class World(_Entry, frozen=True, dict=True):
     cones: tuple[Cone, ...] = ()
     trees: tuple[Tree, ...] = ()
     blocks: tuple[Block, ...] = ()
+    partitions: tuple[Partition, ...] = ()
+    tables: tuple[Table, ...] = ()
+    people: tuple[Person, ...] = ()
+    fruit_trees: tuple[FruitTree, ...] = ()
+    places: tuple[Place, ...] = ()
+    """Names that people give to places in it."""
     buoys: tuple[Tinted, ...] = ()
     divers: tuple[Diver, ...] = ()
     corals: tuple[Coral, ...] = ()
@@ -262,6 +315,16 @@ class World(_Entry, frozen=True, dict=True):
                 )
                 for entry in self.blocks
             ),
+            *(_partition(entry) for entry in self.partitions),
+            *(
+                table(entry.length, entry.width, entry.height).at(entry.x, entry.y, entry.angle)
+                for entry in self.tables
+            ),
+            *(
+                fruit_tree(entry.height, entry.fruits).at(entry.x, entry.y, entry.angle)
+                for entry in self.fruit_trees
+            ),
+            *(person(entry.colour).at(entry.x, entry.y, entry.angle) for entry in self.people),
             *(buoy(entry.colour).at(entry.x, entry.y, entry.angle) for entry in self.buoys),
             *(coral(entry.height).at(entry.x, entry.y, entry.angle, self.bottom) for entry in self.corals),
             *(diver().at(entry.x, entry.y, entry.angle, entry.z) for entry in self.divers),
@@ -275,8 +338,8 @@ class World(_Entry, frozen=True, dict=True):
 
     @property
     def mapped(self) -> tuple[Shape, ...]:
-        """The solids that the robot's map knows: all but the cones'."""
-        return tuple(shape for prop in self.props if prop.kind != "cone" for shape in prop.solids)
+        """The solids that the robot's map knows: all but those of cones, people and divers."""
+        return tuple(shape for prop in self.props if prop.kind not in _LOOSE for shape in prop.solids)
 
     @property
     def visuals(self) -> tuple[Shape, ...]:
@@ -342,6 +405,10 @@ def _sentence(fault: str) -> str:
 
 def _check(world: World, source: str) -> None:
     """Raise WorldError for what types alone cannot say."""
+    for number, place in enumerate(world.places):
+        if place.kind not in PLACE_KINDS:
+            allowed = ", ".join(PLACE_KINDS)
+            raise WorldError(f"{source}: places[{number}].kind: {place.kind!r} is not one of {allowed}.")
     for number, entry in enumerate(world.cars):
         if entry.model not in CAR_MODELS:
             allowed = ", ".join(CAR_MODELS)
@@ -356,6 +423,10 @@ def _check(world: World, source: str) -> None:
         "buoys": world.buoys,
         "divers": world.divers,
         "corals": world.corals,
+        "tables": world.tables,
+        "people": world.people,
+        "fruit_trees": world.fruit_trees,
+        "places": world.places,
     }
     for key, spots in inside.items():
         for number, spot in enumerate(spots):
@@ -365,3 +436,11 @@ def _check(world: World, source: str) -> None:
                     f"{source}: {name}: ({spot.x:g}, {spot.y:g}) is off the ground, "
                     f"which ends at x = ±{half_length:g} and y = ±{half_width:g}."
                 )
+
+
+def _partition(entry: Partition) -> Prop:
+    """The wall from one point to the other, its ends rounded off by half its thickness."""
+    (x0, y0), (x1, y1) = entry.start, entry.end
+    length = math.dist(entry.start, entry.end) + entry.width
+    wall_ = block(length, entry.width, entry.height, entry.colour)
+    return wall_.at((x0 + x1) / 2, (y0 + y1) / 2, math.atan2(y1 - y0, x1 - x0))

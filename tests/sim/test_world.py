@@ -3,8 +3,11 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
+import numpy as np
 import pytest
+from scipy import ndimage
 
+from sim.occupancy import occupancy
 from sim.world import WORLDS, WorldError, load, parse
 from tests.sim.rooms import ROOM, room
 
@@ -89,3 +92,79 @@ def test_a_world_without_wall_is_open():
 
 def test_angles_in_the_file_are_degrees():
     assert room(yaw=90).start.angle == pytest.approx(math.pi / 2)
+
+
+def reached(world, radius):
+    """Which of its places a robot of `radius` [m] can come to from the start, by the map."""
+    told = occupancy(world, 0.0)
+    info = told.info
+    cells = np.frombuffer(told.data.tobytes(), dtype=np.int8).reshape(info.height, info.width)
+    free = ndimage.distance_transform_edt(cells == 0) * info.resolution > radius
+    areas, _ = ndimage.label(free)
+
+    def area(spot):
+        column = int((spot.x - info.origin.position.x) / info.resolution)
+        return areas[int((spot.y - info.origin.position.y) / info.resolution), column]
+
+    return [place.name for place in world.places if area(place) == area(world.start) != 0]
+
+
+@pytest.mark.parametrize("name", ["office", "orchard"])
+def test_every_place_that_has_a_name_can_be_come_to(name):
+    world = load(name)
+    assert world.places
+    assert reached(world, 0.25) == [place.name for place in world.places]
+
+
+def test_the_office_has_rooms_a_lab_a_hall_a_reception_and_a_dock_and_people():
+    world = load("office")
+    kinds = [place.kind for place in world.places]
+    assert kinds.count("office") == 8
+    assert {"lab", "hall", "reception", "dock"} <= set(kinds)
+    assert len(world.people) >= 3
+    assert not any(
+        prop.kind == "person" and shape in world.mapped for prop in world.props for shape in prop.solids
+    )
+
+
+def test_some_oranges_hang_where_an_arm_reaches_them():
+    world = load("orchard")
+    oranges = [
+        shape
+        for prop in world.props
+        if prop.kind == "fruit_tree"
+        for shape in prop.solids
+        if shape.kind == "sphere"
+    ]
+    near = [shape for shape in oranges if math.dist(shape.position[:2], (3.0, 0.0)) < 1.0]
+    assert len(near) == 18
+    assert sum(shape.position[2] < 0.75 for shape in near) >= 4
+    assert all(shape.position[0] < 3.1 for shape in near)
+
+
+def test_the_tank_stands_in_water_up_to_its_edge_and_things_lie_in_it():
+    world = load("tank")
+    assert world.bottom == -5.0
+    kinds = {prop.kind: prop for prop in world.props}
+    assert {"diver", "coral", "wall", "block"} <= set(kinds)
+    lowest = min(shape.position[2] - shape.size[2] / 2 for shape in kinds["wall"].solids)
+    assert lowest == pytest.approx(-5.0)
+    assert kinds["coral"].position[2] == -5.0
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("[water]\ndepth = -2.0\n", r"water\.depth: expected `float` > 0"),
+        ("[water]\ndepth = 2.0\n[[water.waves]]\nheight = 0.1\n", r"water\.waves\[0\]\.period: is missing"),
+        ("[wind]\nspeed = nan\n", r"wind\.speed: expected"),
+        ("[[buoys]]\nx = 99.0\ny = 0.0\n", r"buoys\[0\]: \(99, 0\) is off the ground"),
+        (
+            '[[places]]\nname = "a"\nkind = "castle"\nx = 0.0\ny = 0.0\n',
+            r"places\[0\]\.kind: 'castle' is not one of place",
+        ),
+    ],
+)
+def test_a_fault_in_the_new_parts_is_named_with_key_and_reason(text, reason):
+    with pytest.raises(WorldError, match=reason):
+        parse(TEXT + text, "own.toml")
