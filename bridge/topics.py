@@ -76,6 +76,8 @@ TOPICS: tuple[Topic, ...] = (
         "the camera for clients without a binary socket",
         on_demand=True,
     ),
+    Topic("/arm", pilothouse_msgs.ArmState, 20, "handheld", "joints, tip and gripper of a mounted arm"),
+    Topic("/lights", pilothouse_msgs.LightState, 1, "handheld", "how bright its lights are"),
     *(
         Topic(
             f"/camera/{name}/image/compressed",

@@ -72,7 +72,7 @@ def _options(argv: Sequence[str] | None) -> argparse.Namespace:
     )
     add("--port", type=int, default=9090, help="of the rosbridge socket; 0 takes a free one")
     add("--http-port", type=int, default=8080, help="of the web site; 0 takes a free one")
-    add("--payloads", default="", help="what to serve besides; none exist yet")
+    add("--payloads", default="", help="what a simulated robot carries besides: arm,laser,…")
     add("--protocols", default="", help="rosbridge and http, which are always up")
     add("--seed", type=int, default=0, help="of the simulation's and the patrol's random numbers")
     add("--speed", type=float, default=1.0, help="simulated seconds per second; commands expire in real time")
@@ -98,8 +98,8 @@ def _check(options: argparse.Namespace) -> None:
             raise UserMistake(f"A port is 0 to 65535, not {number}.")
     if not (math.isfinite(options.speed) and 0 < options.speed <= 100):
         raise UserMistake(f"The speed must be above 0 and at most 100, not {options.speed}.")
-    if options.payloads:
-        raise UserMistake(f"There is no payload {options.payloads!r}; this robot has none to choose.")
+    if options.payloads and options.robot.startswith("ros:"):
+        raise UserMistake("--payloads is for simulated robots; a real one has what it has.")
     unknown = set(filter(None, options.protocols.split(","))) - {"rosbridge", "http"}
     if unknown:
         raise UserMistake(f"There is no protocol {', '.join(sorted(unknown))}; there are rosbridge and http.")
@@ -187,7 +187,8 @@ def _robot(options: argparse.Namespace) -> Robot:
     except ImportError as missing:
         raise UserMistake(f"The simulation is not installed ({missing.name} is missing).") from missing
     try:
-        return make(model, options.world, seed=options.seed)
+        carried = [name for name in options.payloads.split(",") if name]
+        return make(model, options.world, seed=options.seed, payloads=carried)
     except ValueError as problem:
         raise UserMistake(str(problem)) from problem
 

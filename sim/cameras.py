@@ -21,7 +21,7 @@ class Cameras:
     def __init__(self, simulation: Simulation, number: int) -> None:
         """Of the vehicle of this number."""
         self._simulation, self._number = simulation, number
-        every = simulation.vehicles[number].parameters.cameras
+        every = simulation.vehicles[number].cameras
         names = [CAMERA_TOPIC, *(f"/camera/{camera.name}/image/compressed" for camera in every[1:])]
         self._parameters = dict(zip(names, every, strict=False))
         self._made: dict[str, Camera] = {}

@@ -19,6 +19,7 @@ from sim.cameras import CAMERA_TOPIC, Cameras
 from sim.mishaps import Mishaps
 from sim.occupancy import occupancy
 from sim.orders import check, cut
+from sim.payloads import PAYLOADS, mount
 from sim.run import Run
 from sim.simulation import Simulation
 from sim.vehicles.aqua import AQUA
@@ -30,7 +31,7 @@ from sim.vehicles.patrol import PATROL
 from sim.vehicles.scout import SCOUT
 from sim.world import WORLDS, Start, World, load
 
-__all__ = ["CAMERA_TOPIC", "ROBOTS", "WORLDS", "SimRobot", "make", "make_several", "model_of"]
+__all__ = ["CAMERA_TOPIC", "PAYLOADS", "ROBOTS", "WORLDS", "SimRobot", "make", "make_several", "model_of"]
 
 ROBOTS: dict[str, Model] = {
     "patrol": PATROL,
@@ -60,8 +61,13 @@ class SimRobot:
     trouble = ""
     """It is always at hand."""
 
-    def __init__(self, simulation: Simulation | Run, *, camera: bool, number: int = 0) -> None:
-        """A robot of `simulation`, which it owns from now on, alone or with the others of the run."""
+    def __init__(
+        self, simulation: Simulation | Run, *, camera: bool, number: int = 0, payloads: Sequence[str] = ()
+    ) -> None:
+        """A robot of `simulation`, which it owns from now on, alone or with the others of the run.
+
+        `payloads` are mounted on it; ValueError with one sentence when one cannot be.
+        """
         self._run = simulation if isinstance(simulation, Run) else Run(simulation)
         self.simulation = self._run.simulation
         """The truth, for tests and benches."""
@@ -71,7 +77,10 @@ class SimRobot:
         self._met = False
         self._unread: deque[tuple[str, Msg]] = deque(maxlen=UNREAD)
         self._excess = ""
+        self.payloads = mount(self._vehicle, payloads) if payloads else {}
+        """What is mounted on it, by name."""
         self.info = info_of(self._vehicle, self.simulation.world, camera=camera)
+        self.info = msgspec.structs.replace(self.info, payloads=list(payloads))
         """Who it is."""
         self._mishaps = Mishaps(self._vehicle.parameters.info, self.simulation.world)
         self._cameras = Cameras(self.simulation, number) if camera else None
@@ -97,6 +106,12 @@ class SimRobot:
     def stop(self) -> None:
         """Brake to rest as hard as the drive does; what flies stays in the air."""
         self._vehicle.stop()
+
+    def command(self, payload: str, order: Msg) -> None:
+        """Tell a mounted payload what to do; ValueError with one sentence when it is not there or cannot."""
+        if payload not in self.payloads:
+            raise ValueError(f"{self.info.name} has no {payload.replace('_', ' ')}.")
+        self.payloads[payload].command(order)
 
     def reset(self) -> None:
         """Put it back to where it started, at rest, with fresh odometry: for one that turned over, sank or went astray."""
@@ -160,10 +175,10 @@ def info_of(vehicle: Vehicle, world: World, *, camera: bool) -> RobotInfo:
         max_speed=parameters.limits.speed,
         max_yaw_rate=parameters.limits.yaw_rate,
         radius=parameters.radius,
-        cameras=[each.name for each in parameters.cameras] if camera else [],
+        cameras=[each.name for each in vehicle.cameras] if camera else [],
         latitude=world.datum.latitude,
         longitude=world.datum.longitude,
-        camera_fov=parameters.cameras[0].field_of_view if parameters.cameras else math.nan,
+        camera_fov=vehicle.cameras[0].field_of_view if vehicle.cameras else math.nan,
         manoeuvres=list(vehicle.MANOEUVRES),
     )
 
@@ -176,15 +191,27 @@ def model_of(robot: str) -> Model:
 
 
 def make(
-    robot: str, world: str, *, seed: int = 0, gui: bool = False, camera: bool = True, noise: bool = True
+    robot: str,
+    world: str,
+    *,
+    seed: int = 0,
+    gui: bool = False,
+    camera: bool = True,
+    noise: bool = True,
+    payloads: Sequence[str] = (),
 ) -> SimRobot:
     """A simulated `robot` in `world`, either one of the names in `ROBOTS` and `WORLDS` or the path of a world's file.
 
-    `seed` decides every random error; `noise` False turns them off. `gui` opens the engine's window.
+    `seed` decides every random error; `noise` False turns them off. `gui` opens the engine's window. `payloads` are
+    names of `PAYLOADS` that are mounted on it.
     Raises ValueError with one sentence for an unknown name or a faulty file.
     """
-    model = model_of(robot)
-    return SimRobot(Simulation(load(world), model, seed=seed, noise=noise, gui=gui), camera=camera)
+    simulation = Simulation(load(world), model_of(robot), seed=seed, noise=noise, gui=gui)
+    try:
+        return SimRobot(simulation, camera=camera, payloads=payloads)
+    except ValueError:
+        simulation.close()
+        raise
 
 
 def make_several(

@@ -73,14 +73,17 @@ class Simulation:
         return state.position[0], state.position[1], yaw_of(state.rotation)
 
     def looks(self, *, but: int) -> tuple[Shape, ...]:
-        """What is seen of all robots `but` one."""
-        return tuple(
-            shape
-            for number, (vehicle, looks) in enumerate(zip(self.vehicles, self._looks, strict=True))
-            if number != but
-            for state in (vehicle.state(),)
-            for shape in looks(vehicle.parameters, state.position, state.rotation)
-        )
+        """What is seen of all robots and their payloads `but` of one, of which only the payloads are seen."""
+        shapes: list[Shape] = []
+        for number, (vehicle, looks) in enumerate(zip(self.vehicles, self._looks, strict=True)):
+            if number == but and not vehicle.attached:
+                continue
+            state = vehicle.state()
+            if number != but:
+                shapes += looks(vehicle.parameters, state.position, state.rotation)
+            for attached in vehicle.attached:
+                shapes += (shape.at(state.position, state.rotation) for shape in attached())
+        return tuple(shapes)
 
     def advance(self) -> None:
         """One physics step."""

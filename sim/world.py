@@ -226,6 +226,18 @@ class Place(Spot, frozen=True, kw_only=True):
     """As in `bridge.msgs.additions.PLACE_KINDS`."""
 
 
+class Tag(_Entry, frozen=True):
+    """A tag that a reader near it reads."""
+
+    tag: str
+    x: Finite
+    """[m]"""
+    y: Finite
+    """[m]"""
+    z: Finite = 0.5
+    """[m]"""
+
+
 class Wave(_Entry, frozen=True):
     """A train of regular waves in deep water."""
 
@@ -287,6 +299,7 @@ class World(_Entry, frozen=True, dict=True):
     tables: tuple[Table, ...] = ()
     people: tuple[Person, ...] = ()
     fruit_trees: tuple[FruitTree, ...] = ()
+    tags: tuple[Tag, ...] = ()
     places: tuple[Place, ...] = ()
     """Names that people give to places in it."""
     buoys: tuple[Tinted, ...] = ()

@@ -77,6 +77,11 @@ DEFAULTS = {
         ("max_speed", "max_yaw_rate", "min_depth", "max_depth", "max_height", "max_slope"), "math.nan"
     ),
     "pilothouse_msgs/Manoeuvre": dict.fromkeys(("speed", "throttle", "yaw", "height"), "math.nan"),
+    "pilothouse_msgs/ArmOrder": {
+        "point": "Point(math.nan, math.nan, math.nan)",
+        "pitch": "math.nan",
+        "gripper": "math.nan",
+    },
     "pilothouse_msgs/Compass": {"heading": "math.nan"},
     "pilothouse_msgs/FlightState": {"height": "math.nan"},
     "pilothouse_msgs/AckermannState": {"turning_radius": "math.inf"},

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Annotated
 
 import msgspec
@@ -57,6 +58,8 @@ class Battery:
         """0 empty to 1 full; may be set."""
         self.power = parameters.idle
         """That it gives [W]."""
+        self.others: Callable[[], float] = lambda: 0.0
+        """What takes power besides computer and motors [W]; may be set."""
 
     @property
     def empty(self) -> bool:
@@ -66,7 +69,7 @@ class Battery:
     def feed(self, motors: float, period: float) -> None:
         """Feed computer and `motors` [W] for `period` [s]."""
         parameters = self._parameters
-        self.power = parameters.idle + motors
+        self.power = parameters.idle + motors + self.others()
         energy = parameters.capacity * 3600 * parameters.voltage
         self.charge = max(0.0, self.charge - self.power * period / energy)
 

@@ -72,6 +72,11 @@ class BoatParameters(Parameters, frozen=True, kw_only=True):
         return math.hypot(self.hull.length, self.hull.beam) / 2
 
     @property
+    def deck(self) -> tuple[float, float, float]:
+        """Where payloads are mounted, in `base_link` [m]."""
+        return (0.0, 0.0, self.hull.depth - self.hull.draft)
+
+    @property
     def cameras(self) -> tuple[CameraParameters, ...]:
         """It has one."""
         return (self.camera,)

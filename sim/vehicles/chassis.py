@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import ClassVar, Generic, Protocol, TypeVar
 
 import msgspec
@@ -12,7 +12,9 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.msgs.std_msgs import Header, Time
 from sim.backend_bullet import State
 from sim.scene import Scene
+from sim.sensors.battery import Battery
 from sim.sensors.bumper import BumperRing
+from sim.shapes import Shape
 from sim.vehicles.parameters import Parameters
 from sim.vehicles.suite import Measurement, Suite, as_odometry
 
@@ -42,6 +44,9 @@ class Chassis(Generic[P]):
         self.scene, self.parameters, self.body = scene, parameters, body
         self.bumper = BumperRing()
         self.suite = Suite()
+        self.cameras = list(parameters.cameras)
+        self.attached: list[Callable[[], tuple[Shape, ...]]] = []
+        self.battery: Battery
         self.order = Manoeuvre(kind="rest")
         """What it moves by."""
         self.odometer: Odometer | None = None

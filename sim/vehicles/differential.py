@@ -91,6 +91,11 @@ class DifferentialParameters(Parameters, frozen=True, kw_only=True):
         return self.body.radius
 
     @property
+    def deck(self) -> tuple[float, float, float]:
+        """Where payloads are mounted, in `base_link` [m]."""
+        return (0.0, 0.0, self.body.height)
+
+    @property
     def cameras(self) -> tuple[CameraParameters, ...]:
         """It has one."""
         return (self.camera,)

@@ -11,9 +11,11 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from sim.backend_bullet import State
 from sim.scene import Scene
+from sim.sensors.battery import Battery
 from sim.sensors.bumper import BumperRing
 from sim.shapes import Shape
-from sim.vehicles.parameters import Parameters
+from sim.vehicles.parameters import CameraParameters, Parameters
+from sim.vehicles.suite import Suite
 
 __all__ = ["Model", "Vehicle"]
 
@@ -23,6 +25,16 @@ class Vehicle(Protocol):
 
     MANOEUVRES: ClassVar[tuple[str, ...]]
     """The orders that it knows."""
+    scene: Scene
+    """What it is in."""
+    suite: Suite
+    """Its sensors."""
+    battery: Battery
+    """Feeds it."""
+    cameras: list[CameraParameters]
+    """Its cameras, the first one is the main one."""
+    attached: list[Callable[[], tuple[Shape, ...]]]
+    """What is seen of its payloads, in `base_link`."""
     body: int
     """Its number in the physics."""
     bumper: BumperRing

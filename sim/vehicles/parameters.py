@@ -100,6 +100,11 @@ class Parameters(Table, frozen=True, kw_only=True):
         raise NotImplementedError
 
     @property
+    def deck(self) -> tuple[float, float, float]:
+        """Where payloads are mounted, in `base_link` [m]."""
+        raise NotImplementedError
+
+    @property
     def cameras(self) -> tuple[CameraParameters, ...]:
         """Its cameras, the first one is the main one."""
         return ()

@@ -84,6 +84,11 @@ class QuadrotorParameters(Parameters, frozen=True, kw_only=True):
         return self.body.width / math.sqrt(2)
 
     @property
+    def deck(self) -> tuple[float, float, float]:
+        """Where payloads are mounted, in `base_link` [m]."""
+        return (0.0, 0.0, self.body.height / 2)
+
+    @property
     def cameras(self) -> tuple[CameraParameters, ...]:
         """Ahead and down."""
         return (self.front, self.down)

@@ -36,6 +36,9 @@ class Suite:
         self._sensors: dict[str, tuple[float, Measure]] = {}
         self._schedule: Schedule | None = None
 
+    def __contains__(self, name: str) -> bool:
+        return name in self._sensors
+
     def add(self, name: str, rate: float, measure: Measure) -> None:
         """One more, that measures `rate` times a second; before the first `measure`."""
         if name in self._sensors:

@@ -77,6 +77,11 @@ class SwimmerParameters(Parameters, frozen=True, kw_only=True):
         return math.hypot(self.body.length / 2, self.fins.aside + self.fins.length / 2)
 
     @property
+    def deck(self) -> tuple[float, float, float]:
+        """Where payloads are mounted, in `base_link` [m]."""
+        return (0.0, 0.0, self.body.height / 2)
+
+    @property
     def cameras(self) -> tuple[CameraParameters, ...]:
         """It has one."""
         return (self.camera,)

@@ -260,7 +260,14 @@ def test_a_mistake_in_the_settings_file_is_one_sentence_and_no_robot_is_made(
         ("serve --port 99999", "A port is 0 to 65535, not 99999."),
         ("serve --speed 0", "The speed must be above 0 and at most 100, not 0.0."),
         ("serve --speed nan", "The speed must be above 0 and at most 100, not nan."),
-        ("serve --payloads arm", "There is no payload 'arm'; this robot has none to choose."),
+        (
+            "serve --payloads catapult",
+            "There is no payload 'catapult'; there is laser, sonar, camera, lights, tag_reader, arm.",
+        ),
+        (
+            "serve --robot ros:ws://192.0.2.1:9090 --payloads arm",
+            "--payloads is for simulated robots; a real one has what it has.",
+        ),
         ("serve --protocols mqtt", "There is no protocol mqtt; there are rosbridge and http."),
         (
             "serve --config /nowhere/robot.toml",
@@ -290,8 +297,14 @@ def test_a_mistake_in_the_settings_file_is_one_sentence_and_no_robot_is_made(
             "serve --robot ros:ws://[::1:9",
             "The address must be like ws://192.168.1.7:9090, not 'ws://[::1:9' (Invalid IPv6 URL).",
         ),
-        ("--robot sim:rover", "There is no simulated robot 'rover'; there is patrol."),
-        ("serve --robot sim:rover", "There is no simulated robot 'rover'; there is patrol."),
+        (
+            "--robot sim:rover",
+            "There is no simulated robot 'rover'; there is patrol, scout, commander, minnow, aqua, ardrone.",
+        ),
+        (
+            "serve --robot sim:rover",
+            "There is no simulated robot 'rover'; there is patrol, scout, commander, minnow, aqua, ardrone.",
+        ),
         (
             "serve --port nine",
             "Argument --port: invalid int value: 'nine'; see python -m robotside serve --help.",

@@ -7,6 +7,8 @@ from bridge.msgs.pilothouse_msgs.part1 import (
     AckermannState,
     AcknowledgeEventsRequest,
     AcknowledgeEventsResponse,
+    ArmOrder,
+    ArmState,
     Bumper,
     Check,
     Checklist,
@@ -24,7 +26,6 @@ from bridge.msgs.pilothouse_msgs.part1 import (
     GetEventsRequest,
     GetEventsResponse,
     GetHistoryRequest,
-    TaskOrder,
     Waypoint,
 )
 from bridge.msgs.pilothouse_msgs.part2 import (
@@ -35,6 +36,7 @@ from bridge.msgs.pilothouse_msgs.part2 import (
     GetMissionsResponse,
     Intruder,
     IntruderArray,
+    LightState,
     Limits,
     Manoeuvre,
     Mission,
@@ -43,11 +45,12 @@ from bridge.msgs.pilothouse_msgs.part2 import (
     PlaceArray,
     RecallMissionRequest,
     RecallMissionResponse,
-    RobotInfo,
-    RudderState,
+    TaskOrder,
     TaskRun,
 )
 from bridge.msgs.pilothouse_msgs.part3 import (
+    RobotInfo,
+    RudderState,
     RunTaskFeedback,
     RunTaskGoal,
     RunTaskResult,
@@ -70,14 +73,15 @@ from bridge.msgs.pilothouse_msgs.part3 import (
     StartTaskResponse,
     TagRead,
     TaskProgress,
-    TaskQueue,
-    TaskStatus,
 )
+from bridge.msgs.pilothouse_msgs.part4 import TaskQueue, TaskStatus
 
 __all__ = [
     "AckermannState",
     "AcknowledgeEventsRequest",
     "AcknowledgeEventsResponse",
+    "ArmOrder",
+    "ArmState",
     "Bumper",
     "Check",
     "Checklist",
@@ -103,6 +107,7 @@ __all__ = [
     "Intruder",
     "IntruderArray",
     "LONGEST_DWELL",
+    "LightState",
     "Limits",
     "MANOEUVRES",
     "MOST_LAPS",

@@ -17,6 +17,8 @@ __all__ = [
     "AckermannState",
     "AcknowledgeEventsRequest",
     "AcknowledgeEventsResponse",
+    "ArmOrder",
+    "ArmState",
     "Bumper",
     "Check",
     "Checklist",
@@ -34,7 +36,6 @@ __all__ = [
     "GetEventsRequest",
     "GetEventsResponse",
     "GetHistoryRequest",
-    "TaskOrder",
     "Waypoint",
 ]
 
@@ -119,6 +120,69 @@ class AcknowledgeEventsResponse(CommandResponse, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/AcknowledgeEventsResponse"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+
+
+class ArmOrder(Msg, frozen=True, gc=False):
+    """Where an arm is to go; the first of these that says something counts."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/ArmOrder"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "geometry_msgs/Point", "float64", "float64[]", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"point": "m", "pitch": "rad", "angles": "rad", "gripper": "m"}
+    pose: str = ""
+    """Name of a pose; empty for none."""
+    point: Point = Point(math.nan, math.nan, math.nan)
+    """For the tip, in base_link [m]; x is NaN for none."""
+    pitch: float = math.nan
+    """Of the hand at that point [rad], positive pointing down; NaN any."""
+    angles: Float64Array = field(default_factory=Float64Array)
+    """Of the joints from the foot on [rad]; empty for none."""
+    gripper: float = math.nan
+    """Opening between the fingers [m]; NaN leaves it as it is."""
+
+
+class ArmState(Msg, frozen=True, gc=False):
+    """An arm with four joints and a gripper."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/ArmState"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "std_msgs/Header",
+        "string[]",
+        "float64[]",
+        "float64[]",
+        "float64",
+        "string",
+        "string[]",
+        "geometry_msgs/Point",
+        "float64",
+        "bool",
+    )
+    UNITS: ClassVar[dict[str, str]] = {
+        "angles": "rad",
+        "wanted": "rad",
+        "gripper": "m",
+        "tip": "m",
+        "pitch": "rad",
+    }
+    header: Header = Header()
+    """Frame base_link."""
+    joints: list[str] = []
+    """Names of the joints, from the foot on."""
+    angles: Float64Array = field(default_factory=Float64Array)
+    """Of each [rad]."""
+    wanted: Float64Array = field(default_factory=Float64Array)
+    """Where each is going [rad]."""
+    gripper: float = 0.0
+    """Opening between the fingers [m]."""
+    pose: str = ""
+    """The named pose that it is in; empty for any other."""
+    poses: list[str] = []
+    """The poses that have names."""
+    tip: Point = Point()
+    """Between the fingertips, in base_link [m]."""
+    pitch: float = 0.0
+    """Of the hand [rad], positive pointing down."""
+    touching: bool = False
+    """The hand touches something."""
 
 
 class Bumper(Msg, frozen=True, gc=False):
@@ -376,43 +440,3 @@ class Waypoint(Msg, frozen=True, gc=False):
     """Direction to stand in [rad], 0 east, anticlockwise; NaN when any will do."""
     name: str = ""
     """What people call it; empty when it has no name."""
-
-
-class TaskOrder(Msg, frozen=True, gc=False):
-    """What an operator wants done: a task and all that it needs. Used to start one, to queue it and to
-    schedule it.
-    """
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskOrder"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "int32",
-        "string",
-        "string[]",
-        "pilothouse_msgs/Waypoint[]",
-        "string",
-        "string",
-        "float64",
-        "float64",
-        "float64",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"heading": "rad", "speed": "m/s", "duration": "s"}
-    id: int32 = 0
-    """Given by the robot; 0 for a new one."""
-    task: str = ""
-    """patrol, deliver, guide, go_to, go_home, hold, follow_heading or dock."""
-    places: list[str] = []
-    """Names. Patrol: none takes the stored mission. Deliver: from, to and, if it shall go on to one then,
-    a third. Guide: in this order. Go_to and dock: one.
-    """
-    goals: list[Waypoint] = []
-    """Instead of places, for go_to: points in the map frame."""
-    message: str = ""
-    """What to tell the person who picks it up or is led; empty when there is nothing to tell."""
-    recipient_tag: str = ""
-    """What the robot's reader reads of the addressee's card, in place of the place's own; empty for that."""
-    heading: float = math.nan
-    """Where follow_heading goes [rad], 0 east, anticlockwise; NaN for where it points."""
-    speed: float = math.nan
-    """How fast [m/s]; NaN for the robot's cruising speed."""
-    duration: float = math.nan
-    """How long to hold or to follow the heading [s]; NaN until stopped."""

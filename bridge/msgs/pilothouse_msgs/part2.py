@@ -11,7 +11,7 @@ from bridge.msgs.arrays import Float64Array
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.geometry_msgs import Point, Polygon, Twist
-from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse, TaskOrder, Waypoint
+from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse, Waypoint
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
@@ -22,6 +22,7 @@ __all__ = [
     "GetMissionsResponse",
     "Intruder",
     "IntruderArray",
+    "LightState",
     "Limits",
     "Manoeuvre",
     "Mission",
@@ -30,10 +31,49 @@ __all__ = [
     "PlaceArray",
     "RecallMissionRequest",
     "RecallMissionResponse",
-    "RobotInfo",
-    "RudderState",
+    "TaskOrder",
     "TaskRun",
 ]
+
+
+class TaskOrder(Msg, frozen=True, gc=False):
+    """What an operator wants done: a task and all that it needs. Used to start one, to queue it and to
+    schedule it.
+    """
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskOrder"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "int32",
+        "string",
+        "string[]",
+        "pilothouse_msgs/Waypoint[]",
+        "string",
+        "string",
+        "float64",
+        "float64",
+        "float64",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"heading": "rad", "speed": "m/s", "duration": "s"}
+    id: int32 = 0
+    """Given by the robot; 0 for a new one."""
+    task: str = ""
+    """patrol, deliver, guide, go_to, go_home, hold, follow_heading or dock."""
+    places: list[str] = []
+    """Names. Patrol: none takes the stored mission. Deliver: from, to and, if it shall go on to one then,
+    a third. Guide: in this order. Go_to and dock: one.
+    """
+    goals: list[Waypoint] = []
+    """Instead of places, for go_to: points in the map frame."""
+    message: str = ""
+    """What to tell the person who picks it up or is led; empty when there is nothing to tell."""
+    recipient_tag: str = ""
+    """What the robot's reader reads of the addressee's card, in place of the place's own; empty for that."""
+    heading: float = math.nan
+    """Where follow_heading goes [rad], 0 east, anticlockwise; NaN for where it points."""
+    speed: float = math.nan
+    """How fast [m/s]; NaN for the robot's cruising speed."""
+    duration: float = math.nan
+    """How long to hold or to follow the heading [s]; NaN until stopped."""
 
 
 class TaskRun(Msg, frozen=True, gc=False):
@@ -181,6 +221,17 @@ class IntruderArray(Msg, frozen=True, gc=False):
     """Frame map."""
     intruders: list[Intruder] = []
     """In the order of their ids."""
+
+
+class LightState(Msg, frozen=True, gc=False):
+    """The lights of a robot; to the robot, how they shall be."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/LightState"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64")
+    header: Header = Header()
+    """Frame base_link."""
+    brightness: float = 0.0
+    """0 off to 1 full."""
 
 
 class Limits(Msg, frozen=True, gc=False):
@@ -362,76 +413,3 @@ class RecallMissionResponse(CommandResponse, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/RecallMissionResponse"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
-
-
-class RobotInfo(Msg, frozen=True, gc=False):
-    """Who this robot is and what it can do; latched on /robot/info."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RobotInfo"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "string",
-        "string",
-        "string",
-        "string",
-        "string",
-        "float64",
-        "float64",
-        "float64",
-        "string[]",
-        "float64",
-        "float64",
-        "float64",
-        "string[]",
-    )
-    UNITS: ClassVar[dict[str, str]] = {
-        "max_speed": "m/s",
-        "max_yaw_rate": "rad/s",
-        "radius": "m",
-        "latitude": "deg",
-        "longitude": "deg",
-        "camera_fov": "rad",
-    }
-    name: str = ""
-    """What people call it, as in Patrol-1."""
-    kind: str = ""
-    """wheels, ackermann, boat, hexapod or quadrotor."""
-    model: str = ""
-    """What the --robot option calls it, as in patrol."""
-    description: str = ""
-    """The kind in plain words, as in Differential drive."""
-    world: str = ""
-    """Name of the place or simulated world."""
-    max_speed: float = 0.0
-    """Greatest speed, along any direction [m/s]."""
-    max_yaw_rate: float = 0.0
-    """Greatest turn rate [rad/s], either way."""
-    radius: float = 0.0
-    """Of the circle that the body fits in [m]."""
-    cameras: list[str] = []
-    """Names of the camera streams; each is served at ws://HOST:PORT/camera/NAME."""
-    latitude: float = math.nan
-    """Of the map frame's origin [deg]; NaN when the map has no place on earth."""
-    longitude: float = math.nan
-    """Of the map frame's origin [deg]."""
-    camera_fov: float = math.nan
-    """Horizontal field of view of the first camera [rad]."""
-    manoeuvres: list[str] = []
-    """Which kinds of pilothouse_msgs/Manoeuvre it knows; empty for one that knows twists only."""
-
-
-class RudderState(Msg, frozen=True, gc=False):
-    """The rudder and the propeller of a boat."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RudderState"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64", "float64", "float64", "float64")
-    UNITS: ClassVar[dict[str, str]] = {"angle": "rad", "wanted": "rad", "thrust": "N"}
-    header: Header = Header()
-    """Frame base_link."""
-    angle: float = 0.0
-    """[rad], positive turns the boat to the left."""
-    wanted: float = 0.0
-    """Where the rudder is told to go [rad]."""
-    throttle: float = 0.0
-    """Told to the propeller, a share of its full thrust, -1 to 1."""
-    thrust: float = 0.0
-    """Of the propeller [N], negative astern."""

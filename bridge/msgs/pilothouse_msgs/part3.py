@@ -10,11 +10,13 @@ from msgspec import Meta, field
 from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
-from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse, TaskOrder
-from bridge.msgs.pilothouse_msgs.part2 import Mission, Place
+from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse
+from bridge.msgs.pilothouse_msgs.part2 import Mission, Place, TaskOrder
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "RobotInfo",
+    "RudderState",
     "RunTaskFeedback",
     "RunTaskGoal",
     "RunTaskResult",
@@ -37,11 +39,85 @@ __all__ = [
     "StartTaskResponse",
     "TagRead",
     "TaskProgress",
-    "TaskQueue",
-    "TaskStatus",
 ]
 
 _Boolx7: TypeAlias = Annotated[list[bool], Meta(min_length=7, max_length=7)]
+
+
+class RobotInfo(Msg, frozen=True, gc=False):
+    """Who this robot is and what it can do; latched on /robot/info."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RobotInfo"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "string",
+        "string",
+        "string",
+        "string",
+        "float64",
+        "float64",
+        "float64",
+        "string[]",
+        "float64",
+        "float64",
+        "float64",
+        "string[]",
+        "string[]",
+    )
+    UNITS: ClassVar[dict[str, str]] = {
+        "max_speed": "m/s",
+        "max_yaw_rate": "rad/s",
+        "radius": "m",
+        "latitude": "deg",
+        "longitude": "deg",
+        "camera_fov": "rad",
+    }
+    name: str = ""
+    """What people call it, as in Patrol-1."""
+    kind: str = ""
+    """wheels, ackermann, boat, hexapod or quadrotor."""
+    model: str = ""
+    """What the --robot option calls it, as in patrol."""
+    description: str = ""
+    """The kind in plain words, as in Differential drive."""
+    world: str = ""
+    """Name of the place or simulated world."""
+    max_speed: float = 0.0
+    """Greatest speed, along any direction [m/s]."""
+    max_yaw_rate: float = 0.0
+    """Greatest turn rate [rad/s], either way."""
+    radius: float = 0.0
+    """Of the circle that the body fits in [m]."""
+    cameras: list[str] = []
+    """Names of the camera streams; each is served at ws://HOST:PORT/camera/NAME."""
+    latitude: float = math.nan
+    """Of the map frame's origin [deg]; NaN when the map has no place on earth."""
+    longitude: float = math.nan
+    """Of the map frame's origin [deg]."""
+    camera_fov: float = math.nan
+    """Horizontal field of view of the first camera [rad]."""
+    manoeuvres: list[str] = []
+    """Which kinds of pilothouse_msgs/Manoeuvre it knows; empty for one that knows twists only."""
+    payloads: list[str] = []
+    """Names of the payloads that are mounted."""
+
+
+class RudderState(Msg, frozen=True, gc=False):
+    """The rudder and the propeller of a boat."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RudderState"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64", "float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"angle": "rad", "wanted": "rad", "thrust": "N"}
+    header: Header = Header()
+    """Frame base_link."""
+    angle: float = 0.0
+    """[rad], positive turns the boat to the left."""
+    wanted: float = 0.0
+    """Where the rudder is told to go [rad]."""
+    throttle: float = 0.0
+    """Told to the propeller, a share of its full thrust, -1 to 1."""
+    thrust: float = 0.0
+    """Of the propeller [N], negative astern."""
 
 
 class TaskProgress(Msg, frozen=True, gc=False):
@@ -364,71 +440,3 @@ class TagRead(Msg, frozen=True, gc=False):
     """When it was read, robot's clock."""
     tag: str = ""
     """What was read; empty when the card is gone."""
-
-
-class TaskQueue(Msg, frozen=True, gc=False):
-    """What comes after the task that runs; latched on /task/queue, sent once per change."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskQueue"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "pilothouse_msgs/TaskOrder[]")
-    stamp: Time = Time()
-    """When it changed, operators' clock."""
-    revision: int32 = 0
-    """Counts every change; /task/queue/set names the one that it was made from."""
-    orders: list[TaskOrder] = []
-    """Waiting, the next one first."""
-
-
-class TaskStatus(Msg, frozen=True, gc=False):
-    """What the robot is doing for the operator; latched on /task/status, sent once per change."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskStatus"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "time",
-        "int32",
-        "string",
-        "string",
-        "string",
-        "string",
-        "int32",
-        "int32",
-        "int32",
-        "int32",
-        "int32",
-        "string",
-        "string",
-        "string",
-        "string[]",
-    )
-    stamp: Time = Time()
-    """When it changed."""
-    task_id: int32 = 0
-    """Number of this run; 0 before the first."""
-    task: str = ""
-    """patrol, deliver, guide, go_to, go_home, hold, follow_heading, dock or empty."""
-    state: str = "IDLE"
-    """IDLE, RUNNING, PAUSED, SUCCEEDED, CANCELED, FAILED or INTERRUPTED (a restart cut it; resume or
-    cancel it).
-    """
-    reason: str = ""
-    """One sentence for the operator: what it does and why."""
-    motion: str = ""
-    """loop, random or intermittent; empty without a patrol."""
-    waypoint: int32 = 0
-    """Number of the waypoint it is heading for, from 1; 0 for none."""
-    waypoints: int32 = 0
-    """How many waypoints there are."""
-    lap: int32 = 0
-    """From 1."""
-    laps: int32 = 0
-    """0 until stopped."""
-    visited: int32 = 0
-    """Waypoints reached in this run."""
-    phase: str = ""
-    """driving, waiting, dwelling, holding, turning, docking or circling; empty when it does none of them."""
-    asks: str = ""
-    """A question that /task/confirm answers, as in: Has it been picked up at Office 12? Empty for none."""
-    place: str = ""
-    """Name of the place it heads for or stands at; empty for none."""
-    places: list[str] = []
-    """Names of the places of this task, in their order."""

@@ -63,6 +63,11 @@ class CommanderParameters(Parameters, frozen=True, kw_only=True):
         return self.body.mass + 4 * self.axles.mass
 
     @property
+    def deck(self) -> tuple[float, float, float]:
+        """Where payloads are mounted, in `base_link` [m]."""
+        return (self.body.ahead - self.body.length * 0.33, 0.0, self.body.height)
+
+    @property
     def cameras(self) -> tuple[CameraParameters, ...]:
         """Front and rear."""
         return (self.front, self.rear)

@@ -48,7 +48,7 @@ class Patrol(Chassis[PatrolParameters]):
         )
         super().__init__(scene, parameters, body)
         self._drive = DifferentialDrive(parameters.wheels, parameters.limits, backend, body)
-        self.battery = DriveBattery(parameters.battery, parameters.body.mass)
+        self.battery = self._drive_battery = DriveBattery(parameters.battery, parameters.body.mass)
         self._add_sensors()
 
     def _add_sensors(self) -> None:
@@ -92,7 +92,7 @@ class Patrol(Chassis[PatrolParameters]):
         left, right = self.scene.backend.joints(self.body, 2)
         self._odometry.update(left, right)
         speed = (left.speed + right.speed) / 2 * self.parameters.wheels.radius
-        self.battery.work(speed, 1 / self.parameters.odometry.rate)
+        self._drive_battery.work(speed, 1 / self.parameters.odometry.rate)
         yield "/odom", self._odometry.odometry(stamp)
         yield "/joint_states", self._odometry.joint_state(stamp)
 

@@ -1,0 +1,79 @@
+"""pilothouse_msgs: made by `python -m bridge.generate`; change the ROS text, not this file."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from bridge.msgs.base import Msg, int32
+from bridge.msgs.builtin_interfaces import Time
+from bridge.msgs.pilothouse_msgs.part2 import TaskOrder
+
+__all__ = ["TaskQueue", "TaskStatus"]
+
+
+class TaskQueue(Msg, frozen=True, gc=False):
+    """What comes after the task that runs; latched on /task/queue, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskQueue"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "pilothouse_msgs/TaskOrder[]")
+    stamp: Time = Time()
+    """When it changed, operators' clock."""
+    revision: int32 = 0
+    """Counts every change; /task/queue/set names the one that it was made from."""
+    orders: list[TaskOrder] = []
+    """Waiting, the next one first."""
+
+
+class TaskStatus(Msg, frozen=True, gc=False):
+    """What the robot is doing for the operator; latched on /task/status, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskStatus"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "time",
+        "int32",
+        "string",
+        "string",
+        "string",
+        "string",
+        "int32",
+        "int32",
+        "int32",
+        "int32",
+        "int32",
+        "string",
+        "string",
+        "string",
+        "string[]",
+    )
+    stamp: Time = Time()
+    """When it changed."""
+    task_id: int32 = 0
+    """Number of this run; 0 before the first."""
+    task: str = ""
+    """patrol, deliver, guide, go_to, go_home, hold, follow_heading, dock or empty."""
+    state: str = "IDLE"
+    """IDLE, RUNNING, PAUSED, SUCCEEDED, CANCELED, FAILED or INTERRUPTED (a restart cut it; resume or
+    cancel it).
+    """
+    reason: str = ""
+    """One sentence for the operator: what it does and why."""
+    motion: str = ""
+    """loop, random or intermittent; empty without a patrol."""
+    waypoint: int32 = 0
+    """Number of the waypoint it is heading for, from 1; 0 for none."""
+    waypoints: int32 = 0
+    """How many waypoints there are."""
+    lap: int32 = 0
+    """From 1."""
+    laps: int32 = 0
+    """0 until stopped."""
+    visited: int32 = 0
+    """Waypoints reached in this run."""
+    phase: str = ""
+    """driving, waiting, dwelling, holding, turning, docking or circling; empty when it does none of them."""
+    asks: str = ""
+    """A question that /task/confirm answers, as in: Has it been picked up at Office 12? Empty for none."""
+    place: str = ""
+    """Name of the place it heads for or stands at; empty for none."""
+    places: list[str] = []
+    """Names of the places of this task, in their order."""

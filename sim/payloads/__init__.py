@@ -1,0 +1,77 @@
+"""What can be mounted on a vehicle besides what it has: a laser, sonars, a camera, lights, a tag reader, an arm.
+
+mount(vehicle, ["arm", "lights"])
+
+A payload that is not mounted is not made: it costs nothing and says nothing.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable
+from pathlib import Path
+
+import msgspec
+
+from sim.payloads.arm import ArmParameters, MountedArm
+from sim.payloads.mounted import CameraMount, LaserMount, LightsMount, Mounted, SonarMount, TagReaderMount
+from sim.payloads.simple import MountedCamera, MountedLaser, MountedLights, MountedSonar, MountedTagReader
+from sim.vehicles.model import Vehicle
+from sim.vehicles.parameters import Table
+
+__all__ = ["PAYLOADS", "Figures", "load", "mount"]
+
+
+class Figures(Table, frozen=True, kw_only=True):
+    """The whole file."""
+
+    laser: LaserMount
+    sonar: SonarMount
+    camera: CameraMount
+    lights: LightsMount
+    tag_reader: TagReaderMount
+    arm: ArmParameters
+
+
+PAYLOADS: tuple[str, ...] = Figures.__struct_fields__
+"""The payloads there are, by name."""
+
+
+def load(path: Path = Path(__file__).parent / "payloads.toml") -> Figures:
+    """The figures in a file; ValueError names the file, the key and what is wrong."""
+    try:
+        return msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), Figures)
+    except (tomllib.TOMLDecodeError, msgspec.ValidationError) as fault:
+        raise ValueError(f"{path.name}: {fault}.") from fault
+
+
+def mount(vehicle: Vehicle, names: Iterable[str], figures: Figures | None = None) -> dict[str, Mounted]:
+    """Put these payloads on `vehicle`, before it first measures; ValueError with one sentence when one cannot be."""
+    figures = figures or load()
+    mounted: dict[str, Mounted] = {}
+    for name in names:
+        if name not in PAYLOADS:
+            raise ValueError(f"There is no payload {name!r}; there is {', '.join(PAYLOADS)}.")
+        if name in mounted or name in vehicle.suite:
+            article = "an" if name[0] in "aeiou" else "a"
+            raise ValueError(f"{vehicle.parameters.info.name} has {article} {name.replace('_', ' ')} already.")
+        mounted[name] = _make(name, vehicle, figures)
+    vehicle.battery.others = lambda: sum(payload.power for payload in mounted.values())
+    vehicle.attached.extend(payload.shapes for payload in mounted.values())
+    return mounted
+
+
+def _make(name: str, vehicle: Vehicle, figures: Figures) -> Mounted:
+    match name:
+        case "laser":
+            return MountedLaser(vehicle, figures.laser)
+        case "sonar":
+            return MountedSonar(vehicle, figures.sonar)
+        case "camera":
+            return MountedCamera(vehicle, figures.camera)
+        case "lights":
+            return MountedLights(vehicle, figures.lights)
+        case "tag_reader":
+            return MountedTagReader(vehicle, figures.tag_reader)
+        case _:
+            return MountedArm(vehicle, figures.arm)

@@ -1,0 +1,192 @@
+"""An arm with four joints and a gripper that goes to named poses, to angles, or with its tip to a point."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+
+from bridge.msgs import Msg
+from bridge.msgs.arrays import Float64Array
+from bridge.msgs.geometry_msgs import Point
+from bridge.msgs.pilothouse_msgs import ArmOrder, ArmState
+from bridge.msgs.std_msgs import Header, Time
+from sim.backend_bullet import State
+from sim.payloads.kinematics import Angles, Arm
+from sim.payloads.mounted import Mount
+from sim.payloads.simple import on_deck
+from sim.shapes import Shape, Vec3, compose, from_yaw
+from sim.vehicles.control import given, towards
+from sim.vehicles.model import Vehicle
+from sim.vehicles.parameters import Positive
+from sim.vehicles.suite import Measurement
+
+__all__ = ["JOINTS", "ArmParameters", "MountedArm"]
+
+JOINTS = ["joint1", "joint2", "joint3", "joint4"]
+RATE = 20.0
+"""Of its motion and of what it tells [Hz]."""
+FINGER = 0.03
+"""Radius of what the hand touches, round its tip [m]."""
+NEAR = 1e-3
+"""Angles nearer than this are the same [rad]."""
+_STEEL, _BLACK = (0.30, 0.32, 0.35), (0.09, 0.09, 0.10)
+
+Pair = tuple[float, float]
+
+
+class ArmParameters(Mount, frozen=True, kw_only=True):
+    """The arm."""
+
+    foot: Pair
+    upper: Pair
+    fore: Positive
+    hand: Positive
+    limits: tuple[Pair, Pair, Pair, Pair]
+    speed: Positive
+    """Of a joint [rad/s]."""
+    gripper: Pair
+    """Opening shut and wide [m]."""
+    gripper_speed: Positive
+    """[m/s]"""
+    poses: dict[str, Angles]
+    """Angles by name; the first is the one that it starts in."""
+
+
+class MountedArm:
+    """An arm on a vehicle; what it carries does not weigh, and its links bump into nothing."""
+
+    accepts: type[Msg] | None = ArmOrder
+
+    def __init__(self, vehicle: Vehicle, figures: ArmParameters) -> None:
+        """On the deck of `vehicle`, in its first pose, gripper wide open; ValueError for a pose beyond its limits."""
+        self._figures = figures
+        self.arm = Arm(figures.foot, figures.upper, figures.fore, figures.hand, figures.limits)
+        for name, angles in figures.poses.items():
+            if not self.arm.allowed(angles):
+                raise ValueError(f"The arm's pose {name!r} is beyond the limits of its joints.")
+        self._at = on_deck(vehicle, figures.at)
+        self.angles: Angles = next(iter(figures.poses.values()))
+        """Of the joints from the foot on [rad]."""
+        self._wanted = self.angles
+        self._gripper = self._opening = figures.gripper[1]
+        self._backend, self._body = vehicle.scene.backend, vehicle.body
+        vehicle.suite.add("arm", RATE, self._move)
+
+    @property
+    def power(self) -> float:
+        """What it takes now [W]: a third for holding still."""
+        return self._figures.power * (1.0 if self._moves else 1 / 3)
+
+    @property
+    def tip(self) -> Vec3:
+        """Between the fingertips, in `base_link` [m]."""
+        return self._placed(self.arm.forward(self.angles).tip)
+
+    def command(self, order: Msg) -> None:
+        """Go to a pose, a point or angles; ValueError with one sentence when that cannot be."""
+        if not isinstance(order, ArmOrder):
+            raise TypeError("The arm takes an ArmOrder.")
+        low, high = self._figures.gripper
+        opening = given(order.gripper, self._opening)
+        if not low <= opening <= high:
+            raise ValueError(f"The gripper opens from {low:g} to {high:g} m, not {opening:g} m.")
+        self._wanted = self._goal(order)
+        self._opening = opening
+
+    def shapes(self) -> tuple[Shape, ...]:
+        """What is seen of it."""
+        joints = [self._placed(point) for point in self.arm.points(self.angles)]
+        x, y, z = self._at
+        foot = Shape(
+            "cylinder",
+            (0.07, 0.07, self._figures.foot[1]),
+            (x, y, z + self._figures.foot[1] / 2),
+            colour=_BLACK,
+        )
+        links = [_link(one, other) for one, other in itertools.pairwise(joints)]
+        knobs = [Shape("sphere", (0.045,) * 3, joint, colour=_BLACK) for joint in joints[:3]]
+        return (foot, *links, *knobs)
+
+    @property
+    def _moves(self) -> bool:
+        return self.angles != self._wanted or self._gripper != self._opening
+
+    def _goal(self, order: ArmOrder) -> Angles:
+        """The angles that an order means."""
+        if order.pose:
+            if order.pose not in self._figures.poses:
+                known = ", ".join(self._figures.poses)
+                raise ValueError(f"The arm knows no pose {order.pose!r}; it knows {known}.")
+            return self._figures.poses[order.pose]
+        if not math.isnan(order.point.x):
+            x, y, z = order.point.x, order.point.y, order.point.z
+            own = (x - self._at[0], y - self._at[1], z - self._at[2])
+            found = self.arm.inverse(own, order.pitch) if all(map(math.isfinite, own)) else None
+            if found is None:
+                raise ValueError(f"The arm does not reach ({x:.2f}, {y:.2f}, {z:.2f}).")
+            return found
+        if len(order.angles) == 0:
+            return self._wanted
+        angles = tuple(order.angles)
+        if len(angles) != len(JOINTS) or not self.arm.allowed((angles[0], *angles[1:4])):
+            said = ", ".join(f"{low:g} to {high:g}" for low, high in self._figures.limits)
+            raise ValueError(f"The arm's four joints go from {said} rad.")
+        return (angles[0], angles[1], angles[2], angles[3])
+
+    def _placed(self, point: Vec3) -> Vec3:
+        return (self._at[0] + point[0], self._at[1] + point[1], self._at[2] + point[2])
+
+    def _move(self, _: State, stamp: float) -> Iterator[Measurement]:
+        """One period later; all joints arrive together."""
+        most = max(abs(goal - now) for goal, now in zip(self._wanted, self.angles, strict=True))
+        share = min(1.0, self._figures.speed / RATE / most) if most else 1.0
+        a, b, c, d = (now + share * (goal - now) for goal, now in zip(self._wanted, self.angles, strict=True))
+        self.angles = self._wanted if share == 1.0 else (a, b, c, d)
+        self._gripper = towards(self._gripper, self._opening, self._figures.gripper_speed / RATE)
+        yield "/arm", self._state(stamp)
+
+    def _state(self, stamp: float) -> ArmState:
+        tip, pitch = self.tip, self.arm.forward(self.angles).pitch
+        poses = self._figures.poses
+        here = (
+            name
+            for name, angles in poses.items()
+            if all(abs(a - b) < NEAR for a, b in zip(angles, self.angles, strict=True))
+        )
+        return ArmState(
+            Header(Time.at(stamp), "base_link"),
+            JOINTS,
+            Float64Array(self.angles),
+            Float64Array(self._wanted),
+            self._gripper,
+            next(here, ""),
+            list(poses),
+            Point(*tip),
+            pitch,
+            self._touches(tip),
+        )
+
+    def _touches(self, tip: Vec3) -> bool:
+        """Whether something is within a finger's breadth of the tip, by rays along three axes."""
+        ends = []
+        for axis in range(3):
+            near, far = list(tip), list(tip)
+            near[axis], far[axis] = near[axis] - FINGER, far[axis] + FINGER
+            ends += [
+                ((near[0], near[1], near[2]), (far[0], far[1], far[2])),
+                ((far[0], far[1], far[2]), (near[0], near[1], near[2])),
+            ]
+        start = self._backend.ray_points(self._body, [one for one, _ in ends])
+        end = self._backend.ray_points(self._body, [other for _, other in ends])
+        return bool((self._backend.rays(self._body, start, end) < 1.0).any())
+
+
+def _link(one: Vec3, other: Vec3) -> Shape:
+    """A bar from one joint to the next."""
+    along = tuple(b - a for a, b in zip(one, other, strict=True))
+    length = math.hypot(*along) or 1e-9
+    yaw, pitch = math.atan2(along[1], along[0]), -math.asin(along[2] / length)
+    rotation = compose(from_yaw(yaw), (0.0, math.sin(pitch / 2), 0.0, math.cos(pitch / 2)))
+    middle = tuple((a + b) / 2 for a, b in zip(one, other, strict=True))
+    return Shape("box", (length, 0.035, 0.03), (middle[0], middle[1], middle[2]), rotation, _STEEL, gloss=0.3)

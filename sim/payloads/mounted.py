@@ -1,0 +1,84 @@
+"""What a payload is to the vehicle that carries it, and the figures of the simple ones."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from bridge.msgs import Msg
+from sim.shapes import Shape
+from sim.vehicles.parameters import Positive, Table
+
+__all__ = ["CameraMount", "LaserMount", "LightsMount", "Mount", "Mounted", "SonarMount", "TagReaderMount"]
+
+
+class Mounted(Protocol):
+    """A payload on its vehicle; it has put its sensors into the vehicle's suite."""
+
+    accepts: type[Msg] | None
+    """What it may be told; None for one that takes no orders."""
+
+    @property
+    def power(self) -> float:
+        """What it takes now [W]."""
+
+    def command(self, order: Msg) -> None:
+        """Do it; ValueError with one sentence when it cannot, which changes nothing."""
+
+    def shapes(self) -> tuple[Shape, ...]:
+        """What is seen of it, in `base_link`."""
+
+
+class Mount(Table, frozen=True, kw_only=True):
+    """What all payloads have."""
+
+    at: tuple[float, float, float]
+    """On its vehicle's deck [m]."""
+    power: Positive
+    """[W]"""
+
+
+class LaserMount(Mount, frozen=True, kw_only=True):
+    """A laser that measures all round."""
+
+    rate: Positive
+    beams: int
+    range_min: Positive
+    range_max: Positive
+    noise: float
+
+
+class SonarMount(Mount, frozen=True, kw_only=True):
+    """A ring of sonars, as wide as its vehicle."""
+
+    rate: Positive
+    count: int
+    beams: int
+    range_min: Positive
+    range_max: Positive
+    field_of_view: Positive
+    noise: float
+    step: Positive
+
+
+class CameraMount(Mount, frozen=True, kw_only=True):
+    """A camera more."""
+
+    name: str
+    rate: Positive
+    width: int
+    height: int
+    field_of_view: Positive
+    yaw: float = 0.0
+    pitch: float = 0.0
+
+
+class LightsMount(Mount, frozen=True, kw_only=True):
+    """A pair of lamps that look ahead."""
+
+
+class TagReaderMount(Mount, frozen=True, kw_only=True):
+    """A reader of tags that are held before it or that it comes near."""
+
+    rate: Positive
+    reach: Positive
+    """[m]"""
