@@ -54,7 +54,9 @@ def mount(vehicle: Vehicle, names: Iterable[str], figures: Figures | None = None
             raise ValueError(f"There is no payload {name!r}; there is {', '.join(PAYLOADS)}.")
         if name in mounted or name in vehicle.suite:
             article = "an" if name[0] in "aeiou" else "a"
-            raise ValueError(f"{vehicle.parameters.info.name} has {article} {name.replace('_', ' ')} already.")
+            raise ValueError(
+                f"{vehicle.parameters.info.name} has {article} {name.replace('_', ' ')} already."
+            )
         mounted[name] = _make(name, vehicle, figures)
     vehicle.battery.others = lambda: sum(payload.power for payload in mounted.values())
     vehicle.attached.extend(payload.shapes for payload in mounted.values())
