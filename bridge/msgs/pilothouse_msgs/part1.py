@@ -33,7 +33,6 @@ __all__ = [
     "GetHistoryRequest",
     "GetHistoryResponse",
     "GetMissionRequest",
-    "Mission",
     "TaskOrder",
     "TaskRun",
     "Waypoint",
@@ -142,6 +141,7 @@ class ControlStatus(Msg, frozen=True, gc=False):
         "float64",
         "bool",
         "time",
+        "bool",
     )
     stamp: Time = Time()
     """When it changed."""
@@ -169,6 +169,8 @@ class ControlStatus(Msg, frozen=True, gc=False):
     """The speed falls with the driver's link; /settings/set switches it."""
     stop_tested: Time = Time()
     """When STOP was last pressed and brought it to rest, operators' clock; 0 when never since it started."""
+    lost_link_stops_task: bool = False
+    """A task is paused when the link to the driver is lost; /settings/set switches it."""
 
 
 class DeletePlaceRequest(CommandRequest, frozen=True, gc=False):
@@ -259,20 +261,28 @@ class GetEventsRequest(Msg, frozen=True, gc=False):
     """Ask for the events after since."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetEventsRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string", "int32[]", "int32")
     since: int32 = 0
     """Number of the last event that is known."""
     boot: str = ""
-    """The boot that since belongs to; another one gives all events that are kept."""
+    """The boot that since belongs to; of another one all are given, for an empty one the newest 500."""
+    open: Int32Array = field(default_factory=Int32Array)
+    """Earlier events that nobody has seen to, as far as is known; those that somebody has are given too."""
+    most: int32 = 0
+    """At most so many later events in one answer, the first of them; 0 for all, or the newest 500 of
+    another boot.
+    """
 
 
 class GetEventsResponse(Msg, frozen=True, gc=False):
     """What `GetEvents` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetEventsResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("pilothouse_msgs/Event[]",)
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("pilothouse_msgs/Event[]", "bool")
     events: list[Event] = []
     """Oldest first."""
+    more: bool = False
+    """There are later ones: ask again, since the last of these."""
 
 
 class GetHistoryRequest(CommandRequest, frozen=True, gc=False):
@@ -401,39 +411,3 @@ class GetMissionRequest(Msg, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ()
-
-
-class Mission(Msg, frozen=True, gc=False):
-    """Where to patrol and how."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Mission"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "time",
-        "pilothouse_msgs/Waypoint[]",
-        "pilothouse_msgs/Waypoint[]",
-        "string",
-        "float64",
-        "int32",
-        "bool",
-        "string",
-        "string",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"dwell": "s"}
-    stamp: Time = Time()
-    """When the robot stored it; 0 when it never was."""
-    waypoints: list[Waypoint] = []
-    """Where to go, in the map frame."""
-    home: list[Waypoint] = []
-    """The place to return to: one waypoint, or none when it is not set."""
-    motion: str = "loop"
-    """loop, random or intermittent."""
-    dwell: float = 5.0
-    """How long to stand at each point in intermittent motion [s]."""
-    laps: int32 = 0
-    """Rounds to make; 0 goes on until stopped."""
-    stop_on_intruder: bool = False
-    """Pause when an intruder is found, whatever `on_intruder` says."""
-    name: str = ""
-    """What it is kept as; empty for a mission without a name."""
-    on_intruder: str = ""
-    """stop, report or circle when an intruder is found; empty reports it."""

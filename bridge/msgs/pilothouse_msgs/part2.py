@@ -10,7 +10,7 @@ from msgspec import Meta, field
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.geometry_msgs import Point, Polygon
-from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse, Mission, TaskOrder
+from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse, TaskOrder, Waypoint
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
@@ -19,7 +19,9 @@ __all__ = [
     "GetMissionsResponse",
     "Intruder",
     "IntruderArray",
+    "KeptMission",
     "Limits",
+    "Mission",
     "Place",
     "PlaceArray",
     "RecallMissionRequest",
@@ -31,16 +33,47 @@ __all__ = [
     "Schedule",
     "ScheduledTask",
     "SetMissionRequest",
-    "SetMissionResponse",
-    "SetModeRequest",
-    "SetModeResponse",
-    "SetOptionRequest",
-    "SetOptionResponse",
     "StartTaskRequest",
     "TaskProgress",
 ]
 
 _Boolx7: TypeAlias = Annotated[list[bool], Meta(min_length=7, max_length=7)]
+
+
+class Mission(Msg, frozen=True, gc=False):
+    """Where to patrol and how."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Mission"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "time",
+        "pilothouse_msgs/Waypoint[]",
+        "pilothouse_msgs/Waypoint[]",
+        "string",
+        "float64",
+        "int32",
+        "bool",
+        "string",
+        "string",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"dwell": "s"}
+    stamp: Time = Time()
+    """When the robot stored it; 0 when it never was."""
+    waypoints: list[Waypoint] = []
+    """Where to go, in the map frame."""
+    home: list[Waypoint] = []
+    """The place to return to: one waypoint, or none when it is not set."""
+    motion: str = "loop"
+    """loop, random or intermittent."""
+    dwell: float = 5.0
+    """How long to stand at each point in intermittent motion [s]."""
+    laps: int32 = 0
+    """Rounds to make; 0 goes on until stopped."""
+    stop_on_intruder: bool = False
+    """Pause when an intruder is found, whatever `on_intruder` says."""
+    name: str = ""
+    """What it is kept as; empty for a mission without a name."""
+    on_intruder: str = ""
+    """stop, report or circle when an intruder is found; empty reports it."""
 
 
 class GetMissionResponse(Msg, frozen=True, gc=False):
@@ -57,20 +90,39 @@ class GetMissionResponse(Msg, frozen=True, gc=False):
 
 
 class GetMissionsRequest(CommandRequest, frozen=True, gc=False):
-    """Ask for the names of the missions that are kept."""
+    """Ask for the missions that are kept."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionsRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string")
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
 
 
+class KeptMission(Msg, frozen=True, gc=False):
+    """A mission that is kept under a name."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/KeptMission"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "time", "int32", "string", "int32")
+    name: str = ""
+    """What it is kept as."""
+    stamp: Time = Time()
+    """When its newest revision was stored, operators' clock."""
+    points: int32 = 0
+    """Waypoints of it."""
+    motion: str = ""
+    """loop, random or intermittent."""
+    revisions: int32 = 0
+    """How many of its revisions are kept, 20 at most."""
+
+
 class GetMissionsResponse(CommandResponse, frozen=True, gc=False):
     """What `GetMissions` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionsResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string[]")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string[]", "pilothouse_msgs/KeptMission[]")
     names: list[str] = []
     """In the order of the alphabet."""
+    missions: list[KeptMission] = []
+    """The same with what is known of each."""
 
 
 class Intruder(Msg, frozen=True, gc=False):
@@ -395,54 +447,3 @@ class SetMissionRequest(CommandRequest, frozen=True, gc=False):
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     mission: Mission = field(default_factory=Mission)
     """Replaces what was stored."""
-
-
-class SetMissionResponse(CommandResponse, frozen=True, gc=False):
-    """What `SetMission` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetMissionResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
-
-
-class SetModeRequest(CommandRequest, frozen=True, gc=False):
-    """Give the robot to a person or to its task."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetModeRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
-    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
-    mode: str = ""
-    """MANUAL pauses the task, AUTO goes on with it."""
-
-
-class SetModeResponse(CommandResponse, frozen=True, gc=False):
-    """What `SetMode` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetModeResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
-
-
-class SetOptionRequest(CommandRequest, frozen=True, gc=False):
-    """Change one of the robot's settings; it is kept over restarts."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "string",
-        "float64",
-        "float64",
-        "string",
-        "string",
-        "string",
-        "string",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
-    name: str = ""
-    """follow_link or lost_link_stops_task."""
-    value: str = ""
-    """on or off."""
-
-
-class SetOptionResponse(CommandResponse, frozen=True, gc=False):
-    """What `SetOption` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")

@@ -13,6 +13,11 @@ from bridge.msgs.pilothouse_msgs.part2 import Place, ScheduledTask
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "SetMissionResponse",
+    "SetModeRequest",
+    "SetModeResponse",
+    "SetOptionRequest",
+    "SetOptionResponse",
     "SetPlaceRequest",
     "SetPlaceResponse",
     "SetQueueRequest",
@@ -24,6 +29,57 @@ __all__ = [
     "TaskQueue",
     "TaskStatus",
 ]
+
+
+class SetMissionResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetMission` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetMissionResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+
+
+class SetModeRequest(CommandRequest, frozen=True, gc=False):
+    """Give the robot to a person or to its task."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetModeRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    mode: str = ""
+    """MANUAL pauses the task, AUTO goes on with it."""
+
+
+class SetModeResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetMode` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetModeResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+
+
+class SetOptionRequest(CommandRequest, frozen=True, gc=False):
+    """Change one of the robot's settings; it is kept over restarts."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "string",
+        "string",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    name: str = ""
+    """follow_link or lost_link_stops_task."""
+    value: str = ""
+    """on or off."""
+
+
+class SetOptionResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetOption` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
 
 
 class SetPlaceRequest(CommandRequest, frozen=True, gc=False):
