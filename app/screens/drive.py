@@ -7,6 +7,7 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import NumericProperty, ObjectProperty
+from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
@@ -86,6 +87,10 @@ class DriveScreen(FloatLayout):
         self._place("video", self.video)
         self._build_instruments(layout)
         self._build_controls()
+        self.low = BoxLayout(orientation="vertical", spacing="8dp", size_hint=(None, None))
+        """For cards that hold on until they are dealt with, each with a height of its own; they grow upwards."""
+        self.low.bind(minimum_height=self.low.setter("height"))
+        self.add_widget(self.low)
         self.dashboard.bind(self.video, "/detections", fresh=False, empty=Detection2DArray())
         self._limited = False
         self._tall = False
@@ -175,7 +180,8 @@ class DriveScreen(FloatLayout):
         roomy = form == "wide" or places["readouts"].width >= 330 * dp
         self.readouts.cols = 1 if form == "short" else 4 if roomy and tall else 2
         self._trim(roomy)
-        self.notice = places["notice"]
+        self.notice, low = places["notice"], places["notice_low"]
+        self.low.pos, self.low.width, self.low.height = (low.x, low.y), low.width, self.low.minimum_height
         self.video.insets = [self.notice.x - 8 * dp - body.x, 0, 0, body.top - places["top"].y]
         return places["stop"]
 
