@@ -226,10 +226,10 @@ def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
         readouts = Rect(right.x - gap - readouts_size[0], right.y, *readouts_size)
         tape = Rect(left.right + gap, tape.y, readouts.x - gap - left.right - gap, 52 * dp)
     places |= {"top": tape, "top_right": right, "readouts": readouts}
-    return places | (_senses_wide(places, gap, dp) if wide else _senses_short(places, gap, dp))
+    return places | (_senses_wide(places, dp) if wide else _senses_short(places, dp))
 
 
-def _senses_wide(places: dict[str, Rect], gap: float, dp: float) -> dict[str, Rect]:
+def _senses_wide(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
     """A card under the laser, or a strip where there is no height for one."""
     laser, stick, tape, slider = places["top_left"], places["stick"], places["top"], places["slider"]
     free = laser.y - stick.top - 24 * dp
@@ -246,7 +246,7 @@ def _senses_wide(places: dict[str, Rect], gap: float, dp: float) -> dict[str, Re
     }
 
 
-def _senses_short(places: dict[str, Rect], gap: float, dp: float) -> dict[str, Rect]:
+def _senses_short(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
     """A strip between slider and buttons, or above them where that is too narrow; the badge above STOP."""
     tape, slider, stop, right = places["top"], places["slider"], places["stop"], places["top_right"]
     low = places["readouts"].x
