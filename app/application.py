@@ -17,16 +17,18 @@ from kivy.core.window import Window
 from kivy.uix.floatlayout import FloatLayout
 
 from app import simulator as simulators
-from app.camera import PICTURE, Camera, Picture
+from app.camera import PICTURE, Camera
 from app.commands import Commands
 from app.device import device_name, is_android, own_folder
 from app.discovery import Robots
 from app.feeds import Feeds, Mailbox, Post
 from app.garbage import Collector
+from app.inputs import Inputs
 from app.layout import Layout, load
 from app.link import Link
 from app.mission import MissionEditor
 from app.nearby import HELLO, LATENCY, Nearby
+from app.pictures import Pictures
 from app.records import Records
 from app.screens.connect import THEMES, ConnectScreen
 from app.screens.dialogs import AddressDialog
@@ -50,14 +52,8 @@ BEAT = 0.03
 """Between two heartbeats of the user interface [s]; without one for 0.15 s the robot rests."""
 LIST = 0.5
 """Between two looks at the list of robots [s]."""
-PICTURE_LIVES = 1.0
-"""A camera that shows nothing new for longer is stale [s]."""
 SWITCH = 0.001
 """How long one thread may keep the others waiting for Python [s]: drawing must not delay the network."""
-RESTING = ("size", "on_hide", "on_minimize")
-"""What happens to the window and brings every control to rest."""
-BACK = 27
-"""Key code of Android's Back and of Escape."""
 
 
 class Root(FloatLayout):
@@ -105,11 +101,8 @@ class PilothouseApp(App):
         self.shell: Any = None
         """The frame round the robot's screens; None on the connect screen."""
         self.simulator: simulators.Simulator | None = None
-        self._pictures: list[float] = []
-        """When the pictures of the last second came [s]."""
-        self._picture_at = math.nan
+        self._pictures = Pictures(now)
         self._drained, self._looks = -math.inf, 0
-        self._camera_wanted: str | None = None
 
     # what tests and the demo look at
 
@@ -184,7 +177,8 @@ class PilothouseApp(App):
         ]
         if self._poll:  # Kivy hands a touch on two frames after it came; this saves one of them
             self._events.append(Clock.schedule_interval(lambda _: Window.mainloop(), 0))
-        Window.bind(on_keyboard=self._key, focus=self._focus, **dict.fromkeys(RESTING, self._rest))
+        self.inputs = Inputs(self._rest, self._back)
+        self.inputs.open()
         Window.allow_screensaver = False
         self._list()
         if self._url:
@@ -192,7 +186,7 @@ class PilothouseApp(App):
 
     def on_stop(self) -> None:
         """Leave the robot at rest, end every thread and the simulator."""
-        Window.unbind(on_keyboard=self._key, focus=self._focus, **dict.fromkeys(RESTING, self._rest))
+        self.inputs.close()
         for event in self._events:
             event.cancel()
         self.leave()
@@ -219,21 +213,15 @@ class PilothouseApp(App):
         self.collector.resume()
         if self.session is not None:
             self.session.resume(self._new_link(self.session.link.url))
-            self._camera_wanted = None
+            self._pictures.ask_again()
 
-    def _focus(self, _: object, focus: bool) -> None:
-        if not focus:
-            self._rest()
-
-    def _rest(self, *_: object) -> None:
+    def _rest(self) -> None:
         """Every control lets go."""
         if self.shell is not None:
             self.shell.rest()
 
-    def _key(self, _window: object, key: int, *_: object) -> bool:
+    def _back(self) -> bool:
         """Back closes a question, then leaves the robot; on the connect screen it is left to the system."""
-        if key != BACK:
-            return False
         dialogs = [child for child in self.root.children if isinstance(child, AddressDialog)]
         if dialogs:
             dialogs[0].close()
@@ -266,7 +254,7 @@ class PilothouseApp(App):
         elif channel.startswith(LATENCY):
             self.robots.measured(*post.value)
         elif channel == PICTURE:
-            self._show_picture(post.value, post.received)
+            self._pictures.show(post.value, post.received, self.shell, self.session)
         elif channel.startswith("simulator"):
             self._simulator_said(*post.value)
         elif self.session is not None:
@@ -277,29 +265,6 @@ class PilothouseApp(App):
                     self.session.link.url, post.value.name, post.value.kind, post.value.description
                 )
                 self._save_robots()
-
-    def _show_picture(self, picture: Picture, received: float) -> None:
-        self._picture_at = received
-        if self.shell is None or not self.shell.screen:
-            return
-        self._pictures = [at for at in self._pictures if received - at < 1.0] + [received]
-        rate = float(len(self._pictures)) if len(self._pictures) > 1 else math.nan
-        latency = (
-            self.session.link.robot_time() - picture.stamp if self.session and picture.stamp else math.nan
-        )
-        self.shell.screens[self.shell.screen].show_picture(
-            picture, rate, latency if latency > 0 else math.nan
-        )
-
-    def _judge_picture(self) -> None:
-        """A picture is believed for a second; after that it says how old it is."""
-        video = self.shell.screens[self.shell.screen].video
-        if video is None:
-            return
-        age = self._now() - self._picture_at
-        video.state = "never" if math.isnan(age) else "live" if age < PICTURE_LIVES else "stale"
-        if video.state == "stale" and not abs(age - video.age) < 0.5:
-            video.age = age
 
     def _on_frame(self, frame: Frame, received: float) -> None:
         """In the network thread: keep the frame for a snapshot and have it decoded."""
@@ -318,8 +283,8 @@ class PilothouseApp(App):
             self._say(problem, "warn")
         if self.shell is not None:
             self.shell.tick()
-            self._judge_picture()
-            self._watch_camera()
+            self._pictures.judge(self.shell)
+            self._pictures.watch(self.session)
             self._tick_recording()
 
     def _tick_connecting(self) -> None:
@@ -337,16 +302,6 @@ class PilothouseApp(App):
         if state.phase.name == "CLOSED" and state.attempt:
             self.leave()
             self.connect.say(state.sentence, "danger")
-
-    def _watch_camera(self) -> None:
-        """Ask for the picture that the robot offers, once it has said what there is."""
-        session = self.session
-        if not session.connected:
-            return
-        wanted = session.camera(self._camera_wanted)
-        if wanted != self._camera_wanted:
-            self._camera_wanted = wanted
-            session.link.watch(wanted)
 
     # the list of robots
 
@@ -463,7 +418,8 @@ class PilothouseApp(App):
             self.shell = None
         self.session.link.close()
         self.session = None
-        self._camera_wanted, self.records.frame, self._picture_at = None, None, math.nan
+        self.records.frame = None
+        self._pictures.forget()
         self.connect.say("")
         self.stop_recording()
         self.root.show_page(self.connect)
