@@ -76,6 +76,7 @@ DEFAULTS = {
         ("max_speed", "max_yaw_rate", "min_depth", "max_depth", "max_height", "max_slope"), "math.nan"
     ),
     "pilothouse_msgs/Following": {"distance": "math.nan"},
+    "pilothouse_msgs/LineSensor": {"spacing": "math.nan"},
     "pilothouse_msgs/RunTaskGoal": {"stamp": "math.nan"},
     "pilothouse_msgs/RunTaskFeedback": dict.fromkeys(
         ("progress", "distance_to_next", "time_left"), "math.nan"

@@ -35,6 +35,7 @@ from bridge.msgs.pilothouse_msgs.part2 import (
     IntruderArray,
     KeptMission,
     Limits,
+    LineSensor,
     Mission,
     Place,
     PlaceArray,
@@ -46,11 +47,11 @@ from bridge.msgs.pilothouse_msgs.part2 import (
     RunTaskResult,
     Schedule,
     ScheduledTask,
-    SetMissionRequest,
     StartTaskRequest,
     TaskProgress,
 )
 from bridge.msgs.pilothouse_msgs.part3 import (
+    SetMissionRequest,
     SetMissionResponse,
     SetModeRequest,
     SetModeResponse,
@@ -96,6 +97,7 @@ __all__ = [
     "KeptMission",
     "LONGEST_DWELL",
     "Limits",
+    "LineSensor",
     "MOST_LAPS",
     "MOTIONS",
     "Mission",

@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, TypeAlias
 
 from msgspec import Meta, field
 
+from bridge.msgs.arrays import Float32Array
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.geometry_msgs import Point, Polygon
@@ -21,6 +22,7 @@ __all__ = [
     "IntruderArray",
     "KeptMission",
     "Limits",
+    "LineSensor",
     "Mission",
     "Place",
     "PlaceArray",
@@ -32,7 +34,6 @@ __all__ = [
     "RunTaskResult",
     "Schedule",
     "ScheduledTask",
-    "SetMissionRequest",
     "StartTaskRequest",
     "TaskProgress",
 ]
@@ -194,6 +195,20 @@ class Limits(Msg, frozen=True, gc=False):
     """Areas in map [m], of which it stays in at least one; none for everywhere."""
     keep_out: list[Polygon] = []
     """Areas in map [m] that it never enters, holes of the others included."""
+
+
+class LineSensor(Msg, frozen=True, gc=False):
+    """A row of cells that look down at the ground and measure how bright it is."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/LineSensor"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float32[]", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"spacing": "m"}
+    header: Header = Header()
+    """Its frame; the cells lie along the frame's y axis."""
+    values: Float32Array = field(default_factory=Float32Array)
+    """From the leftmost cell to the rightmost one, 0 dark to 1 bright; NaN for a cell that tells nothing."""
+    spacing: float = math.nan
+    """Between the middles of two neighbouring cells [m]; NaN when not known."""
 
 
 class Place(Msg, frozen=True, gc=False):
@@ -430,20 +445,3 @@ class Schedule(Msg, frozen=True, gc=False):
     """When it changed, operators' clock."""
     tasks: list[ScheduledTask] = []
     """In the order of their ids."""
-
-
-class SetMissionRequest(CommandRequest, frozen=True, gc=False):
-    """Store a mission on the robot."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetMissionRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "string",
-        "float64",
-        "float64",
-        "string",
-        "string",
-        "pilothouse_msgs/Mission",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
-    mission: Mission = field(default_factory=Mission)
-    """Replaces what was stored."""

@@ -9,10 +9,11 @@ from msgspec import field
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse, TaskOrder
-from bridge.msgs.pilothouse_msgs.part2 import Place, ScheduledTask
+from bridge.msgs.pilothouse_msgs.part2 import Mission, Place, ScheduledTask
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "SetMissionRequest",
     "SetMissionResponse",
     "SetModeRequest",
     "SetModeResponse",
@@ -29,6 +30,23 @@ __all__ = [
     "TaskQueue",
     "TaskStatus",
 ]
+
+
+class SetMissionRequest(CommandRequest, frozen=True, gc=False):
+    """Store a mission on the robot."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetMissionRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "pilothouse_msgs/Mission",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    mission: Mission = field(default_factory=Mission)
+    """Replaces what was stored."""
 
 
 class SetMissionResponse(CommandResponse, frozen=True, gc=False):
