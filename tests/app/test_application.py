@@ -276,7 +276,7 @@ def test_who_is_driven_by_another_is_only_watched(glass: Glass, robot: FakeRobot
     robot.publish("/control/status", robot.control)
     glass.app.open(robot.url, watch=True)
     glass.until(
-        lambda: glass.app.shell is not None and glass.app.shell.control_text == "driven by tablet-B",
+        lambda: glass.app.shell is not None and glass.app.shell.bar.control_text == "driven by tablet-B",
         "not said",
     )
     glass.app.show("drive")
