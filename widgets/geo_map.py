@@ -21,7 +21,7 @@ from kivy_garden.mapview import MapView
 
 from bridge.geo import Datum
 from widgets.geometry import View, tween
-from widgets.grid_map import patrol
+from widgets.grid_map import fenced, patrol
 from widgets.ink import Word, tint
 from widgets.map_marks import outlined
 from widgets.map_overlay import MapOverlay
@@ -150,7 +150,9 @@ def samples() -> dict[str, Callable[[], Widget]]:
     """The states of the map by name."""
     file = Path(__file__).parent / "data" / "parking_lot.mbtiles"
 
-    def made(*, size: tuple[float, float] = (760, 500), **more: Any) -> Callable[[], Widget]:
+    def made(
+        *, size: tuple[float, float] = (760, 500), fence: bool = False, **more: Any
+    ) -> Callable[[], Widget]:
         def build() -> GeoMap:
             map_ = GeoMap(
                 size_hint=(None, None),
@@ -161,6 +163,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
             )
             if map_.state != "never":
                 patrol(map_)
+            if fence:
+                fenced(map_)
             map_.fit()
             return map_
 
@@ -170,6 +174,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "never": made(size=(380, 300)),
         "live": made(state="live"),
         "points": made(state="live", mode="points", selected=3, size=(412, 480)),
+        "fence": made(state="live", mode="points", fence=True),
         "stale": made(state="stale", age=12.0, size=(380, 300)),
         "alarm": made(state="alarm", size=(380, 300)),
         "disabled": made(state="disabled", size=(380, 300)),

@@ -7,7 +7,7 @@ map.bind(on_add=lambda _, x, y: map.waypoints.append((x, y)))
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any, ClassVar
 
 import numpy as np
@@ -25,9 +25,11 @@ from kivy.properties import (
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Path
-from bridge.msgs.pilothouse_msgs import IntruderArray
+from bridge.msgs.pilothouse_msgs import IntruderArray, Limits
 from bridge.msgs.sensor_msgs import LaserScan
+from widgets import fence_marks
 from widgets import map_marks as marks
+from widgets.fence import Fence
 from widgets.geometry import Points, Trail, View, scan_points, spread
 from widgets.ink import Drawing, Ink, Word, Words, ground, tint
 from widgets.map_gestures import MapGestures
@@ -48,10 +50,10 @@ NOTHING = np.zeros((0, 2))
 class MapOverlay(MapGestures, Drawing):
     """The robot and its task on a map. Everything is in the `map` frame: x east, y north [m]."""
 
-    accepts: ClassVar = (PoseWithCovarianceStamped, Path, IntruderArray, LaserScan)
+    accepts: ClassVar = (PoseWithCovarianceStamped, Path, IntruderArray, LaserScan, Limits)
     drawn_from: ClassVar = (
         "view", "waypoints", "selected", "home", "placed", "grip", "mode", "robot", "robot_radius", "camera_fov",
-        "plan", "places", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets",
+        "plan", "places", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets", "fence", "foot",
     )  # fmt: skip
 
     robot = ListProperty([math.nan] * 3)
@@ -68,6 +70,10 @@ class MapOverlay(MapGestures, Drawing):
     """What the laser hit, shape (n, 2) [m], placed by the pose known when the sweep came."""
     show_laser = BooleanProperty(False)
     """Draw what the laser hits."""
+    fence = ObjectProperty(Fence())
+    """Where it may be, a `Fence`; waypoints, home and places that it would refuse are marked."""
+    foot = NumericProperty(0)
+    """How far above the lower edge of what is free the scale and the legend begin [px]."""
     visited = NumericProperty(0)
     """How many of the first waypoints are done; they are drawn filled."""
     coming = NumericProperty(-1)
@@ -133,7 +139,7 @@ class MapOverlay(MapGestures, Drawing):
     # what comes in
 
     def show(self, msg: Msg) -> None:
-        """Take over a pose, a plan, intruders or a laser sweep."""
+        """Take over a pose, a plan, intruders, a laser sweep or limits."""
         if isinstance(msg, PoseWithCovarianceStamped):
             self._show_pose(msg)
         elif isinstance(msg, Path):
@@ -142,6 +148,9 @@ class MapOverlay(MapGestures, Drawing):
             self.intruders = [(i.position.x, i.position.y, f"Intruder {i.id}") for i in msg.intruders]
         elif isinstance(msg, LaserScan):
             self._show_scan(msg)
+        elif isinstance(msg, Limits):
+            self.fence = Fence.of(msg)
+            self._fit_until_touched()
         else:
             super().show(msg)
 
@@ -221,7 +230,8 @@ class MapOverlay(MapGestures, Drawing):
     def extent(self) -> Points:
         """Everything worth seeing, shape (n, 2) [m]."""
         places = [*self.waypoints, self.home, self.robot[:2], *self.intruders, *self.places]
-        return spread(tuple(place[:2]) for place in places if place)
+        corners = [corner for area in self.fence.keep_in for corner in area]
+        return spread(tuple(place[:2]) for place in (*places, *corners) if len(place))
 
     def _centre(self, x: float, y: float) -> None:
         px, py = self._free_middle()
@@ -272,6 +282,8 @@ class MapOverlay(MapGestures, Drawing):
 
     def _fill_task(self, shapes: Shapes) -> Iterator[Word]:
         view, places, home = self.view, self._places(), self._home_place()
+        if self.fence:
+            fence_marks.fence_lines(shapes, view, self.fence, (*self.pos, *self.size))
         marks.trail_line(shapes, view, self._trail.points)
         marks.plan_line(shapes, view, self.plan)
         if self.motion_name != "random":
@@ -285,6 +297,20 @@ class MapOverlay(MapGestures, Drawing):
             shapes, view, places, self.mark_radius,
             visited=self.visited, coming=self.coming, selected=self.selected,
         )  # fmt: skip
+        yield from self._refused(shapes, places, home)
+
+    def _refused(
+        self, shapes: Shapes, waypoints: list[tuple[float, float]], home: Sequence[float]
+    ) -> Iterator[Word]:
+        """Where the robot would not go: of a dock it is the place before it that counts, which is not known here."""
+        if not self.fence:
+            return
+        sizes = [(place, self.mark_radius) for place in waypoints]
+        sizes += [(tuple(home[:2]), self.mark_radius * 0.9)] if home else []
+        sizes += [(place[:2], self.mark_radius * 0.8) for place in self.places if place[3] != "dock"]
+        for (x, y), size in sizes:
+            if self.fence.fault("It", x, y, self.robot_radius):
+                yield fence_marks.refused_mark(shapes, self.view, x, y, size)
 
     def _fill_robot(self, shapes: Shapes) -> Iterator[Word]:
         yield from self._alarms(shapes)
@@ -301,7 +327,9 @@ class MapOverlay(MapGestures, Drawing):
             marks.ghost_mark(shapes, self.view, pose, self._robot_disc())
             yield word
         x, y, wide, _ = self.free_box
-        yield from marks.scale_bar(shapes, self.view, x + dp(16), y + dp(14), min(dp(140), wide / 3))
+        left, low = x + dp(16), y + dp(14) + self.foot
+        yield from marks.scale_bar(shapes, self.view, left, low, min(dp(140), wide / 3))
+        yield from fence_marks.legend(shapes, self.fence, left, low + dp(30))
 
     def _alarms(self, shapes: Shapes) -> Iterator[Word]:
         """The intruders, above the waypoints and below the robot."""
