@@ -9,9 +9,6 @@ from kivy.metrics import Metrics
 from kivy.properties import OptionProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
-import widgets.battery
-import widgets.link_quality
-import widgets.kit  # noqa: F401 - their rules draw what is used here
 from app.screens import standing
 from app.session import Session
 
