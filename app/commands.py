@@ -65,6 +65,8 @@ STOP_DOUBT = 1.0
 """STOP without an answer for longer is said to be unanswered; it goes on being sent [s]."""
 
 _ZERO = Twist()
+_INSTANT = 0.001
+"""Later than the last moment of a heartbeat it is over, whatever the clock rounds [s]."""
 
 
 def _is_finite(twist: Twist) -> bool:
@@ -125,6 +127,14 @@ class DriveSlot:
     def driving(self) -> bool:
         """The robot was last told to move."""
         return self._last_sent != _ZERO
+
+    def patience(self, longest: float) -> float:
+        """How long `due` need not be asked unless something changes [s]: until the heartbeat is too old, at most `longest`."""
+        with self._lock:
+            if self._last_sent == _ZERO:
+                return longest
+            left = self._beat + HEARTBEAT + _INSTANT - self._now()
+            return min(longest, left) if left > 0 else longest
 
     def due(self, *, allowed: bool = True) -> Twist | None:
         """What has to be sent now, at once on a change and each `PERIOD` while held; None when nothing.

@@ -38,11 +38,16 @@ Builder.load_string("""
 <Joystick>:
     canvas.after:
         Color:
+            rgba: theme.surface[:3] + [.88 if root.sign_role else 0]
+        Ellipse:
+            pos: root.sign_pos[0] - dp(3), root.sign_pos[1] - dp(3)
+            size: root.sign.width + dp(6), root.sign.height + dp(6)
+        Color:
             rgba: theme.roles[root.sign_role] if root.sign_role else (0, 0, 0, 0)
         Rectangle:
             texture: root.sign
             size: root.sign.size
-            pos: self.right - root.sign.width, self.top - root.sign.height
+            pos: root.sign_pos
 """)
 
 
@@ -87,6 +92,12 @@ class Joystick(Control, Drawing):
 
     sign = AliasProperty(_sign, bind=["size"], cache=True)
     """Of a gamepad, in the corner that the round leaves free."""
+
+    def _sign_pos(self) -> tuple[float, float]:
+        return self.right - self.sign.width - dp(2), self.top - self.sign.height - dp(2)
+
+    sign_pos = AliasProperty(_sign_pos, bind=["sign", "pos", "size"], cache=True)
+    """[px]"""
 
     def _sign_role(self) -> str:
         return GAMEPAD[self.gamepad]
