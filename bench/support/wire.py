@@ -7,6 +7,7 @@ import contextlib
 import math
 import select
 import socket
+import struct
 from collections.abc import AsyncIterator, Coroutine
 from typing import Any
 
@@ -14,6 +15,8 @@ __all__ = ["Wire", "wire"]
 
 BUFFER = 4096
 """What the kernel may keep on either side of the wire in each direction [byte]; it doubles that itself."""
+AT_ONCE = struct.pack("ii", 1, 0)
+"""Of SO_LINGER: throw away what is unsent and tell the other side by RST."""
 PIECE = 1024
 """As much goes over the wire at a time [byte]."""
 
@@ -48,6 +51,12 @@ class Wire:
     def thaw(self) -> None:
         """What still waits with those who have not given up passes, late."""
         self._thawed.set()
+
+    async def reset(self) -> None:
+        """Break every connection at once, by RST to either side, and take none until opened again."""
+        for each in self._sockets:
+            each.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, AT_ONCE)
+        await self.cut()
 
     async def cut(self) -> None:
         """Break every connection and take none until opened again."""
