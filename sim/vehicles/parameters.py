@@ -12,7 +12,9 @@ from sim.sensors.battery import BatteryParameters
 from sim.sensors.gps import GpsParameters
 from sim.sensors.imu import ImuParameters
 from sim.sensors.laser import LaserParameters
+from sim.sensors.line import LineParameters
 from sim.sensors.odometry import OdometryParameters
+from sim.sensors.ultrasound import UltrasoundParameters
 
 __all__ = ["CameraParameters", "Limits", "Parameters", "load"]
 
@@ -130,6 +132,8 @@ class Parameters(_Table, frozen=True):
     imu: ImuParameters
     gps: GpsParameters
     bumper: Rate
+    line: LineParameters
+    ultrasound: UltrasoundParameters
     battery: BatteryParameters
     camera: CameraParameters
     truth: Rate

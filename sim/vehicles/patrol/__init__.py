@@ -1,4 +1,4 @@
-"""The patrol robot: two wheels, a laser, a camera, an inertial unit, a satellite receiver, a bumper, a battery."""
+"""The patrol robot: two wheels, laser, camera, inertial unit, satellite receiver, line and ultrasonic sensors, bumper."""
 
 from __future__ import annotations
 
@@ -18,14 +18,17 @@ from bridge.msgs.geometry_msgs import (
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.std_msgs import Header, Time
 from sim.backend_bullet import STEPS_PER_SECOND, Bullet, State, Wheeled
+from sim.paint import Paint
 from sim.schedule import Schedule
 from sim.sensors.battery import Battery
 from sim.sensors.bumper import BumperRing
 from sim.sensors.gps import Gps
 from sim.sensors.imu import InertialUnit
 from sim.sensors.laser import Laser
+from sim.sensors.line import LineCells
 from sim.sensors.noise import Noise
 from sim.sensors.odometry import WheelOdometry
+from sim.sensors.ultrasound import Ultrasounds
 from sim.shapes import Shape, from_yaw, rotate_back
 from sim.vehicles.drive import DifferentialDrive
 from sim.vehicles.model import Model
@@ -89,6 +92,10 @@ class Patrol:
         parameters, start = self.parameters, self._world.start
         self._laser = Laser(parameters.laser, self._backend, self.body, Noise(seed, "laser", on=on))
         self._imu = InertialUnit(parameters.imu, Noise(seed, "imu", on=on))
+        self._line = LineCells(parameters.line, Paint(self._world), Noise(seed, "line", on=on))
+        self._ultrasounds = Ultrasounds(
+            parameters.ultrasound, self._backend, self.body, Noise(seed, "ultrasound", on=on)
+        )
         self._gps = Gps(parameters.gps, self._world.datum, Noise(seed, "gps", on=on))
         self._odometry = WheelOdometry(
             parameters.odometry,
@@ -105,6 +112,8 @@ class Patrol:
                 "laser": parameters.laser.rate,
                 "gps": parameters.gps.rate,
                 "bumper": parameters.bumper.rate,
+                "line": parameters.line.rate,
+                "ultrasound": parameters.ultrasound.rate,
                 "battery": parameters.battery.rate,
                 "truth": parameters.truth.rate,
             }
@@ -148,10 +157,19 @@ class Patrol:
             yield "/scan", self._laser.measure(stamp)
         if "gps" in due:
             yield "/fix", self._gps.measure(state, stamp)
+        yield from self._measure_near(due, state, stamp)
         if "battery" in due:
             yield "/battery_state", self.battery.message(stamp)
         if truth and "truth" in due:
             yield "/sim/ground_truth", ground_truth(state, stamp)
+
+    def _measure_near(self, due: tuple[str, ...], state: State, stamp: float) -> Iterator[Measurement]:
+        """The ground under it and what is close by."""
+        if "line" in due:
+            yield "/line", self._line.measure(state, stamp)
+        if "ultrasound" in due:
+            for side, echo in self._ultrasounds.measure(stamp):
+                yield f"/ultrasound/{side}", echo
 
     def _measure_wheels(self, stamp: float) -> Iterator[Measurement]:
         left, right = self._backend.joints(self.body, 2)
