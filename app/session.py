@@ -11,9 +11,11 @@ from urllib.parse import urlsplit
 import msgspec
 
 from app.commands import Outcome
+from app.control import Authority
 from app.feeds import Feeds, Post
-from app.link import EVENT, LINK, OFFER, OUTCOME, Link
+from app.link import EVENT, KNOWN, LINK, MISSED, OFFER, OUTCOME, Link
 from app.local_stop import LocalStop
+from app.logbook import Logbook
 from app.mission import Draft, MissionEditor
 from app.offer import CAMERA, Offer
 from app.settings import Settings
@@ -56,6 +58,8 @@ class Session:
         self.wants_control = wants_control
         self.mission = MissionEditor(on_change=self._mission_changed)
         self.tasking = Tasking(self)
+        self.logbook = Logbook(settings, self.command)
+        self.authority = Authority(self)
         self.outcomes: dict[str, Outcome] = {}
         """The last outcome of each command by its name."""
         self.listeners: list[Callable[[str, Post], None]] = []
@@ -81,6 +85,17 @@ class Session:
         return self._now()
 
     # what the robot is
+
+    @property
+    def url(self) -> str:
+        """The robot's address."""
+        return self.link.url
+
+    @property
+    def control_status(self) -> ControlStatus | None:
+        """What the robot said last of control and STOP; None before it did."""
+        status: ControlStatus | None = self.feeds.latest("/control/status")
+        return status
 
     @property
     def connected(self) -> bool:
@@ -122,18 +137,8 @@ class Session:
 
     @property
     def control(self) -> str:
-        """Who has control: `mine`, `free`, `other` or, while the link is down or nothing was heard, `unknown`.
-
-        `none` on a robot that is not ours: there is none to have, and whoever sends drives it.
-        """
-        if self.foreign and self.connected:
-            return "none"
-        status: ControlStatus | None = self.feeds.latest("/control/status")
-        if status is None or not self.connected:
-            return "unknown"
-        if not status.driver_id and not status.driver:
-            return "free"
-        return "mine" if status.driver_id == self.client_id else "other"
+        """Who has control, as `Authority.who` says."""
+        return self.authority.who
 
     @property
     def may_drive(self) -> bool:
@@ -209,6 +214,8 @@ class Session:
             LINK: self._link_changed,
             OFFER: self._offered,
             OUTCOME: self._outcome,
+            MISSED: self.logbook.miss,
+            KNOWN: self.logbook.know,
             "/task/queue": self.tasking.queue.robot_has,
         }
         if channel in takes:
@@ -223,8 +230,11 @@ class Session:
         elif channel == "/control/status":
             moves = post.value.stopped and not post.value.at_rest
             self._moves_since = min(self._moves_since, self._now()) if moves else math.inf
+            self.authority.hear(post.value)
             self._take_control()
         elif channel == EVENT:
+            if not self.logbook.take(post.value):
+                return
             post = replace(post, value=self._addressed(post.value))
         if channel == EVENT and not self.listeners:
             self.early.append(post)
@@ -254,6 +264,7 @@ class Session:
         if self.mission.sent is not None:
             self.mission.answered(self.mission.sent, False, "No reply: the link was closed.")
         self.tasking.dropped()
+        self.logbook.dropped()
         self._link_changed(link.state)
 
     def _offered(self, offer: Offer) -> None:
@@ -264,6 +275,7 @@ class Session:
     def _link_changed(self, state: LinkState) -> None:
         self.link_state, self._state_since = state, self._now()
         self.feeds.link(self.connected)
+        self.authority.link_changed()
         if self.connected:
             self.ever_connected = True
             self._asked_control = False
@@ -277,6 +289,7 @@ class Session:
             sent = Draft.of(outcome.fields["mission"])
             self.mission.answered(sent, outcome.phase == "accepted", outcome.sentence)
         self.tasking.answered(outcome)
+        self.logbook.answered(outcome)
 
     def _introduced(self) -> None:
         if not self._known:
@@ -333,14 +346,12 @@ class Session:
             self.command("stop_release")
 
     def take_control(self) -> None:
-        """Ask for control, and for it again after a reconnect."""
-        self.wants_control = True
-        self.command("acquire")
+        """Take control, or ask who has it; it is taken again after a reconnect."""
+        self.authority.take()
 
     def release_control(self) -> None:
         """Give control up, and do not ask for it again."""
-        self.wants_control = False
-        self.command("release")
+        self.authority.release()
 
     def send_mission(self) -> None:
         """Send the draft to the robot."""
