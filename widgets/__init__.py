@@ -12,6 +12,7 @@ from typing import Any
 CATALOGUE: dict[str, str] = {
     "ArtificialHorizon": "widgets.horizon",
     "Battery": "widgets.battery",
+    "CheckList": "widgets.check_list",
     "Compass": "widgets.compass",
     "EventLog": "widgets.event_log",
     "FieldView": "widgets.field_view",
