@@ -83,7 +83,7 @@ def test_the_sender_looks_again_the_moment_that_the_heartbeat_is_too_old(hand: H
     hand.slot.want(AHEAD)
     hand.pass_time(0.5)
     stopped, waits = hand.clock.now, []
-    while not hand.sent[-1][1] == ZERO:
+    while hand.sent[-1][1] != ZERO:
         waits.append(hand.slot.patience(0.05))
         hand.clock.now += waits[-1]
         if (twist := hand.slot.due()) is not None:
