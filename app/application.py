@@ -21,11 +21,13 @@ from app.camera import PICTURE, Camera
 from app.commands import Commands
 from app.device import device_name, is_android, own_folder
 from app.discovery import Robots
+from app.events import Known
 from app.feeds import Feeds, Mailbox, Post
 from app.garbage import Collector
 from app.inputs import Inputs
 from app.layout import Layout, load
 from app.link import Link
+from app.logbook import marks
 from app.mission import MissionEditor
 from app.nearby import HELLO, LATENCY, Nearby
 from app.pictures import Pictures
@@ -212,7 +214,7 @@ class PilothouseApp(App):
         """Come back: connect again; whoever wants to drive has to push the stick anew."""
         self.collector.resume()
         if self.session is not None:
-            self.session.resume(self._new_link(self.session.link.url))
+            self.session.resume(self._new_link(self.session.link.url, self.session.logbook.known))
             self._pictures.ask_again()
 
     def _rest(self) -> None:
@@ -365,13 +367,15 @@ class PilothouseApp(App):
 
     # a robot
 
-    def _new_link(self, url: str) -> Link:
+    def _new_link(self, url: str, known: Known | None = None) -> Link:
         link = Link(
             url,
             self.mailbox,
             self.network,
             client_id=self.client_id,
             client_name=self.client_name,
+            known=known,
+            marks=marks(self.settings),
             on_picture=self._on_frame,
             now=self._now,
         )

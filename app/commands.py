@@ -16,6 +16,8 @@ from bridge.errors import BridgeError, NoReply, NotConnected, Refused
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
+    AcknowledgeEventsRequest,
+    AcknowledgeEventsResponse,
     CommandRequest,
     CommandResponse,
     DeletePlaceRequest,
@@ -24,6 +26,10 @@ from bridge.msgs.pilothouse_msgs import (
     DeleteScheduleResponse,
     GetHistoryRequest,
     GetHistoryResponse,
+    GetMissionsRequest,
+    GetMissionsResponse,
+    RecallMissionRequest,
+    RecallMissionResponse,
     SetMissionRequest,
     SetModeRequest,
     SetModeResponse,
@@ -215,6 +221,15 @@ COMMANDS: dict[str, Kind] = {
         lambda fields: fields["id"],
     ),
     "history": Kind("/history/get", GetHistoryRequest, "read the history", GetHistoryResponse),
+    "acknowledge": Kind(
+        "/events/acknowledge",
+        AcknowledgeEventsRequest,
+        "note that it was seen to",
+        AcknowledgeEventsResponse,
+        lambda fields: tuple(fields["ids"]),
+    ),
+    "missions": Kind("/missions/get", GetMissionsRequest, "list the missions", GetMissionsResponse),
+    "recall": Kind("/mission/recall", RecallMissionRequest, "recall the mission", RecallMissionResponse),
     "acquire": Kind("/control/acquire", CommandRequest, "take control"),
     "release": Kind("/control/release", CommandRequest, "release control"),
     "request": Kind("/control/request", CommandRequest, "ask for control"),

@@ -26,12 +26,14 @@ from bridge.msgs.pilothouse_msgs import ControlStatus, Event, GetEventsResponse
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.network import NetworkThread
 
-__all__ = ["EVENT", "LINK", "MISSED", "OFFER", "OUTCOME", "SEEN", "Link"]
+__all__ = ["EVENT", "KNOWN", "LINK", "MISSED", "OFFER", "OUTCOME", "SEEN", "Link"]
 
 log = logging.getLogger(__name__)
 
 EVENT, MISSED, LINK, OUTCOME = "event", "missed", "link", "outcome"
 """Channels of the mailbox beside the topics: `Event`s, what was `Missed`, `LinkState`s, `Outcome`s, all queued."""
+KNOWN = "known"
+"""One more, newest wins: how far the robot's events are `Known`; it comes after them."""
 OFFER, SEEN = "offer", "seen"
 """Two more: the robot's `Offer` when it is known and when it changed, and what is `Seen` of the topic looked at."""
 SILENT = 0.7
@@ -100,6 +102,7 @@ class Link:
         """What the robot offers; None until it said so, which a robot that is not ours does before it is listened to."""
         self._sources = Sources(self._client, self._on_message, self._on_event)
         self._peek = Peek(self._client, self._on_seen)
+        self._known = Known()
         self._asking: asyncio.Task[None] | None = None
         self._fetching: asyncio.Task[None] | None = None
         self._followed = False
@@ -268,6 +271,7 @@ class Link:
             for task in (self._asking, self._fetching):
                 if task is not None:
                     task.cancel()
+            self._fetching = None
 
     async def _arrive(self) -> None:
         """Find out what the robot offers and listen to that; of a foreign one, look again now and then."""
@@ -317,6 +321,12 @@ class Link:
             self._fetching = asyncio.get_running_loop().create_task(self._fetch_events())
             self._keep(self._fetching)
 
+    def _tell_known(self) -> None:
+        known = self._events.known
+        if known != self._known:
+            self._known = known
+            self._mailbox.post(KNOWN, known, self._now())
+
     async def _fetch_events(self) -> None:
         while self._events.behind:
             request = self._events.request()
@@ -333,12 +343,14 @@ class Link:
                 self._events.without_store()
             else:
                 self._events.answered(answer)
+            self._tell_known()
 
     def _on_message(self, name: str, message: Msg, received: float) -> None:
         self._heard = received
         if isinstance(message, ControlStatus) and message.stopped and message.at_rest:
             self.commands.confirm_stop()
-        self._mailbox.post(name, message, received)
+        # whether a STOP is obeyed is shown in the next frame
+        self._mailbox.post(name, message, received, urgent=isinstance(message, ControlStatus))
 
     def _on_seen(self, seen: Seen, received: float) -> None:
         if seen.message is None:
@@ -348,6 +360,7 @@ class Link:
 
     def _on_event(self, event: Event, received: float) -> None:
         self._events.live(event)
+        self._tell_known()
         if self._client.state.phase is Phase.CONNECTED and self._asking is not None and self._asking.done():
             self._catch_up()
 

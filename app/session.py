@@ -10,6 +10,7 @@ from urllib.parse import urlsplit
 
 import msgspec
 
+from app.checks import Checks
 from app.commands import Outcome
 from app.control import Authority
 from app.feeds import Feeds, Post
@@ -58,6 +59,7 @@ class Session:
         self.wants_control = wants_control
         self.mission = MissionEditor(on_change=self._mission_changed)
         self.tasking = Tasking(self)
+        self.checks = Checks(feeds, lambda: self.running)
         self.logbook = Logbook(settings, self.command)
         self.authority = Authority(self)
         self.outcomes: dict[str, Outcome] = {}
@@ -208,6 +210,9 @@ class Session:
 
     def deliver(self, channel: str, post: Post) -> None:
         """Take in what the mailbox held."""
+        if channel == EVENT:
+            self._hear_event(post)
+            return
         if channel in self.feeds:
             self.feeds.put(channel, post)
         takes: dict[str, Callable[[Any], None]] = {
@@ -232,12 +237,17 @@ class Session:
             self._moves_since = min(self._moves_since, self._now()) if moves else math.inf
             self.authority.hear(post.value)
             self._take_control()
-        elif channel == EVENT:
-            if not self.logbook.take(post.value):
-                return
-            post = replace(post, value=self._addressed(post.value))
-        if channel == EVENT and not self.listeners:
-            self.early.append(post)
+        self._tell(channel, post)
+
+    def _hear_event(self, post: Post) -> None:
+        event = self._addressed(post.value)
+        if self.logbook.take(event):
+            post = replace(post, value=event)
+            if not self.listeners:
+                self.early.append(post)
+            self._tell(EVENT, post)
+
+    def _tell(self, channel: str, post: Post) -> None:
         for listener in list(self.listeners):
             listener(channel, post)
 

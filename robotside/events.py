@@ -62,4 +62,4 @@ class Events:
         later = self._log.since(asked.since, asked.boot, asked.most)
         more = asked.most > 0 and bool(later) and self._log.more(later)
         seen = [event for event in self._log.seen(asked.open, asked.boot) if event.id <= asked.since]
-        return GetEventsResponse([*seen, *later], more)
+        return GetEventsResponse([*seen, *later], more, self._log.oldest)

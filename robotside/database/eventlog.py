@@ -43,6 +43,11 @@ class EventLog:
             self._prune()
         return event
 
+    @property
+    def oldest(self) -> int:
+        """Number of the oldest event on the disk; 0 when there is none."""
+        return min(self._ledger.stored("events"), default=0)
+
     def since(self, number: int, identity: str, most: int = 0) -> list[Event]:
         """The events on the disk after `number`, oldest first; the newest ones when it is of another log or 0.
 

@@ -14,6 +14,8 @@ import msgspec
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
+    AcknowledgeEventsRequest,
+    AcknowledgeEventsResponse,
     CommandRequest,
     CommandResponse,
     ControlStatus,
@@ -48,6 +50,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskQueue,
     TaskRun,
 )
+from bridge.msgs.std_msgs import Time
 from bridge.network import NetworkThread
 from bridge.server import BridgeServer, Service, Session
 
@@ -76,6 +79,7 @@ REQUESTS: dict[str, type[Msg]] = {
     "/schedule/set": SetScheduleRequest,
     "/schedule/delete": DeleteScheduleRequest,
     "/history/get": GetHistoryRequest,
+    "/events/acknowledge": AcknowledgeEventsRequest,
 }
 RESPONSES: dict[str, type[CommandResponse]] = {
     "/mode/set": SetModeResponse,
@@ -86,6 +90,7 @@ RESPONSES: dict[str, type[CommandResponse]] = {
     "/schedule/set": SetScheduleResponse,
     "/schedule/delete": DeleteScheduleResponse,
     "/history/get": GetHistoryResponse,
+    "/events/acknowledge": AcknowledgeEventsResponse,
 }
 """Of the services that answer with more than a sentence, or in a class of their own."""
 
@@ -239,6 +244,9 @@ class FakeRobot:
 
     def _keep(self, name: str, request: Any) -> dict[str, Any]:
         """Do what was asked about what is kept; gives what the answer says beyond its sentence."""
+        if name == "/events/acknowledge":
+            self._see_to(request)
+            return {}
         if name == "/history/get":
             runs = [run for run in self.runs if not request.before or run.id < request.before]
             return {"runs": runs[: request.limit]}
@@ -255,6 +263,21 @@ class FakeRobot:
             self._set_queue(request.orders)
         self._tell_kept()
         return more
+
+    def happen(self, *events: Event) -> None:
+        """Let these happen, one after the other."""
+        for event in events:
+            self.events.append(event)
+            self.publish("/events", event)
+
+    def _see_to(self, request: AcknowledgeEventsRequest) -> None:
+        """Note who has seen to events, the first who did, and tell everybody."""
+        for index, event in enumerate(self.events):
+            if event.id in request.ids and not event.acknowledged_by:
+                by = request.client_name
+                seen = msgspec.structs.replace(event, acknowledged_by=by, acknowledged=Time.at(self.clock()))
+                self.events[index] = seen
+                self._server.publish("/events", seen)
 
     def _set_queue(self, orders: list[TaskOrder]) -> None:
         numbered = [
@@ -274,4 +297,10 @@ class FakeRobot:
         self._server.publish("/schedule", Schedule(tasks=self.schedule))
 
     def _tell_events(self, session: Session, request: GetEventsRequest) -> GetEventsResponse:
-        return GetEventsResponse(events=[event for event in self.events if event.id > request.since])
+        same = any(event.boot == request.boot for event in self.events)
+        known = request.since if same else 0
+        later = [event for event in self.events if event.id > known]
+        told = later[: request.most] if request.boot else later[-request.most :]
+        open = request.open if same else ()
+        seen = [one for one in self.events if one.id in open and one.id <= known and one.acknowledged_by]
+        return GetEventsResponse([*seen, *told], bool(told) and told[-1] is not later[-1])

@@ -12,6 +12,7 @@ import pytest
 
 from app.feeds import Feeds, Mailbox, Post
 from app.link import Link
+from app.logbook import marks
 from app.session import Session
 from app.settings import Settings
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
@@ -31,7 +32,9 @@ class Operator:
         self.network = NetworkThread()
         self.mailbox = Mailbox(lambda: None)
         self.settings = Settings(folder)
-        self.link = Link(url, self.mailbox, self.network, client_id="me", client_name="tablet")
+        self.link = Link(
+            url, self.mailbox, self.network, client_id="me", client_name="tablet", marks=marks(self.settings)
+        )
         self.session = Session(
             self.link,
             Feeds(time.monotonic),
@@ -358,6 +361,54 @@ def test_after_a_lost_link_everything_comes_back_but_the_old_drive_command(
     operator.until(lambda: operator.session.control == "mine" and operator.texts() == ["one", "two"])
     assert robot.twists() == []
     assert operator.session.mission.draft.points == ((1.0, 1.0),)
+
+
+def test_an_app_that_was_killed_and_comes_back_gets_all_it_missed_and_nothing_twice(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
+    robot.events = [Event(id=1, boot="a", text="1")]
+    first = connect()
+    first.until(lambda: first.texts() == ["1"] and marks(first.settings) == {"a": 1})
+    first.close()
+    robot.events += [Event(id=number, boot="a", text=f"{number}") for number in range(2, 602)]
+    again = connect()
+    again.until(lambda: again.session.logbook.missed)
+    assert again.texts() == [f"{number}" for number in range(2, 602)]
+    assert [one.id for one in again.session.logbook.missed] == list(range(2, 602))
+
+
+def test_what_another_handheld_saw_to_while_the_link_was_lost_waits_for_nobody(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
+    robot.events = [Event(id=1, boot="a", text="alarm", level="alarm")]
+    operator = connect()
+    operator.until(lambda: operator.session.logbook.alarms == 1)
+    robot.stop()
+    operator.until(lambda: not operator.session.connected)
+    robot.events = [Event(id=1, boot="a", text="alarm", level="alarm", acknowledged_by="Anna")]
+    robot.start()
+    operator.until(lambda: operator.session.logbook.alarms == 0)
+    assert operator.session.logbook.events[0].acknowledged_by == "Anna"
+
+
+def test_an_acknowledgement_that_gets_no_answer_for_the_link_is_lost_is_given_once_the_link_is_back(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
+    robot.events = [Event(id=1, boot="a", text="alarm", level="alarm")]
+    operator = connect()
+    book = operator.session.logbook
+    operator.until(lambda: book.alarms == 1)
+    robot.hold_answers()
+    book.acknowledge(book.open)
+    assert robot.until(lambda: "/events/acknowledge" in robot.services())
+    assert book.is_asked(book.events[0])
+    robot.cut()
+    operator.until(lambda: not operator.session.connected)
+    robot.give_answers()
+    operator.until(lambda: book.alarms == 0)
+    asked = [request.command_id for name, request in robot.asked if name == "/events/acknowledge"]
+    assert len(set(asked)) == 1
+    assert book.events[0].acknowledged_by == "tablet"
 
 
 def test_a_stream_is_live_and_goes_stale(robot: FakeRobot, connect: Callable[..., Operator]) -> None:

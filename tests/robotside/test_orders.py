@@ -197,7 +197,7 @@ def test_the_answer_says_whether_there_is_more_and_what_others_have_seen_to(scen
         scene.station.events.say("contact", f"It touched something {number}.", "alarm")
     ask = GetEventsRequest(since=1, boot="b1", most=2)
     answer: Any = scene.ask("/events/get", ask)
-    assert ([event.id for event in answer.events], answer.more) == ([2, 3], True)
+    assert ([event.id for event in answer.events], answer.more, answer.oldest) == ([2, 3], True, 1)
     seen = AcknowledgeEventsRequest(client_name="Anna", ids=Int32Array([1]))
     assert scene.ask("/events/acknowledge", seen).success
     ask = msgspec.structs.replace(ask, since=3, open=Int32Array([1, 3]), most=500)

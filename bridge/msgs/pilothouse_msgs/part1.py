@@ -278,11 +278,13 @@ class GetEventsResponse(Msg, frozen=True, gc=False):
     """What `GetEvents` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetEventsResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("pilothouse_msgs/Event[]", "bool")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("pilothouse_msgs/Event[]", "bool", "int32")
     events: list[Event] = []
     """Oldest first."""
     more: bool = False
     """There are later ones: ask again, since the last of these."""
+    oldest: int32 = 0
+    """Number of the oldest event that is kept; 0 when there is none, or it is not known."""
 
 
 class GetHistoryRequest(CommandRequest, frozen=True, gc=False):
