@@ -37,6 +37,8 @@ class Scene:
     """Robot seconds per second."""
     until: str | None = None
     """Name of the last step to play; None plays all."""
+    power_cut: Callable[[], None] = lambda: None
+    """Kills the robot's computer and has it start again."""
 
     @property
     def hand(self) -> Hand:
