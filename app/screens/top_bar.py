@@ -6,9 +6,11 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.metrics import Metrics
-from kivy.properties import OptionProperty, StringProperty
+from kivy.properties import BooleanProperty, OptionProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
+import widgets.battery
+import widgets.link_quality  # noqa: F401 - their rules draw what is used here
 from app.screens import standing
 from app.session import Session
 
@@ -64,7 +66,9 @@ Builder.load_string("""
         spacing: dp(8) if self.icon else 0
         edge: dp(13) if root.form != 'tall' else dp(10)
         outlined: True
+        pressable: root.mode_offered
         pos_hint: {'center_y': .5}
+        on_release: root.dispatch('on_mode')
     BatteryChip:
         id: battery
         brief: root.form == 'tall'
@@ -93,9 +97,9 @@ Builder.load_string("""
 
 
 class TopBar(BoxLayout):
-    """Dispatches `on_back` and `on_control` as they are tapped."""
+    """Dispatches `on_back`, `on_mode` and `on_control` as they are tapped."""
 
-    __events__ = ("on_back", "on_control")
+    __events__ = ("on_back", "on_control", "on_mode")
 
     form = OptionProperty("wide", options=["wide", "short", "tall"])
     """Shape of the window, as in `app.arrange.form`."""
@@ -103,6 +107,8 @@ class TopBar(BoxLayout):
     mode_text = StringProperty("—")
     mode_icon = StringProperty("help")
     mode_role = StringProperty("muted")
+    mode_offered = BooleanProperty(False)
+    """The robot takes a command for its mode."""
     fix_text = StringProperty("—")
     fix_role = StringProperty("muted")
     control_text = StringProperty("")
@@ -130,6 +136,7 @@ class TopBar(BoxLayout):
         """Say how the robot stands now."""
         self.robot_name = session.name
         self.mode_text, self.mode_icon, self.mode_role = standing.mode(session, brief=self.form == "tall")
+        self.mode_offered = session.connected and not session.foreign and session.offers("/mode/set")
         self.fix_text, self.fix_role = standing.fix(session)
         self.control_text, self.control_icon, self.control_role = standing.control(
             session, brief=self.form != "wide"
@@ -142,6 +149,9 @@ class TopBar(BoxLayout):
 
     def on_back(self) -> None:
         """The arrow was tapped."""
+
+    def on_mode(self) -> None:
+        """The mode was tapped."""
 
     def on_control(self) -> None:
         """Who has control was tapped."""
