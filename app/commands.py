@@ -274,6 +274,8 @@ class Outcome:
         if self.name == "start" and order is not None and order.task:
             words = title(order)
             return f"start {words[0].lower()}{words[1:]}"
+        if self.name == "mode":
+            return f"switch to {self.fields.get('mode', '')}"
         return COMMANDS[self.name].label
 
     @property

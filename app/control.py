@@ -28,7 +28,7 @@ class Authority:
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self.on_news: News = lambda text, level: None
+        self.on_news: News = lambda *_: None
         """Called with what the operator has to be told of a change."""
         self._before = ControlStatus()
         self._held = False

@@ -206,6 +206,11 @@ class Session:
         status: TaskStatus | None = self.feeds.latest("/task/status")
         return status is not None and status.state in ("RUNNING", "PAUSED")
 
+    def command_sent(self, name: str) -> bool:
+        """A command is under way: sent and not yet answered."""
+        outcome = self.outcomes.get(name)
+        return outcome is not None and outcome.phase == "sent"
+
     # what comes in
 
     def deliver(self, channel: str, post: Post) -> None:

@@ -66,11 +66,12 @@ class Notices(BoxLayout):
         toast.bind(on_act=lambda _: act())
         self.add_widget(toast)
 
-    def keep(self, card: Widget, *, shown: bool, first: bool = False) -> None:
-        """Have a card here for as long as it is `shown`; `first` puts it above all others."""
+    def keep(self, card: Widget, *, shown: bool, first: bool = False, under: Widget | None = None) -> None:
+        """Have a card here for as long as it is `shown`; `first` puts it above all others but the one it is `under`."""
         if shown == (card.parent is self):
             return
-        if shown:
-            self.add_widget(card, index=len(self.children) if first else 0)
-        else:
+        if not shown:
             self.remove_widget(card)
+            return
+        top = self.children.index(under) if under in self.children else len(self.children)
+        self.add_widget(card, index=top if first else 0)

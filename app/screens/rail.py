@@ -84,15 +84,19 @@ class Rail(FloatLayout):
             else:
                 button.pos = (rect.x + 6 * dp, rect.top - 12 * dp - high - index * step)
 
-    def show(self, screen: str, *, recording: bool, control_icon: str, control_tint: str) -> None:
-        """Bring the looks up to date: which `screen` is on the glass, and what goes on."""
+    def show(self, screen: str, *, recording: bool, control: tuple[str, str, str]) -> None:
+        """Bring the looks up to date: which `screen` is on the glass, and what goes on.
+
+        `control` is text, icon and role of the button for control; without a role it looks as the others.
+        """
         for name in ENTRIES:
             self.ids[name].active = name == screen
         icon, text, _ = THEMES[theme.name]
         self.ids.theme.icon, self.ids.theme.text = icon, text
         self.ids.record.tint = "danger" if recording else ""
         self.ids.record.icon = "fiber_manual_record_fill" if recording else "fiber_manual_record"
-        self.ids.control_nav.icon, self.ids.control_nav.tint = control_icon, control_tint
+        nav = self.ids.control_nav
+        nav.text, nav.icon, nav.tint = control
 
     def on_press(self, name: str) -> None:
         """A button was pressed."""

@@ -16,6 +16,8 @@ from app.commands import Outcome
 from app.dashboard import Dashboard
 from app.feeds import Post
 from app.link import EVENT, OFFER, OUTCOME
+from app.screens import standing
+from app.screens.control_cards import ControlCards
 from app.screens.notices import BRIEF, LONG, Notices
 from app.screens.placing import put
 from app.screens.rail import Rail
@@ -68,6 +70,7 @@ class Shell(FloatLayout):
         self._dashboard = Dashboard(self.session.feeds)
         self._dashboard.bind(self.bar.ids.battery, "/battery_state")
         self._dashboard.bind(self.question, "/task/status", fresh=False)
+        self.cards = ControlCards(self.session, self.notices, self._dashboard, self.say)
         self._dashboard.enter()
         self.session.listeners.append(self._hear)
         self._greet()
@@ -79,6 +82,7 @@ class Shell(FloatLayout):
         """Bar, navigation, STOP and what is said over them; the ids of their parts are found here too."""
         self.bar, self.nav, self.notices = TopBar(), Rail(), Notices()
         self.bar.bind(on_back=lambda _: self.app.leave(), on_control=lambda _: self.toggle_control())
+        self.bar.bind(on_mode=lambda _: self.cards.ask_mode())
         self.nav.bind(on_press=lambda _, name: self._press(name))
         self.stop = StopButton(size_hint=(None, None))
         self.stop.bind(on_command=self._stop, on_release_stop=self._release_stop)
@@ -100,6 +104,7 @@ class Shell(FloatLayout):
         if self._hear in self.session.listeners:
             self.session.listeners.remove(self._hear)
         self.session.tasking.deaf()
+        self.cards.close()
         for screen in self.screens.values():
             screen.leave()
 
@@ -132,8 +137,7 @@ class Shell(FloatLayout):
         self.nav.show(
             self.screen,
             recording=self.recording,
-            control_icon=self.bar.control_icon,
-            control_tint="warn" if self.session.control == "other" else "",
+            control=standing.control_nav(self.session),
         )
 
     # places
@@ -162,6 +166,8 @@ class Shell(FloatLayout):
         self._dashboard.deliver(channel, post.value)
         for screen in self.screens.values():
             screen.hear(channel, post)
+        if channel in (OUTCOME, "/control/status"):
+            self._show_stop()
         if channel == OUTCOME:
             self._show_outcome(post.value)
         elif channel == OFFER:
@@ -186,6 +192,7 @@ class Shell(FloatLayout):
 
     def _show_outcome(self, outcome: Outcome) -> None:
         """What went wrong is said over every screen; what went well is said where it was asked."""
+        self.cards.hear(outcome)
         if outcome.name in ("confirm", "resume", "cancel"):
             self.question.answer(outcome.label, outcome.phase, outcome.reason)
         if outcome.phase in ("refused", "no_reply") and outcome.name != "stop":
@@ -212,16 +219,21 @@ class Shell(FloatLayout):
         self.bar.tick(self.session)
         self._dashboard.tick()
         self._tick_question()
-        if self.stop.phase == "stopped" != self.session.stop_phase:
-            for kind in ("stop", "task"):
-                self.unsay(kind)
-        self.stop.local = self.session.foreign or self.session.stop_latched
-        self.stop.phase = self.session.stop_phase
+        self.cards.tick(self.screen)
+        self._show_stop()
         self._tick_stop()
         self._show_rail()
         if self.screen:
             self.screens[self.screen].tick()
         self._place_notices()
+
+    def _show_stop(self) -> None:
+        """What became of STOP; as soon as it is known, not when the next tick comes."""
+        if self.stop.phase == "stopped" != self.session.stop_phase:
+            for kind in ("stop", "task"):
+                self.unsay(kind)
+        self.stop.local = self.session.foreign or self.session.stop_latched
+        self.stop.phase = self.session.stop_phase
 
     def _tick_banner(self) -> None:
         session = self.session
@@ -254,7 +266,7 @@ class Shell(FloatLayout):
     # what is asked
 
     def toggle_control(self) -> None:
-        """Take control, or give it up when it is ours; a robot without any says so."""
+        """Take control or ask for it, give it up, or take back that it is asked for; a robot without any says so."""
         if self.session.control == "none":
             self.say(
                 "This robot knows no control: whoever pushes a stick drives it.", "info", about="control"
@@ -262,9 +274,7 @@ class Shell(FloatLayout):
             return
         if self.session.control == "mine":
             self.rest()
-            self.session.release_control()
-        else:
-            self.session.take_control()
+        self.session.authority.toggle()
 
     def _stop(self, *_: object) -> None:
         self.rest()

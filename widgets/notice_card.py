@@ -1,0 +1,139 @@
+"""What lies over every screen until it is dealt with: an icon, a headline, a sentence, and what can be done about it.
+
+class AlarmCard(NoticeCard):
+    def show(self, msg): self.headline, self.said = "Alarm", msg.text
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.metrics import dp
+from kivy.properties import BooleanProperty, NumericProperty, StringProperty
+from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.widget import Widget
+
+import widgets.labels  # noqa: F401 - its rules draw what is used here
+from widgets.base import Control
+from widgets.buttons import IconButton, PrimaryButton, PushButton, QuietButton
+
+__all__ = ["NoticeCard"]
+
+Builder.load_string("""
+<NoticeCard>:
+    orientation: 'vertical'
+    size_hint_y: None
+    height: self.minimum_height
+    padding: dp(14), dp(9)
+    spacing: dp(10)
+    canvas.before:
+        Color:
+            rgba: theme.roles[root.role]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.radius]
+        Color:
+            rgba: theme.surface
+        SmoothRoundedRectangle:
+            pos: self.x + dp(2), self.y + dp(2)
+            size: self.width - dp(4), self.height - dp(4)
+            radius: [theme.radius - dp(2)]
+    BoxLayout:
+        id: row
+        size_hint_y: None
+        height: max(words.height, dp(34), root.beside)
+        spacing: dp(10)
+        Icon:
+            name: root.icon
+            role: root.role
+            font_size: sp(28)
+            pos_hint: {'center_y': .5}
+        BoxLayout:
+            id: words
+            orientation: 'vertical'
+            size_hint_y: None
+            height: self.minimum_height
+            spacing: dp(2)
+            pos_hint: {'center_y': .5}
+            Text:
+                text: root.headline
+                bold: True
+                font_size: sp(18)
+            Text:
+                text: root.said
+                role: 'muted'
+                font_size: sp(14.5)
+                height: self.texture_size[1] if root.said else 0
+""")
+
+
+class NoticeCard(Control, BoxLayout):
+    """A card with room for buttons: beside its words by `add_beside`, below them by `add_below`."""
+
+    veiled = False
+
+    headline = StringProperty("")
+    said = StringProperty("")
+    """One sentence more; empty for none."""
+    icon = StringProperty("info")
+    """Name of the icon."""
+    role = StringProperty("accent")
+    """Role of the icon and the border."""
+    open = BooleanProperty(False)
+    """There is something to deal with."""
+    blocked = BooleanProperty(False)
+    """Nobody here may do anything about it now."""
+
+    beside = NumericProperty(0.0)
+    """Height of what stands beside the words [px]."""
+
+    def add_beside(self, text: str, icon: str) -> PushButton:
+        """A quiet button right of the words."""
+        button = QuietButton(
+            text=text, icon=icon, size_hint_x=None, width=dp(136), pos_hint={"center_y": 0.5}
+        )
+        self._reserve(button)
+        return button
+
+    def add_close(self) -> Widget:
+        """A cross that takes the card away; dispatches `on_command("close")`."""
+        cross = IconButton(icon="close", role="muted", bare=True, pos_hint={"center_y": 0.5})
+        cross.bind(on_release=lambda _: self.dispatch("on_command", "close"))
+        self._reserve(cross)
+        return cross
+
+    def _reserve(self, button: Widget) -> None:
+        self.ids.row.add_widget(button)
+        button.bind(height=self.setter("beside"))
+        self.beside = button.height
+
+    def add_below(self, *buttons: tuple[str, str, bool]) -> list[PushButton]:
+        """A row of large buttons, each `(text, icon, primary)`."""
+        row = BoxLayout(size_hint_y=None, height=dp(60), spacing=dp(10))
+        made: list[PushButton] = []
+        for text, icon, primary in buttons:
+            kind = PrimaryButton if primary else QuietButton
+            made.append(kind(text=text, icon=icon, size_hint_y=1))
+            row.add_widget(made[-1])
+        self.add_widget(row)
+        return made
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """With words alone, and with a button beside them and others below."""
+
+    def make(**kwargs: Any) -> NoticeCard:
+        return NoticeCard(
+            headline="The gate is shut", said="It opens at six.", size_hint_x=None, width="420dp", **kwargs
+        )
+
+    def full() -> Widget:
+        card = make(icon="lock", role="warn")
+        card.add_beside("Open", "lock_open")
+        card.add_below(("Wait", "timer", False), ("Go round", "arrow_forward", True))
+        return card
+
+    return {"words": make, "buttons": full}
