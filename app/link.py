@@ -161,6 +161,11 @@ class Link:
         self._slot.want(twist)
         self._network.call(self._wake.set)
 
+    @property
+    def driving(self) -> bool:
+        """The robot was last told to move."""
+        return self._slot.driving
+
     def beat(self) -> None:
         """The user interface is alive; without this for 0.15 s the robot is told to rest."""
         self._slot.beat()
