@@ -15,6 +15,7 @@ from kivy.app import App
 from kivy.clock import Clock
 from kivy.core.window import Window
 from kivy.uix.floatlayout import FloatLayout
+from kivy.uix.widget import Widget
 
 from app import simulator as simulators
 from app.camera import PICTURE, Camera
@@ -23,6 +24,7 @@ from app.device import device_name, is_android, own_folder
 from app.discovery import Robots
 from app.events import Known
 from app.feeds import Feeds, Mailbox, Post
+from app.fleet import Fleet
 from app.garbage import Collector
 from app.inputs import Inputs
 from app.layout import Layout, load
@@ -34,6 +36,7 @@ from app.pictures import Pictures
 from app.records import Records
 from app.screens.connect import THEMES, ConnectScreen
 from app.screens.dialogs import AddressDialog
+from app.screens.stop_corner import StopCorner
 from app.session import Session
 from app.settings import Settings
 from bridge.frames import Frame
@@ -59,7 +62,17 @@ SWITCH = 0.001
 
 
 class Root(FloatLayout):
-    """The whole glass: one page, and at times a question over it."""
+    """The whole glass: one page, at times a question over it, and over everything what must always be reached."""
+
+    over: Widget | None = None
+    """Stays on top of whatever is added."""
+
+    def add_widget(self, widget: Widget, *args: Any, **kwargs: Any) -> None:
+        """Put it on top, but below `over`."""
+        super().add_widget(widget, *args, **kwargs)
+        if self.over is not None and widget is not self.over:
+            self.remove_widget(self.over)
+            super().add_widget(self.over)
 
     def show_page(self, page: Any) -> None:
         """Put a page in the place of the one before."""
@@ -147,7 +160,10 @@ class PilothouseApp(App):
         self.connect = ConnectScreen(
             app=self, can_simulate=bool(self._simulator_command) or simulators.available()
         )
+        self.fleet = Fleet(client_id=self.client_id, client_name=self.client_name, now=self._now)
+        self.corner = StopCorner(self, self.fleet)
         root = Root()
+        root.over = self.corner.layer
         root.show_page(self.connect)
         return root
 
@@ -191,6 +207,7 @@ class PilothouseApp(App):
         self.inputs.close()
         for event in self._events:
             event.cancel()
+        self.fleet.close()
         self.leave()
         self.stop_recording()
         self.nearby.close()
@@ -203,7 +220,8 @@ class PilothouseApp(App):
 
     def on_pause(self) -> bool:
         """The glass is taken away: rest, and let go of the robot; the patrol goes on without us."""
-        self._rest()
+        self.inputs.rest()
+        self.fleet.look(None)
         if self.session is not None:
             self.session.link.close(0.3)
         self.stop_recording()
@@ -274,6 +292,7 @@ class PilothouseApp(App):
         self.camera.show(frame, received)
 
     def _beat(self) -> None:
+        self.corner.tick()
         if self.session is not None:
             self.session.link.beat()
 
@@ -416,6 +435,7 @@ class PilothouseApp(App):
         """Back to the connect screen; the robot goes on with what it does."""
         if self.session is None:
             return
+        self.fleet.look(None)
         self._rest()
         if self.shell is not None:
             self.shell.close()

@@ -8,7 +8,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["Rect", "connect_columns", "drive", "form", "mission", "shell", "tasks", "topics"]
+__all__ = [
+    "CORNER",
+    "Rect",
+    "connect_columns",
+    "corner",
+    "drive",
+    "form",
+    "mission",
+    "shared_stop",
+    "shell",
+    "stop_list",
+    "tasks",
+    "topics",
+]
 
 SELECTION = 310
 """Width of the bar for what is selected on a phone's map [dp]."""
@@ -356,3 +369,37 @@ def tasks(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
         places["stop"] = stop = Rect(stop.right - width, stop.y, width, stop.height)
         places["strip"] = Rect(strip.x, strip.y, stop.x - gap - strip.x, strip.height)
     return places
+
+
+CORNER = 88
+"""Height that STOP ALL takes up below the robots that can be connected to [dp]."""
+
+
+def corner(width: float, dp: float = 1.0) -> Rect:
+    """STOP ALL where no robot is connected, in STOP's corner of a window of that width [px]."""
+    across = min(240 * dp, width - 28 * dp)
+    return Rect(width - 14 * dp - across, 12 * dp, across, 64 * dp)
+
+
+def shared_stop(room: Rect, dp: float = 1.0) -> tuple[Rect, Rect]:
+    """STOP and the smaller STOP ALL in the room that STOP has alone: beside each other, or one above the other."""
+    gap = 8 * dp
+    if room.width >= 1.3 * room.height:
+        small = min(max(54 * dp, 0.24 * room.width), 84 * dp)
+        stop = Rect(room.x + small + gap, room.y, room.width - small - gap, room.height)
+        return stop, Rect(room.x, room.y, small, room.height)
+    small = 54 * dp
+    stop = Rect(room.x, room.y, room.width, room.height - small - gap)
+    return stop, Rect(room.x, stop.top + gap, room.width, small)
+
+
+def stop_list(body: Rect, stop: Rect, shape: str, wanted: float, dp: float = 1.0) -> Rect:
+    """What became of STOP ALL, `wanted` high [px] where there is room: above STOP, on a phone's side left of it."""
+    gap = 8 * dp
+    width = min(440 * dp, body.width - 2 * gap)
+    if shape == "short":
+        width = min(width, stop.x - body.x - 2 * gap)
+        height = min(wanted, body.height - 2 * gap)
+        return Rect(stop.x - gap - width, body.y + gap, width, height)
+    low = stop.top + gap
+    return Rect(body.right - gap - width, low, width, min(wanted, body.top - gap - low))

@@ -156,7 +156,7 @@ Builder.load_string("""
         BoxLayout:
             id: page
             orientation: 'vertical'
-            padding: root.edge, dp(22), root.edge, dp(22)
+            padding: root.edge, dp(22), root.edge, max(dp(22), root.keep_free)
             spacing: dp(22)
             BoxLayout:
                 id: notices
@@ -167,7 +167,7 @@ Builder.load_string("""
             ScrollView:
                 do_scroll_x: False
                 size_hint_y: None
-                height: min(cards.height, page.height - notices.height - actions.height - dp(110))
+                height: min(cards.height, page.height - page.padding[1] - page.padding[3] - notices.height - actions.height - dp(66))
                 GridLayout:
                     id: cards
                     cols: root.columns
@@ -293,6 +293,8 @@ class ConnectScreen(FloatLayout):
     """[px]"""
     columns = NumericProperty(1)
     edge = NumericProperty("26dp")
+    keep_free = NumericProperty(0.0)
+    """Height along the lower edge that is left to STOP ALL [px]."""
     theme_icon = StringProperty("light_mode")
     theme_text = StringProperty("Sunlight")
     can_simulate = BooleanProperty(False)

@@ -53,11 +53,15 @@ class Shell(FloatLayout):
     screen = StringProperty("")
     """Name of the screen on the glass, as in `screens`."""
     recording = BooleanProperty(False)
+    shares_stop = BooleanProperty(False)
+    """STOP leaves a part of its room to STOP ALL."""
 
     def __init__(self, screens: dict[str, Any], **kwargs: Any) -> None:
         """`screens` are the screens by name, each with `arrange`, `enter`, `leave`, `tick` and `rest`."""
         super().__init__(**kwargs)
         self.screens = screens
+        self.stop_room = arrange.Rect(0, 0, 1, 1)
+        """Where STOP is, alone or together with STOP ALL [px]."""
         self._build_frame()
         self._banner = Banner(level="danger")
         self._stop_banner = Banner(level="warn")
@@ -74,7 +78,7 @@ class Shell(FloatLayout):
         self._dashboard.enter()
         self.session.listeners.append(self._hear)
         self._greet()
-        self.bind(size=self._arrange, pos=self._arrange)
+        self.bind(size=self._arrange, pos=self._arrange, shares_stop=self._arrange)
         theme.bind(target=self._arrange)
         self._arrange()
 
@@ -153,7 +157,8 @@ class Shell(FloatLayout):
         if self.screen:
             screen = self.screens[self.screen]
             put(screen, places["body"])
-            put(self.stop, screen.arrange(places["body"], self.form, dp))
+            self.stop_room = screen.arrange(places["body"], self.form, dp)
+            put(self.stop, arrange.shared_stop(self.stop_room, dp)[0] if self.shares_stop else self.stop_room)
         self._place_notices()
 
     def _place_notices(self, *_: object) -> None:
