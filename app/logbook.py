@@ -50,6 +50,9 @@ class Logbook:
         self._away: list[Missed] = []
         self._asked: set[tuple[str, int]] = set()
         self._known = Known()
+        self._open: list[Event] | None = None
+        """None when it must be looked through anew."""
+        self._told = 0
         self.listeners: list[Callable[[], object]] = []
         """Called after every change; it comes often."""
 
@@ -68,9 +71,11 @@ class Logbook:
     @property
     def open(self) -> list[Event]:
         """Warnings and alarms of the robot's log that nobody has seen to, oldest first."""
-        boot = self._known.boot
-        found = [one for one in self._events.values() if one.level in GRAVE and not one.acknowledged_by]
-        return [one for one in found if not boot or one.boot == boot]
+        if self._open is None:
+            boot = self._known.boot
+            found = [one for one in self._events.values() if one.level in GRAVE and not one.acknowledged_by]
+            self._open = [one for one in found if not boot or one.boot == boot]
+        return list(self._open)
 
     @property
     def alarms(self) -> int:
@@ -81,6 +86,24 @@ class Logbook:
     def missed(self) -> list[Event]:
         """What happened while this handheld was away, until that was looked at."""
         return [one for one in self._events.values() if self.was_missed(one)]
+
+    @property
+    def words(self) -> str:
+        """What was missed, in a few words, as in `23 while you were away`; empty when nothing was."""
+        count = len(self.missed)
+        return f"{count}{' and more' if self.gone else ''} while you were away" if count else ""
+
+    def news(self) -> str:
+        """What was missed, in a sentence, where it was not told by this before; else empty."""
+        told, self._told = self._told, len(self._away)
+        if self._told <= told:
+            return ""
+        missed = self.missed
+        grave = sum(one.level in GRAVE and not one.acknowledged_by for one in missed)
+        happened = f"{len(missed)} event{'' if len(missed) == 1 else 's'} while you were away"
+        seen = f", {grave} to be seen to" if grave else ""
+        gone = "; the robot keeps no more of them" if self.gone else ""
+        return f"{happened}{seen}{gone}." if missed else ""
 
     @property
     def gone(self) -> bool:
@@ -110,6 +133,7 @@ class Logbook:
         if before is not None and (before.acknowledged_by or not event.acknowledged_by):
             return False
         self._events[key] = event
+        self._open = None
         if event.acknowledged_by:
             self._asked.discard(key)
         while len(self._events) > MOST:
@@ -124,7 +148,7 @@ class Logbook:
 
     def know(self, known: Known) -> None:
         """Remember how far the log is known, over the app's end."""
-        self._known = known
+        self._known, self._open = known, None if known.boot != self._known.boot else self._open
         if known.boot:
             kept = {boot: last for boot, last in marks(self._settings).items() if boot != known.boot}
             newest = dict([*kept.items(), (known.boot, known.last)][-LOGS:])
@@ -158,6 +182,7 @@ class Logbook:
         """What was missed has been looked at."""
         if self._away:
             self._away.clear()
+            self._told = 0
             self._tell()
 
     def _tell(self) -> None:

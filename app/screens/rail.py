@@ -84,11 +84,13 @@ class Rail(FloatLayout):
             else:
                 button.pos = (rect.x + 6 * dp, rect.top - 12 * dp - high - index * step)
 
-    def show(self, screen: str, *, recording: bool, control: tuple[str, str, str]) -> None:
+    def show(self, screen: str, *, recording: bool, control: tuple[str, str, str], alarms: int = 0) -> None:
         """Bring the looks up to date: which `screen` is on the glass, and what goes on.
 
         `control` is text, icon and role of the button for control; without a role it looks as the others.
+        `alarms` wait for somebody to see to them; they are counted where they are listed.
         """
+        self.ids.tasks.count = alarms
         for name in ENTRIES:
             self.ids[name].active = name == screen
         icon, text, _ = THEMES[theme.name]

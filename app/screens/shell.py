@@ -142,6 +142,7 @@ class Shell(FloatLayout):
             self.screen,
             recording=self.recording,
             control=standing.control_nav(self.session),
+            alarms=self.session.logbook.alarms,
         )
 
     # places
@@ -179,7 +180,8 @@ class Shell(FloatLayout):
             self._greet()
         elif channel == EVENT:
             self.unsay(post.value.kind)
-            if post.value.level == "alarm":
+            news = self.session.logbook.is_news(post.value, self.session.link.robot_time())
+            if post.value.level == "alarm" and news:
                 self.app.alarm(post.value)
 
     def _greet(self) -> None:
@@ -228,6 +230,8 @@ class Shell(FloatLayout):
         self._show_stop()
         self._tick_stop()
         self._show_rail()
+        if missed := self.session.logbook.news():
+            self.say(missed, "info", about="missed", stay=LONG)
         if self.screen:
             self.screens[self.screen].tick()
         self._place_notices()

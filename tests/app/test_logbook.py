@@ -122,6 +122,21 @@ def test_what_was_missed_is_marked_until_it_was_looked_at(book: Logbook) -> None
     assert (book.missed, book.gone) == ([], False)
 
 
+def test_what_was_missed_is_said_once_and_what_waits_in_it_is_counted(book: Logbook) -> None:
+    assert (book.news(), book.words) == ("", "")
+    for number, level in enumerate(("info", "alarm", "info"), 1):
+        book.take(event(number, level))
+    book.miss(Missed("a", 1, 3))
+    assert book.news() == "2 events while you were away, 1 to be seen to."
+    assert (book.news(), book.words) == ("", "2 while you were away")
+    book.take(event(4))
+    book.miss(Missed("a", 3, 4, gone=True))
+    assert book.news() == "3 events while you were away, 1 to be seen to; the robot keeps no more of them."
+    assert book.words == "3 and more while you were away"
+    book.look()
+    assert book.news() == ""
+
+
 def test_of_a_log_that_is_no_more_nothing_can_be_seen_to(book: Logbook, asked: Asked) -> None:
     book.take(event(1, "alarm"))
     book.know(Known("b", 4))
