@@ -195,7 +195,7 @@ class PilothouseApp(App):
         ]
         if self._poll:  # Kivy hands a touch on two frames after it came; this saves one of them
             self._events.append(Clock.schedule_interval(lambda _: Window.mainloop(), 0))
-        self.inputs = Inputs(self._rest, self._back)
+        self.inputs = Inputs(self, self._now)
         self.inputs.open()
         Window.allow_screensaver = False
         self._list()
@@ -235,12 +235,7 @@ class PilothouseApp(App):
             self.session.resume(self._new_link(self.session.link.url, self.session.logbook.known))
             self._pictures.ask_again()
 
-    def _rest(self) -> None:
-        """Every control lets go."""
-        if self.shell is not None:
-            self.shell.rest()
-
-    def _back(self) -> bool:
+    def back(self) -> bool:
         """Back closes a question, then leaves the robot; on the connect screen it is left to the system."""
         dialogs = [child for child in self.root.children if isinstance(child, AddressDialog)]
         if dialogs:
@@ -292,11 +287,12 @@ class PilothouseApp(App):
         self.camera.show(frame, received)
 
     def _beat(self) -> None:
-        self.corner.tick()
+        self.inputs.look()
         if self.session is not None:
             self.session.link.beat()
 
     def _tick(self) -> None:
+        self.corner.tick()
         if self.session is not None and self.shell is None:
             self._tick_connecting()
             return
@@ -435,11 +431,11 @@ class PilothouseApp(App):
         """Back to the connect screen; the robot goes on with what it does."""
         if self.session is None:
             return
-        self.fleet.look(None)
-        self._rest()
+        self.inputs.rest()
         if self.shell is not None:
             self.shell.close()
             self.shell = None
+        self.fleet.look(None)
         self.session.link.close()
         self.session = None
         self.records.frame = None
