@@ -31,6 +31,10 @@ PERIOD = 1 / 20
 """How often the frame loop sends [s]."""
 BETWEEN = (0.06, 0.12)
 """Between two moves of the finger [s]: not in step with the frames, and slow enough to be told apart."""
+PAUSE = (0.1, 0.3)
+"""Before a tap [s]."""
+CONFIRMED = 5.0
+"""What is not confirmed within this never is [s]."""
 REACH = 0.55
 """How far the finger moves from the stick's middle, as a share of its radius."""
 
@@ -40,6 +44,7 @@ def options() -> argparse.Namespace:
     parser = argparse.ArgumentParser()
     parser.add_argument("--started", type=float, required=True)
     parser.add_argument("--size", default="1280x800")
+    parser.add_argument("--settings", default="")
     for flag in ("--bare", "--no-gl", "--frame-loop", "--json-camera"):
         parser.add_argument(flag, action="store_true")
     return parser.parse_args()
@@ -162,6 +167,98 @@ class Script:
         x, y = stick.to_window(*stick.center)
         return round(x), round(Window.height - y), min(stick.size) / 2
 
+    def stop(self, count: int, seed: int) -> dict[str, Any]:
+        """Tap STOP `count` times at odd moments and release it; gives how long each took to be confirmed [s].
+
+        One that is not confirmed within CONFIRMED counts as infinite: null.
+        """
+        from bench.support.finger import Finger
+
+        finger, rng, taken = Finger(), random.Random(seed), []
+        x, y = in_ui(self._stop_at)
+        for _ in range(count):
+            self._until(lambda: self.app.shell.stop.phase == "ready" and self.app.session.control == "mine")
+            time.sleep(rng.uniform(*PAUSE))
+            confirmed = threading.Event()
+            moments: list[float] = []
+            in_ui(lambda confirmed=confirmed, moments=moments: self._note_stopped(confirmed, moments))
+            tapped = time.monotonic()
+            finger.down(x, y)
+            done = confirmed.wait(CONFIRMED)
+            finger.up(x, y)
+            taken.append(moments[0] - tapped if done else None)
+            time.sleep(0.05)
+            in_ui(self.app.session.release_stop)
+        return {"taken": taken}
+
+    def _stop_at(self) -> tuple[int, int]:
+        from kivy.core.window import Window
+
+        stop = self.app.shell.stop
+        x, y = stop.to_window(*stop.center)
+        return round(x), round(Window.height - y)
+
+    def _note_stopped(self, confirmed: threading.Event, moments: list[float]) -> None:
+        stop = self.app.shell.stop
+
+        def changed(_: object, phase: str) -> None:
+            if phase == "stopped":
+                moments.append(time.monotonic())
+                stop.unbind(phase=changed)
+                confirmed.set()
+
+        stop.bind(phase=changed)
+
+    def _until(self, condition: Callable[[], bool]) -> None:
+        end = time.monotonic() + 10.0
+        while not in_ui(condition):
+            if time.monotonic() > end:
+                raise TimeoutError("The handheld does not come to rest.")
+            time.sleep(0.02)
+
+    def attach(self, url: str, task: int, runs: int, queued: int, events: list[int]) -> dict[str, Any]:
+        """Connect and wait until it knows the task that runs, `runs` of the history, the queue and all `events`.
+
+        Gives how long that took [s] and what was missing after CONFIRMED, empty when nothing was.
+        """
+        began = time.monotonic()
+        in_ui(lambda: self.app.open(url))
+        asked = False
+        while (missing := in_ui(lambda: self._unknown(task, runs, queued, events))) and (
+            time.monotonic() - began < CONFIRMED
+        ):
+            if not asked and in_ui(lambda: self.app.session.connected):
+                asked = True
+                in_ui(self.app.session.tasking.ask_history)
+            time.sleep(0.005)
+        return {"took": time.monotonic() - began, "missing": missing}
+
+    def _unknown(self, task: int, runs: int, queued: int, events: list[int]) -> list[str]:
+        session = self.app.session
+        if not session.connected or self.app.shell is None or not self.app.shell.screen:
+            return ["the robot"]
+        status, queue = session.feeds.latest("/task/status"), session.feeds.latest("/task/queue")
+        history = session.outcomes.get("history")
+        told = history.answer.runs if history is not None and history.answer is not None else []
+        heard = {event.id for event in session.logbook.events}
+        found = {
+            "the task": status is not None and (status.task_id, status.state) == (task, "RUNNING"),
+            "the queue": queue is not None and len(queue.orders) == queued,
+            "the history": len(told) >= runs,
+            "its progress": session.feeds.state("/task/progress") == "live",
+            "the events": heard.issuperset(events),
+        }
+        return [name for name, known in found.items() if not known]
+
+    def flood(self, topic: str) -> dict[str, Any]:
+        """Listen to everything on a topic of Odometry."""
+        from bridge.msgs.nav_msgs import Odometry
+
+        link = self.app.session.link
+        client, network = link._client, link._network  # noqa: SLF001 - no screen listens to so much
+        network.call(lambda: client.subscribe(topic, Odometry, lambda *_: None))
+        return {}
+
     def watch(self, seconds: float) -> dict[str, Any]:
         """Look on for a while: the main thread's share of a core, memory, frames and pictures."""
         self.pictures.clear()
@@ -248,7 +345,7 @@ def main() -> None:
     from kivy.core.window import Window
 
     with tempfile.TemporaryDirectory() as folder:
-        app = bare() if asked.bare else real(asked, folder)
+        app = bare() if asked.bare else real(asked, asked.settings or folder)
 
         def drawn(*_: object) -> None:
             Window.unbind(on_flip=drawn)

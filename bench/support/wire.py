@@ -8,10 +8,11 @@ import math
 import select
 import socket
 import struct
-from collections.abc import AsyncIterator, Coroutine
+import threading
+from collections.abc import AsyncIterator, Coroutine, Iterator
 from typing import Any
 
-__all__ = ["Wire", "wire"]
+__all__ = ["Wire", "wire", "wired"]
 
 BUFFER = 4096
 """What the kernel may keep on either side of the wire in each direction [byte]; it doubles that itself."""
@@ -129,3 +130,26 @@ async def wire(to: int, rate: float = math.inf) -> AsyncIterator[Wire]:
         yield made
     finally:
         await made.cut()
+
+
+@contextlib.contextmanager
+def wired(to: int, rate: float = math.inf) -> Iterator[int]:
+    """The port of one that lives in a thread of its own, for what is no coroutine."""
+    loop, ended, ready = asyncio.new_event_loop(), asyncio.Event(), threading.Event()
+    ports: list[int] = []
+
+    async def live() -> None:
+        async with wire(to, rate) as link:
+            ports.append(link.port)
+            ready.set()
+            await ended.wait()
+
+    thread = threading.Thread(target=loop.run_until_complete, args=(live(),), name="wire")
+    thread.start()
+    ready.wait(5.0)
+    try:
+        yield ports[0]
+    finally:
+        loop.call_soon_threadsafe(ended.set)
+        thread.join()
+        loop.close()

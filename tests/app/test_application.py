@@ -10,7 +10,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
+from app.feeds import Post
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Twist
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskStatus
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
@@ -150,6 +152,17 @@ def test_a_second_tap_on_pause_does_not_resume(
     assert asked == ["pause"]
     driving.tap(pause)
     assert asked == ["pause", "resume"]
+
+
+def test_what_became_of_stop_is_shown_when_it_is_known_and_not_at_the_next_tick(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    shown = []
+    for stopped in (True, False):
+        told = replace(robot.control, stopped=stopped, at_rest=True)
+        driving.app.session.deliver("/control/status", Post(told, 0.0, 1))
+        shown.append(driving.app.shell.stop.phase)
+    assert shown == ["stopped", "ready"]
 
 
 @pytest.mark.parametrize("screen", ["drive", "mission"])

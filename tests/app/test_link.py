@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -30,7 +31,8 @@ class Operator:
 
     def __init__(self, url: str, folder: Path, *, wants_control: bool) -> None:
         self.network = NetworkThread()
-        self.mailbox = Mailbox(lambda: None)
+        self.woken = threading.Event()
+        self.mailbox = Mailbox(self.woken.set)
         self.settings = Settings(folder)
         self.link = Link(
             url, self.mailbox, self.network, client_id="me", client_name="tablet", marks=marks(self.settings)
@@ -459,3 +461,14 @@ def test_a_draft_that_was_under_way_over_a_closed_link_can_be_sent_again(
     operator.session.resume(operator.link)
     assert operator.session.mission.state == "draft"
     assert operator.session.mission.outcome == "No reply: the link was closed."
+
+
+def test_whether_it_is_stopped_wakes_the_glass_at_once(
+    connect: Callable[..., Operator], robot: FakeRobot
+) -> None:
+    operator = connect(wants_control=False)
+    operator.until(lambda: operator.session.feeds.latest("/control/status") is not None)
+    operator.woken.clear()
+    robot.publish("/control/status", ControlStatus(stopped=True))
+    assert operator.woken.wait(PATIENCE)
+    operator.until(lambda: operator.session.stop_latched)
