@@ -158,7 +158,7 @@ class Authority:
         if before.requested_by_id and status.driver_id == before.requested_by_id:
             self._session.wants_control = False
             return f"{status.driver} has control now.", "info"
-        why = " while the link was away" if self._away else f", unheard for {LAPSE:.0f} s"
-        free = "it is asked for again" if self._session.wants_control else "it is free"
+        why = "while the link was away" if self._away else f"the robot heard nothing for {LAPSE:.0f}\u00a0s"
+        free = "It is asked for again" if self._session.wants_control else "It is free"
         now = f"{status.driver} has it now" if status.driver else free
-        return f"Your control lapsed{why}; {now}.", "warn"
+        return f"Your control lapsed: {why}. {now}.", "warn"

@@ -39,7 +39,7 @@ class HandoverCard(NoticeCard):
     """The answer that is under way, as dispatched; empty for none."""
 
     def _countdown(self) -> str:
-        return f" · {math.ceil(self.left)} s" if math.isfinite(self.left) else ""
+        return f" · {math.ceil(self.left)}\u00a0s" if math.isfinite(self.left) else ""
 
     countdown = AliasProperty(_countdown, bind=["left"], cache=True)
     """As in ` · 8 s`; empty while it is not known."""
@@ -53,7 +53,7 @@ class HandoverCard(NoticeCard):
         self._rows = {"asked": self.keep.parent, "asking": self.take_back.parent}
         for button, name in ((self.keep, "object"), (self.hand_over, "grant"), (self.take_back, "take_back")):
             button.bind(on_release=lambda _, name=name: self.ask(name))
-        for name in ("part", "asker", "driver", "countdown", "sent", "blocked"):
+        for name in ("part", "asker", "driver", "countdown", "sent", "blocked", "tiny"):
             self.fbind(name, self._write)
         self._write()
 
@@ -78,13 +78,15 @@ class HandoverCard(NoticeCard):
 
     def _write(self, *_: object) -> None:
         if self.part == "asking":
-            self.headline = f"You asked {self.driver} for control{self.countdown}"
-            self.said = f"It is yours then, unless {self.driver} keeps it."
+            self.headline = f"You asked {self.driver}{self.countdown}"
+            self.said = f"Control is yours then, unless {self.driver} keeps it."
         else:
             self.headline = f"{self.asker} asks for control{self.countdown}"
             self.said = "It goes over by itself, unless you keep it."
         if self.sent:
             self.said = "Sent …"
+        elif self.tiny:
+            self.said = ""
         for part, row in self._rows.items():
             if (part == self.part) != (row.parent is self):
                 (self.add_widget if part == self.part else self.remove_widget)(row)

@@ -11,23 +11,27 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.metrics import dp
-from kivy.properties import BooleanProperty, NumericProperty, StringProperty
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.labels  # noqa: F401 - its rules draw what is used here
 from widgets.base import Control
 from widgets.buttons import IconButton, PrimaryButton, PushButton, QuietButton
+from widgets.theme import theme
 
 __all__ = ["NoticeCard"]
+
+COMPACT, TINY = 400.0, 340.0
+"""Narrower ones leave out their icons, and what can be spared [dp]."""
 
 Builder.load_string("""
 <NoticeCard>:
     orientation: 'vertical'
     size_hint_y: None
     height: self.minimum_height
-    padding: dp(14), dp(9)
-    spacing: dp(10)
+    padding: dp(4) if root.compact else dp(14), dp(6) if root.tiny else dp(9), dp(14), dp(6) if root.tiny else dp(9)
+    spacing: dp(7) if root.tiny else dp(10)
     canvas.before:
         Color:
             rgba: theme.roles[root.role]
@@ -50,6 +54,8 @@ Builder.load_string("""
             name: root.icon
             role: root.role
             font_size: sp(28)
+            size: (0, 0) if root.compact else (self.font_size, self.font_size)
+            opacity: 0 if root.compact else 1
             pos_hint: {'center_y': .5}
         BoxLayout:
             id: words
@@ -90,20 +96,45 @@ class NoticeCard(Control, BoxLayout):
     beside = NumericProperty(0.0)
     """Height of what stands beside the words [px]."""
 
+    def _tiny(self) -> bool:
+        return bool(self.width < dp(TINY))
+
+    tiny = AliasProperty(_tiny, bind=["width"], cache=True)
+    """There is no room for a cross, nor for more than what must be said."""
+
+    def _compact(self) -> bool:
+        return bool(self.width < dp(COMPACT) and self.beside)
+
+    compact = AliasProperty(_compact, bind=["width", "beside"], cache=True)
+    """The words need the room of the icons, since something stands beside them."""
+
     def add_beside(self, text: str, icon: str) -> PushButton:
-        """A quiet button right of the words."""
-        button = QuietButton(
-            text=text, icon=icon, size_hint_x=None, width=dp(136), pos_hint={"center_y": 0.5}
-        )
-        self._reserve(button)
-        return button
+        """A quiet button right of the words; what stands on it can be changed by `relabel`."""
+        self._button = QuietButton(size_hint_x=None, pos_hint={"center_y": 0.5})
+        self.fbind("compact", lambda *_: self.relabel(*self._label))
+        self.relabel(text, icon)
+        self._reserve(self._button)
+        return self._button
+
+    def relabel(self, text: str, icon: str) -> None:
+        """Change what stands on the button beside the words."""
+        button, self._label = self._button, (text, icon)
+        button.text, button.icon = text, "" if self.compact else icon
+        button.width, button.padding = (dp(100), [dp(6), 0]) if self.compact else (dp(136), [dp(10), 0])
 
     def add_close(self) -> Widget:
-        """A cross that takes the card away; dispatches `on_command("close")`."""
+        """A cross that takes the card away; dispatches `on_command("close")`. A tiny card has none."""
         cross = IconButton(icon="close", role="muted", bare=True, pos_hint={"center_y": 0.5})
         cross.bind(on_release=lambda _: self.dispatch("on_command", "close"))
         self._reserve(cross)
+        self.fbind("tiny", lambda *_: self._crossed(cross))
         return cross
+
+    def _crossed(self, cross: Widget) -> None:
+        if self.tiny and cross.parent is not None:
+            self.ids.row.remove_widget(cross)
+        elif not self.tiny and cross.parent is None:
+            self.ids.row.add_widget(cross)
 
     def _reserve(self, button: Widget) -> None:
         self.ids.row.add_widget(button)
@@ -113,6 +144,7 @@ class NoticeCard(Control, BoxLayout):
     def add_below(self, *buttons: tuple[str, str, bool]) -> list[PushButton]:
         """A row of large buttons, each `(text, icon, primary)`."""
         row = BoxLayout(size_hint_y=None, height=dp(60), spacing=dp(10))
+        self.fbind("tiny", lambda *_: setattr(row, "height", theme.target if self.tiny else dp(60)))
         made: list[PushButton] = []
         for text, icon, primary in buttons:
             kind = PrimaryButton if primary else QuietButton

@@ -79,9 +79,7 @@ class SpeedCap(NoticeCard):
             self.headline = "Full speed on any link"
             now = f"{self.why}: it" if "," in self.why else "It"
             self.said = f"{now} does not slow down."
-        self.switch.text, self.switch.icon = (
-            ("Full speed", "link_off") if self.follows else ("Follow link", "link")
-        )
+        self.relabel(*(("Full speed", "link_off") if self.follows else ("Follow link", "link")))
         self.switch.meaning = self.switch.text
         self.switch.disabled = self.blocked or self.sent
 

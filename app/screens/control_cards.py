@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from kivy.metrics import Metrics
+
 from app.commands import Outcome
 from app.dashboard import Dashboard
 from app.screens.notices import LONG, Notices
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import TaskQueue, TaskStatus
 from widgets import HandoverCard, ModeCard, PausedCard, SpeedCap
+from widgets.notice_card import TINY
 from widgets.task_words import TASKS
 
 __all__ = ["ControlCards"]
@@ -67,7 +70,6 @@ class ControlCards:
     def tick(self, screen: str) -> None:
         """Bring up to date what time and the link change; `screen` is on the glass."""
         session, authority = self._session, self._session.authority
-        usable = session.connected and not session.foreign
         other = authority.who == "other"
         self.handover.left = authority.left
         self._tick_mode(other=other)
@@ -75,14 +77,23 @@ class ControlCards:
         self.cap.rtt = session.link.rtt
         self.cap.driver = authority.status.driver if other else ""
         self.cap.blocked = other
-        paused = self.paused.open and not (self._closed or self._pause_asked or other or session.stop_latched)
-        self._notices.keep(self.handover, shown=usable and self.handover.open, first=True)
+        self._place(screen, usable=session.connected and not session.foreign, other=other)
+
+    def _place(self, screen: str, *, usable: bool, other: bool) -> None:
+        """Put on the glass what is open; where there is little room only what cannot wait."""
+        tight = self._notices.width < TINY * Metrics.density
+        asked, chosen = usable and self.handover.open, usable and self.mode.open
+        free = usable and not (tight and (asked or chosen))
+        paused = self.paused.open and not (
+            self._closed or self._pause_asked or other or self._session.stop_latched
+        )
+        self._notices.keep(self.handover, shown=asked, first=True)
         for card, shown in (
-            (self.cap, self.cap.open and screen in DRIVING),
-            (self.paused, paused and screen in TASKLESS),
-            (self.mode, self.mode.open),
+            (self.cap, free and self.cap.open and screen in DRIVING),
+            (self.paused, free and paused and screen in TASKLESS),
+            (self.mode, chosen and not (tight and asked)),
         ):  # below the hand-over, which stays where it is under a finger
-            self._notices.keep(card, shown=usable and shown, first=True, under=self.handover)
+            self._notices.keep(card, shown=shown, first=True, under=self.handover)
 
     def _tick_mode(self, *, other: bool) -> None:
         session, card = self._session, self.mode
