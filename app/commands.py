@@ -330,7 +330,7 @@ class Commands:
         """STOP was pressed and the robot has not confirmed it."""
         return self._stopping is not None
 
-    async def send(self, name: str, **fields: Any) -> Outcome:
+    async def send(self, name: str, /, **fields: Any) -> Outcome:
         """Send a command and wait for what becomes of it; KeyError for a name not in `COMMANDS`.
 
         While one of the same name about the same thing is under way, its state is the answer. One that asks for

@@ -170,7 +170,7 @@ class Link:
         """The user interface is alive; without this for 0.15 s the robot is told to rest."""
         self._slot.beat()
 
-    def command(self, name: str, **fields: Any) -> None:
+    def command(self, name: str, /, **fields: Any) -> None:
         """Send a one-shot command of `app.commands.COMMANDS`; its `Outcome`s come through the mailbox."""
         self._network.call(self._spawn, self.commands.send, name, fields)
 

@@ -18,6 +18,7 @@ from app.link import EVENT, KNOWN, LINK, MISSED, OFFER, OUTCOME, Link
 from app.local_stop import LocalStop
 from app.logbook import Logbook
 from app.mission import Draft, MissionEditor
+from app.missions import KeptMissions
 from app.offer import CAMERA, Offer
 from app.settings import Settings
 from app.tasking import Tasking
@@ -60,6 +61,7 @@ class Session:
         self.mission = MissionEditor(on_change=self._mission_changed)
         self.tasking = Tasking(self)
         self.checks = Checks(feeds, lambda: self.running)
+        self.missions = KeptMissions(self)
         self.logbook = Logbook(settings, self.command)
         self.authority = Authority(self)
         self.outcomes: dict[str, Outcome] = {}
@@ -280,6 +282,7 @@ class Session:
             self.mission.answered(self.mission.sent, False, "No reply: the link was closed.")
         self.tasking.dropped()
         self.logbook.dropped()
+        self.missions.dropped()
         self._link_changed(link.state)
 
     def _offered(self, offer: Offer) -> None:
@@ -305,6 +308,7 @@ class Session:
             self.mission.answered(sent, outcome.phase == "accepted", outcome.sentence)
         self.tasking.answered(outcome)
         self.logbook.answered(outcome)
+        self.missions.answered(outcome)
 
     def _introduced(self) -> None:
         if not self._known:
@@ -342,7 +346,7 @@ class Session:
 
     # what goes out
 
-    def command(self, name: str, **fields: Any) -> None:
+    def command(self, name: str, /, **fields: Any) -> None:
         """Send a one-shot command of `app.commands.COMMANDS`."""
         self.link.command(name, **fields)
 
