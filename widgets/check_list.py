@@ -146,6 +146,8 @@ class CheckList(RobotWidget, BoxLayout):
 
     open = BooleanProperty(False)
     """Says each sentence; folded it is one line."""
+    brief = BooleanProperty(False)
+    """Only what is not good is said, where there is little room."""
     checks = ListProperty()
     """As they came, of `Check`; empty before the first list, and then nothing is drawn."""
     wide = NumericProperty("330dp")
@@ -191,7 +193,7 @@ class CheckList(RobotWidget, BoxLayout):
 
     def _title(self) -> str:
         if self.ready:
-            return "Checks good"
+            return "Checks good" if self.open else "Checks"
         count = f"{self.good} of {self.total}"
         return f"Before it moves: {count} good" if self.open and self.wide > dp(300) else f"Checks: {count}"
 
@@ -217,7 +219,7 @@ class CheckList(RobotWidget, BoxLayout):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.bind(checks=self._write)
+        self.bind(checks=self._write, brief=self._write)
         self.ids.lines.bind(height=lambda _, height: setattr(self, "_lines_height", height))
         self.ids.head.ids.words.bind(width=self._widen)
 
@@ -250,7 +252,7 @@ class CheckList(RobotWidget, BoxLayout):
                 if _state(check) == state:
                     lines.add_widget(_line(state, check.text or f"The {check.name} is not good.", "text"))
         good = [check.name for check in self.checks if check.state == "ok"]
-        if good:
+        if good and not self.brief:
             lines.add_widget(_line("ok", f"Good: {', '.join(good)}.", "muted"))
 
 
@@ -301,6 +303,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "live folded": make(untested, open_=False),
         "bad": make(bad),
         "bad narrow": make(bad, wide="214dp"),
+        "bad brief": make(bad, brief=True),
         "bad folded": make(bad, open_=False),
         "good": make(GOOD),
         "good folded": make(GOOD, open_=False),

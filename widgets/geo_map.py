@@ -113,8 +113,9 @@ class GeoMap(MapOverlay):
         yield from super()._fill_robot(shapes)
         if self._pictures is not None and self._pictures.map_source.attribution:
             x, y, wide, _ = self.free_box
+            low = dp(8) + (0 if math.isnan(self.foot) else self.foot)
             text = self._pictures.map_source.attribution
-            yield from outlined(Word(text, x + wide - dp(10), y + dp(8), sp(11), theme.text, anchor=(1, 0)))
+            yield from outlined(Word(text, x + wide - dp(10), y + low, sp(11), theme.text, anchor=(1, 0)))
 
 
 class _Pictures(MapView):

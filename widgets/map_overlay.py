@@ -73,7 +73,7 @@ class MapOverlay(MapGestures, Drawing):
     fence = ObjectProperty(Fence())
     """Where it may be, a `Fence`; waypoints, home and places that it would refuse are marked."""
     foot = NumericProperty(0)
-    """How far above the lower edge of what is free the scale and the legend begin [px]."""
+    """How far above the lower edge of what is free the scale and the legend begin [px]; NaN draws neither."""
     visited = NumericProperty(0)
     """How many of the first waypoints are done; they are drawn filled."""
     coming = NumericProperty(-1)
@@ -326,6 +326,8 @@ class MapOverlay(MapGestures, Drawing):
             word, _ = marks.place_handle(shapes, self.view, pose, self.mark_radius, self.handle_reach())
             marks.ghost_mark(shapes, self.view, pose, self._robot_disc())
             yield word
+        if math.isnan(self.foot):
+            return
         x, y, wide, _ = self.free_box
         left, low = x + dp(16), y + dp(14) + self.foot
         yield from marks.scale_bar(shapes, self.view, left, low, min(dp(140), wide / 3))

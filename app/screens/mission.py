@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import partial
 from typing import Any
 
+from kivy.clock import Clock
 from kivy.lang import Builder
 from kivy.properties import ListProperty, NumericProperty, ObjectProperty, StringProperty
+from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.widget import Widget
 
@@ -18,10 +21,12 @@ from app.commands import Outcome
 from app.dashboard import Dashboard
 from app.feeds import Post
 from app.link import EVENT, OFFER, OUTCOME
+from app.screens.check_card import CheckCard
 from app.screens.mission_maps import Maps
 from app.screens.panel import MissionPanel
 from app.screens.placing import put
 from app.screens.pointing import MODES, Pointing
+from app.screens.refusals import refused, summary
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import Place, RobotInfo, TaskStatus
 from bridge.msgs.vision_msgs import Detection2DArray
@@ -83,11 +88,16 @@ class MissionScreen(FloatLayout):
         self.panel = MissionPanel(self.session, self.dashboard)
         self._pointing = Pointing(self, self.session)
         self.selection = self._pointing.bar
+        self.checks = CheckCard(self.session, self.dashboard)
+        self.corner = BoxLayout(orientation="vertical", spacing="8dp", size_hint=(None, None))
+        """Over the map: what is selected and the check list, one above the other."""
         self._form, self._body, self._dp = "wide", Rect(0, 0, 1, 1), 1.0
+        self._settle_soon = Clock.create_trigger(self._settle, -1)
         self._build()
         self._bind_map()
         self.bind(mode=self._mode_changed, sheet=self._rearrange)
         self.session.mission.on_change = self._chain(self.session.mission.on_change)
+        self._bar = self.notice = self._body
         self._show_draft()
 
     @property
@@ -115,6 +125,9 @@ class MissionScreen(FloatLayout):
         self.panel.tasks.bind(on_command=lambda _, name: self._pointing.set_going(name))
         self.panel.lacking.bind(on_choose=lambda _, screen: self.app.show(screen))
         ids.handle.bind(on_touch_down=self._pull)
+        ids.floats.add_widget(self.corner)
+        for widget in (self.selection, self.checks):
+            widget.bind(height=self._settle_soon)
         ids.update({"map": self.map, "video": self.video, "selection": self.selection, "panel": self.panel})
         ids.update({"tasks": self.panel.tasks, "send": self.panel.ids.send, "motion": self.panel.motion})
 
@@ -142,6 +155,7 @@ class MissionScreen(FloatLayout):
         self._maps.follow(self._pointing)
         bind(self.map, "/robot/info", self._show_info, fresh=False)
         bind(self.map, "/task/status", self._show_task, fresh=False)
+        bind(self.map, "/limits", lambda _: self._show_draft(), fresh=False)
         bind(self.compass, "/pose")
         bind(self.video, "/detections", fresh=False, empty=Detection2DArray())
 
@@ -166,11 +180,7 @@ class MissionScreen(FloatLayout):
         self._form, self._body, self._dp = form, body, dp
         places = arrange.mission(body, form, dp, sheet_open=bool(self.sheet))
         tall = form == "tall"
-        for name, widget in (
-            ("side", self.ids.side),
-            ("selection", self.selection),
-        ):
-            put(widget, places[name])
+        put(self.ids.side, places["side"])
         put(self.map, places["map"])
         whole = places["modes"]
         put(self.ids.modes, Rect(whole.x, whole.y, whole.width * len(self.modes) / len(MODES), whole.height))
@@ -186,7 +196,9 @@ class MissionScreen(FloatLayout):
         self._place_tasks(places.get("tasks"))
         self._place_tools(places["tools"], dp, tall)
         self._place_floats(places)
-        self.notice = places["notice"]
+        self._bar, self.notice = places["selection"], places["notice"]
+        self._pointing.show()
+        self._settle()
         return places["stop"]
 
     def _place_floats(self, places: dict[str, Rect]) -> None:
@@ -205,6 +217,30 @@ class MissionScreen(FloatLayout):
             low = (bar if beside else video).top - area.y
         self.map.insets = [left, low, area.right - places["tools"].x, top]
         self.map.badge_span = [video.right, places["tools"].x] if self._form == "tall" else [0, 0]
+
+    def show_selection(self, shown: bool) -> None:
+        """Have the bar that says what is selected on the glass, or away; the map that is edited is not covered by more."""
+        wanted: list[Widget] = [self.selection] if shown else []
+        if self.mode == "view":
+            wanted.append(self.checks)
+        if list(reversed(self.corner.children)) != wanted:
+            self.corner.clear_widgets()
+            for widget in wanted:
+                self.corner.add_widget(widget)
+        self._settle_soon()
+
+    def _settle(self, *_: object) -> None:
+        """The corner hangs from the modes, or on a phone stands on its lower edge and lifts scale and legend."""
+        corner, bar, area, wide = self.corner, self._bar, self.map, self._form == "wide"
+        low = area.y + area.insets[1]
+        self.selection.width = self.checks.wide = corner.width = bar.width
+        self.checks.brief, corner.height = not wide, corner.minimum_height
+        corner.pos = bar.x, bar.top - corner.height if wide else bar.y
+        self.checks.room = bar.top - low if wide else self.notice.top - bar.y
+        covers = self.checks.unfolded and self.checks.parent is corner
+        area.foot = 0 if wide or not corner.height else math.nan if covers else max(0, corner.top - low)
+        up = bool(self.sheet) and self._form == "tall"
+        corner.opacity, corner.disabled = float(not up), up
 
     def _place_tasks(self, rect: Rect | None) -> None:
         """On a phone the task's buttons, or what stands for them, are beside STOP; elsewhere in the panel."""
@@ -296,6 +332,7 @@ class MissionScreen(FloatLayout):
         """Bring up to date what time changes."""
         self.dashboard.tick()
         self.panel.tick()
+        self.checks.tick()
         self.ids.undo.disabled = not self.session.mission.can_undo
         self.ids.redo.disabled = not self.session.mission.can_redo
         self._pointing.tick()
@@ -314,12 +351,18 @@ class MissionScreen(FloatLayout):
         if self.map.selected >= len(draft.points):
             self.map.selected = -1
         self.map.motion_name = draft.motion
+        self._show_refused()
         self.panel.show_draft()
         self._pointing.show()
+
+    def _show_refused(self, *_: object) -> None:
+        found = refused(self.map.fence, self.session.mission.draft, self.map.robot_radius)
+        self.panel.refused = summary(list(found))
 
     def _show_info(self, info: RobotInfo) -> None:
         self.map.robot_radius = info.radius or 0.2
         self.map.camera_fov = info.camera_fov
+        self._show_draft()
         self._rearrange()
 
     def _show_task(self, status: TaskStatus) -> None:

@@ -39,7 +39,13 @@ class Maps:
         pointing.follow(one)
         bind(one, "/places", lambda msg: pointing.show_places(one, msg), fresh=False)
         bind(one, "/pose", always=True)
-        for topic in ("/plan", "/intruders", "/scan", *(["/map"] if isinstance(one, GridMap) else [])):
+        for topic in (
+            "/plan",
+            "/intruders",
+            "/scan",
+            "/limits",
+            *(["/map"] if isinstance(one, GridMap) else []),
+        ):
             bind(one, topic, fresh=False)
 
     def pictures(self) -> Path | None:

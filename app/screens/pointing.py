@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import msgspec
 from kivy.metrics import dp
 from kivy.uix.widget import Widget
 
+from app.mission import Draft
+from app.screens.refusals import refused
 from app.screens.selection import SelectionBar
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import Place, PlaceArray
@@ -76,6 +79,9 @@ class Pointing:
             on_set_home=lambda _, x, y: mission.set_home(x, y),
             on_new_place=lambda _, x, y: self._new_place(x, y),
             on_open_place=lambda _, index: self._open_place(index),
+            grip=self._say,
+            fence=self._say,
+            robot_radius=self._say,
         )
 
     @property
@@ -111,17 +117,14 @@ class Pointing:
 
     def show(self) -> None:
         """Bring the bar up to date: what is selected, and what can be done with it."""
-        screen, bar = self._screen, self.bar
+        bar, row = self.bar, self.bar.ids.row
         bar.text, wanted = self._said()
-        for child in bar.children[:-1]:
-            bar.remove_widget(child)
+        self._say()
+        for child in row.children[:-1]:
+            row.remove_widget(child)
         for name in wanted:
-            bar.add_widget(self._ids[name])
-        shown = bool(bar.text)
-        if shown and bar.parent is None:
-            screen.ids.floats.add_widget(bar)
-        elif not shown and bar.parent is not None:
-            bar.parent.remove_widget(bar)
+            row.add_widget(self._ids[name])
+        self._screen.show_selection(bool(bar.text))
 
     def _said(self) -> tuple[str, tuple[str, ...]]:
         """The words of the bar and the names of its buttons."""
@@ -136,6 +139,36 @@ class Pointing:
         if screen.mode == "place" and self._moving is not None:
             return f"Tap where {self._moving.name} is.", ()
         return HINTS.get(screen.mode, ""), ()
+
+    def _trouble(self) -> str:
+        """Why the robot would refuse what is being edited, as one sentence; empty when it would not."""
+        screen, area, index = self._screen, self._screen.map, int(self._screen.map.selected)
+        found = refused(area.fence, self._held(), area.robot_radius)
+        if screen.mode == "home":
+            return found.get("Home", "")
+        points = {name: said for name, said in found.items() if name != "Home"}
+        if screen.mode != "points" or not points:
+            return ""
+        if 0 <= index < len(area.waypoints):
+            return points.get(f"Point {index + 1}", "")
+        more = len(points) - 1
+        first = next(iter(points.values()))
+        return f"{first.rstrip('.')}; {more} more would be refused too." if more else first
+
+    def _held(self) -> Draft:
+        """The draft with what a finger holds where the finger has brought it."""
+        draft, grip = self._session.mission.draft, self._screen.map.grip
+        if grip is None or not grip.moved:
+            return draft
+        if grip.what == "home":
+            return replace(draft, home=(grip.x, grip.y))
+        points = list(draft.points)
+        if grip.what == "waypoint" and grip.index < len(points):
+            points[grip.index] = (grip.x, grip.y)
+        return replace(draft, points=tuple(points))
+
+    def _say(self, *_: object) -> None:
+        self.bar.trouble = self._trouble()
 
     def _reorder(self, step: int) -> None:
         area = self._screen.map

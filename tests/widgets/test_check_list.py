@@ -36,6 +36,13 @@ def test_what_is_not_good_is_said_the_worst_first_and_what_is_good_named(stage, 
     assert (card.title, card.role) == ("Before it moves: 1 of 3 good", "danger")
 
 
+def test_where_there_is_little_room_only_what_is_not_good_is_said(stage, card):
+    card.brief = True
+    assert told(stage, card, GOOD[1], UNTESTED) == [UNTESTED.text]
+    card.brief = False
+    assert len(card.ids.lines.children) == 2
+
+
 def test_only_what_nobody_knows_is_a_warning(stage, card):
     told(stage, card, *GOOD[:3], UNTESTED)
     assert (card.role, card.icon) == ("warn", "help")
