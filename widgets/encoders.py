@@ -62,7 +62,9 @@ class EncodersView(Gauge):
         top = self.top - edge
         if not self.low:
             more = len(self.wheels) - len(shown)
-            yield from self.header((f"rad/s · {more} more" if more else "rad/s", "rad/s"), "muted")
+            yield from self.header(
+                (f"rad/s · {more} more" if more else "rad/s", "rad/s"), "muted", told=False
+            )
             top -= sp(12) + dp(4)
         if not shown:
             yield Word(DASH, self.center_x, (self.y + edge + top) / 2, sp(14), theme.muted)
@@ -76,18 +78,19 @@ class EncodersView(Gauge):
     ) -> Iterator[Word]:
         name, speed, angle = wheel
         left, right = self.x + self.edge, self.right - self.edge
+        roomy = high >= dp(22) and not self.low
         size = sp(12 if high >= dp(18) else 10)
-        text_y = middle + (dp(5) if high >= dp(22) else 0)
+        text_y = middle + (dp(5) if roomy else 0)
         told = figure(speed, 1)
         texts = (f"{told} rad/s", told) if self.low and math.isfinite(speed) else (told,)
         shown = first_fitting(texts, size, (right - left) * 0.62, bold=True)
         yield Word(shown, right, text_y, size, theme.text, bold=True, anchor=(1, 0.5))
-        names = (f"{name} · {_turns(angle)}", name, name[:1].upper())
-        label = first_fitting(
-            names if high >= dp(22) else names[1:], size, (right - left) * 0.96 - wide(shown, size, bold=True)
-        )
+        names = (name, name[:1].upper())
+        if roomy:
+            names = (f"{name} · {_turns(angle)}", *names)
+        label = first_fitting(names, size, right - left - dp(8) - wide(shown, size, bold=True))
         yield Word(label, left, text_y, size, theme.muted, anchor=(0, 0.5))
-        if high >= dp(22):
+        if roomy:
             self._bar(shapes, speed, (left, right), text_y - size * 0.5 - dp(7))
 
     def _bar(self, shapes: Shapes, speed: float, span: tuple[float, float], y: float) -> None:

@@ -89,14 +89,17 @@ class Gauge(Drawing):
         """Draw into `shapes` and give the words."""
         raise NotImplementedError(f"{type(self).__name__} does not say what is on it")
 
-    def header(self, figures: Sequence[str], role: str = "text") -> Iterator[Word]:
-        """The name in the upper left corner and the first of `figures` that fits beside it, longest first."""
+    def header(self, figures: Sequence[str], role: str = "text", *, told: bool = True) -> Iterator[Word]:
+        """The name in the upper left corner and the first of `figures` that fits beside it, longest first.
+
+        Where none does the name gives way, or, when it is not `told`, the figure.
+        """
         left, y = self.x + self.edge, self.top - self.edge - sp(6)
         right = self.right - self.edge - (dp(22) if self.alarmed else 0)
         name = self.title.upper()
         taken = wide(name, sp(11.5)) + dp(8)
         figure = first_fitting(figures, sp(13), right - left - taken, bold=True)
-        if not figure and figures:
+        if told and not figure and figures:
             figure, name = first_fitting(figures, sp(13), right - left, bold=True), ""
         yield Word(name, left, y, sp(11.5), theme.muted, anchor=(0, 0.5))
         yield Word(figure, right, y, sp(13), theme.roles[role], bold=True, anchor=(1, 0.5))

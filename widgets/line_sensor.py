@@ -29,6 +29,8 @@ __all__ = ["LineSensorView", "samples"]
 
 CENTRED = 0.5
 """A line within this part of a cell's spacing from the middle is under the middle."""
+STEPS = 20
+"""Shades that the eye tells apart: a cell is not drawn anew for its noise."""
 DARK, BRIGHT = 0.05, 0.95
 """Share of white that the darkest and the brightest cell are drawn with."""
 
@@ -56,7 +58,9 @@ class LineSensorView(Gauge):
     def show(self, msg: LineSensor) -> None:
         """Show the newest reading."""
         self.spacing = msg.spacing
-        self.values = [round(value, 2) for value in msg.values]
+        self.values = [
+            round(value * STEPS) / STEPS if math.isfinite(value) else math.nan for value in msg.values
+        ]
 
     def words(self) -> tuple[str, ...]:
         """Where the line is, longest first."""

@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, DictProperty, NumericProperty
+from kivy.properties import AliasProperty, DictProperty, ListProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.sensor_msgs import Range
@@ -41,10 +41,12 @@ class UltrasoundView(Gauge):
     """One cone for each ranger, by the name of its frame; its end in the colour of its distance."""
 
     accepts: ClassVar = (Range,)
-    drawn_from: ClassVar = ("echoes", "reach", "near", "close")
+    drawn_from: ClassVar = ("echoes", "silent", "reach", "near", "close")
 
     echoes = DictProperty()
     """The newest Range by frame."""
+    silent = ListProperty()
+    """Frames that have told nothing for a while in which others did."""
     reach = NumericProperty(2.0)
     """Distance at the end of a cone [m]; what is farther is told in figures only."""
     near = NumericProperty(0.6)
@@ -58,24 +60,33 @@ class UltrasoundView(Gauge):
         }
         return min(known, key=lambda frame: known[frame], default="")
 
-    nearest = AliasProperty(_nearest, bind=["echoes"], cache=True)
+    nearest = AliasProperty(_nearest, bind=["echoes", "silent"], cache=True)
     """Frame of the ranger whose echo is nearest; empty when none has told anything."""
 
     def __init__(self, **kwargs: Any) -> None:
+        self._stamps: dict[str, float] = {}
         super().__init__(**{"title": "Ultrasound", **kwargs})
 
     def show(self, msg: Range) -> None:
         """Take the newest echo of one ranger; the others' stay."""
-        before = self.echoes.get(msg.header.frame_id)
+        frame = msg.header.frame_id
+        before = self.echoes.get(frame)
         if before is None and len(self.echoes) >= MOST:
             return
-        self.echoes[msg.header.frame_id] = msg
+        self._stamps[frame] = msg.header.stamp.seconds
+        silent = self._silent()
+        if silent != self.silent:
+            self.silent = silent
+        if before is None or _read(before) != _read(msg):
+            self.echoes[frame] = msg
 
     def _told(self, frame: str) -> float:
         """What a ranger says now [m]; NaN when it has been silent while others were not."""
-        newest = max(echo.header.stamp.seconds for echo in self.echoes.values())
-        echo = self.echoes[frame]
-        return math.nan if newest - echo.header.stamp.seconds > SILENT else float(echo.range)
+        return math.nan if frame in self.silent else float(self.echoes[frame].range)
+
+    def _silent(self) -> list[str]:
+        newest = max(self._stamps.values())
+        return [frame for frame, stamp in self._stamps.items() if newest - stamp > SILENT]
 
     def figure(self, frame: str) -> str:
         """A ranger's distance in words."""
@@ -159,6 +170,11 @@ class UltrasoundView(Gauge):
         names = ("all around", "clear") if far else (f"echo {side_text(aim(frame))}", side_text(aim(frame)))
         under = first_fitting(names, sp(11), self.width - 2 * self.edge)
         yield Word(under, self.center_x, low, sp(11), theme.muted)
+
+
+def _read(echo: Range) -> tuple[float, ...]:
+    """What of an echo can be told apart on the glass: a thing that stands still is not drawn anew for its noise."""
+    return round(echo.range, 2), echo.field_of_view, echo.min_range
 
 
 def _echo(side: str, away: float, stamp: float = 10.0) -> Range:

@@ -23,6 +23,8 @@ from app.link import OFFER
 from app.offer import POSE
 from app.screens.check_card import CheckCard
 from app.screens.placing import put
+from app.screens.senses import Senses
+from app.screens.sight import Sight
 from app.screens.speed_card import SpeedCard, allowed
 from app.session import Session
 from bridge.msgs.geometry_msgs import Twist
@@ -53,12 +55,16 @@ class DriveScreen(FloatLayout):
         self.stick = Joystick()
         self.speed = SpeedCard()
         self.actions = GridLayout(cols=1, spacing="10dp")
+        self.senses = Senses(self.session.feeds)
+        self.sight = Sight(self.session, self.video, self.dashboard)
         self.places: dict[str, list[Widget]] = {}
         self._titled: list[tuple[Any, Instrument]] = []
         self._places_told: list[tuple[Readout, Instrument]] = []
         self._place("video", self.video)
         self._build_instruments(layout)
         self._build_controls()
+        self.add_widget(self.sight)
+        self.add_widget(self.senses)
         self.low = BoxLayout(orientation="vertical", spacing="8dp", size_hint=(None, None))
         """For cards that hold on until they are dealt with, each with a height of its own; they grow upwards."""
         self.low.bind(minimum_height=self.low.setter("height"))
@@ -73,7 +79,9 @@ class DriveScreen(FloatLayout):
     def _build_instruments(self, layout: Layout) -> None:
         readouts = [one for one in layout.instruments if one.slot == "readouts"]
         for one in layout.instruments:
-            if one.slot != "readouts":
+            if one.slot == "senses":
+                self.senses.add(self._instrument(one), one.topics)
+            elif one.slot != "readouts":
                 self._place(one.slot, self._instrument(one))
         card = Card(floating=True, padding=("12dp", "8dp"))
         self.readouts = GridLayout(cols=2, spacing=("10dp", "4dp"))
@@ -108,7 +116,8 @@ class DriveScreen(FloatLayout):
             widget = kind(**{name: value for name, value in offered.items() if hasattr(kind, name) and value})
             if one.title and hasattr(kind, "title"):
                 self._titled.append((widget, one))
-        self.dashboard.bind(widget, one.topic)
+        for name in one.topics:
+            self.dashboard.bind(widget, name, fresh=one.slot != "senses")
         return widget
 
     def _place(self, slot: str, widget: Widget) -> None:
@@ -157,7 +166,11 @@ class DriveScreen(FloatLayout):
         self.notice, low = places["notice"], places["notice_low"]
         self.low.pos, self.low.width, self.low.height = (low.x, low.y), low.width, self.low.minimum_height
         self.checks.wide, self.checks.room = min(low.width, 340 * dp), places["top"].y - 8 * dp - low.y
-        self.video.insets = [self.notice.x - 8 * dp - body.x, 0, 0, body.top - places["top"].y]
+        self.senses.place(places["senses"], places["senses_open"])
+        self.sight.place(places["badge"], to_right=form != "wide")
+        chip = places["badge" if form == "wide" else "top"].y
+        aside = max(0.0, body.right - self.notice.right - 8 * dp)
+        self.video.insets = [self.notice.x - 8 * dp - body.x, 0, aside, body.top - chip]
         return places["stop"]
 
     def _trim(self, roomy: bool) -> None:
@@ -197,6 +210,8 @@ class DriveScreen(FloatLayout):
     def tick(self) -> None:
         """Bring up to date what time changes."""
         self.dashboard.tick()
+        self.senses.tick()
+        self.sight.tick()
         self.checks.tick()
         session = self.session
         self.stick.state = "live" if session.may_drive else "disabled"
