@@ -94,6 +94,9 @@ RESPONSES: dict[str, type[CommandResponse]] = {
 }
 """Of the services that answer with more than a sentence, or in a class of their own."""
 
+OPTIONS = {"follow_link": "follows_link", "lost_link_stops_task": "lost_link_stops_task"}
+"""Settings to the fields of ControlStatus that tell them."""
+
 
 class FakeRobot:
     """Serves on a free port of this machine; everything here may be called from the test's thread."""
@@ -215,7 +218,7 @@ class FakeRobot:
                 self.changed.notify_all()
             await self._answering.wait()
             refusal = self.objection(name, request)
-            if refusal is None and name.startswith(("/stop", "/control")):
+            if refusal is None and name.startswith(("/stop", "/control", "/mode/set", "/settings")):
                 self._become(name, request)
             kind = RESPONSES.get(name, CommandResponse)
             more = self._keep(name, request) if refusal is None else {}
@@ -223,13 +226,24 @@ class FakeRobot:
 
         return call
 
-    def _become(self, name: str, request: CommandRequest) -> None:
-        stopped = self.control.stopped if name.startswith("/control") else name == "/stop"
-        driver = {"/control/acquire": request.client_id, "/control/release": ""}.get(
-            name, self.control.driver_id
-        )
-        mode = "STOPPED" if stopped else "MANUAL"
-        self.control = ControlStatus(mode=mode, driver=driver, driver_id=driver, stopped=stopped)
+    def _become(self, name: str, request: Any) -> None:
+        now, who = self.control, (request.client_id, request.client_id)
+        asker = (now.requested_by, now.requested_by_id)
+        changes: dict[str, Any] = {
+            "/stop": {"stopped": True, "mode": "STOPPED"},
+            "/stop/release": {"stopped": False, "mode": "MANUAL"},
+            "/control/acquire": _asked() | _driven(*who),
+            "/control/release": _asked() | _driven(*asker),
+            "/control/grant": _asked() | _driven(*asker),
+            "/control/object": _asked(),
+            "/control/request": _asked(*who, self.clock() + 10.0),
+            "/mode/set": {"mode": getattr(request, "mode", "")},
+            "/settings/set": {
+                OPTIONS.get(getattr(request, "name", ""), "follows_link"): getattr(request, "value", "")
+                == "on"
+            },
+        }.get(name, {})
+        self.control = msgspec.structs.replace(now, **changes)
         self._server.publish("/control/status", self.control)
 
     def wait_for(self, *orders: TaskOrder) -> None:
@@ -304,3 +318,11 @@ class FakeRobot:
         open = request.open if same else ()
         seen = [one for one in self.events if one.id in open and one.id <= known and one.acknowledged_by]
         return GetEventsResponse([*seen, *told], bool(told) and told[-1] is not later[-1])
+
+
+def _driven(name: str, client_id: str) -> dict[str, Any]:
+    return {"driver": name, "driver_id": client_id}
+
+
+def _asked(name: str = "", client_id: str = "", due: float = 0.0) -> dict[str, Any]:
+    return {"requested_by": name, "requested_by_id": client_id, "handover": Time.at(due)}
