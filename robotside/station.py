@@ -365,6 +365,7 @@ class Station:
             self.events.say("command", problem, "warn")
             return
         self.controls.hold()
+        self.agenda.allow()
         self.agenda.hold("the robot was sent elsewhere")
         order = TaskOrder(task="go_to", goals=[Waypoint(pose.x, pose.y, pose.yaw)])
         self.autonomy.start(order, self.now, self.controls.name(client))
