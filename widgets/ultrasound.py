@@ -29,6 +29,8 @@ __all__ = ["UltrasoundView", "samples"]
 
 AHEAD = math.pi / 2
 """Where straight ahead is on the screen [rad]."""
+NARROW = 60
+"""With less to both sides of the robot the figures are brief [dp]."""
 SILENT = 1.0
 """An echo older than this against the newest one is not shown any more [s]."""
 LEAST_HALF = math.radians(16)
@@ -88,11 +90,15 @@ class UltrasoundView(Gauge):
         newest = max(self._stamps.values())
         return [frame for frame, stamp in self._stamps.items() if newest - stamp > SILENT]
 
-    def figure(self, frame: str) -> str:
-        """A ranger's distance in words."""
+    def figure(self, frame: str, *, brief: bool = False) -> str:
+        """A ranger's distance in words; `brief` in metres without saying so, as far as it reaches where it is clear."""
         told, echo = self._told(frame), self.echoes[frame]
         if math.isnan(told):
             return DASH
+        if brief:
+            return (
+                f">{echo.max_range:g}" if told == math.inf else away_text(max(told, 0.0)).removesuffix(" m")
+            )
         if told == math.inf:
             return "clear"
         return f"<{echo.min_range * 100:.0f} cm" if told == -math.inf else away_text(told)
@@ -136,7 +142,7 @@ class UltrasoundView(Gauge):
             if told < self.reach:
                 shapes.line(rim, dp(3), colour)
         written = len(self.echoes) <= WRITTEN or role in ("warn", "danger")
-        text = self.figure(frame) if written else ""
+        text = self.figure(frame, brief=across < dp(NARROW)) if written else ""
         words = theme.text if role == "accent" else theme.muted if role == "faint" else colour
         end_x, end_y = math.cos(yaw), math.sin(yaw)
         if abs(end_x) > 0.9:

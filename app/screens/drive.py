@@ -56,6 +56,7 @@ class DriveScreen(FloatLayout):
         self.speed = SpeedCard()
         self.actions = GridLayout(cols=1, spacing="10dp")
         self.senses = Senses(self.session.feeds)
+        self.senses.bind(open=self._uncover, opacity=self._uncover)
         self.sight = Sight(self.session, self.video, self.dashboard)
         self.places: dict[str, list[Widget]] = {}
         self._titled: list[tuple[Any, Instrument]] = []
@@ -167,11 +168,20 @@ class DriveScreen(FloatLayout):
         self.low.pos, self.low.width, self.low.height = (low.x, low.y), low.width, self.low.minimum_height
         self.checks.wide, self.checks.room = min(low.width, 340 * dp), places["top"].y - 8 * dp - low.y
         self.senses.place(places["senses"], places["senses_open"])
+        self._uncover()
         self.sight.place(places["badge"], to_right=form != "wide")
         chip = places["badge" if form == "wide" else "top"].y
         aside = max(0.0, body.right - self.notice.right - 8 * dp)
         self.video.insets = [self.notice.x - 8 * dp - body.x, 0, aside, body.top - chip]
         return places["stop"]
+
+    def _uncover(self, *_: object) -> None:
+        """What lies under the unfolded sensors is not seen, not even at its corners."""
+        lid = self._arranged.get("senses_open")
+        covers = lid is not None and self.senses.covers
+        for slot in ("top_left", "top_right", "readouts"):
+            for widget in self.places.get(slot, ()):
+                widget.opacity = 0 if covers and lid.overlaps(self._arranged[slot]) else 1
 
     def _trim(self, roomy: bool) -> None:
         """A phone has room for two figures."""

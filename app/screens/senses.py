@@ -56,6 +56,11 @@ class Senses(Card):
         """It is a strip now."""
         return self.foldable and not self.open
 
+    @property
+    def covers(self) -> bool:
+        """It is unfolded over something else."""
+        return self.foldable and self.open and bool(self.shown)
+
     def place(self, folded: Rect, unfolded: Rect) -> None:
         """Take its place on the glass, the same twice where it is always open."""
         self._places = folded, unfolded
@@ -95,16 +100,17 @@ class Senses(Card):
             rect = Rect(rect.x, rect.y, 0, 0)
         put(self, rect)
         self.opacity = 1 if self.shown else 0
-        self.floating = not (self.foldable and self.open)
-        inner = Rect(rect.x, rect.y, rect.width - (dp(HANDLE) if self.foldable else 0), rect.height)
-        rects = _strip(inner, len(self.shown)) if self.folded else _card(inner, len(self.shown))
+        self.floating = not self.covers
+        handle = dp(HANDLE) if self.foldable else 0.0
+        make = _strip if self.folded else _card
+        rects = make(rect, len(self.shown), handle)
         for gauge, there in zip(self.shown, rects, strict=True):
             put(gauge, there)
             self.add_widget(gauge)
         if self.foldable and self.shown:
             self._sign.name = "expand_more" if self.open else "expand_less"
             high = min(rect.height, dp(54))
-            put(self._sign, Rect(inner.right - dp(2), rect.top - high, dp(HANDLE), high))
+            put(self._sign, Rect(rect.right - handle - dp(2), rect.top - high, handle, high))
             self.add_widget(self._sign)
 
     def do_layout(self, *_: object) -> None:
@@ -132,28 +138,28 @@ class Senses(Card):
         return True
 
 
-def _strip(room: Rect, count: int) -> list[Rect]:
-    """Side by side."""
+def _strip(room: Rect, count: int, handle: float) -> list[Rect]:
+    """Side by side, with room for the sign at their right [px]."""
     edge, gap = dp(8), dp(8)
-    width = (room.width - 2 * edge - gap * (count - 1)) / max(count, 1)
+    width = (room.width - handle - 2 * edge - gap * (count - 1)) / max(count, 1)
     low, high = room.y + dp(3), room.height - dp(6)
     return [Rect(room.x + edge + number * (width + gap), low, width, high) for number in range(count)]
 
 
-def _card(room: Rect, count: int) -> list[Rect]:
-    """The first at the left over the whole height, the others above each other beside it."""
+def _card(room: Rect, count: int, handle: float) -> list[Rect]:
+    """The first at the left over the whole height, the others above each other beside it, clear of the sign [px]."""
     edge, gap = dp(8), dp(10)
     inner = Rect(room.x + edge, room.y + edge, room.width - 2 * edge, room.height - 2 * edge)
     if count < 2:
-        return [inner] * count
+        return [Rect(inner.x, inner.y, inner.width - handle, inner.height)] * count
     first = Rect(inner.x, inner.y, inner.width * LARGEST - gap / 2, inner.height)
     left = first.right + gap
     if count == 2:
-        return [first, Rect(left, inner.y, inner.right - left, inner.height)]
+        return [first, Rect(left, inner.y, inner.right - left - handle, inner.height)]
     upper = (inner.height - gap) * SECOND
     lower = inner.height - gap - upper
     return [
         first,
-        Rect(left, inner.top - upper, inner.right - left, upper),
+        Rect(left, inner.top - upper, inner.right - left - handle, upper),
         Rect(left, inner.y, inner.right - left, lower),
     ]
