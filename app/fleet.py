@@ -11,19 +11,19 @@ import concurrent.futures
 import math
 import time
 import uuid
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Hashable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Protocol
 
 from app.discovery import Entry
-from app.stop_lane import Report, StopLane, silence
+from app.stop_lane import DOUBT, Report, StopLane, silence
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
 from bridge.msgs.std_msgs import Time
 from bridge.network import NetworkThread
 
-__all__ = ["MOST", "Connected", "Fleet", "Row"]
+__all__ = ["MOST", "Connected", "Fleet", "Row", "known"]
 
 MOST = 100
 """So many robots are stopped at once at most."""
@@ -57,6 +57,10 @@ class Connected(Protocol):
         """Its address."""
 
     @property
+    def boot(self) -> str:
+        """Alike for one robot under two addresses; empty while it is not known."""
+
+    @property
     def name(self) -> str:
         """What to call it."""
 
@@ -83,7 +87,9 @@ class Connected(Protocol):
 class Lane(Protocol):
     """What is needed of `StopLane`."""
 
-    report: Report
+    @property
+    def report(self) -> Report:
+        """What is known now."""
 
     def press(self) -> None:
         """STOP was pressed."""
@@ -100,6 +106,8 @@ class _Robot:
     name: str
     heard: str
     """When it was last heard, as a sentence; empty for one that is there."""
+    boot: str = ""
+    """As of `Connected`."""
     lane: Lane | None = None
     """None while its own link stops it, and before the network thread has made it."""
     task: asyncio.Task[None] | None = None
@@ -126,7 +134,7 @@ class Fleet:
         self._open_lane: Callable[[str], Lane] = open_lane or partial(
             StopLane, now=now, new_id=new_id, client_id=client_id, client_name=client_name
         )
-        self._most = most
+        self._most, self._now = most, now
         self._network: NetworkThread | None = None
         self._robots: dict[str, _Robot] = {}
         self._ending: set[asyncio.Task[None]] = set()
@@ -199,7 +207,11 @@ class Fleet:
         self._robots, self._same, self._linked, self.untried, self.rows = {}, {}, "", 0, []
 
     def close(self) -> None:
-        """Let go, and end the network thread."""
+        """Let go, and end the network thread; a STOP that was pressed just now has a moment to get through."""
+        until = self._now() + DOUBT
+        while any(row.phase == "sent" for row in self.rows) and self._now() < until:
+            time.sleep(0.01)
+            self.look(None)
         self.let_go()
         if self._network is not None:
             with suppress(TimeoutError, concurrent.futures.TimeoutError):
@@ -214,7 +226,7 @@ class Fleet:
             self.untried += 1
             return
         robot = self._robots.setdefault(entry.url, _Robot(entry.url, "", ""))
-        robot.name = entry.name or entry.address
+        robot.name, robot.boot = entry.name or entry.address, entry.boot or robot.boot
         robot.heard = "" if entry.silent <= HEARD else _not_heard(entry.silent)
 
     def _press(self, robots: list[_Robot]) -> None:
@@ -271,14 +283,14 @@ class Fleet:
         return Row(robot.url, robot.name or report.name, report.phase, sentence, report.foreign)
 
     def _identify(self, connected: Connected | None) -> None:
-        """Note which addresses lead to one robot: what each says of itself and of control is alike to the nanosecond."""
-        first: dict[tuple[str, str, Time], str] = {}
+        """Note which addresses lead to one robot: the log is the same, or what each says of control, to the nanosecond."""
+        first: dict[Hashable, str] = {}
         for robot in self._robots.values():
             identity = robot.lane.report.identity if robot.lane is not None else None
             if connected is not None and robot.url == self._linked:
-                identity = _identity(connected)
-            if identity is not None:
-                known = first.setdefault(identity, robot.url)
+                robot.boot, identity = connected.boot or robot.boot, _identity(connected)
+            for mark in (robot.boot, identity):
+                known = first.setdefault(mark, robot.url) if mark else robot.url
                 if known != robot.url:
                     self._same[robot.url] = self._same.get(known, known)
 
@@ -293,6 +305,14 @@ class Fleet:
 
 _CERTAIN = ("released", "moves", "stopped", "sent", "no_answer")
 """Phases of one robot at several addresses: what it says itself goes before what is not known, the worst first."""
+
+
+def known(entries: Iterable[Entry], connected: Connected | None) -> int:
+    """How many robots there are, one that is known under two addresses counted once."""
+    found = {entry.url: entry.boot or entry.url for entry in entries}
+    if connected is not None and connected.url not in found:
+        found[connected.url] = connected.boot or connected.url
+    return len(set(found.values()))
 
 
 def _not_heard(silent: float) -> str:

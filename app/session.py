@@ -97,6 +97,11 @@ class Session:
 
     @property
     def control_status(self) -> ControlStatus | None:
+    @property
+    def boot(self) -> str:
+        """Identity of the robot's log, alike for one robot under two addresses; empty until it is known."""
+        return self.logbook.known.boot
+
         """What the robot said last of control and STOP; None before it did."""
         status: ControlStatus | None = self.feeds.latest("/control/status")
         return status

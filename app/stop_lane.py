@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import asyncio
 import math
-from collections.abc import Awaitable, Callable, Coroutine
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 from app.commands import Commands, Outcome
 from app.local_stop import LocalStop
@@ -26,6 +26,8 @@ from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
 from bridge.msgs.std_msgs import Time
 
 __all__ = ["Client", "Report", "StopLane", "silence"]
+
+M = TypeVar("M", bound=Msg)
 
 TICK = 0.1
 """Between two looks at how it goes, and between two commands to rest [s]."""
@@ -61,17 +63,34 @@ class Report:
 class Client(Protocol):
     """What is needed of `bridge.client.BridgeClient`."""
 
-    call: Callable[..., Awaitable[Any]]
-    publish: Callable[..., bool]
-    subscribe: Callable[..., Callable[[], None]]
-    advertise: Callable[..., None]
-    run: Callable[[], Coroutine[Any, Any, None]]
-    close: Callable[[], Coroutine[Any, Any, None]]
-    robot_time: Callable[[], float]
-
     @property
     def foreign(self) -> bool:
         """The server is none of ours."""
+
+    async def call(
+        self, service: str, request: Msg | None, response: type[M], /, *, timeout: float = 2.0
+    ) -> M:
+        """Ask for something to be done once."""
+
+    def publish(self, topic: str, msg: Msg, /, *, even_late: bool = False) -> bool:
+        """Send a message at once."""
+
+    def subscribe(
+        self, topic: str, kind: type[M], callback: Callable[[M, float], object], /
+    ) -> Callable[[], None]:
+        """Have `callback(msg, received)` called for each message."""
+
+    def advertise(self, topic: str, kind: type[Msg], /) -> None:
+        """Say that it is published here."""
+
+    def robot_time(self) -> float:
+        """The robot's clock [s]; NaN until it is known."""
+
+    async def run(self) -> None:
+        """Connect again and again until `close`."""
+
+    async def close(self) -> None:
+        """End the link for good."""
 
 
 def silence(seconds: float) -> str:

@@ -13,7 +13,7 @@ from kivy.uix.floatlayout import FloatLayout
 
 from app import arrange
 from app.arrange import Rect
-from app.fleet import Fleet
+from app.fleet import Fleet, known
 from app.screens.placing import put
 from widgets import StopAll, StopList
 
@@ -49,13 +49,11 @@ class StopCorner:
         """Look who is known and what became of STOP."""
         fleet, button = self._fleet, self.button
         fleet.look(self._app.session)
-        known = {entry.url for entry in self._app.robots.entries()}
-        if self._app.session is not None:
-            known.add(self._app.session.url)
-        button.robots, button.active = len(known), fleet.active
+        button.robots = known(self._app.robots.entries(), self._app.session)
+        button.active = fleet.active
         button.stopped, button.total = fleet.stopped, fleet.total
         least = 2 if self._app.shell is not None else 1
-        self._show(button, shown=fleet.active or len(known) >= least)
+        self._show(button, shown=fleet.active or button.robots >= least)
         if not fleet.active:
             self._show(self.list, shown=False)
         elif self.list.parent is not None:
@@ -87,8 +85,9 @@ class StopCorner:
         shared = self.button.parent is not None
         form = arrange.form(self.layer.width, self.layer.height, dp)
         if shell is None:
-            self._app.connect.keep_free = arrange.CORNER * dp if shared else 0.0
             room = corner = arrange.corner(self.layer.width, dp)
+            below, beside = (0.0, corner.width + 18 * dp) if form == "short" else (arrange.CORNER * dp, 0.0)
+            self._app.connect.keep_free = (below, beside) if shared else (0.0, 0.0)
             body = Rect(0, 0, self.layer.width, self.layer.height - 56 * dp)
         else:
             shell.shares_stop = shared

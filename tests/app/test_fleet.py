@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from app.discovery import Entry
-from app.fleet import Fleet
+from app.fleet import Fleet, known
 from app.stop_lane import Report
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
@@ -70,7 +70,7 @@ class Link:
     """The session with the robot that is connected."""
 
     def __init__(self, url: str, *, foreign: bool = False) -> None:
-        self.url, self.name, self.foreign = url, "Linked", foreign
+        self.url, self.name, self.foreign, self.boot = url, "Linked", foreign, ""
         self.info, self.control_status = RobotInfo(name="Linked", model="patrol"), ControlStatus()
         self.stop_phase = "ready"
         self.stops = 0
@@ -89,6 +89,7 @@ def lanes() -> Lanes:
 def fleet(lanes: Lanes) -> Iterator[Fleet]:
     fleet = Fleet(client_id="me", client_name="tablet", open_lane=lanes, most=5)
     yield fleet
+    fleet.let_go()
     fleet.close()
     assert not lanes.open
 
@@ -228,6 +229,18 @@ def test_what_moves_at_one_address_is_not_stopped_because_another_says_so(fleet:
     assert (fleet.stopped, fleet.total) == (0, 1)
 
 
+def test_one_robot_that_says_hello_from_two_addresses_is_counted_once(fleet: Fleet, lanes: Lanes) -> None:
+    link = Link("ws://localhost:9090")
+    link.boot = "log of the boat"
+    entries = [replace(heard(url, "Boat"), boot="log of the boat") for url in (A, B)]
+    assert known(entries, None) == known(entries, link) == 1
+    assert known([*entries, heard(C)], link) == 2
+    fleet.press(entries, link)
+    until(lambda: set(lanes.open) == {A, B}, "not tried at every address")
+    fleet.look(link)
+    assert fleet.total == 1
+
+
 # while robots are connected and left
 
 
@@ -270,6 +283,14 @@ def test_a_robot_without_a_stop_goes_over_to_its_link_where_it_can_be_released(
     assert link.stops == 1
     link.stop_phase = "ready"
     assert phases(fleet, link)["Linked"] == "released"
+
+
+def test_an_app_that_is_closed_right_after_the_press_leaves_it_a_moment_to_get_through() -> None:
+    with fakes(1) as (robot,):
+        fleet = Fleet(client_id="me", client_name="tablet")
+        fleet.press([heard(robot.url)])
+        fleet.close()
+        assert robot.control.stopped
 
 
 # over real sockets
