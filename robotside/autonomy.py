@@ -289,11 +289,11 @@ class Autonomy:
         text = f"Intruder {intruder.id}: a {intruder.class_id} at ({x:.1f}, {y:.1f})."
         self._events.say("intruder", text, "alarm", at=(x, y))
         mission = self._records.missions.current
-        if self.engine.status.task != "patrol" or not self.engine.running:
+        if self.engine.status.task != "patrol":
             return
         if mission.stop_on_intruder or mission.on_intruder == "stop":
             self.engine.pause(f"Paused: intruder {intruder.id} was found.", "warn")
-        elif mission.on_intruder == "circle":
+        elif mission.on_intruder == "circle" and self.engine.running:
             self.situation.intruders.append(Seen(intruder.id, x, y))
 
     def _show_status(self, status: TaskStatus) -> None:
