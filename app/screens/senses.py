@@ -20,6 +20,8 @@ LARGEST = 0.47
 """Share of the open card's width that the first sensor has."""
 SECOND = 0.42
 """Share of the height that the upper one of two beside it has."""
+LEAST = 62
+"""Width that a sensor needs on the strip; one that is too narrow shows the first ones only [dp]."""
 HANDLE = 26
 """Width of the sign that says a strip unfolds [dp]."""
 
@@ -102,9 +104,10 @@ class Senses(Card):
         self.opacity = 1 if self.shown else 0
         self.floating = not self.covers
         handle = dp(HANDLE) if self.foldable else 0.0
-        make = _strip if self.folded else _card
-        rects = make(rect, len(self.shown), handle)
-        for gauge, there in zip(self.shown, rects, strict=True):
+        room = int((rect.width - handle) // dp(LEAST)) if self.folded else len(self.shown)
+        seen = self.shown[: max(1, room)]
+        rects = (_strip if self.folded else _card)(rect, len(seen), handle)
+        for gauge, there in zip(seen, rects, strict=True):
             put(gauge, there)
             self.add_widget(gauge)
         if self.foldable and self.shown:

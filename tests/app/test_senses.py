@@ -100,6 +100,15 @@ def test_the_sensors_lie_on_the_card_and_not_on_each_other(held: Held, unfolded:
         assert not any(place.overlaps(other) for other in places[number + 1 :])
 
 
+def test_a_strip_that_is_too_narrow_shows_the_first_sensors_only(held: Held) -> None:
+    held.hear_all()
+    held.card.place(Rect(10, 400, 130, 54), ROOM)
+    assert held.line.parent is None
+    assert held.ultrasound.parent is held.card
+    held.card.open = True
+    assert held.line.parent is held.card
+
+
 def test_where_there_is_room_it_is_always_open_and_a_tap_changes_nothing(held: Held) -> None:
     held.card.place(ROOM, ROOM)
     held.hear_all()
@@ -143,7 +152,9 @@ def test_the_drive_screen_shows_the_readings_and_marks_the_intruder_in_the_pictu
     assert (screen.sight.opacity, screen.sight.count, screen.sight.ago) == (1, 1, 10)
 
 
-def test_what_the_unfolded_sensors_cover_is_not_seen_until_they_fold(driving: Glass, robot: FakeRobot) -> None:
+def test_what_the_unfolded_sensors_cover_is_not_seen_until_they_fold(
+    driving: Glass, robot: FakeRobot
+) -> None:
     screen = driving.app.screens["drive"]
     robot.publish("/line", LineSensor(values=Float32Array([0.1])))
     driving.until(lambda: screen.senses.shown, "no line sensor")
