@@ -199,13 +199,13 @@ class Shell(FloatLayout):
 
     def _show_outcome(self, outcome: Outcome) -> None:
         """What went wrong is said over every screen; what went well is said where it was asked."""
-        self.cards.hear(outcome)
         if outcome.name in ("confirm", "resume", "cancel"):
             self.question.answer(outcome.label, outcome.phase, outcome.reason)
         if outcome.phase in ("refused", "no_reply") and outcome.name != "stop":
             self.say(outcome.sentence, "warn", about=outcome.name)
         elif outcome.phase == "accepted":
             self.unsay(outcome.name)
+        self.cards.hear(outcome)
 
     def say(self, text: str, level: str = "info", about: str = "", stay: float = BRIEF) -> None:
         """One sentence over the screen for `stay` [s]; `about` is the command or the kind of event it tells of."""

@@ -233,7 +233,7 @@ class FakeRobot:
             "/stop": {"stopped": True, "mode": "STOPPED"},
             "/stop/release": {"stopped": False, "mode": "MANUAL"},
             "/control/acquire": _asked() | _driven(*who),
-            "/control/release": _asked() | _driven(*asker),
+            "/control/release": _asked() | ({} if asker == who else _driven(*asker)),
             "/control/grant": _asked() | _driven(*asker),
             "/control/object": _asked(),
             "/control/request": _asked(*who, self.clock() + 10.0),
