@@ -21,12 +21,12 @@ from app.commands import Outcome
 from app.dashboard import Dashboard
 from app.feeds import Post
 from app.link import EVENT, OFFER, OUTCOME
+from app.refusals import summary
 from app.screens.check_card import CheckCard
 from app.screens.mission_maps import Maps
 from app.screens.panel import MissionPanel
 from app.screens.placing import put
 from app.screens.pointing import MODES, Pointing
-from app.screens.refusals import refused, summary
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import Place, RobotInfo, TaskStatus
 from bridge.msgs.vision_msgs import Detection2DArray
@@ -238,6 +238,7 @@ class MissionScreen(FloatLayout):
         corner.pos = bar.x, bar.top - corner.height if wide else bar.y
         self.checks.room = bar.top - low if wide else self.notice.top - bar.y
         covers = self.checks.unfolded and self.checks.parent is corner
+        covers = covers or (self.selection.trouble and self.selection.parent is corner)
         area.foot = 0 if wide or not corner.height else math.nan if covers else max(0, corner.top - low)
         up = bool(self.sheet) and self._form == "tall"
         corner.opacity, corner.disabled = float(not up), up
@@ -356,8 +357,7 @@ class MissionScreen(FloatLayout):
         self._pointing.show()
 
     def _show_refused(self, *_: object) -> None:
-        found = refused(self.map.fence, self.session.mission.draft, self.map.robot_radius)
-        self.panel.refused = summary(list(found))
+        self.panel.refused = summary(self.session.refusals.draft(self.session.mission.draft))
 
     def _show_info(self, info: RobotInfo) -> None:
         self.map.robot_radius = info.radius or 0.2

@@ -11,7 +11,6 @@ from kivy.metrics import dp
 from kivy.uix.widget import Widget
 
 from app.mission import Draft
-from app.screens.refusals import refused
 from app.screens.selection import SelectionBar
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import Place, PlaceArray
@@ -143,7 +142,7 @@ class Pointing:
     def _trouble(self) -> str:
         """Why the robot would refuse what is being edited, as one sentence; empty when it would not."""
         screen, area, index = self._screen, self._screen.map, int(self._screen.map.selected)
-        found = refused(area.fence, self._held(), area.robot_radius)
+        found = self._session.refusals.draft(self._held())
         if screen.mode == "home":
             return found.get("Home", "")
         points = {name: said for name, said in found.items() if name != "Home"}
