@@ -27,6 +27,10 @@ __all__ = ["MOST", "Connected", "Fleet", "Row", "known"]
 
 MOST = 100
 """So many robots are stopped at once at most."""
+HEAD_START = 0.02
+"""So long the connected robot's own STOP has the computer to itself [s]."""
+PACE = 0.002
+"""Between the beginnings of two lanes [s]."""
 ENDS = 1.0
 """All lanes have closed their sockets within this [s]."""
 HEARD = 3.0
@@ -115,6 +119,8 @@ class _Robot:
     """What was known while its own link stopped it."""
     begun: bool = False
     """Its own link has begun to stop it."""
+    over: bool = False
+    """Its lane is not wanted any more."""
 
 
 class Fleet:
@@ -171,15 +177,20 @@ class Fleet:
         return any(row.foreign or row.phase not in ("stopped", "released") for row in self.rows)
 
     def press(self, entries: Iterable[Entry], connected: Connected | None = None) -> None:
-        """STOP to all of `entries` and to who was meant before; the one that is connected first, by its own link."""
+        """STOP to all of `entries` and to who was meant before; the one that is connected first, by its own link.
+
+        `entries` are looked at after that.
+        """
         if connected is not None:
             connected.stop()
+            time.sleep(0)  # lets the network thread send it before anything is done here
             self._linked = connected.url
             self._robots.setdefault(connected.url, _Robot(connected.url, connected.name, "")).begun = False
         self.untried = 0
         for entry in entries:
             self._add(entry)
-        self._press([robot for robot in self._robots.values() if robot.url != self._linked])
+        others = [robot for robot in self._robots.values() if robot.url != self._linked]
+        self._press(others, 0.0 if connected is None else HEAD_START)
         self.look(connected)
 
     def look(self, connected: Connected | None) -> None:
@@ -229,22 +240,29 @@ class Fleet:
         robot.name, robot.boot = entry.name or entry.address, entry.boot or robot.boot
         robot.heard = "" if entry.silent <= HEARD else _not_heard(entry.silent)
 
-    def _press(self, robots: list[_Robot]) -> None:
+    def _press(self, robots: list[_Robot], head_start: float = 0.0) -> None:
         if robots and self._network is None:
             self._network = NetworkThread("STOP ALL")
-        if self._network is not None:
-            self._network.call(self._press_lanes, robots)
-
-    def _press_lanes(self, robots: list[_Robot]) -> None:
-        """In the network thread."""
         for robot in robots:
+            robot.over = False
+        if self._network is not None:
+            self._network.start(self._press_lanes(robots, head_start))
+
+    async def _press_lanes(self, robots: list[_Robot], head_start: float) -> None:
+        """In the network thread: not all in one go, which would keep the other threads waiting."""
+        await asyncio.sleep(head_start)
+        for robot in robots:
+            if robot.over:
+                continue
             if robot.lane is not None:
                 robot.lane.press()
-            else:
-                robot.lane = self._open_lane(robot.url)
-                robot.task = asyncio.get_running_loop().create_task(robot.lane.run())
+                continue
+            robot.lane = self._open_lane(robot.url)
+            robot.task = asyncio.get_running_loop().create_task(robot.lane.run())
+            await asyncio.sleep(PACE)
 
     def _close_lane(self, robot: _Robot) -> None:
+        robot.over = True
         if self._network is not None:
             self._network.call(self._end_lane, robot)
 

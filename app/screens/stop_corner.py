@@ -5,6 +5,7 @@ It lies over everything else, questions included, and lets every finger through 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 from kivy.clock import Clock
@@ -13,6 +14,7 @@ from kivy.uix.floatlayout import FloatLayout
 
 from app import arrange
 from app.arrange import Rect
+from app.discovery import Entry
 from app.fleet import Fleet, known
 from app.screens.placing import put
 from widgets import StopAll, StopList
@@ -41,9 +43,12 @@ class StopCorner:
         """STOP to every robot that is known, the connected one first."""
         if self._app.shell is not None:
             self._app.shell.rest()
-        self._fleet.press(self._app.robots.entries(), self._app.session)
+        self._fleet.press(self._entries(), self._app.session)
         self._show(self.list, shown=True)
         self.tick()
+
+    def _entries(self) -> Iterator[Entry]:
+        yield from self._app.robots.entries()
 
     def tick(self) -> None:
         """Look who is known and what became of STOP."""

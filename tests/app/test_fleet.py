@@ -123,11 +123,23 @@ def test_each_robot_gets_a_lane_and_the_connected_one_its_own_link(fleet: Fleet,
 
 
 def test_the_link_is_told_before_anything_else_happens(fleet: Fleet, lanes: Lanes) -> None:
-    link = Link(A)
-    link.stop = lambda: order.append(fleet.active)  # type: ignore[method-assign]
-    order: list[bool] = []
-    fleet.press([heard(B)], link)
-    assert order == [False]
+    link, order = Link(A), []
+    link.stop = lambda: order.append("link")  # type: ignore[method-assign]
+
+    def others() -> Iterator[Entry]:
+        order.append("others")
+        yield heard(B)
+
+    fleet.press(others(), link)
+    assert (order, lanes.pressed) == (["link", "others"], {}), "the others wait for its head start"
+    until(lambda: B in lanes.open, "no lane")
+
+
+def test_what_is_let_go_before_its_turn_is_never_begun(fleet: Fleet, lanes: Lanes) -> None:
+    fleet.press([heard(B)], Link(A))
+    fleet.let_go()
+    time.sleep(0.05)
+    assert lanes.pressed == {}
 
 
 def test_it_counts_who_says_that_it_is_stopped(fleet: Fleet, lanes: Lanes) -> None:

@@ -64,7 +64,7 @@ class Robot:
     def robot_time(self) -> float:
         return math.nan
 
-    async def call(self, service: str, request: Any, response: Any, *, timeout: float) -> Any:
+    async def call(self, service: str, request: Any, response: Any, *, timeout: float = 2.0) -> Any:
         if not self.there:
             raise NotConnected("There is no connection to it.")
         self.asked.append((now(), service))
