@@ -20,6 +20,7 @@ from app.logbook import Logbook
 from app.mission import Draft, MissionEditor
 from app.missions import KeptMissions
 from app.offer import CAMERA, Offer
+from app.refusals import Refusals
 from app.settings import Settings
 from app.tasking import Tasking
 from bridge.client import LinkState, Phase
@@ -61,6 +62,7 @@ class Session:
         self.mission = MissionEditor(on_change=self._mission_changed)
         self.tasking = Tasking(self)
         self.checks = Checks(feeds, lambda: self.running)
+        self.refusals = Refusals(feeds)
         self.missions = KeptMissions(self)
         self.logbook = Logbook(settings, self.command)
         self.authority = Authority(self)
@@ -96,12 +98,12 @@ class Session:
         return self.link.url
 
     @property
-    def control_status(self) -> ControlStatus | None:
-    @property
     def boot(self) -> str:
         """Identity of the robot's log, alike for one robot under two addresses; empty until it is known."""
         return self.logbook.known.boot
 
+    @property
+    def control_status(self) -> ControlStatus | None:
         """What the robot said last of control and STOP; None before it did."""
         status: ControlStatus | None = self.feeds.latest("/control/status")
         return status
