@@ -250,6 +250,28 @@ class Script:
         }
         return [name for name, known in found.items() if not known]
 
+    def command(self, name: str) -> dict[str, Any]:
+        """Give a command that needs no more than its name."""
+        in_ui(lambda: self.app.session.command(name))
+        return {}
+
+    def hold(self, seconds: float) -> dict[str, Any]:
+        """Have the robot stay where it is as its task."""
+        from bridge.msgs.pilothouse_msgs import TaskOrder
+
+        order = TaskOrder(task="hold", duration=seconds)
+        in_ui(lambda: self.app.session.command("start", order=order))
+        return {}
+
+    def knows(self) -> dict[str, Any]:
+        """Who has control, and the state of the task, empty while it is not known."""
+        return in_ui(self._known)
+
+    def _known(self) -> dict[str, Any]:
+        session = self.app.session
+        status = session.feeds.latest("/task/status")
+        return {"control": session.control, "task": status.state if status else ""}
+
     def flood(self, topic: str) -> dict[str, Any]:
         """Listen to everything on a topic of Odometry."""
         from bridge.msgs.nav_msgs import Odometry
