@@ -26,7 +26,7 @@ def arrive(scene: Scene) -> Wait:
     glass = scene.glass
     _, x, y, yaw = yield from glass.until(lambda: _truth(scene), 10, "the robot's truth")
     with scene.step("fenced") as check:
-        cards = yield from glass.until(lambda: glass.all("RobotCard"), 10, "the robot on the list")
+        cards = yield from glass.until(scene.cards, 10, "the robot on the list")
         yield from glass.tap(cards[0].ids.connect)
         yield from glass.one("MapOverlay", 10)
         yield from glass.press("Robot", kind="Segment")
@@ -117,7 +117,8 @@ def deliver(scene: Scene) -> Wait:
     with scene.step("delivered") as check:
         done = yield from glass.soon(lambda: _is(scene, "RUNNING", "hold"), LONGEST / scene.speed)
         check("then it does what is next in the queue", bool(done), bool(done))
-        yield from glass.press("History", kind="Segment")
+        yield from glass.press("Log", kind="Segment")
+        yield from glass.press("Tasks", kind="Segment")
         told = yield from glass.soon(lambda: glass.shows("Deliver"), 5)
         check("the history has the delivery", bool(told), bool(told))
         yield from glass.pause(0.5)

@@ -59,6 +59,11 @@ class Scene:
         finally:
             self.report.end()
 
+    def cards(self) -> list[Any]:
+        """The robot's own card on the connect screen; empty while it was not heard."""
+        cards: list[Any] = self.glass.all("RobotCard")
+        return [card for card in cards if card.entry is not None and card.entry.url == self.url]
+
     def map(self) -> Widget:
         """The map on the glass."""
         return self.glass.all("MapOverlay")[0]
