@@ -24,6 +24,8 @@ UNUSED = ("/tf", "/diagnostics", "/bumper")
 """Topics that no screen shows."""
 FASTEST = 50
 """No stream is asked for more often than this [ms]: the eye sees no more."""
+SLOW = {"/line": 100, "/joint_states": 100}
+"""Streams that are shown as figures, with the time between two that can be read [ms]."""
 BULKY = (
     "sensor_msgs/LaserScan",
     "nav_msgs/OccupancyGrid",
@@ -72,7 +74,7 @@ class Sources:
             name,
             entry.type,
             lambda message, received: self._hear(entry.name, message, received),
-            throttle_rate=FASTEST if fast else 0,
+            throttle_rate=SLOW.get(entry.name, FASTEST if fast else 0),
             compression="cbor" if entry.type.MSGTYPE in (ENDLESS if self._ours else ()) + BULKY else "none",
         )
 

@@ -117,8 +117,8 @@ class DriveScreen(FloatLayout):
             widget = kind(**{name: value for name, value in offered.items() if hasattr(kind, name) and value})
             if one.title and hasattr(kind, "title"):
                 self._titled.append((widget, one))
-        for name in one.topics:
-            self.dashboard.bind(widget, name, fresh=one.slot != "senses")
+        if one.slot != "senses":  # which look after themselves
+            self.dashboard.bind(widget, one.topic)
         return widget
 
     def _place(self, slot: str, widget: Widget) -> None:

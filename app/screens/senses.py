@@ -11,6 +11,7 @@ from kivy.properties import BooleanProperty
 from app.arrange import Rect
 from app.feeds import Feeds
 from app.screens.placing import put
+from bridge.msgs import Msg
 from widgets.gauge import Gauge
 from widgets.kit import Card, Icon
 
@@ -38,6 +39,8 @@ class Senses(Card):
         self._all: list[tuple[Gauge, tuple[str, ...]]] = []
         self.shown: tuple[Gauge, ...] = ()
         """What the robot has told something of, in the layout's order."""
+        self._newest: dict[str, Msg] = {}
+        """What is shown, by topic."""
         self._places: tuple[Rect, Rect] | None = None
         self._sign = Icon(name="expand_more", role="muted", size_hint=(None, None))
         self._finger: Any = None
@@ -75,8 +78,17 @@ class Senses(Card):
             self.shown = present
             self._arrange()
         for gauge, topics in self._all:
+            for topic in topics:
+                self._show(gauge, topic)
             if gauge in present:
                 self._refresh(gauge, [topic for topic in topics if self._heard(topic)])
+
+    def _show(self, gauge: Gauge, topic: str) -> None:
+        """Show what came since the last look: ten times a second are enough for figures."""
+        message = self._feeds.latest(topic)
+        if message is not None and message is not self._newest.get(topic):
+            self._newest[topic] = message
+            gauge.show(message)
 
     def _heard(self, topic: str) -> bool:
         return self._feeds.latest(topic) is not None
