@@ -108,6 +108,8 @@ class Shell(FloatLayout):
         if self._hear in self.session.listeners:
             self.session.listeners.remove(self._hear)
         self.session.tasking.deaf()
+        self.session.missions.deaf()
+        self.session.logbook.listeners.clear()
         self.cards.close()
         for screen in self.screens.values():
             screen.leave()
