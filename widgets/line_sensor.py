@@ -29,8 +29,8 @@ __all__ = ["LineSensorView", "samples"]
 
 CENTRED = 0.5
 """A line within this part of a cell's spacing from the middle is under the middle."""
-STEPS = 20
-"""Shades that the eye tells apart: a cell is not drawn anew for its noise."""
+SEEN = 0.05
+"""Difference of brightness that is seen: the cells are not drawn anew for their noise."""
 DARK, BRIGHT = 0.05, 0.95
 """Share of white that the darkest and the brightest cell are drawn with."""
 
@@ -58,9 +58,9 @@ class LineSensorView(Gauge):
     def show(self, msg: LineSensor) -> None:
         """Show the newest reading."""
         self.spacing = msg.spacing
-        self.values = [
-            round(value * STEPS) / STEPS if math.isfinite(value) else math.nan for value in msg.values
-        ]
+        fresh = [value if math.isfinite(value) else math.nan for value in msg.values]
+        if len(fresh) != len(self.values) or any(map(_differ, fresh, self.values)):
+            self.values = fresh
 
     def words(self) -> tuple[str, ...]:
         """Where the line is, longest first."""
@@ -122,6 +122,11 @@ class LineSensorView(Gauge):
                 shapes.segments(
                     np.array([[x - half, y - rise]]), np.array([[x + half, y + rise]]), dp(1.5), theme.muted
                 )
+
+
+def _differ(one: float, other: float) -> bool:
+    """Whether two readings of a cell look different; both NaN do not."""
+    return abs(one - other) > SEEN or math.isnan(one) != math.isnan(other)
 
 
 def _message(*values: float, spacing: float = 0.02) -> LineSensor:

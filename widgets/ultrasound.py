@@ -31,6 +31,8 @@ AHEAD = math.pi / 2
 """Where straight ahead is on the screen [rad]."""
 NARROW = 60
 """With less to both sides of the robot the figures are brief [dp]."""
+SEEN = 0.01
+"""Difference of distance that is read [m]."""
 SILENT = 1.0
 """An echo older than this against the newest one is not shown any more [s]."""
 LEAST_HALF = math.radians(16)
@@ -79,7 +81,7 @@ class UltrasoundView(Gauge):
         silent = self._silent()
         if silent != self.silent:
             self.silent = silent
-        if before is None or _read(before) != _read(msg):
+        if before is None or _differ(before.range, msg.range):
             self.echoes[frame] = msg
 
     def _told(self, frame: str) -> float:
@@ -178,9 +180,11 @@ class UltrasoundView(Gauge):
         yield Word(under, self.center_x, low, sp(11), theme.muted)
 
 
-def _read(echo: Range) -> tuple[float, ...]:
-    """What of an echo can be told apart on the glass: a thing that stands still is not drawn anew for its noise."""
-    return round(echo.range, 2), echo.field_of_view, echo.min_range
+def _differ(one: float, other: float) -> bool:
+    """Whether two distances are read as different: a thing that stands still is not drawn anew for its noise."""
+    if math.isfinite(one) and math.isfinite(other):
+        return abs(one - other) > SEEN
+    return one != other and not (math.isnan(one) and math.isnan(other))
 
 
 def _echo(side: str, away: float, stamp: float = 10.0) -> Range:

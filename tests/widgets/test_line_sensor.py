@@ -49,7 +49,10 @@ def test_noise_of_a_ground_that_stays_is_not_drawn_anew(stage, view):
     stage.frames(2)
     drawn = []
     view.bind(values=lambda *_: drawn.append(1))
-    view.show(cells(0.099, 0.801))
+    view.show(cells(0.13, 0.76))
     assert not drawn
-    view.show(cells(0.2, 0.801))
-    assert drawn
+    view.show(cells(0.16, 0.801))
+    assert len(drawn) == 1
+    view.show(cells(math.nan, 0.801))
+    view.show(cells(math.nan, 0.801))
+    assert len(drawn) == 2

@@ -59,6 +59,18 @@ def test_where_it_is_low_the_nearest_is_told_and_which_way_it_is(stage):
     assert view.texts == ["0.21 m", "echo behind"]
 
 
+def test_noise_of_a_thing_that_stands_still_is_not_drawn_anew(view):
+    view.show(echo("front", 1.0))
+    drawn = []
+    view.bind(echoes=lambda *_: drawn.append(1))
+    for away in (1.006, 0.995):
+        view.show(echo("front", away))
+    assert not drawn
+    for away in (1.02, math.inf, math.inf, -math.inf, math.nan, math.nan):
+        view.show(echo("front", away))
+    assert len(drawn) == 4
+
+
 def test_all_clear_is_said_in_a_word(stage):
     view = stage.show(UltrasoundView(state="live", card=False), size=(120, 48))
     view.show(echo("front", math.inf))
