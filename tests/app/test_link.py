@@ -29,21 +29,28 @@ AHEAD = Twist.planar(0.3, 0.0)
 class Operator:
     """A session without glass: takes out what the mailbox holds until something is the case."""
 
-    def __init__(self, url: str, folder: Path, *, wants_control: bool) -> None:
+    def __init__(
+        self, url: str, folder: Path, *, wants_control: bool, client_id: str = "me", name: str = "tablet"
+    ) -> None:
         self.network = NetworkThread()
         self.woken = threading.Event()
         self.mailbox = Mailbox(self.woken.set)
         self.settings = Settings(folder)
         self.link = Link(
-            url, self.mailbox, self.network, client_id="me", client_name="tablet", marks=marks(self.settings)
+            url,
+            self.mailbox,
+            self.network,
+            client_id=client_id,
+            client_name=name,
+            marks=marks(self.settings),
         )
         self.session = Session(
             self.link,
             Feeds(time.monotonic),
             self.settings,
             now=time.monotonic,
-            client_id="me",
-            client_name="tablet",
+            client_id=client_id,
+            client_name=name,
             wants_control=wants_control,
         )
         self.said: list[tuple[str, Any]] = []
