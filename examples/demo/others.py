@@ -67,10 +67,10 @@ def hand_over(scene: Scene) -> Wait:
 
 
 def _take_back(scene: Scene) -> Wait:
-    """A handheld that handed control over asks for it by a tap."""
-    if _driver(scene):
-        return
-    chips = scene.glass.labelled("take control") or scene.glass.labelled("Control", kind="NavButton")
+    """A handheld that handed control over takes it by a tap where nobody has it."""
+    chips = yield from scene.glass.until(
+        lambda: scene.glass.labelled("take control"), 5, "a chip that offers control"
+    )
     yield from scene.glass.tap(chips[0])
 
 
