@@ -86,8 +86,9 @@ def lose_power(scene: Scene) -> Wait:
         before = witness["/task/status"]
         check("a task runs", before.task, before.state == "RUNNING")
         scene.power_cut()
-        told = yield from glass.soon(lambda: glass.all("Banner"), 8)
+        told = yield from glass.soon(lambda: glass.shows("trying again"), 8)
         check("the loss is said", bool(told), bool(told))
+        yield from glass.pause(0.3)
     with scene.step("offered") as check:
         offered = yield from glass.soon(lambda: _state(scene) == "INTERRUPTED", 60)
         check("the task is offered for resumption", _state(scene), bool(offered))
@@ -103,6 +104,7 @@ def lose_power(scene: Scene) -> Wait:
         yield from glass.tap(card.ids.discard)
         done = yield from glass.soon(lambda: _state(scene) not in ("INTERRUPTED", "RUNNING"), 5)
         check("discarded, it is gone", _state(scene), bool(done))
+        yield from glass.pause(0.5)
 
 
 def _state(scene: Scene) -> str:
