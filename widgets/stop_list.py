@@ -213,7 +213,7 @@ class StopList(Control, BoxLayout):
     title = StringProperty("")
     all_stopped = BooleanProperty(False)
     footnote = StringProperty("")
-    """What goes on, and what letting go means; empty when nothing is sent any more."""
+    """What goes on, and what letting go means; how to release them when nothing is sent any more."""
     offer = StringProperty("")
     """Words of the hold; empty when there is nothing to let go."""
     wanted = NumericProperty(0.0)
@@ -239,7 +239,7 @@ class StopList(Control, BoxLayout):
         self.title, self.all_stopped = f"STOPPED {stopped} of {total}", stopped == total
         held = sum(robot.foreign for robot in robots)
         open_ones = sum(robot.phase not in ("stopped", "released") for robot in robots)
-        self.footnote = _footnote(open_ones, held, untried)
+        self.footnote = _footnote(open_ones, held, untried) or HINT
         self.offer = "Hold to send no longer" if open_ones or held else ""
 
     def _measure(self, *_: object) -> None:
@@ -257,6 +257,9 @@ class StopList(Control, BoxLayout):
     def on_touch_down(self, touch: Any) -> bool:
         """Nothing behind it gets a finger."""
         return bool(super().on_touch_down(touch) or self.collide_point(*touch.pos))
+
+
+HINT = "Each is released by itself: connect, take control, and hold STOP."
 
 
 def _footnote(open_ones: int, held: int, untried: int) -> str:
@@ -305,6 +308,6 @@ def samples() -> dict[str, Callable[[], Widget]]:
     many = [_Sample(f"{n}", f"Robot-{n}", "stopped") for n in range(30)]
     return {
         "some": make(SOME, "530dp"),
-        "all": make([SOME[0], _Sample("b", "Minnow-2", "stopped")], "184dp"),
+        "all": make([SOME[0], _Sample("b", "Minnow-2", "stopped")], "220dp"),
         "many": make(many, "320dp", untried=2),
     }

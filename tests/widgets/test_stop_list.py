@@ -63,6 +63,11 @@ def test_it_says_what_goes_on_and_who_was_too_many(result):
     )
 
 
+def test_when_nothing_is_sent_any_more_it_says_how_to_release(result):
+    result.tell(SOME[:1], 1, 1)
+    assert result.footnote == "Each is released by itself: connect, take control, and hold STOP."
+
+
 def test_letting_go_takes_a_hold_of_a_second(stage, result):
     result.tell(SOME, 2, 6)
     stage.frames(3)
