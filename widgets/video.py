@@ -246,12 +246,13 @@ class Video(Drawing):
     ) -> Word:
         """A triangle that points down at a place of the picture, or past its edge, and the label beside it."""
         (x, (left, right)), size = place, sp(13)
-        y = self.center_y + dp(14)
+        y = self.center_y - dp(8)
         wide, high = text_texture(label, round(size, 1), theme.font, bold=True).size
         half = wide / 2 + dp(7)
         middle = min(max(x, left - dp(12) + half), right + dp(12) - half)
         text_y = y + dp(11) + high / 2
         shapes.line(np.array([[middle - half, text_y], [middle + half, text_y]]), high + dp(4), theme.danger)
+        shapes.polygon(_triangle(x, y, turn, dp(15)), theme.surface)
         shapes.polygon(_triangle(x, y, turn, dp(11)), theme.danger)
         return Word(label, middle, text_y, size, theme.ink_danger, bold=True)
 
