@@ -53,7 +53,7 @@ def prepare(_: Context) -> Iterator[Sides]:
 
 def ours(taps: int) -> dict[str, float]:
     """Four times so many taps."""
-    found = {}
+    found: dict[str, float] = {}
     for prefix, flags in (("", ()), ("gpu_", ("--no-gl",))):
         for name, rate in (("idle", math.inf), ("busy", LINK)):
             found |= _named(f"{prefix}{name}", tapped(taps, rate, *flags))

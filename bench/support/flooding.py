@@ -61,5 +61,5 @@ class Flooding:
 
 if __name__ == "__main__":
     make = sim.robot.make
-    sim.robot.make = lambda *args, **kwargs: Flooding(make(*args, **kwargs))  # type: ignore[assignment,return-value]
+    sim.robot.make = lambda *args, **kwargs: Flooding(make(*args, **kwargs))  # type: ignore[assignment]
     sys.exit(main())
