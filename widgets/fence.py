@@ -21,6 +21,8 @@ GOAL_ROOM = 0.35
 """What a robot wants between its body and the fence at a place that it is sent to [m]."""
 MOST_CORNERS = 2000
 """Of a fence that is drawn: one with more would take the glass longer than a finger waits."""
+REMEMBERED = 1000
+"""Places whose judgement is kept: a map asks for all of its marks each time it is drawn."""
 ASIDE = 1e-6
 """How far beside an edge it is asked whether one may be there [m]."""
 NONE = np.zeros((0, 2))
@@ -55,6 +57,7 @@ class Fence:
         if self.too_large:
             self.keep_in, self.keep_out = [], []
         self.edge, self.holes = self._borders()
+        self._judged: dict[tuple[float, float, float], bool] = {}
 
     edge: Border
     """Of what it stays in."""
@@ -82,6 +85,15 @@ class Fence:
         for area in self.keep_out:
             allowed &= ~_inside(area, points)
         return allowed
+
+    def forbids(self, x: float, y: float, radius: float) -> bool:
+        """Whether a robot of `radius` [m] would not go to (x, y) [m]; asked again of the same place it costs nothing."""
+        key = (x, y, radius)
+        if key not in self._judged:
+            if len(self._judged) >= REMEMBERED:
+                self._judged.clear()
+            self._judged[key] = bool(self.fault("It", x, y, radius))
+        return self._judged[key]
 
     def fault(self, name: str, x: float, y: float, radius: float) -> str:
         """Why a robot of `radius` [m] would not go to a place that is called `name`, as one sentence; empty when it would."""

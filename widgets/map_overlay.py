@@ -120,6 +120,8 @@ class MapOverlay(MapGestures, Drawing):
         self._trail = Trail()
         self.over_ground = InstructionGroup()
         """Drawn above the ground and below the marks; for a subclass to fill."""
+        self._fence_ink = Ink()
+        self._fence_look: tuple[object, ...] = ()
         self._layers = [(Ink(), Words()) for _ in range(2)]
         self._touched = False
         self._middle = (0.0, 0.0)
@@ -128,6 +130,7 @@ class MapOverlay(MapGestures, Drawing):
         for part in (StencilPush(), self._clip[0], StencilUse()):
             self.canvas.before.add(part)
         self.canvas.add(self.over_ground)
+        self.canvas.add(self._fence_ink)
         for ink, words in self._layers:
             self.canvas.add(ink)
             self.canvas.add(words.canvas)
@@ -272,6 +275,7 @@ class MapOverlay(MapGestures, Drawing):
     def draw(self) -> None:
         """Bring ground, marks and robot up to date."""
         self.draw_ground()
+        self._draw_fence()
         for (ink, words), fill in zip(self._layers, (self._fill_task, self._fill_robot), strict=True):
             shapes = Shapes()
             words.write(list(fill(shapes)))
@@ -280,10 +284,18 @@ class MapOverlay(MapGestures, Drawing):
     def draw_ground(self) -> None:
         """Bring what lies below the marks up to date."""
 
+    def _draw_fence(self) -> None:
+        """Anew only when it or the view of it has changed: a pose, which comes 20 times a second, is no reason."""
+        look = (self.fence, self.view, *self.pos, *self.size, theme.name)
+        if look != self._fence_look:
+            self._fence_look = look
+            shapes = Shapes()
+            if self.fence:
+                fence_marks.fence_lines(shapes, self.view, self.fence, (*self.pos, *self.size))
+            self._fence_ink.draw(shapes)
+
     def _fill_task(self, shapes: Shapes) -> Iterator[Word]:
         view, places, home = self.view, self._places(), self._home_place()
-        if self.fence:
-            fence_marks.fence_lines(shapes, view, self.fence, (*self.pos, *self.size))
         marks.trail_line(shapes, view, self._trail.points)
         marks.plan_line(shapes, view, self.plan)
         if self.motion_name != "random":
@@ -309,7 +321,7 @@ class MapOverlay(MapGestures, Drawing):
         sizes += [(tuple(home[:2]), self.mark_radius * 0.9)] if home else []
         sizes += [(place[:2], self.mark_radius * 0.8) for place in self.places if place[3] != "dock"]
         for (x, y), size in sizes:
-            if self.fence.fault("It", x, y, self.robot_radius):
+            if self.fence.forbids(x, y, self.robot_radius):
                 yield fence_marks.refused_mark(shapes, self.view, x, y, size)
 
     def _fill_robot(self, shapes: Shapes) -> Iterator[Word]:

@@ -64,6 +64,14 @@ def test_every_piece_has_the_robots_ground_on_its_left(turned):
         assert fence.allows((border.starts + border.ends) / 2 + left).all()
 
 
+def test_a_place_asked_for_again_is_judged_by_what_is_known_of_it(monkeypatch):
+    fence = told([SQUARE])
+    assert fence.forbids(9.6, 5.0, 0.2)
+    assert not fence.forbids(9.6, 5.0, 0.02)
+    monkeypatch.setattr(fence, "fault", lambda *_: 1 / 0)
+    assert fence.forbids(9.6, 5.0, 0.2)
+
+
 def test_areas_that_are_none_are_left_out():
     nan = [(0.0, 0.0), (math.nan, 1.0), (1.0, 0.0)]
     assert not told([nan, SQUARE[:2]], [[]])

@@ -10,6 +10,7 @@ from widgets.fence import Border, Fence
 from widgets.geometry import View
 from widgets.grid_map import GridMap
 from widgets.shapes import Shapes
+from widgets.theme import theme
 
 BOX = (0.0, 0.0, 400.0, 300.0)
 AWAY = np.array([3.0, 5.0])
@@ -113,3 +114,18 @@ def test_where_it_stays_is_worth_seeing(map_):
     seen = map_.view.many_to_screen(SQUARE)
     assert (seen > 0).all()
     assert (seen < (400, 300)).all()
+
+
+def test_a_pose_does_not_draw_the_fence_anew_and_another_view_or_theme_does(map_, stage, monkeypatch):
+    drawn = []
+    stage.frames(2)
+    monkeypatch.setattr(marks, "fence_lines", lambda *_: drawn.append(1))
+    map_.robot = [1.0, 2.0, 0.0]
+    stage.frames(2)
+    assert drawn == []
+    map_.zoom_in()
+    stage.frames(2)
+    theme.name = "sunlight"
+    stage.frames(2)
+    theme.name = "dark"
+    assert drawn == [1, 1]
