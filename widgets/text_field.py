@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 from kivy.graphics.texture import Texture
 from kivy.lang import Builder
@@ -68,14 +67,6 @@ class TextField(TextInput):
 
     def _sign(self) -> Texture:
         return text_texture(icon("error"), sp(22), theme.icons)
-
-    def keyboard_on_key_down(
-        self, window: object, keycode: tuple[int, str], text: str, modifiers: Any
-    ) -> bool:
-        """Escape is left to the window: what it is for is the same whether somebody types or not."""
-        if keycode[1] == "escape":
-            return False
-        return bool(super().keyboard_on_key_down(window, keycode, text, modifiers))
 
     sign = AliasProperty(_sign, cache=True)
     """What stands at its end while it is wrong."""

@@ -190,12 +190,23 @@ def come_again(hands: Hands, touch: Any) -> None:
     touch.touch_move(200, 290)
 
 
+def come_again_on_stop(hands: Hands, touch: Any) -> None:
+    """As before, and the stick never sees it come down."""
+    width, height = hands.stage.window.size
+    touch.sx, touch.sy = 1050 / width, 50 / height
+    touch.move({"x": 1050 / width, "y": 50 / height})
+    hands.stage.loop.touches.remove(touch)
+    touch.touch_down()
+    assert hands.stop.pressed
+
+
 LOSSES: dict[str, Callable[[Hands, Any], object]] = {
     "lifted": lambda hands, touch: touch.touch_up(),
     "cancelled by the system": lambda hands, touch: touch.touch_up(),  # which is what SDL makes of it
     "end never told": end_unseen,
     "end dropped in a pause": end_in_sdl,
     "number given to another finger": come_again,
+    "number given to another finger, on STOP": come_again_on_stop,
     "out of focus": lambda hands, _: setattr(hands.stage.window, "_focus", False),
     "hidden": lambda hands, _: hands.stage.window.dispatch("on_hide"),
     "minimised": lambda hands, _: hands.stage.window.dispatch("on_minimize"),
@@ -307,6 +318,25 @@ def test_a_finger_takes_the_stick_and_the_gamepad_waits_until_both_let_go(hands:
     assert hands.sent[-1][1].angular.z > 0.5
     finger.touch_up()
     hands.rests_in_time(hands.stage.time.now)
+    hands.lean()
+
+
+def test_a_gamepad_that_was_pushed_while_a_finger_had_the_stick_does_not_take_it_over(hands: Hands) -> None:
+    hands.source.there = {1: PAD}
+    finger = hands.push()
+    hands.source.there = {1: replace(PAD, forward=-1.0)}
+    hands.pass_time(0.5)
+    finger.touch_up()
+    hands.rests_in_time(hands.stage.time.now)
+    hands.lean()
+
+
+@pytest.mark.usefixtures("upright")
+def test_while_the_window_has_no_focus_a_gamepad_does_not_drive(hands: Hands) -> None:
+    hands.stage.window._focus = False
+    with pytest.raises(AssertionError):
+        hands.lean()
+    hands.stage.window._focus = True
     hands.lean()
 
 
