@@ -231,11 +231,6 @@ class CheckList(RobotWidget, BoxLayout):
         """Take over the list."""
         self.checks = list(msg.checks)
 
-    def on_touch_down(self, touch: Any) -> bool:
-        """What lies below gets no finger that came down on a sentence."""
-        inside = bool(self.total) and self.collide_point(*touch.pos)
-        return super().on_touch_down(touch) or inside
-
     def on_fold(self, unfold: bool) -> None:
         """A finger wants it unfolded, or folded."""
 

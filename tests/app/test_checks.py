@@ -43,6 +43,7 @@ def test_it_is_unfolded_until_all_is_good(robot):
 def test_it_folds_when_the_robot_first_moves_and_stays_so(robot, motion):
     robot.tell("bad")
     robot.drive(x=0.01)
+    robot.checks.choose(True)
     assert robot.checks.open
     robot.drive(**motion)
     robot.drive()

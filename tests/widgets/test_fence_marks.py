@@ -72,6 +72,13 @@ def test_an_edge_that_is_far_larger_than_the_glass_has_a_bounded_number_of_teeth
     assert 0 < len(feet) <= marks.MOST
 
 
+def test_many_edges_have_fewer_teeth_each():
+    y = np.linspace(-5, 5, 2000)[:, None]
+    border = Border(np.hstack([np.full_like(y, -9), y]), np.hstack([np.full_like(y, 9), y]))
+    feet, _ = marks.teeth(View.centred(0, 0, at=(200, 150), scale=20), border, BOX)
+    assert 0 < len(feet) <= 2 * marks.MOST
+
+
 def test_the_legend_names_only_what_there_is():
     for rings, names in (
         (([SQUARE], []), ["Stays inside"]),
