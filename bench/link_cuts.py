@@ -17,7 +17,7 @@ import asyncio
 import json
 import random
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 
 from bench.support.child import Child
@@ -54,16 +54,21 @@ def prepare(_: Context) -> Iterator[Sides]:
     yield Sides(lambda: run(CUTS, ours), lambda: run(THEIRS, naive, "--relay"))
 
 
+def cuts(kinds: Iterable[str], count: int, driver: Driver, *flags: str) -> dict[str, list[Cut]]:
+    """Cut `count` links of each of these kinds, of all of them at the same time."""
+    with ExitStack() as stack:
+        robots = {kind: stack.enter_context(robot(kind, *flags)) for kind in kinds}
+        return asyncio.run(_all(robots, count, driver))
+
+
 def run(count: int, driver: Driver, *flags: str) -> dict[str, float]:
     """Cut `count` links, as many of each kind."""
-    with ExitStack() as stack:
-        robots = {kind: stack.enter_context(robot(kind, *flags)) for kind in KINDS}
-        found = asyncio.run(_all(robots, count // len(KINDS), driver))
-    every = [each for cuts in found.values() for each in cuts]
+    found = cuts(KINDS, count // len(KINDS), driver, *flags)
+    every = [each for its in found.values() for each in its]
     late = [
-        each.rest - KINDS[kind].speed / KINDS[kind].braking for kind, cuts in found.items() for each in cuts
+        each.rest - KINDS[kind].speed / KINDS[kind].braking for kind, its in found.items() for each in its
     ]
-    ways = {f"way_{kind}": percentile([each.way for each in cuts], 0.5) for kind, cuts in found.items()}
+    ways = {f"way_{kind}": percentile([each.way for each in its], 0.5) for kind, its in found.items()}
     return {
         "cuts": len(every),
         "missed": sum(each.missed for each in every) / len(every) * 100,
