@@ -12,6 +12,9 @@ from tests.app.glass import Glass
 
 PATROL = TaskStatus(task="patrol", state="RUNNING", reason="Driving to point 2.")
 
+COARSE = 1 / 16
+"""Length of a frame where nothing is moved [s]."""
+
 
 def cards(glass: Glass) -> list[str]:
     """Headlines of what lies over the screen, from top to bottom."""
@@ -23,7 +26,7 @@ def cards(glass: Glass) -> list[str]:
 def press(glass: Glass, button: Any) -> None:
     """As a finger that has seen what it presses."""
     glass.until(lambda: not button.disabled, button)
-    glass.stage.run_for(0.7)
+    glass.stage.run_for(0.6, COARSE)
     glass.tap(button)
 
 
@@ -47,7 +50,7 @@ def paused(glass: Glass, robot: FakeRobot, reason: str) -> Any:
     tell(robot, mode="PAUSED")
     robot.publish("/task/status", TaskStatus(task="patrol", state="PAUSED", reason=reason))
     glass.until(lambda: glass.app.shell.cards.paused.open, "not paused")
-    glass.stage.run_for(0.3)
+    glass.stage.run_for(0.4, COARSE)
     return glass.app.shell.cards.paused
 
 
@@ -55,7 +58,7 @@ def test_the_driver_sees_on_every_screen_who_asks_and_hands_over(driving: Glass,
     card = anna_asks(driving, robot)
     for screen in ("mission", "tasks", "topics", "drive"):
         driving.app.show(screen)
-        driving.stage.run_for(0.2)
+        driving.stage.run_for(0.4, COARSE)
         (headline,) = cards(driving)
         assert headline.startswith("Anna asks for control · ")
     assert 0 < card.left <= 8.0
@@ -114,7 +117,8 @@ def test_the_mode_is_a_command_whose_answer_is_said(driving: Glass, robot: FakeR
     del robot.refusals["/mode/set"]
     press(driving, card.auto)
     driving.until(lambda: "Done." in driving.banners(), driving.banners())
-    assert (card.parent, robot.asked[-1][0], robot.asked[-1][1].mode) == (None, "/mode/set", "AUTO")
+    driving.until(lambda: card.parent is None, "the card stayed")
+    assert (robot.asked[-1][0], robot.asked[-1][1].mode) == ("/mode/set", "AUTO")
     driving.until(lambda: chip.text.startswith("AUTO"), chip.text)
 
 
@@ -155,7 +159,7 @@ def test_what_was_paused_by_the_button_is_not_offered_twice(driving: Glass, robo
     assert robot.until(lambda: "/task/pause" in robot.services())
     robot.publish("/task/status", TaskStatus(task="patrol", state="PAUSED", reason="Paused by tablet."))
     driving.until(lambda: pause.text == "Resume", "not paused")
-    driving.stage.run_for(0.3)
+    driving.stage.run_for(0.4, COARSE)
     assert cards(driving) == []
 
 
@@ -163,7 +167,7 @@ def test_an_offer_to_resume_is_put_away_until_the_next_pause(driving: Glass, rob
     card = paused(driving, robot, "Paused: Bob took the stick.")
     assert card.said == "Bob took the stick."
     driving.tap(card.cross)
-    driving.stage.run_for(0.3)
+    driving.stage.run_for(0.4, COARSE)
     assert cards(driving) == []
     paused(driving, robot, "Paused: Bob took the stick.")
     assert cards(driving) == ["Patrol is paused"]
@@ -179,7 +183,7 @@ def test_a_capped_speed_is_shown_where_one_drives_and_switched_off_and_on(
     driving.until(lambda: cards(driving) == ["40 % speed"], cards(driving))
     driving.until(lambda: cap.said == "Slow link, 320 ms.", cap.said)
     driving.app.show("mission")
-    driving.stage.run_for(0.2)
+    driving.stage.run_for(0.4, COARSE)
     assert cards(driving) == []
     driving.app.show("drive")
     press(driving, cap.switch)
@@ -200,7 +204,7 @@ def test_no_card_lies_over_the_stick_or_over_stop(driving: Glass, robot: FakeRob
     before = tuple(driving.app.root.size)
     for size in ((412, 892), (892, 412), (1280, 800), (1920, 1200)):
         driving.app.root.size = size
-        driving.stage.run_for(0.3)
+        driving.stage.run_for(0.4, COARSE)
         assert cards(driving)[0].startswith("Anna asks for control")
         assert not covered(driving.app.screens["drive"].stick), size
         assert not covered(driving.app.shell.stop), size
