@@ -161,7 +161,7 @@ class PilothouseApp(App):
             app=self, can_simulate=bool(self._simulator_command) or simulators.available()
         )
         self.fleet = Fleet(client_id=self.client_id, client_name=self.client_name, now=self._now)
-        self.corner = StopCorner(self, self.fleet)
+        self.corner = StopCorner(self, self.fleet, self._say)
         root = Root()
         root.over = self.corner.layer
         root.show_page(self.connect)

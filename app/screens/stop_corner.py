@@ -5,7 +5,7 @@ It lies over everything else, questions included, and lets every finger through 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from kivy.clock import Clock
@@ -25,9 +25,9 @@ __all__ = ["StopCorner"]
 class StopCorner:
     """The button, the list, and where they are. `tick` brings them up to date, ten times a second."""
 
-    def __init__(self, app: Any, fleet: Fleet) -> None:
-        """`app` is asked for its `robots`, `session`, `shell` and `connect`."""
-        self._app, self._fleet = app, fleet
+    def __init__(self, app: Any, fleet: Fleet, say: Callable[[str, str], object]) -> None:
+        """`app` is asked for its `robots`, `session`, `shell` and `connect`; `say(text, level)` says one sentence."""
+        self._app, self._fleet, self._say = app, fleet, say
         self.layer = FloatLayout()
         """To be put over the whole glass."""
         self.button = StopAll(size_hint=(None, None))
@@ -63,7 +63,15 @@ class StopCorner:
             self._show(self.list, shown=False)
         elif self.list.parent is not None:
             self.list.tell(fleet.rows, fleet.stopped, fleet.total, untried=fleet.untried)
+        elif not fleet.sending:
+            self._finish()
         self._place()
+
+    def _finish(self) -> None:
+        """The list was folded away before all was done: it ends by itself, and is said."""
+        stopped, total = self._fleet.stopped, self._fleet.total
+        self._say(f"STOP ALL is done: {stopped} of {total} stopped.", "ok" if stopped == total else "warn")
+        self._fleet.let_go()
 
     def _let_go(self) -> None:
         self._fleet.let_go()

@@ -161,6 +161,22 @@ def test_the_list_folds_while_it_is_sent_and_a_hold_lets_go(glass: Glass, robot:
     assert len(robot.asked) <= asked + 1
 
 
+def test_folded_away_it_ends_by_itself_and_says_so_when_the_last_one_rests(
+    glass: Glass, robot: FakeRobot
+) -> None:
+    robot.refusals["/stop"] = "The robot cannot be reached."
+    hear(glass, robot)
+    press(glass)
+    glass.until(lambda: "NO ANSWER" in words(glass).values(), "it claims more than is known")
+    glass.tap(glass.app.corner.list.ids.close)
+    robot.refusals.clear()
+    glass.until(lambda: not glass.app.fleet.active, "it never ends")
+    banners = [child.text for child in glass.app.connect.ids.notices.children]
+    assert banners == ["STOP ALL is done: 1 of 1 stopped."]
+    glass.app.corner.tick()
+    assert glass.app.corner.button.word == "STOP ALL"
+
+
 @pytest.mark.parametrize("size", SIZES)
 def test_neither_hides_the_other_nor_is_too_small_and_stop_is_the_larger(size: tuple[int, int]) -> None:
     shape = arrange.form(*size)

@@ -30,6 +30,8 @@ class Robot:
         self.there = False
         self.answers = True
         self.obeys = True
+        self.silently = False
+        """It stops and its answer is lost."""
         self.refusal = ""
         self.topics = {"/cmd_vel": "geometry_msgs/Twist", "/odom": "nav_msgs/Odometry"}
         self.asked: list[tuple[float, str]] = []
@@ -79,6 +81,8 @@ class Robot:
             raise Refused("There is no service /stop.")
         if not self.refusal:
             self.tell(stopped=True, at_rest=self.obeys)
+        if self.silently:
+            raise NoReply("It did not answer.")
         return CommandResponse(success=not self.refusal, message=self.refusal)
 
     def tell(self, *, stopped: bool, at_rest: bool) -> None:
@@ -229,6 +233,29 @@ async def test_a_second_press_while_it_is_sent_sends_nothing_twice(robot: Robot)
 
 
 @story
+async def test_one_whose_answers_are_lost_is_believed_when_its_status_says_that_it_rests(
+    robot: Robot,
+) -> None:
+    robot.there = robot.silently = True
+    async with pressed(robot) as lane:
+        await asyncio.sleep(1.5)  # its status is listened to after the first answer that is lost
+        assert lane.report.phase == "stopped"
+        asked = len(robot.stops())
+        await asyncio.sleep(5)
+        assert len(robot.stops()) == asked
+
+
+@story
+async def test_pressing_again_and_again_does_not_put_off_that_there_is_no_answer(robot: Robot) -> None:
+    robot.there, robot.answers = True, False
+    async with pressed(robot) as lane:
+        for _ in range(6):
+            await asyncio.sleep(0.5)
+            lane.press()
+        assert lane.report.phase == "no_answer"
+
+
+@story
 async def test_a_stopped_robot_that_is_lost_is_not_counted_as_stopped_any_more(robot: Robot) -> None:
     robot.there = True
     async with pressed(robot) as lane:
@@ -238,6 +265,7 @@ async def test_a_stopped_robot_that_is_lost_is_not_counted_as_stopped_any_more(r
         assert lane.report.phase == "no_answer"
         assert lane.report.sentence.startswith("STOPPED when it was last heard, 12 s ago.")
         robot.arrive()
+        assert lane.report.phase == "sent", "what it said before is not what it says now"
         robot.tell(stopped=True, at_rest=True)
         await asyncio.sleep(0.2)
         assert lane.report.phase == "stopped"
@@ -271,8 +299,9 @@ async def test_a_robot_without_a_stop_gets_zero_speed_for_as_long_as_the_lane_la
             await asyncio.sleep(0.1)
         assert (lane.report.phase, lane.report.foreign) == ("stopped", True)
         assert lane.report.sentence.startswith("No STOP of its own: zero speed is sent")
-        sent = len(robot.zeros)
+        sent, asked = len(robot.zeros), len(robot.stops())
         await asyncio.sleep(5)
+        assert len(robot.stops()) == asked, "it has no such service"
         assert len(robot.zeros) - sent == pytest.approx(50, abs=2)
         assert {(topic, message == Twist()) for topic, message in robot.zeros} == {("/cmd_vel", True)}
 
