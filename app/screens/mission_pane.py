@@ -76,12 +76,13 @@ class MissionPane(BoxLayout):
 
     def _promise(self) -> str:
         count, name = len(self._session.mission.draft.points), self.field.text.strip()
-        points = f"The {count} points" if count != 1 else "The point"
-        there = any(one.name == name for one in self._session.missions.kept)
-        new = f"become the newest revision of {name}" if there else f"are kept as {name}"
-        if count == 1:
-            new = new.replace("become", "becomes").replace("are", "is")
-        return f"{points} on the map {new}, and the robot patrols them from now on."
+        one = count == 1
+        points, them = ("The point", "it") if one else (f"The {count} points", "them")
+        if any(kept.name == name for kept in self._session.missions.kept):
+            what = f"{'becomes' if one else 'become'} the newest revision of {name}"
+        else:
+            what = f"{'is' if one else 'are'} kept as {name}"
+        return f"{points} on the map {what}, and the robot patrols {them} from now on."
 
     def recall(self) -> None:
         """Make the chosen one the robot's mission."""

@@ -29,10 +29,11 @@ Builder.load_string("""
     BoxLayout:
         id: line
         size_hint_y: None
-        height: groups.height
+        height: theme.target
         spacing: dp(8)
         Segmented:
             id: groups
+            pos_hint: {'center_y': .5}
             font_size: sp(15)
             on_choose: root.choose(args[1])
 """)

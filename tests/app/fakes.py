@@ -28,9 +28,14 @@ from bridge.msgs.pilothouse_msgs import (
     GetEventsResponse,
     GetHistoryRequest,
     GetHistoryResponse,
+    GetMissionsRequest,
+    GetMissionsResponse,
+    KeptMission,
     Mission,
     Place,
     PlaceArray,
+    RecallMissionRequest,
+    RecallMissionResponse,
     RobotInfo,
     Schedule,
     ScheduledTask,
@@ -80,6 +85,8 @@ REQUESTS: dict[str, type[Msg]] = {
     "/schedule/delete": DeleteScheduleRequest,
     "/history/get": GetHistoryRequest,
     "/events/acknowledge": AcknowledgeEventsRequest,
+    "/missions/get": GetMissionsRequest,
+    "/mission/recall": RecallMissionRequest,
 }
 RESPONSES: dict[str, type[CommandResponse]] = {
     "/mode/set": SetModeResponse,
@@ -91,6 +98,8 @@ RESPONSES: dict[str, type[CommandResponse]] = {
     "/schedule/delete": DeleteScheduleResponse,
     "/history/get": GetHistoryResponse,
     "/events/acknowledge": AcknowledgeEventsResponse,
+    "/missions/get": GetMissionsResponse,
+    "/mission/recall": RecallMissionResponse,
 }
 """Of the services that answer with more than a sentence, or in a class of their own."""
 
@@ -115,6 +124,8 @@ class FakeRobot:
         """What it has against a service and its request; None for nothing."""
         self.events: list[Event] = []
         self.places: list[Place] = []
+        self.missions: dict[str, Mission] = {}
+        """Those that have a name."""
         self.queue = TaskQueue(revision=1)
         self.schedule: list[ScheduledTask] = []
         self.runs: list[TaskRun] = []
@@ -258,9 +269,8 @@ class FakeRobot:
 
     def _keep(self, name: str, request: Any) -> dict[str, Any]:
         """Do what was asked about what is kept; gives what the answer says beyond its sentence."""
-        if name == "/events/acknowledge":
-            self._see_to(request)
-            return {}
+        if name.startswith(("/events", "/mission")):
+            return self._keep_by_name(name, request)
         if name == "/history/get":
             runs = [run for run in self.runs if not request.before or run.id < request.before]
             return {"runs": runs[: request.limit]}
@@ -283,6 +293,25 @@ class FakeRobot:
         for event in events:
             self.events.append(event)
             self.publish("/events", event)
+
+    def _keep_by_name(self, name: str, request: Any) -> dict[str, Any]:
+        if name == "/events/acknowledge":
+            self._see_to(request)
+        elif name != "/missions/get":
+            self._take_mission(request.mission if name == "/mission/set" else self.missions[request.name])
+        else:
+            kept = [
+                KeptMission(one.name, one.stamp, len(one.waypoints), one.motion, 1)
+                for _, one in sorted(self.missions.items())
+            ]
+            return {"names": [one.name for one in kept], "missions": kept}
+        return {}
+
+    def _take_mission(self, mission: Mission) -> None:
+        if mission.name:
+            mission = msgspec.structs.replace(mission, stamp=Time.at(self.clock()))
+            self.missions[mission.name] = mission
+            self._server.publish("/mission", mission)
 
     def _see_to(self, request: AcknowledgeEventsRequest) -> None:
         """Note who has seen to events, the first who did, and tell everybody."""
