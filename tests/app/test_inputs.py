@@ -321,13 +321,38 @@ def test_a_finger_takes_the_stick_and_the_gamepad_waits_until_both_let_go(hands:
     hands.lean()
 
 
-def test_a_gamepad_that_was_pushed_while_a_finger_had_the_stick_does_not_take_it_over(hands: Hands) -> None:
+def finger_on_it(hands: Hands) -> Callable[[], object]:
+    return hands.push().touch_up  # type: ignore[no-any-return]
+
+
+def dialog_over_it(hands: Hands) -> Callable[[], object]:
+    return hands.cover().close  # type: ignore[no-any-return]
+
+
+def other_screen(hands: Hands) -> Callable[[], object]:
+    hands.shell.screen = "mission"
+    return lambda: setattr(hands.shell, "screen", "drive")
+
+
+def paused(hands: Hands) -> Callable[[], object]:
+    hands.inputs.rest()
+    hands.frozen = True
+    return lambda: setattr(hands, "frozen", False)
+
+
+@pytest.mark.parametrize("begin", [finger_on_it, dialog_over_it, other_screen, paused])
+def test_a_gamepad_that_was_pushed_while_it_might_not_drive_does_not_begin_to_by_itself(
+    hands: Hands, begin: Callable[[Hands], Callable[[], object]]
+) -> None:
     hands.source.there = {1: PAD}
-    finger = hands.push()
+    hands.pass_time(0.2)
+    end = begin(hands)
+    hands.pass_time(0.2)
     hands.source.there = {1: replace(PAD, forward=-1.0)}
     hands.pass_time(0.5)
-    finger.touch_up()
-    hands.rests_in_time(hands.stage.time.now)
+    end()
+    hands.pass_time(1.0)
+    assert not hands.moving
     hands.lean()
 
 
