@@ -77,7 +77,10 @@ class UltrasoundView(Gauge):
         before = self.echoes.get(frame)
         if before is None and len(self.echoes) >= MOST:
             return
-        self._stamps[frame] = msg.header.stamp.seconds
+        stamp = msg.header.stamp.seconds
+        if stamp < self._stamps.get(frame, stamp):
+            self._stamps.clear()  # its clock was set back: what was heard by the old one says nothing of silence
+        self._stamps[frame] = stamp
         silent = self._silent()
         if silent != self.silent:
             self.silent = silent

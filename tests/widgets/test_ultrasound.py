@@ -51,6 +51,14 @@ def test_one_that_fell_silent_shows_no_distance_while_the_others_do(stage, view)
     assert view.nearest == "ultrasound_left"
 
 
+def test_a_clock_that_was_set_back_silences_nobody(view):
+    for side in ("left", "front"):
+        view.show(echo(side, 1.0, 5000.0))
+    view.show(echo("front", 0.5, 10.0))
+    assert view.silent == []
+    assert view.figure("ultrasound_front") == "0.50 m"
+
+
 def test_where_it_is_low_the_nearest_is_told_and_which_way_it_is(stage):
     view = stage.show(UltrasoundView(state="live", card=False), size=(120, 48))
     for side, away in (("front", 0.42), ("left", math.inf), ("rear", 0.21)):
