@@ -85,7 +85,7 @@ class Inputs:
         devices: Callable[[], frozenset[int]] = input_devices,
         turned: Callable[[], int] = rotation,
     ) -> None:
-        """`app` is asked for its `shell` and `session`. `source` tells of gamepads and fingers, SDL where there is one;
+        """`app` is asked for its `shell`, `session` and `corner`. `source` tells of gamepads and fingers, SDL where there is one;
 
         `devices` numbers what the system has plugged in, `turned` says how the screen is turned [quarters].
         """
@@ -125,12 +125,14 @@ class Inputs:
         self._source.close()
 
     def stop(self) -> None:
-        """STOP, as a finger on the button would; nothing where no robot is known."""
+        """STOP, as a finger on the button in its corner would: of the robot, else of all; nothing where none is known."""
         shell, session = self._app.shell, self._app.session
         if shell is not None:
             shell.stop.dispatch("on_command")
         elif session is not None:
             session.stop()
+        elif self._app.corner.button.robots:
+            self._app.corner.press()
 
     # the stick
 
@@ -232,8 +234,8 @@ class Inputs:
         self._keys.discard(key)
 
     def _is_stop(self, key: int, scancode: int) -> bool:
-        """Escape everywhere, Space where nothing is being typed, once there is a robot to stop."""
-        if self._app.session is None:
+        """Escape everywhere, Space where nothing is being typed, where there is a robot to stop."""
+        if self._app.session is None and not self._app.corner.button.robots:
             return False
         return (key == BACK and scancode == ESCAPE) or (key == SPACE and not _typing())
 

@@ -113,6 +113,16 @@ def test_stop_is_sent_when_the_finger_comes_down_and_shown_when_the_robot_confir
     driving.until(lambda: stop.phase == "ready", "not released")
 
 
+def test_escape_is_stop_on_every_screen(driving: Glass, monkeypatch: pytest.MonkeyPatch) -> None:
+    stopped: list[str] = []
+    monkeypatch.setattr(driving.app.session, "stop", lambda: stopped.append(driving.app.shell.screen))
+    for screen in driving.app.shell.screens:
+        driving.app.show(screen)
+        driving.stage.window.dispatch("on_key_down", 27, 41, None, [])
+        driving.stage.window.dispatch("on_key_up", 27, 41)
+    assert stopped == list(driving.app.shell.screens)
+
+
 def test_a_link_that_is_silent_says_so_before_it_is_lost(driving: Glass, robot: FakeRobot) -> None:
     chip, link = driving.app.shell.ids.link, driving.app.session.link
     driving.until(lambda: chip.text.endswith("ms") or "ms ·" in chip.text, "no round trip")

@@ -64,6 +64,17 @@ class Shell:
         self.offers.append((text, act))
 
 
+class Corner:
+    """STOP ALL of the connect screen."""
+
+    def __init__(self) -> None:
+        self.robots = self.presses = 0
+        self.button = self
+
+    def press(self) -> None:
+        self.presses += 1
+
+
 class Hands:
     """A stick on the glass, its way to the sender, and everything that can happen to either."""
 
@@ -91,6 +102,7 @@ class Hands:
         self.slot = DriveSlot(stage.time)
         self.stick.bind(on_command=lambda _, twist: self.slot.want(twist))
         self.sent: list[tuple[float, Twist]] = []
+        self.corner = Corner()
         self.frozen = False
         self._beaten = 0.0
         self.back_pressed = 0
@@ -438,6 +450,16 @@ def test_where_there_is_no_robot_escape_is_back(hands: Hands) -> None:
     hands.session = hands.shell = None  # type: ignore[assignment]
     press(hands, ESCAPE)
     assert (hands.stops, hands.back_pressed) == (0, 3)
+
+
+@pytest.mark.parametrize("keys", [ESCAPE, SPACE], ids=["Escape", "Space"])
+def test_where_several_robots_are_known_and_none_is_connected_a_key_stops_them_all(
+    hands: Hands, keys: tuple[int, int]
+) -> None:
+    hands.session = hands.shell = None  # type: ignore[assignment]
+    hands.corner.robots = 2
+    press(hands, keys)
+    assert (hands.corner.presses, hands.back_pressed) == (1, 0)
 
 
 def test_the_gamepads_button_is_stop_on_every_screen(hands: Hands) -> None:
