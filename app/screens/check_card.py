@@ -6,6 +6,7 @@ from typing import Any
 
 from app.dashboard import Dashboard
 from app.session import Session
+from bridge.msgs.pilothouse_msgs import Checklist
 from widgets import CheckList
 
 __all__ = ["CheckCard"]
@@ -23,6 +24,12 @@ class CheckCard(CheckList):
     def _fold(self, _: object, unfold: bool) -> None:
         self._session.checks.choose(unfold)
         self.open = unfold
+
+    def show(self, msg: Checklist) -> None:
+        """Take over the list, folded at once where all on it has become good."""
+        self._session.checks.look()
+        self.open = self._session.checks.open
+        super().show(msg)
 
     def tick(self) -> None:
         """Bring up to date what time changes."""

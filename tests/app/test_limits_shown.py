@@ -85,8 +85,11 @@ def test_the_check_list_is_unfolded_on_both_screens_and_folds_on_both(fenced):
 def test_when_all_is_good_the_check_list_folds_away(fenced, robot):
     drive = fenced.app.screens["drive"].checks
     fenced.until(lambda: drive.open and drive.total, "not unfolded")
+    flashes = []
+    drive.bind(checks=lambda *_: flashes.append(drive.ready and drive.open))
     robot.publish("/checklist", Checklist(checks=list(GOOD)))
     fenced.until(lambda: drive.ready and not drive.open, "not folded")
+    assert not any(flashes)
     assert drive.height == drive.ids.head.height
 
 
