@@ -211,6 +211,12 @@ class Fleet:
         self._identify(connected)
         self.rows = self._counted([self._row(robot, connected) for robot in self._robots.values()])
 
+    def since(self, entries: Iterable[Entry]) -> int:
+        """How many of `entries` STOP ALL was not meant for: they came after it was pressed."""
+        boots = {robot.boot for robot in self._robots.values() if robot.boot}
+        fresh = [one for one in entries if one.url not in self._robots and one.boot not in boots]
+        return known(fresh, None) - self.untried if len(fresh) > self.untried else 0
+
     def let_go(self) -> None:
         """Send nothing any more. Robots with a STOP of their own stay stopped; the others may be driven again."""
         for robot in self._robots.values():

@@ -226,8 +226,10 @@ class StopList(Control, BoxLayout):
             part.bind(height=self._measure)
         self._measure()
 
-    def tell(self, robots: Iterable[Stopped], stopped: int, total: int, *, untried: int = 0) -> None:
-        """Take over what is known, worst first; `untried` are those that were too many."""
+    def tell(
+        self, robots: Iterable[Stopped], stopped: int, total: int, *, untried: int = 0, since: int = 0
+    ) -> None:
+        """Take over what is known, worst first; `untried` were too many, `since` came after the press."""
         robots = sorted(robots, key=lambda robot: _WORST.index(robot.phase))
         while len(self._rows) > len(robots):
             self.ids.column.remove_widget(self._rows.pop())
@@ -239,7 +241,7 @@ class StopList(Control, BoxLayout):
         self.title, self.all_stopped = f"STOPPED {stopped} of {total}", stopped == total
         held = sum(robot.foreign for robot in robots)
         open_ones = sum(robot.phase not in ("stopped", "released") for robot in robots)
-        self.footnote = _footnote(open_ones, held, untried) or HINT
+        self.footnote = _footnote(open_ones, held, untried, since) or HINT
         self.offer = "Hold to send no longer" if open_ones or held else ""
 
     def _measure(self, *_: object) -> None:
@@ -262,8 +264,10 @@ class StopList(Control, BoxLayout):
 HINT = "Each is released by itself: connect, take control, and hold STOP."
 
 
-def _footnote(open_ones: int, held: int, untried: int) -> str:
+def _footnote(open_ones: int, held: int, untried: int, since: int) -> str:
     parts = []
+    if since:
+        parts.append(f"{since} more came since: press STOP ALL again.")
     if untried:
         parts.append(f"{untried} more {'was' if untried == 1 else 'were'} too many to be tried.")
     if open_ones:

@@ -62,7 +62,8 @@ class StopCorner:
         if not fleet.active:
             self._show(self.list, shown=False)
         elif self.list.parent is not None:
-            self.list.tell(fleet.rows, fleet.stopped, fleet.total, untried=fleet.untried)
+            since = fleet.since(self._app.robots.entries())
+            self.list.tell(fleet.rows, fleet.stopped, fleet.total, untried=fleet.untried, since=since)
         elif not fleet.sending:
             self._finish()
         self._place()

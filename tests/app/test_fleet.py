@@ -247,6 +247,9 @@ def test_one_robot_that_says_hello_from_two_addresses_is_counted_once(fleet: Fle
     entries = [replace(heard(url, "Boat"), boot="log of the boat") for url in (A, B)]
     assert known(entries, None) == known(entries, link) == 1
     assert known([*entries, heard(C)], link) == 2
+    fleet.press(entries[:1], link)
+    assert fleet.since(entries) == 0, "it is the one that is stopped"
+    assert fleet.since([*entries, heard(C)]) == 1
     fleet.press(entries, link)
     until(lambda: set(lanes.open) == {A, B}, "not tried at every address")
     fleet.look(link)

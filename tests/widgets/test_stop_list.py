@@ -56,9 +56,10 @@ def test_what_can_be_let_go_is_what_is_still_sent(result, robots, offer):
 
 
 def test_it_says_what_goes_on_and_who_was_too_many(result):
-    result.tell([SOME[3], SOME[5]], 1, 4, untried=2)
+    result.tell([SOME[3], SOME[5]], 1, 4, untried=2, since=1)
     assert result.footnote == (
-        "2 more were too many to be tried. STOP goes on being sent until each one rests."
+        "1 more came since: press STOP ALL again."
+        " 2 more were too many to be tried. STOP goes on being sent until each one rests."
         " A robot without a STOP of its own stays held only while zero speed is sent."
     )
 
