@@ -30,7 +30,7 @@ Builder.load_string("""
     orientation: 'vertical'
     size_hint_y: None
     height: self.minimum_height
-    padding: dp(4) if root.compact else dp(14), dp(6) if root.tiny else dp(9), dp(14), dp(6) if root.tiny else dp(9)
+    padding: dp(14), dp(6) if root.tiny else dp(9)
     spacing: dp(7) if root.tiny else dp(10)
     canvas.before:
         Color:
@@ -51,11 +51,10 @@ Builder.load_string("""
         height: max(words.height, dp(34), root.beside)
         spacing: dp(10)
         Icon:
+            id: sign
             name: root.icon
             role: root.role
             font_size: sp(28)
-            size: (0, 0) if root.compact else (self.font_size, self.font_size)
-            opacity: 0 if root.compact else 1
             pos_hint: {'center_y': .5}
         BoxLayout:
             id: words
@@ -108,6 +107,19 @@ class NoticeCard(Control, BoxLayout):
     compact = AliasProperty(_compact, bind=["width", "beside"], cache=True)
     """The words need the room of the icons, since something stands beside them."""
 
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._sign = self.ids.sign.__self__  # kv holds ids weakly, and a compact card takes this one out
+        self.fbind("compact", self._signed)
+        self._signed()
+
+    def _signed(self, *_: object) -> None:
+        row, sign = self.ids.row, self._sign
+        if self.compact and sign.parent is not None:
+            row.remove_widget(sign)
+        elif not self.compact and sign.parent is None:
+            row.add_widget(sign, index=len(row.children))
+
     def add_beside(self, text: str, icon: str) -> PushButton:
         """A quiet button right of the words; what stands on it can be changed by `relabel`."""
         self._button = QuietButton(size_hint_x=None, pos_hint={"center_y": 0.5})
@@ -120,7 +132,7 @@ class NoticeCard(Control, BoxLayout):
         """Change what stands on the button beside the words."""
         button, self._label = self._button, (text, icon)
         button.text, button.icon = text, "" if self.compact else icon
-        button.width, button.padding = (dp(100), [dp(6), 0]) if self.compact else (dp(136), [dp(10), 0])
+        button.width, button.padding = (dp(108), [dp(6), 0]) if self.compact else (dp(136), [dp(10), 0])
 
     def add_close(self) -> Widget:
         """A cross that takes the card away; dispatches `on_command("close")`. A tiny card has none."""

@@ -76,9 +76,8 @@ class SpeedCap(NoticeCard):
         if self.follows:
             self.headline, self.said = f"{self.share * 100:.0f} % speed", f"{self.why}."
         else:
-            self.headline = "Full speed on any link"
-            now = f"{self.why}: it" if "," in self.why else "It"
-            self.said = f"{now} does not slow down."
+            self.headline = "Full speed always"
+            self.said = f"{self.why}." if "," in self.why else "On a slow link as well."
         self.relabel(*(("Full speed", "link_off") if self.follows else ("Follow link", "link")))
         self.switch.meaning = self.switch.text
         self.switch.disabled = self.blocked or self.sent

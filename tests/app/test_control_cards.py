@@ -187,7 +187,7 @@ def test_a_capped_speed_is_shown_where_one_drives_and_switched_off_and_on(
     assert cards(driving) == []
     driving.app.show("drive")
     press(driving, cap.switch)
-    driving.until(lambda: cards(driving) == ["Full speed on any link"], cards(driving))
+    driving.until(lambda: cards(driving) == ["Full speed always"], cards(driving))
     assert (robot.asked[-1][1].name, robot.asked[-1][1].value) == ("follow_link", "off")
     press(driving, cap.switch)
     driving.until(lambda: cards(driving) == ["40 % speed"], cards(driving))

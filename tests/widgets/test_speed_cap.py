@@ -40,9 +40,9 @@ def test_share_and_why_are_said(cap):
 
 def test_that_it_is_off_is_said_on_any_link(cap):
     cap.show(ControlStatus(follows_link=False))
-    assert (cap.open, cap.headline, cap.said) == (True, "Full speed on any link", "It does not slow down.")
+    assert (cap.open, cap.headline, cap.said) == (True, "Full speed always", "On a slow link as well.")
     cap.rtt = 0.32
-    assert cap.said == "Slow link, 320 ms: it does not slow down."
+    assert cap.said == "Slow link, 320 ms."
 
 
 def test_it_is_switched_off_and_on_and_shown_so_when_the_robot_says_so(stage, cap):
