@@ -361,13 +361,18 @@ def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
 
 
 def tasks(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
-    """Of the tasks screen: as `topics`, with a narrower STOP on a phone's side so that buttons fit beside it."""
+    """Of the tasks screen: as `topics`; a phone on its side has a narrower STOP, so that buttons fit beside it, and
+    a wider list, so that the words over it can be read."""
     places, gap = topics(body, shape, dp), 12 * dp
     if shape == "short":
-        stop, strip = places["stop"], places["strip"]
-        width = min(stop.width, 190 * dp)
+        stop, listed, detail = places["stop"], places["list"], places["detail"]
+        width, more = min(stop.width, 190 * dp), 44 * dp
+        x = detail.x + more
         places["stop"] = stop = Rect(stop.right - width, stop.y, width, stop.height)
-        places["strip"] = Rect(strip.x, strip.y, stop.x - gap - strip.x, strip.height)
+        places["list"] = Rect(listed.x, listed.y, listed.width + more, listed.height)
+        places["strip"] = Rect(x, stop.y, stop.x - gap - x, stop.height)
+        places["detail"] = Rect(x, detail.y, detail.width - more, detail.height)
+        places["notice"] = Rect(x, places["notice"].y, detail.width - more, places["notice"].height)
     return places
 
 

@@ -21,14 +21,13 @@ Builder.load_string("""
     BoxLayout:
         id: line
         size_hint_y: None
-        height: dp(48)
+        height: max(dp(48), title.height)
         spacing: dp(6)
         Text:
+            id: title
             text: root.title
             bold: True
             font_size: theme.size_title
-            shorten: True
-            shorten_from: 'right'
             pos_hint: {'center_y': .5}
     Text:
         text: root.sentence

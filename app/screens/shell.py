@@ -233,7 +233,7 @@ class Shell(FloatLayout):
         self._tick_stop()
         self._show_rail()
         if missed := self.session.logbook.news():
-            self.say(missed, "info", about="missed", stay=LONG)
+            self.say(missed, "info", about="missed")
         if self.screen:
             self.screens[self.screen].tick()
         self._place_notices()

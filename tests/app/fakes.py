@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import itertools
+import math
 import threading
 import time
 from collections.abc import Callable
@@ -354,4 +355,8 @@ def _driven(name: str, client_id: str) -> dict[str, Any]:
 
 
 def _asked(name: str = "", client_id: str = "", due: float = 0.0) -> dict[str, Any]:
-    return {"requested_by": name, "requested_by_id": client_id, "handover": Time.at(due)}
+    return {
+        "requested_by": name,
+        "requested_by_id": client_id,
+        "handover": Time.at(due) if math.isfinite(due) else Time(),
+    }
