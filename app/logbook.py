@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Protocol
+from typing import Any, Protocol
 
 from app.commands import Outcome
 from app.events import GRAVE, Known, Missed
@@ -28,8 +28,8 @@ REMEMBERED = "events"
 class Send(Protocol):
     """Sends a one-shot command of `app.commands.COMMANDS`."""
 
-    def __call__(self, name: str, *, ids: Int32Array) -> object:
-        """With the numbers of the events that it is about."""
+    def __call__(self, name: str, /, **fields: Any) -> object:
+        """With what it is about."""
 
 
 def marks(settings: Settings) -> dict[str, int]:

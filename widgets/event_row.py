@@ -190,7 +190,7 @@ def row_height(event: Event, width: float, *, says: str = "", acts: bool = False
     open = is_open(event)
     room = max(dp(60), width - sp(20) - dp(BESIDE) - (dp(BUTTON) if acts else dp(8)))
     high = text_height(event.text, room, sp(14.5), open) + (sp(18) if says else 0) + dp(8)
-    return max(dp(30), high, theme.target + dp(4) if acts else 0)
+    return float(max(dp(30), high, theme.target + dp(4) if acts else 0))
 
 
 class EventRow(RecycleDataViewBehavior, BoxLayout):

@@ -250,7 +250,7 @@ class TasksScreen(FloatLayout):
         """What is beside the list, or on a phone over it; empty for the list alone."""
         if self._form == "tall":
             return self.detail
-        return self.detail or DETAILS[self.tab]
+        return str(self.detail) or DETAILS[self.tab]
 
     def _lay(self, *_: object) -> None:
         listed, area, shown = self.ids.listed, self.ids.detail, self._shown_detail()
