@@ -273,7 +273,7 @@ UNTESTED = Check("stop", "unknown", "STOP was not tested since the start; press 
 
 
 def samples() -> dict[str, Callable[[], Widget]]:
-    """Nothing heard, one to be done, several bad, all good, each folded and unfolded."""
+    """One to be done, several bad, all good, each folded and unfolded; before the first list there is nothing to see."""
     bad = (
         Check("battery", "bad", "The battery is below 20%; charge it first."),
         Check("sensors", "bad", "Nothing comes from: /scan, /imu/data."),
@@ -285,15 +285,13 @@ def samples() -> dict[str, Callable[[], Widget]]:
     def make(checks: Sequence[Check], *, open_: bool = True, **kwargs: Any) -> Callable[[], Widget]:
         def build() -> Widget:
             made = CheckList(open=open_, **{"state": "live", **kwargs})
-            if made.state != "never":
-                made.show(Checklist(checks=list(checks)))
+            made.show(Checklist(checks=list(checks)))
             return made
 
         return build
 
     untested = (*GOOD[:3], UNTESTED, GOOD[4])
     return {
-        "never": make(untested, state="never"),
         "live": make(untested),
         "live folded": make(untested, open_=False),
         "bad": make(bad),
