@@ -157,7 +157,7 @@ def test_the_list_folds_while_it_is_sent_and_a_hold_lets_go(glass: Glass, robot:
     glass.stage.frames(3)
     release = corner.list.ids.release
     finger = glass.hold(release)
-    glass.stage.run_for(1.2)
+    glass.stage.run_for(1.3, 0.1)
     finger.touch_up()
     assert not glass.app.fleet.active
     asked = len(robot.asked)
