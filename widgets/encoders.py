@@ -139,7 +139,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
 
         return build
 
-    six = message(*((f"wheel_{place}_joint", 3.0, 9.0) for place in "abcdef"))
+    places = [f"{side}_{row}" for row in ("front", "middle", "rear") for side in ("left", "right")]
+    six = message(*((f"wheel_{place}_joint", 3.0, 9.0) for place in places))
     return {
         "never": made(),
         "live": made(usual, state="live"),
