@@ -36,14 +36,14 @@ class ModeCard(NoticeCard):
     """There is a task to go on with."""
 
     def __init__(self, **kwargs: Any) -> None:
-        super().__init__(headline="Who steers?", icon="sports_esports", **kwargs)
+        super().__init__(icon="sports_esports", **kwargs)
         self.cross = self.add_close()
         self.manual, self.auto = self.add_below(
             ("MANUAL", "sports_esports", False), ("AUTO", "autorenew", False)
         )
         self.manual.bind(on_release=lambda _: self.choose("MANUAL"))
         self.auto.bind(on_release=lambda _: self.choose("AUTO"))
-        for name in ("mode", "task", "why_not", "sent", "ready"):
+        for name in ("mode", "task", "why_not", "sent", "ready", "tiny"):
             self.fbind(name, self._write)
         self._write()
 
@@ -70,7 +70,8 @@ class ModeCard(NoticeCard):
         automatic = self.mode == "AUTO"
         self.role = "plan" if automatic else "accent"
         self.icon = "autorenew" if automatic else "sports_esports"
-        self.said = self._sentence()
+        sentence = self._sentence()
+        self.headline, self.said = (sentence, "") if self.tiny else ("Who steers?", sentence)
         for button, chosen in ((self.manual, not automatic), (self.auto, automatic)):
             button.fill, button.border = (self.role, self.role) if chosen else ("raised", "line")
             button.ink = f"ink_{self.role}" if chosen else "text"

@@ -147,11 +147,18 @@ class NoticeCard(Control, BoxLayout):
             self.ids.row.remove_widget(cross)
         elif not self.tiny and cross.parent is None:
             self.ids.row.add_widget(cross)
+        self._fit()
 
     def _reserve(self, button: Widget) -> None:
         self.ids.row.add_widget(button)
-        button.bind(height=self.setter("beside"))
-        self.beside = button.height
+        button.bind(height=self._fit)
+        self._fit()
+
+    def _fit(self, *_: object) -> None:
+        buttons = (PushButton, IconButton)
+        self.beside = max(
+            (one.height for one in self.ids.row.children if isinstance(one, buttons)), default=0
+        )
 
     def add_below(self, *buttons: tuple[str, str, bool]) -> list[PushButton]:
         """A row of large buttons, each `(text, icon, primary)`."""

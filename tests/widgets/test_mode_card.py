@@ -63,3 +63,15 @@ def test_an_accepted_mode_closes_the_card(card):
     assert card.open
     card.answer("accepted")
     assert not card.open
+
+
+def test_a_tiny_card_says_what_matters_in_its_headline(stage, card):
+    card.ready, card.task = True, "patrol"
+    card.show(ControlStatus(mode="AUTO"))
+    stage.frames(3)
+    wide = card.height
+    card.width = 300
+    stage.frames(4)
+    assert (card.headline, card.said) == ("MANUAL pauses: patrol.", "")
+    assert card.cross.parent is None
+    assert card.height < min(wide, 115)
