@@ -62,9 +62,8 @@ class EncodersView(Gauge):
         top = self.top - edge
         if not self.low:
             more = len(self.wheels) - len(shown)
-            yield from self.header(
-                (f"rad/s · {more} more" if more else "rad/s", "rad/s"), "muted", told=False
-            )
+            figures = (f"rad/s · {more} more", f"{more} more", f"+{more}") if more else ("rad/s",)
+            yield from self.header(figures, "muted", told=False)
             top -= sp(12) + dp(4)
         if not shown:
             yield Word(DASH, self.center_x, (self.y + edge + top) / 2, sp(14), theme.muted)

@@ -39,7 +39,7 @@ def test_a_full_bar_is_the_fastest_that_was_seen(view):
 
 
 def test_of_many_joints_the_rest_is_counted(stage, view):
-    view.height = 160
+    view.size = 230, 160
     view.show(wheels(*[1.0] * 6))
     stage.frames(2)
     assert view.texts[1] == "rad/s · 2 more"
@@ -50,3 +50,10 @@ def test_where_it_is_low_there_are_two_lines(stage):
     view.show(wheels(11.44, 14.3))
     stage.frames(2)
     assert view.texts == ["11.4 rad/s", "left", "14.3 rad/s", "right"]
+
+
+def test_that_there_are_more_is_said_on_a_narrow_card_too(stage, view):
+    view.size = 150, 160
+    view.show(wheels(*[1.0] * 6))
+    stage.frames(2)
+    assert view.texts[1] == "2 more"
