@@ -140,6 +140,7 @@ class NoticeCard(Control, BoxLayout):
         cross.bind(on_release=lambda _: self.dispatch("on_command", "close"))
         self._reserve(cross)
         self.fbind("tiny", lambda *_: self._crossed(cross))
+        self._crossed(cross)
         return cross
 
     def _crossed(self, cross: Widget) -> None:
@@ -163,7 +164,12 @@ class NoticeCard(Control, BoxLayout):
     def add_below(self, *buttons: tuple[str, str, bool]) -> list[PushButton]:
         """A row of large buttons, each `(text, icon, primary)`."""
         row = BoxLayout(size_hint_y=None, height=dp(60), spacing=dp(10))
-        self.fbind("tiny", lambda *_: setattr(row, "height", theme.target if self.tiny else dp(60)))
+
+        def fit(*_: object) -> None:
+            row.height = theme.target if self.tiny else dp(60)
+
+        self.fbind("tiny", fit)
+        fit()
         made: list[PushButton] = []
         for text, icon, primary in buttons:
             kind = PrimaryButton if primary else QuietButton

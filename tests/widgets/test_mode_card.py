@@ -75,3 +75,9 @@ def test_a_tiny_card_says_what_matters_in_its_headline(stage, card):
     assert (card.headline, card.said) == ("MANUAL pauses: patrol.", "")
     assert card.cross.parent is None
     assert card.height < min(wide, 115)
+
+
+def test_a_card_that_was_never_wider_has_no_cross(stage):
+    card = stage.show(ModeCard(size_hint=(None, None), width=300))
+    stage.frames(3)
+    assert card.cross.parent is None
