@@ -22,7 +22,7 @@ from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
 from app.device import input_devices, rotation, sdl_library
-from app.gamepad import SILENT, Gamepads, News, Told
+from app.gamepad import Gamepads, News, Told
 from app.sdl import Sdl
 
 __all__ = ["BACK", "Inputs", "covered"]
@@ -266,12 +266,13 @@ class Inputs:
 
     def _tell_silence(self, shell: Any, name: str) -> None:
         """With a way out the first time: what hangs on a cable and is held still tells nothing either."""
-        text = f"{name} told nothing for {SILENT:.2f} s: the robot was told to rest."
+        shell.unsay("gamepad")
         if name in self._offered:
-            shell.say(text, "warn", about="gamepad")
+            shell.say("The gamepad is silent: told to rest.", "warn", about="gamepad")
         else:
             self._offered.add(name)
-            shell.notices.offer(text, "It has a cable", lambda: self._trust(name))
+            text = "The gamepad is silent: told to rest. Is it wired?"
+            shell.notices.offer(text, "Wired", lambda: self._trust(name), icon="cable")
 
     def _trust(self, name: str) -> None:
         """The operator says that it hangs on a cable: it may be held still from now on."""

@@ -41,12 +41,12 @@ Builder.load_string("""
             rgba: theme.surface[:3] + [.88 if root.sign_role else 0]
         Ellipse:
             pos: root.sign_pos[0] - dp(3), root.sign_pos[1] - dp(3)
-            size: root.sign.width + dp(6), root.sign.height + dp(6)
+            size: root.sign_size[0] + dp(6), root.sign_size[1] + dp(6)  # kv does not see a texture's size change
         Color:
             rgba: theme.roles[root.sign_role] if root.sign_role else (0, 0, 0, 0)
         Rectangle:
             texture: root.sign
-            size: root.sign.size
+            size: root.sign_size
             pos: root.sign_pos
 """)
 
@@ -92,6 +92,12 @@ class Joystick(Control, Drawing):
 
     sign = AliasProperty(_sign, bind=["size"], cache=True)
     """Of a gamepad, in the corner that the round leaves free."""
+
+    def _sign_size(self) -> tuple[float, float]:
+        return tuple(self.sign.size)
+
+    sign_size = AliasProperty(_sign_size, bind=["sign"], cache=True)
+    """[px]"""
 
     def _sign_pos(self) -> tuple[float, float]:
         return self.right - self.sign.width - dp(2), self.top - self.sign.height - dp(2)

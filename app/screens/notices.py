@@ -60,9 +60,9 @@ class Notices(BoxLayout):
             if isinstance(child, Toast) and not isinstance(child, ActionToast):
                 self.remove_widget(child)
 
-    def offer(self, text: str, action: str, act: Callable[[], None]) -> None:
-        """One sentence with something to do about it."""
-        toast = ActionToast(text=text, action=action, stay=LONG)
+    def offer(self, text: str, action: str, act: Callable[[], None], icon: str = "undo") -> None:
+        """One sentence with something to do about it, `icon` on its button."""
+        toast = ActionToast(text=text, action=action, action_icon=icon, stay=LONG)
         toast.bind(on_act=lambda _: act())
         self.add_widget(toast)
 
