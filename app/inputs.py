@@ -8,6 +8,7 @@ no longer, something came over the stick, the window lost its focus or was turne
 from __future__ import annotations
 
 import logging
+import math
 import time
 from collections.abc import Callable
 from typing import Any
@@ -36,16 +37,19 @@ BACK = 27
 ESCAPE = 41
 """Scan code of Escape, which Back has not."""
 SPACE = 32
+ROUND = 0.96
+"""Of a stick's width and height is its round, less an edge that a neighbour may touch."""
 BARE = (FloatLayout, BoxLayout, AnchorLayout, GridLayout, Widget)
 """Classes that show nothing themselves: they cover what their children cover."""
 
 
 def covered(widget: Widget) -> bool:
-    """Something is drawn over the widget's rectangle, or it is not on the glass."""
-    child, box = widget, _box(widget)
+    """Something is drawn over the round in the widget's middle, or it is not on the glass."""
+    child, middle = widget, widget.to_window(*widget.center)
+    round_ = (*middle, min(widget.size) * ROUND / 2)
     while child.parent is not None and child.parent is not child:
         siblings = child.parent.children
-        if any(_over(other, box) for other in siblings[: siblings.index(child)]):
+        if any(_over(other, round_) for other in siblings[: siblings.index(child)]):
             return True
         if child.parent is Window:
             return False
@@ -53,19 +57,16 @@ def covered(widget: Widget) -> bool:
     return True
 
 
-def _box(widget: Widget) -> tuple[float, float, float, float]:
-    left, low = widget.to_window(widget.x, widget.y)
-    return left, low, left + widget.width, low + widget.height
-
-
-def _over(widget: Widget, box: tuple[float, float, float, float]) -> bool:
-    if not widget.opacity:
+def _over(widget: Widget, round_: tuple[float, float, float]) -> bool:
+    if not widget.opacity or not all(widget.size):
         return False
-    left, low, right, top = _box(widget)
-    apart = min(right, box[2]) - max(left, box[0]) <= 1 or min(top, box[3]) - max(low, box[1]) <= 1
+    x, y, radius = round_
+    left, low = widget.to_window(*widget.pos)
+    nearest = min(max(x, left), left + widget.width), min(max(y, low), low + widget.height)
+    apart = math.dist(nearest, (x, y)) >= radius
     if apart or type(widget) not in BARE:
         return not apart
-    return any(_over(child, box) for child in widget.children)
+    return any(_over(child, round_) for child in widget.children)
 
 
 def _typing() -> bool:

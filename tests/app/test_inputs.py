@@ -182,10 +182,10 @@ def hands(stage: Stage) -> Iterator[Hands]:
     hands.inputs.close()
 
 
-def small_card(hands: Hands) -> None:
+def small_card(hands: Hands, pos: tuple[int, int] = (40, 90)) -> None:
     from widgets.kit import Card
 
-    hands.page.add_widget(Card(size_hint=(None, None), size=(120, 60), pos=(40, 60)))
+    hands.page.add_widget(Card(size_hint=(None, None), size=(120, 60), pos=pos))
 
 
 def end_unseen(hands: Hands, touch: Any) -> None:
@@ -267,6 +267,13 @@ def test_a_second_finger_on_the_stick_and_its_end_change_nothing(hands: Hands) -
     second = hands.stage.touch(180, 220)
     second.touch_down()
     second.touch_up()
+    hands.pass_time(0.5)
+    assert hands.moving
+
+
+def test_what_touches_only_the_corner_beside_the_round_is_not_over_the_stick(hands: Hands) -> None:
+    hands.push()
+    small_card(hands, (0, 60))
     hands.pass_time(0.5)
     assert hands.moving
 
