@@ -67,6 +67,8 @@ def test_a_finger_that_was_there_before_the_question_answers_nothing(stage, card
     stage.frames(2)
     stage.tap(*card.hand_over.to_window(*card.hand_over.center))
     assert card.asked == []
+    tap(stage, card.hand_over)
+    assert card.asked == ["grant"]
 
 
 def test_who_neither_drives_nor_asks_has_nothing_to_answer(card):
