@@ -143,8 +143,9 @@ class Video(Drawing):
             )
         if self._texture is None or self._texture.size != (width, height):
             self._texture = Texture.create(size=(width, height), colorfmt="rgba")
+            seen = self._plain.tex_coords  # a texture brings its own, by which the picture stands on its head
             self._picture.texture = self._plain.texture = self._texture
-            self._picture.tex_coords = WHOLE
+            self._picture.tex_coords, self._plain.tex_coords = WHOLE, seen
             self.frame_size = [width, height]
         self.taken_size = list(taken) if all(taken) else [width, height]
         self._texture.blit_buffer(rgba, colorfmt="rgba", bufferfmt="ubyte")

@@ -157,6 +157,16 @@ def marked(stage, *marks, **more):
     return {word.text: word for word in video._pointers(Shapes())}
 
 
+def test_a_picture_of_another_size_does_not_stand_on_its_head_until_it_is_laid_out(stage):
+    video = stage.show(Video(state="live", corner=0), size=(320, 240))
+    video.show_frame(64, 48, FRAME)
+    stage.frames(2)
+    upright = list(video._plain.tex_coords)
+    assert upright[1] > upright[5]
+    video.show_frame(32, 24, bytes(32 * 24 * 4))
+    assert list(video._plain.tex_coords) == upright
+
+
 def test_what_is_known_to_be_ahead_is_marked_in_the_middle_and_to_the_left_on_the_left(stage):
     found = marked(stage, ("1", 0.0), ("2", 0.3))
     assert found["1"].x == pytest.approx(320)
