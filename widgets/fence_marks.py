@@ -19,7 +19,7 @@ from widgets.ink import Word, ground, tint
 from widgets.shapes import Shapes
 from widgets.theme import theme
 
-__all__ = ["LEGEND_ROW", "fence_lines", "hatching", "legend", "refused_mark", "teeth"]
+__all__ = ["LEGEND_ROW", "fence_lines", "hatching", "legend", "legend_width", "refused_mark", "teeth"]
 
 Box = tuple[float, float, float, float]
 """x, y, width, height on the screen [px]."""
@@ -30,7 +30,9 @@ MOST = 3000
 """Lines of a hatching or teeth of an edge; of more every other one is left out."""
 LEGEND_ROW = 20
 """Height of a line of the legend [dp]."""
-STAYS, NEVER = "Stays inside", "Keeps out"
+SWATCH = 22
+"""Width of a sign of the legend [dp]."""
+STAYS, NEVER = "Stays in", "Keeps out"
 
 
 def fence_lines(shapes: Shapes, view: View, fence: Fence, box: Box) -> None:
@@ -106,29 +108,45 @@ def refused_mark(shapes: Shapes, view: View, x: float, y: float, size: float) ->
     return Word(icon("block"), px + size * 0.75, high - dp(2), dp(19), theme.danger, font=theme.icons)
 
 
-def legend(shapes: Shapes, fence: Fence, left: float, bottom: float) -> Iterator[Word]:
-    """What the lines mean, upwards from `bottom` [px]; a line for each kind there is."""
+def legend(shapes: Shapes, fence: Fence, left: float, bottom: float, room: float) -> Iterator[Word]:
+    """What the lines mean, side by side where `room` [px] is enough for that, else upwards from `bottom` [px]."""
     if fence.too_large:
         word = Word(
             "Its fence is too large to draw.", left, bottom + dp(9), sp(13), theme.warn, anchor=(0, 0.5)
         )
         ground(shapes, word, tint(theme.bg, 0.85))
         yield word
-    rows = [name for name, areas in ((NEVER, fence.keep_out), (STAYS, fence.keep_in)) if areas]
-    for row, name in enumerate(rows):
-        y, wide, high = bottom + dp(LEGEND_ROW) * (row + 0.5), dp(26), dp(12)
-        word = Word(name, left + wide + dp(7), y, sp(13), theme.text, anchor=(0, 0.5))
-        length = wide + dp(11) + text_texture(name, round(word.size, 1)).width
-        middle = np.array([[left - dp(4), y], [left + length, y]])
-        shapes.line(middle, dp(LEGEND_ROW), tint(theme.bg, 0.8))
-        if name == NEVER:
-            shape = np.array([[0, -high], [2 * wide, -high], [2 * wide, high], [0, high]]) / 2
-            corners = shape + np.array([left, y])
-            starts, ends = hatching(corners, (left, y), (left, y - high, wide, 2 * high))
-            shapes.segments(starts, ends, dp(1.7), theme.warn)
-            shapes.line(np.concatenate([corners, corners[:1]]), dp(1.6), theme.warn)
-        else:
-            line = Border(np.array([[left, y + dp(3)]]), np.array([[left + wide, y + dp(3)]]))
-            shapes.segments(line.starts, line.ends, dp(2.4), theme.warn)
-            shapes.segments(*teeth(View(1 + 0j), line, (left, y, wide, high)), dp(2.0), theme.warn)
-        yield word
+    names = [name for name, areas in ((NEVER, fence.keep_out), (STAYS, fence.keep_in)) if areas]
+    beside = room >= legend_width(fence)
+    x, y = left, bottom + dp(LEGEND_ROW) / 2
+    for name in reversed(names) if beside else names:
+        yield _entry(shapes, name, x, y)
+        x, y = (x + _entry_width(name), y) if beside else (x, y + dp(LEGEND_ROW))
+
+
+def legend_width(fence: Fence) -> float:
+    """Of the legend where all of it stands side by side [px]; 0 without one."""
+    areas = ((NEVER, fence.keep_out), (STAYS, fence.keep_in))
+    return sum(_entry_width(name) for name, found in areas if found)
+
+
+def _entry_width(name: str) -> float:
+    return float(dp(SWATCH) + dp(5) + text_texture(name, round(sp(13), 1)).width + dp(12))
+
+
+def _entry(shapes: Shapes, name: str, left: float, y: float) -> Word:
+    """A sign, drawn as on the map, and its word on a ground of their own."""
+    wide, high = dp(SWATCH), dp(12)
+    middle = np.array([[left - dp(4), y], [left + _entry_width(name) - dp(8), y]])
+    shapes.line(middle, dp(LEGEND_ROW), tint(theme.bg, 0.8))
+    if name == NEVER:
+        shape = np.array([[0, -high], [2 * wide, -high], [2 * wide, high], [0, high]]) / 2
+        corners = shape + np.array([left, y])
+        starts, ends = hatching(corners, (left, y), (left, y - high, wide, 2 * high))
+        shapes.segments(starts, ends, dp(1.7), theme.warn)
+        shapes.line(np.concatenate([corners, corners[:1]]), dp(1.6), theme.warn)
+    else:
+        line = Border(np.array([[left, y + dp(3)]]), np.array([[left + wide, y + dp(3)]]))
+        shapes.segments(line.starts, line.ends, dp(2.4), theme.warn)
+        shapes.segments(*teeth(View(1 + 0j), line, (left, y, wide, high)), dp(2.0), theme.warn)
+    return Word(name, left + wide + dp(5), y, sp(13), theme.text, anchor=(0, 0.5))

@@ -33,6 +33,8 @@ __all__ = ["GeoMap", "samples"]
 
 PROBE = 100.0
 """Length of the ways by which the scale of the pictures is measured [m]."""
+NARROW = 520
+"""Where there is less room, the word about the pictures' origin and the legend stand one above the other [dp]."""
 OVER = 8.0
 """How far the sharpest pictures may be enlarged."""
 HAZE = {"dark": 0.24, "sunlight": 0.52, "night": 0.70}
@@ -114,6 +116,8 @@ class GeoMap(MapOverlay):
         if self._pictures is not None and self._pictures.map_source.attribution:
             x, y, wide, _ = self.free_box
             low = dp(8) + (0 if math.isnan(self.foot) else self.foot)
+            if self.fence and wide < dp(NARROW):
+                low += dp(24)  # above the legend
             text = self._pictures.map_source.attribution
             yield from outlined(Word(text, x + wide - dp(10), y + low, sp(11), theme.text, anchor=(1, 0)))
 

@@ -30,7 +30,7 @@ from bridge.msgs.sensor_msgs import LaserScan
 from widgets import fence_marks
 from widgets import map_marks as marks
 from widgets.fence import Fence
-from widgets.geometry import Points, Trail, View, scan_points, spread
+from widgets.geometry import Points, Trail, View, nice_floor, scan_points, spread
 from widgets.ink import Drawing, Ink, Word, Words, ground, tint
 from widgets.map_gestures import MapGestures
 from widgets.shapes import Shapes
@@ -341,9 +341,14 @@ class MapOverlay(MapGestures, Drawing):
         if math.isnan(self.foot):
             return
         x, y, wide, _ = self.free_box
-        left, low = x + dp(16), y + dp(14) + self.foot
-        yield from marks.scale_bar(shapes, self.view, left, low, min(dp(140), wide / 3))
-        yield from fence_marks.legend(shapes, self.fence, left, low + dp(30))
+        left, low, longest = x + dp(16), y + dp(14) + self.foot, min(dp(140), wide / 3)
+        yield from marks.scale_bar(shapes, self.view, left, low, longest)
+        beside = max(nice_floor(longest / self.view.scale) * self.view.scale, dp(44)) + dp(16)
+        room = wide - dp(16) - beside
+        if room >= fence_marks.legend_width(self.fence):
+            yield from fence_marks.legend(shapes, self.fence, left + beside, low - dp(4), room)
+        else:
+            yield from fence_marks.legend(shapes, self.fence, left, low + dp(30), 0.0)
 
     def _alarms(self, shapes: Shapes) -> Iterator[Word]:
         """The intruders, above the waypoints and below the robot."""

@@ -81,11 +81,23 @@ def test_many_edges_have_fewer_teeth_each():
 
 def test_the_legend_names_only_what_there_is():
     for rings, names in (
-        (([SQUARE], []), ["Stays inside"]),
+        (([SQUARE], []), ["Stays in"]),
         (([], [SQUARE]), ["Keeps out"]),
         (([], []), []),
     ):
-        assert [word.text for word in marks.legend(Shapes(), Fence(*rings), 10, 10)] == names
+        assert [word.text for word in marks.legend(Shapes(), Fence(*rings), 10, 10, 500)] == names
+
+
+def test_the_legend_stands_in_one_row_where_there_is_room_and_never_beyond_it(stage):
+    fence = Fence([SQUARE], [SQUARE / 2])
+    wide = marks.legend_width(fence)
+    row = list(marks.legend(Shapes(), fence, 10, 10, wide))
+    pile = list(marks.legend(Shapes(), fence, 10, 10, wide - 1))
+    assert row[0].y == row[1].y
+    assert row[1].x > row[0].x
+    assert row[1].x < 10 + wide
+    assert pile[0].x == pile[1].x
+    assert pile[1].y > pile[0].y
 
 
 def test_points_home_and_places_that_the_robot_would_refuse_are_marked(map_, stage):
