@@ -80,12 +80,7 @@ class Link:
             client_id=client_id,
             client_name=client_name,
         )
-        self._events = EventStream(
-            lambda event: mailbox.queue(EVENT, event, now()),
-            lambda missed: mailbox.queue(MISSED, missed, now()),
-            known=known,
-            marks=marks,
-        )
+        self._events = self._stream(known, marks)
         self._on_picture = on_picture or (lambda *_: None)
         self._wake = asyncio.Event()
         self._heard = -math.inf
@@ -109,6 +104,15 @@ class Link:
         self._advertised: set[str] = set()
         self._moved = False
         """The robot was told over this link to move."""
+
+    def _stream(self, known: Known | None, marks: Mapping[str, int] | None) -> EventStream:
+        mailbox, now = self._mailbox, self._now
+        return EventStream(
+            lambda event: mailbox.queue(EVENT, event, now()),
+            lambda missed: mailbox.queue(MISSED, missed, now()),
+            known=known,
+            marks=marks,
+        )
 
     # what the UI thread calls
 

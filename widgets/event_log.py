@@ -197,28 +197,31 @@ def _place(event: Event) -> tuple[float, int, str]:
     return -event.stamp.seconds, -event.id, event.boot
 
 
+STORY = [
+    (100, "info", "mission", "6 waypoints sent, stored on robot"),
+    (138, "ok", "command", "Accepted: start patrol (18 ms)"),
+    (138, "info", "task", "Patrol started · loop · 6 points"),
+    (179, "info", "waypoint", "Waypoint 2 reached"),
+    (196, "warn", "battery", "Battery at 34 %, enough for about 51 min"),
+    (199, "alarm", "intruder", "Intruder at 12.4 m, bearing 131°"),
+]
+
+ORDERS = [
+    (150, "info", "task", "Patrol resumed."),
+    (152, "info", "task", "Paused by tablet-B."),
+    (154, "alarm", "stop", "STOP pressed by tablet-B."),
+    (156, "ok", "stop", "STOP released by tablet-B."),
+    (158, "info", "task", "Going home."),
+    (160, "info", "task", "Patrol ended: go home was asked for instead."),
+]
+"""Time, level, kind and sentence of events, for the samples."""
+
+
 def samples() -> dict[str, Callable[[], Widget]]:
     """Empty, and a patrol's events in every state."""
-    story = [
-        (100, "info", "mission", "6 waypoints sent, stored on robot"),
-        (138, "ok", "command", "Accepted: start patrol (18 ms)"),
-        (138, "info", "task", "Patrol started · loop · 6 points"),
-        (179, "info", "waypoint", "Waypoint 2 reached"),
-        (196, "warn", "battery", "Battery at 34 %, enough for about 51 min"),
-        (199, "alarm", "intruder", "Intruder at 12.4 m, bearing 131°"),
-    ]
-
-    words = [
-        (150, "info", "task", "Patrol resumed."),
-        (152, "info", "task", "Paused by tablet-B."),
-        (154, "alarm", "stop", "STOP pressed by tablet-B."),
-        (156, "ok", "stop", "STOP released by tablet-B."),
-        (158, "info", "task", "Going home."),
-        (160, "info", "task", "Patrol ended: go home was asked for instead."),
-    ]
 
     def make(
-        story: list[tuple[int, str, str, str]] = story, high: str = "190dp", **kwargs: Any
+        story: list[tuple[int, str, str, str]] = STORY, high: str = "190dp", **kwargs: Any
     ) -> Callable[[], Widget]:
         def build() -> Widget:
             log = EventLog(size_hint=(None, None), size=("330dp", high), **kwargs)
@@ -233,7 +236,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     return {
         "never": make(),
         "live": make(state="live"),
-        "orders": make(words, state="live"),
+        "orders": make(ORDERS, state="live"),
         "to be seen": make(high="280dp", state="live", acts=True),
         "missed": make(
             high="280dp",
