@@ -76,7 +76,7 @@ def control(session: Session, *, brief: bool) -> tuple[str, str, str]:
 def control_nav(session: Session) -> tuple[str, str, str]:
     """Words, icon and role of the button for control; without a role it looks as its neighbours."""
     authority = session.authority
-    if authority.asked or authority.asking:
+    if authority.status.requested_by and session.control in ("mine", "other"):
         return f"Ask{_countdown(authority.left)}", "hourglass_top", "warn"
     _, icon, _ = control(session, brief=True)
     return "Control", icon, "warn" if session.control == "other" else ""

@@ -144,6 +144,7 @@ def test_who_watches_sees_who_asks_whom(watch: Watch) -> None:
     watch.told(BOBS)
     watch.told(watch.asks(BOBS, "Anna", "a"))
     assert standing.control(watch.session, brief=False)[0] == "driven by Bob · Anna asks"
+    assert standing.control_nav(watch.session) == ("Ask · 10 s", "hourglass_top", "warn")
     watch.told(ControlStatus(driver="Anna", driver_id="a"))
     assert watch.news == [("Anna asks Bob for control.", "info"), ("Anna has control.", "info")]
 
