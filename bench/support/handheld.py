@@ -33,6 +33,8 @@ BETWEEN = (0.06, 0.12)
 """Between two moves of the finger [s]: not in step with the frames, and slow enough to be told apart."""
 PAUSE = (0.1, 0.3)
 """Before a tap [s]."""
+ASK_AGAIN = 2.5
+"""A question without an answer is asked again after this [s]."""
 CONFIRMED = 5.0
 """What is not confirmed within this never is [s]."""
 REACH = 0.55
@@ -223,12 +225,12 @@ class Script:
         """
         began = time.monotonic()
         in_ui(lambda: self.app.open(url))
-        asked = False
+        asked = -math.inf
         while (missing := in_ui(lambda: self._unknown(task, runs, queued, events))) and (
             time.monotonic() - began < CONFIRMED
         ):
-            if not asked and in_ui(lambda: self.app.session.connected):
-                asked = True
+            if time.monotonic() - asked > ASK_AGAIN and in_ui(lambda: self.app.session.connected):
+                asked = time.monotonic()
                 in_ui(self.app.session.tasking.ask_history)
             time.sleep(0.005)
         return {"took": time.monotonic() - began, "missing": missing}
