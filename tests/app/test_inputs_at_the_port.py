@@ -26,6 +26,8 @@ WATCHED = 0.35
 LIMIT = 0.2
 """From the loss to zero speed at the port [s]."""
 TRIES = 10
+PATIENCE = 3.0
+"""How long driving off may take before it is tried again [s]."""
 ESCAPE = (27, 41)
 """Key code and scan code."""
 
@@ -86,16 +88,33 @@ class Trial:
         """Drive off, each time the other way, and drive on for a while."""
         self.ready()
         self._way = -self._way
+        for _ in range(TRIES):
+            self._push()
+            self.run(0.2)
+            end = time.monotonic() + PATIENCE
+            while time.monotonic() < end:
+                if self.port.moving:
+                    return
+                self.run(0.0)
+            self._let_go()  # the computer was so busy that it counts as let go long ago: once more
+        raise AssertionError(f"the robot does not drive off; the glass says: {self.glass.words()}")
+
+    def _push(self) -> None:
         if self.pad is None:
             self.finger = self.glass.push(self.stick, 0.0, 0.9 * self._way)
-        else:
-            self.pad.push(0.0)
-            self.run(0.1)
-            for _ in range(8):  # however long each takes: it has been looked at since
-                EventLoop.idle()
-            self.trembles = True
-        self.run(0.2)
-        self.glass.until(lambda: self.tremble() or self.port.moving, "the robot to drive off")
+            return
+        self.pad.push(0.0)
+        self.run(0.1)
+        for _ in range(8):  # however long each takes: it has been looked at since
+            EventLoop.idle()
+        self.trembles = True
+
+    def _let_go(self) -> None:
+        self.trembles = False
+        if self.finger is not None:
+            self.glass.hand.up(self.finger)
+            self.finger = None
+        self.run(0.05)
 
     def tremble(self) -> None:
         """A hand is never quite still."""
@@ -104,8 +123,9 @@ class Trial:
 
     def run(self, seconds: float) -> None:
         """Let the app run; the hand on the gamepad trembles."""
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
+        end, once = time.monotonic() + seconds, True
+        while once or time.monotonic() < end:
+            once = False
             self.tremble()
             EventLoop.idle()
 
@@ -129,10 +149,7 @@ class Trial:
         age = self.port.rested(at)
         self.trembles = False
         again()
-        if self.finger is not None:
-            self.glass.hand.up(self.finger)
-            self.finger = None
-        self.run(0.05)
+        self._let_go()
         return age
 
     def unplug(self) -> None:
