@@ -114,17 +114,18 @@ def _turns(angle: float) -> str:
     return f"{figure(angle / math.tau, 1)} turns"
 
 
+def _message(*wheels: tuple[str, float, float]) -> JointState:
+    """Of wheels with name, speed [rad/s] and angle [rad]."""
+    return JointState(
+        name=[name for name, _, _ in wheels],
+        position=Float64Array([angle for *_, angle in wheels]),
+        velocity=Float64Array([speed for _, speed, _ in wheels]),
+    )
+
+
 def samples() -> dict[str, Callable[[], Widget]]:
     """The states of the picture by name."""
-
-    def message(*wheels: tuple[str, float, float]) -> JointState:
-        return JointState(
-            name=[name for name, _, _ in wheels],
-            position=Float64Array([angle for *_, angle in wheels]),
-            velocity=Float64Array([speed for _, speed, _ in wheels]),
-        )
-
-    usual = message(("wheel_left_joint", 11.4, 812.5), ("wheel_right_joint", 14.3, 840.0))
+    usual = _message(("wheel_left_joint", 11.4, 812.5), ("wheel_right_joint", 14.3, 840.0))
 
     def made(
         msg: JointState | None = None, size: tuple[float, float] = (170, 112), **more: Any
@@ -132,22 +133,22 @@ def samples() -> dict[str, Callable[[], Widget]]:
         def build() -> EncodersView:
             view = EncodersView(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
             if msg:
-                view.show(message(("a", 20.0, 0.0)))
+                view.show(_message(("a", 20.0, 0.0)))
                 view.show(msg)
             return view
 
         return build
 
     places = [f"{side}_{row}" for row in ("front", "middle", "rear") for side in ("left", "right")]
-    six = message(*((f"wheel_{place}_joint", 3.0, 9.0) for place in places))
+    six = _message(*((f"wheel_{place}_joint", 3.0, 9.0) for place in places))
     return {
         "never": made(),
         "live": made(usual, state="live"),
         "turning": made(
-            message(("wheel_left_joint", -6.0, -3.0), ("wheel_right_joint", 6.0, 3.0)), state="live"
+            _message(("wheel_left_joint", -6.0, -3.0), ("wheel_right_joint", 6.0, 3.0)), state="live"
         ),
         "not measured": made(
-            message(("wheel_left_joint", math.nan, 3.0), ("wheel_right_joint", 6.0, math.nan)), state="live"
+            _message(("wheel_left_joint", math.nan, 3.0), ("wheel_right_joint", 6.0, math.nan)), state="live"
         ),
         "six": made(six, state="live", size=(170, 150)),
         "low": made(usual, state="live", size=(120, 54)),
