@@ -132,13 +132,15 @@ Builder.load_string("""
             radius: [theme.corner]
     canvas.after:
         Color:
-            rgba: theme.danger if root.count else (0, 0, 0, 0)
+            rgb: theme.danger[:3] if root.urgent else theme.warn[:3]
+            a: 1 if root.count else 0
         SmoothRoundedRectangle:
             pos: root.badge_pos
             size: root.badge_size
             radius: [root.badge_size[1] / 2]
         Color:
-            rgba: theme.ink_danger if root.count else (0, 0, 0, 0)
+            rgb: theme.ink_danger[:3]
+            a: 1 if root.count else 0
         Rectangle:
             pos: root.badge_text_pos
             size: root.badge_texture.size
@@ -239,6 +241,8 @@ class NavButton(ButtonBehavior, BoxLayout):
     """Has a ground while active, as in a rail."""
     count = NumericProperty(0)
     """Things behind it that somebody has to see to: said in a mark on its icon, from 100 on as `99+`; 0 for none."""
+    urgent = BooleanProperty(True)
+    """One of them cannot wait: the mark has the colour of danger, else that of a warning."""
 
     def _badge_texture(self) -> Texture:
         words = f"{self.count:.0f}" if self.count < 100 else "99+"
@@ -288,6 +292,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "nav": lambda: NavButton(icon="sports_esports", text="Drive"),
         "nav going on": lambda: NavButton(icon="fiber_manual_record_fill", text="REC 0:12", tint="danger"),
         "nav with alarms": lambda: NavButton(icon="list", text="Tasks", count=2),
+        "nav with warnings": lambda: NavButton(icon="list", text="Tasks", count=2, urgent=False),
         "nav with many": lambda: NavButton(icon="list", text="Tasks", count=140, active=True),
         "nav active": lambda: NavButton(icon="map", text="Mission", active=True),
     }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from kivy.lang import Builder
@@ -11,6 +12,7 @@ from kivy.uix.floatlayout import FloatLayout
 from app.arrange import Rect
 from app.screens.connect import THEMES
 from app.screens.placing import put
+from bridge.msgs.pilothouse_msgs import Event
 from widgets.kit import NavButton
 from widgets.theme import theme
 
@@ -84,13 +86,17 @@ class Rail(FloatLayout):
             else:
                 button.pos = (rect.x + 6 * dp, rect.top - 12 * dp - high - index * step)
 
-    def show(self, screen: str, *, recording: bool, control: tuple[str, str, str], alarms: int = 0) -> None:
+    def show(
+        self, screen: str, *, recording: bool, control: tuple[str, str, str], waiting: Sequence[Event] = ()
+    ) -> None:
         """Bring the looks up to date: which `screen` is on the glass, and what goes on.
 
         `control` is text, icon and role of the button for control; without a role it looks as the others.
-        `alarms` wait for somebody to see to them; they are counted where they are listed.
+        `waiting` for somebody to see to them are warnings and alarms; they are counted where they are listed.
         """
-        self.ids.tasks.count = alarms
+        tasks = self.ids.tasks
+        tasks.count = len(waiting)
+        tasks.urgent = any(event.level == "alarm" for event in waiting)
         for name in ENTRIES:
             self.ids[name].active = name == screen
         icon, text, _ = THEMES[theme.name]

@@ -144,7 +144,7 @@ class Shell(FloatLayout):
             self.screen,
             recording=self.recording,
             control=standing.control_nav(self.session),
-            alarms=self.session.logbook.alarms,
+            waiting=self.session.logbook.open,
         )
 
     # places
