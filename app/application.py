@@ -409,6 +409,7 @@ class PilothouseApp(App):
             client_name=self.client_name,
             wants_control=not watch,
         )
+        self.session.on_rest = self.inputs.rest
         self.connect.say(f"Connecting to {url} …", "info", self.leave)
 
     def _enter_robot(self) -> None:

@@ -99,7 +99,8 @@ class Authority:
         session.command("request" if ask else "acquire")
 
     def release(self) -> None:
-        """Give control up, and do not ask for it again."""
+        """Give control up, and do not ask for it again; a stick that went on being pushed would take it anew."""
+        self._session.rest()
         self._session.wants_control = False
         self._released = self._held
         self._session.command("release")

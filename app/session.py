@@ -24,7 +24,14 @@ from app.refusals import Refusals
 from app.settings import Settings
 from app.tasking import Tasking
 from bridge.client import LinkState, Phase
-from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Pose,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Quaternion,
+    Twist,
+)
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, Mission, RobotInfo, TaskStatus
 from bridge.msgs.std_msgs import Header, Time
 
@@ -70,6 +77,8 @@ class Session:
         """The last outcome of each command by its name."""
         self.listeners: list[Callable[[str, Post], None]] = []
         """Called with each channel and post, after the session took it in."""
+        self.on_rest: Callable[[], object] = lambda: None
+        """Called when whatever pushes the stick has to let go."""
         self.early: list[Post] = []
         """Events that came while nobody listened."""
         self.offer: Offer | None = None
@@ -375,8 +384,13 @@ class Session:
         """Take control, or ask who has it; it is taken again after a reconnect."""
         self.authority.take()
 
+    def rest(self) -> None:
+        """The robot is told to rest before anything that is asked of it afterwards; the stick must be pushed anew."""
+        self.link.drive(Twist())
+        self.on_rest()
+
     def release_control(self) -> None:
-        """Give control up, and do not ask for it again."""
+        """Rest, give control up, and do not ask for it again."""
         self.authority.release()
 
     def send_mission(self) -> None:

@@ -283,8 +283,6 @@ class Shell(FloatLayout):
                 "This robot knows no control: whoever pushes a stick drives it.", "info", about="control"
             )
             return
-        if self.session.control == "mine":
-            self.rest()
         self.session.authority.toggle()
 
     def _stop(self, *_: object) -> None:

@@ -37,6 +37,7 @@ class Watch:
             rtt=0.01,
             robot_time=lambda: 1000.0 + self.clock.time,
             command=lambda name, **_: self.asked.append(name),
+            drive=lambda twist: self.asked.append(f"drive {twist.linear.x:g}"),
         )
         self.session = Session(
             self.link,  # type: ignore[arg-type]
@@ -71,14 +72,21 @@ def watch(tmp_path: Path) -> Watch:
 
 
 @pytest.mark.parametrize(
-    ("status", "command"),
-    [(FREE, "acquire"), (BOBS, "request"), (MINE, "release")],
+    ("status", "asked"),
+    [(FREE, ["acquire"]), (BOBS, ["request"]), (MINE, ["drive 0", "release"])],
     ids=["free", "other's", "ours"],
 )
-def test_what_a_tap_on_control_asks_for(watch: Watch, status: ControlStatus, command: str) -> None:
+def test_what_a_tap_on_control_asks_for(watch: Watch, status: ControlStatus, asked: list[str]) -> None:
     watch.told(status)
     watch.authority.toggle()
-    assert watch.asked == [command]
+    assert watch.asked == asked
+
+
+def test_whoever_has_control_given_up_the_robot_rests_first_and_the_stick_lets_go(watch: Watch) -> None:
+    watch.session.on_rest = lambda: watch.asked.append("let go")
+    watch.told(MINE)
+    watch.session.release_control()
+    assert watch.asked == ["drive 0", "let go", "release"]
 
 
 def test_a_robot_that_cannot_be_asked_is_taken_as_before(watch: Watch) -> None:

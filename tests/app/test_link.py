@@ -341,6 +341,23 @@ def test_a_link_closed_under_a_pushed_stick_says_rest_at_last(
     assert robot.until(lambda: robot.twists()[-1] == Twist())
 
 
+def test_control_that_is_given_up_under_a_pushed_stick_leaves_a_robot_told_to_rest(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
+    operator = connect()
+    drives(operator, robot)
+    before: list[Twist] = []
+
+    def note(name: str, _: Any) -> None:
+        if name == "/control/release":
+            before.append(robot.twists()[-1])
+
+    robot.objection = note
+    operator.session.release_control()
+    operator.until(lambda: "/control/release" in robot.services())
+    assert before == [Twist()]
+
+
 def test_a_frozen_glass_stops_the_robot(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
     operator = connect()
     operator.until(lambda: operator.session.control == "mine")
