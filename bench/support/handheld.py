@@ -6,7 +6,8 @@ line says how long after that the first frame was drawn. Then each line of JSON 
 
 `--bare` is a Kivy app with one button instead. `--no-gl` swallows every call to OpenGL: what is left is what the app
 does where a GPU draws. `--frame-loop` has Kivy's default clock and has the frame loop
-send the stick 20 times a second, as simple apps do; `--json-camera` takes pictures from the rosbridge topic.
+send the stick 20 times a second, as simple apps do; `--json-camera` takes pictures from the rosbridge topic. `--no-life`
+has nobody look whether what pushes the stick is still there, and no heartbeat.
 """
 
 from __future__ import annotations
@@ -47,7 +48,7 @@ def options() -> argparse.Namespace:
     parser.add_argument("--started", type=float, required=True)
     parser.add_argument("--size", default="1280x800")
     parser.add_argument("--settings", default="")
-    for flag in ("--bare", "--no-gl", "--frame-loop", "--json-camera"):
+    for flag in ("--bare", "--no-gl", "--frame-loop", "--json-camera", "--no-life"):
         parser.add_argument(flag, action="store_true")
     return parser.parse_args()
 
@@ -94,6 +95,7 @@ class Script:
         self.commands: list[tuple[float, ...]] = []
         self.touched = (0.0, 0.0)
         self.pictures: list[tuple[float, float]] = []
+        self._grip: Any = None
 
     def connect(self, url: str) -> dict[str, Any]:
         """Connect, and wait until every widget of the drive screen is live and there is a picture."""
@@ -218,6 +220,25 @@ class Script:
                 raise TimeoutError("The handheld does not come to rest.")
             time.sleep(0.02)
 
+    def push(self, kind: str) -> dict[str, Any]:
+        """Push the stick and hold it, by `finger` or `pad`."""
+        if self._grip is None:
+            self._grip = in_ui(lambda: grip(self.app))
+        if kind == "pad":
+            in_ui(self._grip.plug_in)
+        self._until(lambda: self._grip.ready)
+        in_ui(lambda: self._grip.take(kind))
+        return {}
+
+    def lose(self, way: str) -> dict[str, Any]:
+        """Lose it in that way of `bench.support.ways`; gives when."""
+        return {"at": in_ui(lambda: self._grip.lose(way))}
+
+    def let_go(self) -> dict[str, Any]:
+        """Let go of what is left, and make good what happened."""
+        in_ui(self._grip.again)
+        return {}
+
     def attach(self, url: str, task: int, runs: int, queued: int, events: list[int]) -> dict[str, Any]:
         """Connect and wait until it knows the task that runs, `runs` of the history, the queue and all `events`.
 
@@ -330,6 +351,45 @@ def send_by_frame_loop() -> None:
     Link.drive = keep  # type: ignore[method-assign]
 
 
+def believe_fingers() -> None:
+    """What is put into SDL's queue leaves the state of its mouse as it was: no finger would be there."""
+    from app.sdl import Sdl
+
+    lifted = Sdl.lifted
+    Sdl.lifted = lambda self, device, finger: device != "mouse" and lifted(self, device, finger)  # type: ignore[method-assign]
+
+
+def grip(app: Any) -> Any:
+    """A hand on the app's stick that goes on with each frame."""
+    from kivy.base import EventLoop
+    from kivy.clock import Clock
+
+    from bench.support.losses import Grip
+    from examples.demo.fingers import Hand
+
+    hand = Hand()
+    EventLoop.add_input_provider(hand)
+    made = Grip(app, hand)
+    Clock.schedule_interval(lambda _: made.frame(), 0)
+    return made
+
+
+def trust_blindly() -> None:
+    """Forward what the stick says as it comes."""
+    from app import commands
+    from app.inputs import Inputs
+
+    def look(self: Any) -> None:
+        stick = self.stick
+        if stick is not None:
+            for state in self._source.pads():
+                stick.lean(state.forward, state.left)
+            stick.gamepad = "ready"
+
+    Inputs.look, Inputs.rest = look, lambda *_: None  # type: ignore[method-assign]
+    commands.HEARTBEAT = commands.REARM = math.inf
+
+
 def watch_by_topic() -> None:
     """Have pictures come as base64 in JSON."""
     from app.link import Link
@@ -358,6 +418,9 @@ def real(asked: argparse.Namespace, folder: str) -> Any:
         send_by_frame_loop()
     if asked.json_camera:
         watch_by_topic()
+    if asked.no_life:
+        trust_blindly()
+    believe_fingers()
     return PilothouseApp(screen="drive", settings_dir=folder, discover=False, poll=not asked.frame_loop)
 
 

@@ -8,15 +8,12 @@ from collections.abc import Iterator
 import pytest
 
 from app.sdl import Sdl
-from tests.app.sdl_pad import EAST, VirtualPad, kivys_sdl
+from bench.support.virtual_pad import EAST, VirtualPad, kivys_sdl
 
 
 @pytest.fixture
 def library() -> ctypes.CDLL:
-    library = kivys_sdl()
-    if library is None or not hasattr(library, "SDL_JoystickAttachVirtual"):
-        pytest.skip("this Kivy brings no SDL with virtual gamepads")
-    return library
+    return kivys_sdl()
 
 
 @pytest.fixture
