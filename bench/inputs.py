@@ -45,11 +45,11 @@ def _figures() -> Iterator[Figure]:
 
 FIGURES = tuple(_figures())
 REPEATS = 1
-LOSSES = 30
+LOSSES = 12
 """Of each way."""
-NAIVELY = 3
+NAIVELY = 2
 """The same for the other way: it either rests by itself or never does."""
-DRAWN = 5
+DRAWN = 3
 """The same with the drawing."""
 WATCHED = 1.0
 """How long the port is looked at after a loss [s]."""

@@ -19,8 +19,8 @@ OUT = 0.9
 """How far the stick is pushed."""
 GESTURE = (0.0, 0.0, 0.0, 0.0, 0.3, 0.6)
 """How far in each frame; the last is held."""
-FREEZE = 0.5
-"""[s]"""
+FREEZE = 1.2
+"""After a longer one than 1 s the stick must be pushed anew [s]."""
 ESCAPE = (27, 41)
 """Key code and scan code."""
 

@@ -12,7 +12,7 @@ FINGER = {
     "turned": "the device turned",
     "dialog": "a dialog over the stick",
     "other_screen": "another screen",
-    "frozen": "the glass frozen for 0.5 s",
+    "frozen": "the glass frozen for 1.2 s",
     "paused": "the app paused",
     "given_up": "control given up",
     "stop_key": "STOP by Escape",
@@ -22,7 +22,7 @@ PAD = {
     "silent": "silent, as one whose radio is lost",
     "out_of_focus": "the window out of focus",
     "dialog": "a dialog over the stick",
-    "frozen": "the glass frozen for 0.5 s",
+    "frozen": "the glass frozen for 1.2 s",
     "stop_button": "STOP by its button",
     "unplugged": "unplugged",
 }

@@ -234,6 +234,7 @@ LOSSES: dict[str, Callable[[Hands, Any], object]] = {
     "may not drive": lambda hands, _: setattr(hands.session, "may_drive", False),
     "disabled": lambda hands, _: setattr(hands.stick, "state", "disabled"),
     "frozen": lambda hands, _: setattr(hands, "frozen", True),
+    "paused": lambda hands, _: paused(hands),
 }
 
 
@@ -301,7 +302,7 @@ GAMEPAD: dict[str, Callable[[Hands], object]] = {
         name: lambda hands, happens=happens: happens(hands, None)
         for name, happens in LOSSES.items()
         if name in ("out of focus", "hidden", "minimised", "turned", "turned upside down", "dialog over it")
-        or name in ("card over it", "another screen", "may not drive", "disabled", "frozen")
+        or name in ("card over it", "another screen", "may not drive", "disabled", "frozen", "paused")
     },
 }
 
@@ -357,6 +358,7 @@ def other_screen(hands: Hands) -> Callable[[], object]:
 
 
 def paused(hands: Hands) -> Callable[[], object]:
+    """As the app does, and then it runs no longer."""
     hands.inputs.rest()
     hands.frozen = True
     return lambda: setattr(hands, "frozen", False)
