@@ -14,7 +14,7 @@ from app import layout as layouts
 from app.device import is_android
 from app.discovery import check_address
 
-__all__ = ["main"]
+__all__ = ["main", "prepare", "quieten"]
 
 SCREENS = ("mission", "drive")
 THEMES = ("dark", "sunlight", "night")
@@ -59,6 +59,14 @@ def prepare(size: str | None = None) -> None:
     Config.set("graphics", "multisamples", "0")
     Config.set("kivy", "exit_on_escape", "0")
     Config.set("input", "mouse", "mouse,disable_multitouch")
+    quieten()
+
+
+def quieten() -> None:
+    """Have Kivy say nothing of X11's second clipboard: without it, it logs a traceback when the first field is typed in."""
+    from kivy.logger import Logger
+
+    Logger.addFilter(lambda record: not str(record.msg).startswith("Cutbuffer:"))
 
 
 def main(argv: Sequence[str] | None = None) -> int:

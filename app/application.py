@@ -15,21 +15,28 @@ from kivy.app import App
 from kivy.clock import Clock
 from kivy.core.window import Window
 from kivy.uix.floatlayout import FloatLayout
+from kivy.uix.widget import Widget
 
 from app import simulator as simulators
-from app.camera import PICTURE, Camera, Picture
+from app.camera import PICTURE, Camera
 from app.commands import Commands
 from app.device import device_name, is_android, own_folder
 from app.discovery import Robots
+from app.events import Known
 from app.feeds import Feeds, Mailbox, Post
+from app.fleet import Fleet
 from app.garbage import Collector
+from app.inputs import Inputs
 from app.layout import Layout, load
 from app.link import Link
+from app.logbook import marks
 from app.mission import MissionEditor
 from app.nearby import HELLO, LATENCY, Nearby
+from app.pictures import Pictures
 from app.records import Records
 from app.screens.connect import THEMES, ConnectScreen
 from app.screens.dialogs import AddressDialog
+from app.screens.stop_corner import StopCorner
 from app.session import Session
 from app.settings import Settings
 from bridge.frames import Frame
@@ -50,18 +57,22 @@ BEAT = 0.03
 """Between two heartbeats of the user interface [s]; without one for 0.15 s the robot rests."""
 LIST = 0.5
 """Between two looks at the list of robots [s]."""
-PICTURE_LIVES = 1.0
-"""A camera that shows nothing new for longer is stale [s]."""
 SWITCH = 0.001
 """How long one thread may keep the others waiting for Python [s]: drawing must not delay the network."""
-RESTING = ("size", "on_hide", "on_minimize")
-"""What happens to the window and brings every control to rest."""
-BACK = 27
-"""Key code of Android's Back and of Escape."""
 
 
 class Root(FloatLayout):
-    """The whole glass: one page, and at times a question over it."""
+    """The whole glass: one page, at times a question over it, and over everything what must always be reached."""
+
+    over: Widget | None = None
+    """Stays on top of whatever is added."""
+
+    def add_widget(self, widget: Widget, *args: Any, **kwargs: Any) -> None:
+        """Put it on top, but below `over`."""
+        super().add_widget(widget, *args, **kwargs)
+        if self.over is not None and widget is not self.over:
+            self.remove_widget(self.over)
+            super().add_widget(self.over)
 
     def show_page(self, page: Any) -> None:
         """Put a page in the place of the one before."""
@@ -105,11 +116,8 @@ class PilothouseApp(App):
         self.shell: Any = None
         """The frame round the robot's screens; None on the connect screen."""
         self.simulator: simulators.Simulator | None = None
-        self._pictures: list[float] = []
-        """When the pictures of the last second came [s]."""
-        self._picture_at = math.nan
+        self._pictures = Pictures(now)
         self._drained, self._looks = -math.inf, 0
-        self._camera_wanted: str | None = None
 
     # what tests and the demo look at
 
@@ -152,7 +160,10 @@ class PilothouseApp(App):
         self.connect = ConnectScreen(
             app=self, can_simulate=bool(self._simulator_command) or simulators.available()
         )
+        self.fleet = Fleet(client_id=self.client_id, client_name=self.client_name, now=self._now)
+        self.corner = StopCorner(self, self.fleet, self._say)
         root = Root()
+        root.over = self.corner.layer
         root.show_page(self.connect)
         return root
 
@@ -184,7 +195,8 @@ class PilothouseApp(App):
         ]
         if self._poll:  # Kivy hands a touch on two frames after it came; this saves one of them
             self._events.append(Clock.schedule_interval(lambda _: Window.mainloop(), 0))
-        Window.bind(on_keyboard=self._key, focus=self._focus, **dict.fromkeys(RESTING, self._rest))
+        self.inputs = Inputs(self, self._now)
+        self.inputs.open()
         Window.allow_screensaver = False
         self._list()
         if self._url:
@@ -192,9 +204,10 @@ class PilothouseApp(App):
 
     def on_stop(self) -> None:
         """Leave the robot at rest, end every thread and the simulator."""
-        Window.unbind(on_keyboard=self._key, focus=self._focus, **dict.fromkeys(RESTING, self._rest))
+        self.inputs.close()
         for event in self._events:
             event.cancel()
+        self.fleet.close()
         self.leave()
         self.stop_recording()
         self.nearby.close()
@@ -207,7 +220,8 @@ class PilothouseApp(App):
 
     def on_pause(self) -> bool:
         """The glass is taken away: rest, and let go of the robot; the patrol goes on without us."""
-        self._rest()
+        self.inputs.rest()
+        self.fleet.look(None)
         if self.session is not None:
             self.session.link.close(0.3)
         self.stop_recording()
@@ -218,22 +232,11 @@ class PilothouseApp(App):
         """Come back: connect again; whoever wants to drive has to push the stick anew."""
         self.collector.resume()
         if self.session is not None:
-            self.session.resume(self._new_link(self.session.link.url))
-            self._camera_wanted = None
+            self.session.resume(self._new_link(self.session.link.url, self.session.logbook.known))
+            self._pictures.ask_again()
 
-    def _focus(self, _: object, focus: bool) -> None:
-        if not focus:
-            self._rest()
-
-    def _rest(self, *_: object) -> None:
-        """Every control lets go."""
-        if self.shell is not None:
-            self.shell.rest()
-
-    def _key(self, _window: object, key: int, *_: object) -> bool:
+    def back(self) -> bool:
         """Back closes a question, then leaves the robot; on the connect screen it is left to the system."""
-        if key != BACK:
-            return False
         dialogs = [child for child in self.root.children if isinstance(child, AddressDialog)]
         if dialogs:
             dialogs[0].close()
@@ -266,7 +269,7 @@ class PilothouseApp(App):
         elif channel.startswith(LATENCY):
             self.robots.measured(*post.value)
         elif channel == PICTURE:
-            self._show_picture(post.value, post.received)
+            self._pictures.show(post.value, post.received, self.shell, self.session)
         elif channel.startswith("simulator"):
             self._simulator_said(*post.value)
         elif self.session is not None:
@@ -278,39 +281,18 @@ class PilothouseApp(App):
                 )
                 self._save_robots()
 
-    def _show_picture(self, picture: Picture, received: float) -> None:
-        self._picture_at = received
-        if self.shell is None or not self.shell.screen:
-            return
-        self._pictures = [at for at in self._pictures if received - at < 1.0] + [received]
-        rate = float(len(self._pictures)) if len(self._pictures) > 1 else math.nan
-        latency = (
-            self.session.link.robot_time() - picture.stamp if self.session and picture.stamp else math.nan
-        )
-        self.shell.screens[self.shell.screen].show_picture(
-            picture, rate, latency if latency > 0 else math.nan
-        )
-
-    def _judge_picture(self) -> None:
-        """A picture is believed for a second; after that it says how old it is."""
-        video = self.shell.screens[self.shell.screen].video
-        if video is None:
-            return
-        age = self._now() - self._picture_at
-        video.state = "never" if math.isnan(age) else "live" if age < PICTURE_LIVES else "stale"
-        if video.state == "stale" and not abs(age - video.age) < 0.5:
-            video.age = age
-
     def _on_frame(self, frame: Frame, received: float) -> None:
         """In the network thread: keep the frame for a snapshot and have it decoded."""
         self.records.frame = frame
         self.camera.show(frame, received)
 
     def _beat(self) -> None:
+        self.inputs.look()
         if self.session is not None:
             self.session.link.beat()
 
     def _tick(self) -> None:
+        self.corner.tick()
         if self.session is not None and self.shell is None:
             self._tick_connecting()
             return
@@ -318,8 +300,8 @@ class PilothouseApp(App):
             self._say(problem, "warn")
         if self.shell is not None:
             self.shell.tick()
-            self._judge_picture()
-            self._watch_camera()
+            self._pictures.judge(self.shell)
+            self._pictures.watch(self.session)
             self._tick_recording()
 
     def _tick_connecting(self) -> None:
@@ -337,16 +319,6 @@ class PilothouseApp(App):
         if state.phase.name == "CLOSED" and state.attempt:
             self.leave()
             self.connect.say(state.sentence, "danger")
-
-    def _watch_camera(self) -> None:
-        """Ask for the picture that the robot offers, once it has said what there is."""
-        session = self.session
-        if not session.connected:
-            return
-        wanted = session.camera(self._camera_wanted)
-        if wanted != self._camera_wanted:
-            self._camera_wanted = wanted
-            session.link.watch(wanted)
 
     # the list of robots
 
@@ -410,13 +382,15 @@ class PilothouseApp(App):
 
     # a robot
 
-    def _new_link(self, url: str) -> Link:
+    def _new_link(self, url: str, known: Known | None = None) -> Link:
         link = Link(
             url,
             self.mailbox,
             self.network,
             client_id=self.client_id,
             client_name=self.client_name,
+            known=known,
+            marks=marks(self.settings),
             on_picture=self._on_frame,
             now=self._now,
         )
@@ -435,6 +409,7 @@ class PilothouseApp(App):
             client_name=self.client_name,
             wants_control=not watch,
         )
+        self.session.on_rest = self.inputs.rest
         self.connect.say(f"Connecting to {url} …", "info", self.leave)
 
     def _enter_robot(self) -> None:
@@ -457,13 +432,15 @@ class PilothouseApp(App):
         """Back to the connect screen; the robot goes on with what it does."""
         if self.session is None:
             return
-        self._rest()
+        self.inputs.rest()
         if self.shell is not None:
             self.shell.close()
             self.shell = None
+        self.fleet.look(None)
         self.session.link.close()
         self.session = None
-        self._camera_wanted, self.records.frame, self._picture_at = None, None, math.nan
+        self.records.frame = None
+        self._pictures.forget()
         self.connect.say("")
         self.stop_recording()
         self.root.show_page(self.connect)

@@ -8,10 +8,31 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["Rect", "connect_columns", "drive", "form", "mission", "shell", "tasks", "topics"]
+__all__ = [
+    "CORNER",
+    "Rect",
+    "connect_columns",
+    "corner",
+    "drive",
+    "form",
+    "mission",
+    "shared_stop",
+    "shell",
+    "stop_list",
+    "tasks",
+    "topics",
+]
 
 SELECTION = 310
 """Width of the bar for what is selected on a phone's map [dp]."""
+SENSES, SENSES_LEAST = 196, 148
+"""Height of the card with the small sensors, and the least that it is still open with [dp]."""
+STRIP = 54
+"""Height of the folded card: a finger opens it [dp]."""
+BADGE = 46
+"""Height of what says that intruders were found [dp]."""
+CHIP = 200
+"""Width of a phone's glass that the picture's size and rate need [dp]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,7 +199,11 @@ def _above(panel: Rect, stop: Rect, gap: float) -> Rect:
 
 
 def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
-    """Of the drive screen: `video` behind all, the slots `top_left`, `top`, `top_right`, `readouts`, and the controls."""
+    """Of the drive screen: `video` behind all, the slots `top_left`, `top`, `top_right`, `readouts`, and the controls.
+
+    `badge` says what was found, `senses` is the strip or card of the small sensors and `senses_open` where the strip
+    unfolds. `notice_low` is for what holds on until it is dealt with, from its lower edge upwards.
+    """
     if shape == "tall":
         return _drive_tall(body, dp)
     wide = shape == "wide"
@@ -213,8 +238,47 @@ def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     if not wide:
         readouts = Rect(right.x - gap - readouts_size[0], right.y, *readouts_size)
         tape = Rect(left.right + gap, tape.y, readouts.x - gap - left.right - gap, 52 * dp)
-    notice = _between(tape.x, slider.top + 8 * dp, tape.right, tape.y - (32 if wide else 8) * dp)
-    return places | {"top": tape, "top_right": right, "readouts": readouts, "notice": notice}
+    places |= {"top": tape, "top_right": right, "readouts": readouts}
+    return places | (_senses_wide(places, dp) if wide else _senses_short(places, dp))
+
+
+def _senses_wide(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
+    """A card under the laser, or a strip where there is no height for one."""
+    laser, stick, tape, slider = places["top_left"], places["stick"], places["top"], places["slider"]
+    free = laser.y - stick.top - 24 * dp
+    height = min(free, SENSES * dp) if free >= SENSES_LEAST * dp else STRIP * dp
+    senses = Rect(laser.x, laser.y - 12 * dp - height, laser.width, height)
+    badge = Rect(tape.x, tape.y - 8 * dp - BADGE * dp, tape.width, BADGE * dp)
+    left, right = slider.right + 12 * dp, places["actions"].x - 12 * dp
+    return {
+        "badge": badge,
+        "senses": senses,
+        "senses_open": senses if free >= SENSES_LEAST * dp else laser,
+        "notice_low": Rect(left, slider.y, right - left, places["stop"].height),
+        "notice": _between(tape.x, slider.top + 8 * dp, tape.right, badge.y - 32 * dp),
+    }
+
+
+def _senses_short(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
+    """A strip between slider and buttons, or above them where that is too narrow; the badge above STOP."""
+    tape, slider, stop, right = places["top"], places["slider"], places["stop"], places["top_right"]
+    low = places["readouts"].x
+    badge = Rect(low, stop.top + 8 * dp, right.right - low, right.y - stop.top - 16 * dp)
+    notice = _between(tape.x, slider.top + 8 * dp, tape.right, tape.y - 8 * dp)
+    left, wide = slider.right + 12 * dp, places["actions"].x - slider.right - 24 * dp
+    if wide >= 180 * dp:
+        strip = Rect(left, slider.y, wide, STRIP * dp)
+        above = _between(left, strip.top + 8 * dp, left + wide, slider.top)
+    else:
+        strip = Rect(notice.x, notice.y, notice.width, min(STRIP * dp, notice.height / 2))
+        above = _between(notice.x, strip.top + 4 * dp, notice.right, notice.top)
+    return {
+        "badge": badge,
+        "senses": strip,
+        "senses_open": places["top_left"],
+        "notice_low": above,
+        "notice": notice,
+    }
 
 
 def _pair(
@@ -253,7 +317,22 @@ def _drive_tall(body: Rect, dp: float) -> dict[str, Rect]:
         ),
         "readouts": Rect(right.x, right.y, right.width, readouts_height),
         "top": tape,
-        "notice": _between(body.x + gap, actions.top + gap, body.right - gap, tape.y - 36 * dp),
+        **_senses_tall(video, cards, tape, gap, dp),
+    }
+
+
+def _senses_tall(video: Rect, cards: Rect, tape: Rect, gap: float, dp: float) -> dict[str, Rect]:
+    """Over the edges of the picture; the strip unfolds over the instruments, never over what is touched to drive."""
+    strip = Rect(video.x + gap, video.y + 8 * dp, video.width - 2 * gap, STRIP * dp)
+    left = video.x + CHIP * dp
+    badge = Rect(left, tape.y - 8 * dp - BADGE * dp, video.right - gap - left, BADGE * dp)
+    room = badge.y - 8 * dp - strip.top
+    return {
+        "badge": badge,
+        "senses": strip,
+        "senses_open": Rect(cards.x, cards.y, cards.width, max(cards.height, SENSES_LEAST * dp)),
+        "notice_low": Rect(strip.x, strip.top + 8 * dp, strip.width, max(room - 8 * dp, 8 * dp)),
+        "notice": _between(cards.x, cards.y, cards.right, badge.y - 8 * dp),
     }
 
 
@@ -282,11 +361,50 @@ def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
 
 
 def tasks(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
-    """Of the tasks screen: as `topics`, with a narrower STOP on a phone's side so that buttons fit beside it."""
+    """Of the tasks screen: as `topics`; a phone on its side has a narrower STOP, so that buttons fit beside it, and
+    a wider list, so that the words over it can be read."""
     places, gap = topics(body, shape, dp), 12 * dp
     if shape == "short":
-        stop, strip = places["stop"], places["strip"]
-        width = min(stop.width, 190 * dp)
+        stop, listed, detail = places["stop"], places["list"], places["detail"]
+        width, more = min(stop.width, 190 * dp), 44 * dp
+        x = detail.x + more
         places["stop"] = stop = Rect(stop.right - width, stop.y, width, stop.height)
-        places["strip"] = Rect(strip.x, strip.y, stop.x - gap - strip.x, strip.height)
+        places["list"] = Rect(listed.x, listed.y, listed.width + more, listed.height)
+        places["strip"] = Rect(x, stop.y, stop.x - gap - x, stop.height)
+        places["detail"] = Rect(x, detail.y, detail.width - more, detail.height)
+        places["notice"] = Rect(x, places["notice"].y, detail.width - more, places["notice"].height)
     return places
+
+
+CORNER = 88
+"""Height that STOP ALL takes up below the robots that can be connected to [dp]."""
+
+
+def corner(width: float, dp: float = 1.0) -> Rect:
+    """STOP ALL where no robot is connected, in STOP's corner of a window of that width [px]."""
+    across = min(240 * dp, width - 28 * dp)
+    return Rect(width - 14 * dp - across, 12 * dp, across, 64 * dp)
+
+
+def shared_stop(room: Rect, dp: float = 1.0) -> tuple[Rect, Rect]:
+    """STOP and the smaller STOP ALL in the room that STOP has alone: beside each other, or one above the other."""
+    gap = 8 * dp
+    if room.width >= 1.3 * room.height:
+        small = min(max(54 * dp, 0.24 * room.width), 84 * dp)
+        stop = Rect(room.x + small + gap, room.y, room.width - small - gap, room.height)
+        return stop, Rect(room.x, room.y, small, room.height)
+    small = 54 * dp
+    stop = Rect(room.x, room.y, room.width, room.height - small - gap)
+    return stop, Rect(room.x, stop.top + gap, room.width, small)
+
+
+def stop_list(body: Rect, stop: Rect, shape: str, wanted: float, dp: float = 1.0) -> Rect:
+    """What became of STOP ALL, `wanted` high [px] where there is room: above STOP, on a phone's side left of it."""
+    gap = 8 * dp
+    width = min(440 * dp, body.width - 2 * gap)
+    if shape == "short":
+        width = min(width, stop.x - body.x - 2 * gap)
+        height = min(wanted, body.height - 2 * gap)
+        return Rect(stop.x - gap - width, body.y + gap, width, height)
+    low = stop.top + gap
+    return Rect(body.right - gap - width, low, width, min(wanted, body.top - gap - low))

@@ -16,6 +16,8 @@ from bridge.errors import BridgeError, NoReply, NotConnected, Refused
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
+    AcknowledgeEventsRequest,
+    AcknowledgeEventsResponse,
     CommandRequest,
     CommandResponse,
     DeletePlaceRequest,
@@ -24,7 +26,15 @@ from bridge.msgs.pilothouse_msgs import (
     DeleteScheduleResponse,
     GetHistoryRequest,
     GetHistoryResponse,
+    GetMissionsRequest,
+    GetMissionsResponse,
+    RecallMissionRequest,
+    RecallMissionResponse,
     SetMissionRequest,
+    SetModeRequest,
+    SetModeResponse,
+    SetOptionRequest,
+    SetOptionResponse,
     SetPlaceRequest,
     SetPlaceResponse,
     SetQueueRequest,
@@ -61,6 +71,8 @@ STOP_DOUBT = 1.0
 """STOP without an answer for longer is said to be unanswered; it goes on being sent [s]."""
 
 _ZERO = Twist()
+_INSTANT = 0.001
+"""Later than the last moment of a heartbeat it is over, whatever the clock rounds [s]."""
 
 
 def _is_finite(twist: Twist) -> bool:
@@ -121,6 +133,14 @@ class DriveSlot:
     def driving(self) -> bool:
         """The robot was last told to move."""
         return self._last_sent != _ZERO
+
+    def patience(self, longest: float) -> float:
+        """How long `due` need not be asked unless something changes [s]: until the heartbeat is too old, at most `longest`."""
+        with self._lock:
+            if self._last_sent == _ZERO:
+                return longest
+            left = self._beat + HEARTBEAT + _INSTANT - self._now()
+            return min(longest, left) if left > 0 else longest
 
     def due(self, *, allowed: bool = True) -> Twist | None:
         """What has to be sent now, at once on a change and each `PERIOD` while held; None when nothing.
@@ -201,8 +221,28 @@ COMMANDS: dict[str, Kind] = {
         lambda fields: fields["id"],
     ),
     "history": Kind("/history/get", GetHistoryRequest, "read the history", GetHistoryResponse),
+    "acknowledge": Kind(
+        "/events/acknowledge",
+        AcknowledgeEventsRequest,
+        "note that it was seen to",
+        AcknowledgeEventsResponse,
+        lambda fields: tuple(fields["ids"]),
+    ),
+    "missions": Kind("/missions/get", GetMissionsRequest, "list the missions", GetMissionsResponse),
+    "recall": Kind("/mission/recall", RecallMissionRequest, "recall the mission", RecallMissionResponse),
     "acquire": Kind("/control/acquire", CommandRequest, "take control"),
     "release": Kind("/control/release", CommandRequest, "release control"),
+    "request": Kind("/control/request", CommandRequest, "ask for control"),
+    "grant": Kind("/control/grant", CommandRequest, "hand over control"),
+    "object": Kind("/control/object", CommandRequest, "keep control"),
+    "mode": Kind("/mode/set", SetModeRequest, "change the mode", SetModeResponse),
+    "setting": Kind(
+        "/settings/set",
+        SetOptionRequest,
+        "change the setting",
+        SetOptionResponse,
+        lambda fields: fields["name"],
+    ),
     "stop": Kind("/stop", CommandRequest, "STOP"),
     "stop_release": Kind("/stop/release", CommandRequest, "release STOP"),
 }
@@ -234,6 +274,8 @@ class Outcome:
         if self.name == "start" and order is not None and order.task:
             words = title(order)
             return f"start {words[0].lower()}{words[1:]}"
+        if self.name == "mode":
+            return f"switch to {self.fields.get('mode', '')}"
         return COMMANDS[self.name].label
 
     @property
@@ -288,7 +330,7 @@ class Commands:
         """STOP was pressed and the robot has not confirmed it."""
         return self._stopping is not None
 
-    async def send(self, name: str, **fields: Any) -> Outcome:
+    async def send(self, name: str, /, **fields: Any) -> Outcome:
         """Send a command and wait for what becomes of it; KeyError for a name not in `COMMANDS`.
 
         While one of the same name about the same thing is under way, its state is the answer. One that asks for

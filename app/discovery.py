@@ -65,6 +65,8 @@ class Entry:
     """A round trip to it [s]; NaN when it was not measured."""
     saved: bool = False
     """Its address was entered by hand."""
+    boot: str = ""
+    """Alike for one robot under two addresses; empty when it never said HELLO."""
 
     @property
     def state(self) -> str:
@@ -154,6 +156,7 @@ class Robots:
             silent,
             self._latency.get(hello.url, math.nan),
             hello.url in self._saved,
+            hello.boot,
         )
 
 

@@ -18,7 +18,7 @@ from bridge.topics import TOPICS, topic
 __all__ = ["FOLDER", "SLOTS", "Instrument", "Layout", "LayoutError", "load", "names", "parse"]
 
 FOLDER = Path(__file__).parent / "layouts"
-SLOTS = {"top_left": 1, "top": 1, "top_right": 1, "readouts": 4}
+SLOTS = {"top_left": 1, "top": 1, "top_right": 1, "readouts": 4, "senses": 3}
 """Place on the drive screen to the number of instruments that fit."""
 _TEXTS = {"slot", "widget", "topic", "field", "title", "unit"}
 _NUMBERS = {"factor", "digits"}
@@ -45,6 +45,13 @@ class Instrument:
     """What the number is multiplied by to be in `unit`."""
     digits: int = 1
     """Figures behind the point."""
+    also: tuple[str, ...] = ()
+    """Further topics of the same type that it shows with the first."""
+
+    @property
+    def topics(self) -> tuple[str, ...]:
+        """All topics that it shows."""
+        return (self.topic, *self.also)
 
 
 @dataclass(frozen=True)
@@ -95,12 +102,18 @@ def _instrument(where: str, entry: Mapping[str, Any], widgets: frozenset[str]) -
     _one_of(where, "topic", entry.get("topic"), [one.name for one in TOPICS if one.to == "handheld"])
     if entry["widget"] == "Readout":
         _check_field(where, topic(entry["topic"]).type, entry.get("field", ""))
-    return Instrument(**entry)
+    also = entry.get("also", [])
+    if not isinstance(also, list):
+        raise LayoutError(f"{where}: also is a list of topics, not {also!r}.")
+    same = [one.name for one in TOPICS if one.type is topic(entry["topic"]).type and one.to == "handheld"]
+    for name in also:
+        _one_of(where, "also", name, same)
+    return Instrument(**{**entry, "also": tuple(also)})
 
 
 def _check_keys(where: str, entry: Mapping[str, Any]) -> None:
     for key, value in entry.items():
-        _one_of(where, "key", key, sorted(_TEXTS | _NUMBERS))
+        _one_of(where, "key", key, sorted(_TEXTS | _NUMBERS | {"also"}))
         if key in _TEXTS and not isinstance(value, str):
             raise LayoutError(f"{where}: {key} is a text, not {value!r}.")
         if key in _NUMBERS and (isinstance(value, bool) or not isinstance(value, int | float)):

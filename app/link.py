@@ -8,11 +8,11 @@ import logging
 import math
 import time
 import uuid
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Mapping
 from typing import Any
 
 from app.commands import Commands, DriveSlot, Outcome
-from app.events import EventStream
+from app.events import EventStream, Known
 from app.feeds import Mailbox
 from app.offer import DRIVE, Offer, ask
 from app.sources import Peek, Seen, Sources
@@ -22,22 +22,26 @@ from bridge.errors import BridgeError, NoReply, NotConnected
 from bridge.frames import Frame
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist, TwistStamped
-from bridge.msgs.pilothouse_msgs import ControlStatus, Event, GetEventsRequest, GetEventsResponse
+from bridge.msgs.pilothouse_msgs import ControlStatus, Event, GetEventsResponse
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.network import NetworkThread
 
-__all__ = ["EVENT", "LINK", "OFFER", "OUTCOME", "SEEN", "Link"]
+__all__ = ["EVENT", "KNOWN", "LINK", "MISSED", "OFFER", "OUTCOME", "SEEN", "Link"]
 
 log = logging.getLogger(__name__)
 
-EVENT, LINK, OUTCOME = "event", "link", "outcome"
-"""Channels of the mailbox beside the topics: `Event`s, `LinkState`s and `Outcome`s, all queued."""
+EVENT, MISSED, LINK, OUTCOME = "event", "missed", "link", "outcome"
+"""Channels of the mailbox beside the topics: `Event`s, what was `Missed`, `LinkState`s, `Outcome`s, all queued."""
+KNOWN = "known"
+"""One more, newest wins: how far the robot's events are `Known`; it comes after them."""
 OFFER, SEEN = "offer", "seen"
 """Two more: the robot's `Offer` when it is known and when it changed, and what is `Seen` of the topic looked at."""
 SILENT = 0.7
 """A link on which nothing came for longer carries no drive commands [s]: they would arrive late, if at all."""
 TICK = 0.05
 """How often the drive slot is looked at when nothing wakes it [s]."""
+EVENTS_TIMEOUT = 10.0
+"""For a part of the events that were missed [s]: many of them take a while on a slow link."""
 ASK_AGAIN, LOOK_AGAIN = 1.0, 5.0
 """Between two questions for what the robot offers, while it does not answer and, where it is not ours, later on [s]."""
 
@@ -53,13 +57,15 @@ class Link:
         *,
         client_id: str,
         client_name: str,
+        known: Known | None = None,
+        marks: Mapping[str, int] | None = None,
         on_picture: Callable[[Frame, float], object] | None = None,
         now: Callable[[], float] = time.monotonic,
         new_id: Callable[[], str] = lambda: uuid.uuid4().hex,
     ) -> None:
         """`client_id` and `client_name` are who this handheld is to the robot; `now` is our clock [s].
 
-        `on_picture` is called in the network thread with each camera frame and when it came [s].
+        `known` and `marks` are how far its events are known, as `EventStream` takes them. `on_picture` is called in the network thread with each camera frame and when it came [s].
         """
         self.url = url
         self._mailbox, self._network, self._now = mailbox, network, now
@@ -74,7 +80,7 @@ class Link:
             client_id=client_id,
             client_name=client_name,
         )
-        self._events = EventStream(lambda event: mailbox.queue(EVENT, event, now()))
+        self._events = self._stream(known, marks)
         self._on_picture = on_picture or (lambda *_: None)
         self._wake = asyncio.Event()
         self._heard = -math.inf
@@ -91,11 +97,22 @@ class Link:
         """What the robot offers; None until it said so, which a robot that is not ours does before it is listened to."""
         self._sources = Sources(self._client, self._on_message, self._on_event)
         self._peek = Peek(self._client, self._on_seen)
+        self._known = Known()
         self._asking: asyncio.Task[None] | None = None
+        self._fetching: asyncio.Task[None] | None = None
         self._followed = False
         self._advertised: set[str] = set()
         self._moved = False
         """The robot was told over this link to move."""
+
+    def _stream(self, known: Known | None, marks: Mapping[str, int] | None) -> EventStream:
+        mailbox, now = self._mailbox, self._now
+        return EventStream(
+            lambda event: mailbox.queue(EVENT, event, now()),
+            lambda missed: mailbox.queue(MISSED, missed, now()),
+            known=known,
+            marks=marks,
+        )
 
     # what the UI thread calls
 
@@ -148,11 +165,16 @@ class Link:
         self._slot.want(twist)
         self._network.call(self._wake.set)
 
+    @property
+    def driving(self) -> bool:
+        """The robot was last told to move."""
+        return self._slot.driving
+
     def beat(self) -> None:
         """The user interface is alive; without this for 0.15 s the robot is told to rest."""
         self._slot.beat()
 
-    def command(self, name: str, **fields: Any) -> None:
+    def command(self, name: str, /, **fields: Any) -> None:
         """Send a one-shot command of `app.commands.COMMANDS`; its `Outcome`s come through the mailbox."""
         self._network.call(self._spawn, self.commands.send, name, fields)
 
@@ -212,7 +234,7 @@ class Link:
     async def _send(self) -> None:
         while True:
             try:
-                async with asyncio.timeout(TICK):
+                async with asyncio.timeout(self._slot.patience(TICK)):
                     await self._wake.wait()
             except TimeoutError:
                 pass
@@ -250,23 +272,24 @@ class Link:
                 # whatever is left of what was sent before the link was lost; who only watched says nothing
                 self._client.publish(self.drive_topic, self._said(Twist()), even_late=True)
                 self._slot.rest()
+            self._events.start()
             self._asking = asyncio.get_running_loop().create_task(self._arrive())
             self._keep(self._asking)
         else:
             self._slot.drop()
-            if self._asking is not None:
-                self._asking.cancel()
+            for task in (self._asking, self._fetching):
+                if task is not None:
+                    task.cancel()
+            self._fetching = None
 
     async def _arrive(self) -> None:
         """Find out what the robot offers and listen to that; of a foreign one, look again now and then."""
-        request = self._events.ask()
         known = await self._renew_offer()
         if not known:
             self._sources.follow(self.offer)
         if known and not self._serves("/events/get"):
-            self._events.give_up()
-        else:
-            await self._fetch_events(request)
+            self._events.without_store()
+        self._catch_up()
         while not known or self.foreign:
             await asyncio.sleep(LOOK_AGAIN if known else ASK_AGAIN)
             known = await self._renew_offer() or known
@@ -301,20 +324,42 @@ class Link:
     def _serves(self, service: str) -> bool:
         return self.offer is None or self.offer.serves(service)
 
-    async def _fetch_events(self, request: GetEventsRequest) -> None:
-        try:
-            answer = await self._client.call("/events/get", request, GetEventsResponse)
-        except BridgeError as problem:
-            log.info("no stored events: %s", problem)
-            self._events.give_up()
-        else:
-            self._events.missed(answer.events)
+    def _catch_up(self) -> None:
+        """Have events asked for where some are missing, unless that is under way."""
+        if self._events.behind and (self._fetching is None or self._fetching.done()):
+            self._fetching = asyncio.get_running_loop().create_task(self._fetch_events())
+            self._keep(self._fetching)
+
+    def _tell_known(self) -> None:
+        known = self._events.known
+        if known != self._known:
+            self._known = known
+            self._mailbox.post(KNOWN, known, self._now())
+
+    async def _fetch_events(self) -> None:
+        while self._events.behind:
+            request = self._events.request()
+            try:
+                answer = await self._client.call(
+                    "/events/get", request, GetEventsResponse, timeout=EVENTS_TIMEOUT
+                )
+            except (NoReply, NotConnected) as problem:
+                log.info("stored events did not come: %s", problem)
+                self._events.no_answer()
+                await asyncio.sleep(ASK_AGAIN)
+            except BridgeError as problem:
+                log.info("no stored events: %s", problem)
+                self._events.without_store()
+            else:
+                self._events.answered(answer)
+            self._tell_known()
 
     def _on_message(self, name: str, message: Msg, received: float) -> None:
         self._heard = received
         if isinstance(message, ControlStatus) and message.stopped and message.at_rest:
             self.commands.confirm_stop()
-        self._mailbox.post(name, message, received)
+        # whether a STOP is obeyed is shown in the next frame
+        self._mailbox.post(name, message, received, urgent=isinstance(message, ControlStatus))
 
     def _on_seen(self, seen: Seen, received: float) -> None:
         if seen.message is None:
@@ -324,6 +369,9 @@ class Link:
 
     def _on_event(self, event: Event, received: float) -> None:
         self._events.live(event)
+        self._tell_known()
+        if self._client.state.phase is Phase.CONNECTED and self._asking is not None and self._asking.done():
+            self._catch_up()
 
     def _tell(self, outcome: Outcome) -> None:
         self._mailbox.queue(OUTCOME, outcome, self._now())

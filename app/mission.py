@@ -92,6 +92,8 @@ class MissionEditor:
     """Under way to the robot; None when nothing is."""
     outcome: str = ""
     """What became of the last sending, in one sentence."""
+    _recall: str = ""
+    """`asked` of the robot; then `told` or `accepted`, whichever it does first; empty when nothing is recalled."""
     _told: bool = False
     """The robot told its mission since the last answer."""
     _undo: list[Draft] = field(default_factory=list)
@@ -189,6 +191,14 @@ class MissionEditor:
         changes = {name: value for name, value in changes.items() if value is not None}
         self._edit(replace(self.draft, **changes), merge=",".join(changes))
 
+    def set_name(self, name: str) -> None:
+        """Set what the robot keeps it as; empty for none."""
+        self._edit(replace(self.draft, name=name), merge="name")
+
+    def put(self, draft: Draft) -> None:
+        """Put another draft in the place of this one, as one step of undo."""
+        self._edit(draft)
+
     def _checked(self, index: int) -> int:
         if not 0 <= index < len(self.draft.points):
             raise IndexError(f"There is no point {index + 1}; there are {len(self.draft.points)}.")
@@ -234,6 +244,9 @@ class MissionEditor:
         untouched = self.stored is None and not self._undo and self.draft == Draft()
         unchanged = self.stored is not None and self.stored.same_as(self.draft)
         self.stored, self._told = told, True
+        if self._recall:
+            self._recall = "" if self._recall == "accepted" else "told"
+            unchanged = unchanged or not self._recall
         if self.sent is not None and told.same_as(self.sent):
             self.sent = None
         if (untouched or unchanged) and not told.same_as(self.draft):
@@ -241,6 +254,18 @@ class MissionEditor:
                 self._undo.append(self.draft)
             self.draft = told
         self.on_change()
+
+    def recalling(self) -> None:
+        """The robot is asked for another mission of those it keeps: it goes before a draft that was edited."""
+        self._recall = "asked"
+
+    def recalled(self, accepted: bool) -> None:
+        """Tell what became of that; the mission itself may come before or after this."""
+        told, self._recall = self._recall == "told", ""
+        if accepted and told and self.stored is not None:
+            self._edit(self.stored)
+        elif accepted:
+            self._recall = "accepted"
 
     def save(self) -> dict[str, Any]:
         """The draft for the settings file."""

@@ -10,16 +10,28 @@ from urllib.parse import urlsplit
 
 import msgspec
 
+from app.checks import Checks
 from app.commands import Outcome
+from app.control import Authority
 from app.feeds import Feeds, Post
-from app.link import EVENT, LINK, OFFER, OUTCOME, Link
+from app.link import EVENT, KNOWN, LINK, MISSED, OFFER, OUTCOME, Link
 from app.local_stop import LocalStop
+from app.logbook import Logbook
 from app.mission import Draft, MissionEditor
+from app.missions import KeptMissions
 from app.offer import CAMERA, Offer
+from app.refusals import Refusals
 from app.settings import Settings
 from app.tasking import Tasking
 from bridge.client import LinkState, Phase
-from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Pose,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Quaternion,
+    Twist,
+)
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, Mission, RobotInfo, TaskStatus
 from bridge.msgs.std_msgs import Header, Time
 
@@ -56,10 +68,17 @@ class Session:
         self.wants_control = wants_control
         self.mission = MissionEditor(on_change=self._mission_changed)
         self.tasking = Tasking(self)
+        self.checks = Checks(feeds, lambda: self.running)
+        self.refusals = Refusals(feeds)
+        self.missions = KeptMissions(self)
+        self.logbook = Logbook(settings, self.command)
+        self.authority = Authority(self)
         self.outcomes: dict[str, Outcome] = {}
         """The last outcome of each command by its name."""
         self.listeners: list[Callable[[str, Post], None]] = []
         """Called with each channel and post, after the session took it in."""
+        self.on_rest: Callable[[], object] = lambda: None
+        """Called when whatever pushes the stick has to let go."""
         self.early: list[Post] = []
         """Events that came while nobody listened."""
         self.offer: Offer | None = None
@@ -81,6 +100,22 @@ class Session:
         return self._now()
 
     # what the robot is
+
+    @property
+    def url(self) -> str:
+        """The robot's address."""
+        return self.link.url
+
+    @property
+    def boot(self) -> str:
+        """Identity of the robot's log, alike for one robot under two addresses; empty until it is known."""
+        return self.logbook.known.boot
+
+    @property
+    def control_status(self) -> ControlStatus | None:
+        """What the robot said last of control and STOP; None before it did."""
+        status: ControlStatus | None = self.feeds.latest("/control/status")
+        return status
 
     @property
     def connected(self) -> bool:
@@ -122,18 +157,8 @@ class Session:
 
     @property
     def control(self) -> str:
-        """Who has control: `mine`, `free`, `other` or, while the link is down or nothing was heard, `unknown`.
-
-        `none` on a robot that is not ours: there is none to have, and whoever sends drives it.
-        """
-        if self.foreign and self.connected:
-            return "none"
-        status: ControlStatus | None = self.feeds.latest("/control/status")
-        if status is None or not self.connected:
-            return "unknown"
-        if not status.driver_id and not status.driver:
-            return "free"
-        return "mine" if status.driver_id == self.client_id else "other"
+        """Who has control, as `Authority.who` says."""
+        return self.authority.who
 
     @property
     def may_drive(self) -> bool:
@@ -199,16 +224,26 @@ class Session:
         status: TaskStatus | None = self.feeds.latest("/task/status")
         return status is not None and status.state in ("RUNNING", "PAUSED")
 
+    def command_sent(self, name: str) -> bool:
+        """A command is under way: sent and not yet answered."""
+        outcome = self.outcomes.get(name)
+        return outcome is not None and outcome.phase == "sent"
+
     # what comes in
 
     def deliver(self, channel: str, post: Post) -> None:
         """Take in what the mailbox held."""
+        if channel == EVENT:
+            self._hear_event(post)
+            return
         if channel in self.feeds:
             self.feeds.put(channel, post)
         takes: dict[str, Callable[[Any], None]] = {
             LINK: self._link_changed,
             OFFER: self._offered,
             OUTCOME: self._outcome,
+            MISSED: self.logbook.miss,
+            KNOWN: self.logbook.know,
             "/task/queue": self.tasking.queue.robot_has,
         }
         if channel in takes:
@@ -223,11 +258,19 @@ class Session:
         elif channel == "/control/status":
             moves = post.value.stopped and not post.value.at_rest
             self._moves_since = min(self._moves_since, self._now()) if moves else math.inf
+            self.authority.hear(post.value)
             self._take_control()
-        elif channel == EVENT:
-            post = replace(post, value=self._addressed(post.value))
-        if channel == EVENT and not self.listeners:
-            self.early.append(post)
+        self._tell(channel, post)
+
+    def _hear_event(self, post: Post) -> None:
+        event = self._addressed(post.value)
+        if self.logbook.take(event):
+            post = replace(post, value=event)
+            if not self.listeners:
+                self.early.append(post)
+            self._tell(EVENT, post)
+
+    def _tell(self, channel: str, post: Post) -> None:
         for listener in list(self.listeners):
             listener(channel, post)
 
@@ -254,6 +297,8 @@ class Session:
         if self.mission.sent is not None:
             self.mission.answered(self.mission.sent, False, "No reply: the link was closed.")
         self.tasking.dropped()
+        self.logbook.dropped()
+        self.missions.dropped()
         self._link_changed(link.state)
 
     def _offered(self, offer: Offer) -> None:
@@ -264,6 +309,7 @@ class Session:
     def _link_changed(self, state: LinkState) -> None:
         self.link_state, self._state_since = state, self._now()
         self.feeds.link(self.connected)
+        self.authority.link_changed()
         if self.connected:
             self.ever_connected = True
             self._asked_control = False
@@ -277,6 +323,8 @@ class Session:
             sent = Draft.of(outcome.fields["mission"])
             self.mission.answered(sent, outcome.phase == "accepted", outcome.sentence)
         self.tasking.answered(outcome)
+        self.logbook.answered(outcome)
+        self.missions.answered(outcome)
 
     def _introduced(self) -> None:
         if not self._known:
@@ -314,7 +362,7 @@ class Session:
 
     # what goes out
 
-    def command(self, name: str, **fields: Any) -> None:
+    def command(self, name: str, /, **fields: Any) -> None:
         """Send a one-shot command of `app.commands.COMMANDS`."""
         self.link.command(name, **fields)
 
@@ -333,14 +381,17 @@ class Session:
             self.command("stop_release")
 
     def take_control(self) -> None:
-        """Ask for control, and for it again after a reconnect."""
-        self.wants_control = True
-        self.command("acquire")
+        """Take control, or ask who has it; it is taken again after a reconnect."""
+        self.authority.take()
+
+    def rest(self) -> None:
+        """The robot is told to rest before anything that is asked of it afterwards; the stick must be pushed anew."""
+        self.link.drive(Twist())
+        self.on_rest()
 
     def release_control(self) -> None:
-        """Give control up, and do not ask for it again."""
-        self.wants_control = False
-        self.command("release")
+        """Rest, give control up, and do not ask for it again."""
+        self.authority.release()
 
     def send_mission(self) -> None:
         """Send the draft to the robot."""

@@ -20,10 +20,12 @@ from bridge.topics import TOPICS, Topic
 
 __all__ = ["Peek", "Seen", "Sources"]
 
-UNUSED = ("/tf", "/joint_states", "/diagnostics", "/bumper")
+UNUSED = ("/tf", "/diagnostics", "/bumper")
 """Topics that no screen shows."""
 FASTEST = 50
 """No stream is asked for more often than this [ms]: the eye sees no more."""
+SLOW = {"/line": 100, "/joint_states": 100}
+"""Streams that are shown as figures, with the time between two that can be read [ms]."""
 BULKY = (
     "sensor_msgs/LaserScan",
     "nav_msgs/OccupancyGrid",
@@ -32,6 +34,8 @@ BULKY = (
     "sensor_msgs/PointCloud2",
 )
 """Types whose numbers travel as CBOR; the real servers lose others in it."""
+ENDLESS = ("sensor_msgs/Range",)
+"""Types with an infinity that means something, which JSON cannot say: as CBOR, from a robot of ours."""
 
 Deliver = Callable[[str, Msg, float], object]
 """Takes our name of a topic, the message, and when it came [s], our clock."""
@@ -70,9 +74,13 @@ class Sources:
             name,
             entry.type,
             lambda message, received: self._hear(entry.name, message, received),
-            throttle_rate=FASTEST if fast else 0,
-            compression="cbor" if entry.type.MSGTYPE in BULKY else "none",
+            throttle_rate=SLOW.get(entry.name, FASTEST if fast else 0),
+            compression="cbor" if entry.type.MSGTYPE in (ENDLESS if self._ours else ()) + BULKY else "none",
         )
+
+    @property
+    def _ours(self) -> bool:
+        return self._offer is None or self._offer.ours
 
     def _hear(self, name: str, message: Msg, received: float) -> None:
         self._deliver(name, message, received)
@@ -84,8 +92,9 @@ class Sources:
         name = CAMERA if self._offer is None else self._offer.source(CAMERA)
         if name is None:
             return None
-        ours = self._offer is None or self._offer.ours
-        return self._client.subscribe(name, CompressedImage, show, compression="none" if ours else "cbor")
+        return self._client.subscribe(
+            name, CompressedImage, show, compression="none" if self._ours else "cbor"
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,7 +29,7 @@ def nobody(*_: object) -> None:
 class Robot(Protocol):
     """What is needed of the session."""
 
-    def command(self, name: str, **fields: Any) -> None:
+    def command(self, name: str, /, **fields: Any) -> None:
         """Send a one-shot command of `app.commands.COMMANDS`."""
 
     def send_mission(self) -> None:

@@ -53,6 +53,19 @@ TOPICS: tuple[Topic, ...] = (
     Topic("/fix", sensor_msgs.NavSatFix, 5, "handheld", "position by satellite"),
     Topic("/scan", sensor_msgs.LaserScan, 10, "handheld", "the laser's last sweep"),
     Topic("/bumper", pilothouse_msgs.Bumper, 10, "handheld", "the bumper ring"),
+    Topic(
+        "/line", pilothouse_msgs.LineSensor, 20, "handheld", "how bright the ground is under it, cell by cell"
+    ),
+    Topic(
+        "/ultrasound/front",
+        sensor_msgs.Range,
+        10,
+        "handheld",
+        "how far the nearest thing ahead is, by its echo",
+    ),
+    Topic("/ultrasound/left", sensor_msgs.Range, 10, "handheld", "the same to the left"),
+    Topic("/ultrasound/right", sensor_msgs.Range, 10, "handheld", "the same to the right"),
+    Topic("/ultrasound/rear", sensor_msgs.Range, 10, "handheld", "the same behind it"),
     Topic("/battery_state", sensor_msgs.BatteryState, 1, "handheld", "the battery"),
     Topic(
         "/joint_states", sensor_msgs.JointState, 20, "handheld", "angles and speeds of wheels, legs or rotors"
@@ -94,7 +107,7 @@ TOPICS: tuple[Topic, ...] = (
         vision_msgs.Detection2DArray,
         5,
         "handheld",
-        "what the camera sees while a task watches",
+        "what the camera sees while a task watches or somebody looks",
     ),
     Topic(
         "/intruders",

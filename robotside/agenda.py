@@ -29,6 +29,9 @@ PERIOD = 1.0
 
 _BARS = ("PAUSED", "INTERRUPTED")
 
+_MANUAL = "manual by"
+"""Name of the setting that says who chose MANUAL."""
+
 
 class Agenda:
     """Queue and schedule of one robot."""
@@ -61,6 +64,30 @@ class Agenda:
         for table, show in (("queue", self._show_queue), ("schedule", self._show_schedule)):
             records.watch(table, show)
             show()
+
+    @property
+    def manual_by(self) -> str:
+        """Who set the mode to MANUAL, so that nothing starts by itself; empty when it may."""
+        return self._records.setting(_MANUAL)
+
+    def stay_manual(self, name: str) -> bool:
+        """`name` chose MANUAL: start nothing until `allow`, over restarts too. False when that was so already.
+
+        NotRecorded when it cannot be kept.
+        """
+        if self.manual_by:
+            return False
+        self._records.set_setting(_MANUAL, name)
+        self._say("control", f"{name} set the mode to MANUAL: nothing starts by itself until it is AUTO.")
+        self.hold(self._by_hand())
+        return True
+
+    def allow(self) -> bool:
+        """Somebody had the robot drive itself; False when nothing kept it from that."""
+        if not self.manual_by:
+            return False
+        self._records.set_setting(_MANUAL, "")
+        return True
 
     _settled = 0
     """The task that does not hold the queue, however it ended."""
@@ -100,6 +127,8 @@ class Agenda:
         queue = self._records.queue.set([*tidy, *orders[MOST_QUEUED:]], revision)
         if empty or not orders:
             self.release()
+        if self.manual_by:
+            self.hold(self._by_hand())
         return queue
 
     def set_scheduled(self, task: ScheduledTask) -> ScheduledTask:
@@ -121,6 +150,9 @@ class Agenda:
 
     def _go_on(self, now: float) -> None:
         if self.held or self._engine.interrupted:
+            return
+        if self.manual_by:
+            self.hold(self._by_hand())
             return
         if self._engine.status.state == "CANCELED" and self._engine.status.task_id != self._settled:
             self.hold("the task before it was canceled")
@@ -150,7 +182,7 @@ class Agenda:
             self._skip(title, f"at {when} is skipped: the robot's computer was off or its clock was changed")
         if not turn.due:
             return
-        barred = self._barred(_drains(order)) or self._waiting()
+        barred = self._by_hand() or self._barred(_drains(order)) or self._waiting()
         running = self._engine.active or bool(self._records.queue.current.orders)
         if barred:
             self._skip(title, f"now is skipped: {barred}")
@@ -168,6 +200,10 @@ class Agenda:
             self._skip(title, f"now is skipped: {problem}")
             return
         self._say("task", f"{title} now waits in the queue for its turn.", "info")
+
+    def _by_hand(self) -> str:
+        """Who wants that nothing starts by itself, as the end of a sentence; empty when nobody does."""
+        return f"{self.manual_by} set the mode to MANUAL" if self.manual_by else ""
 
     def _waiting(self) -> str:
         """Why nobody knows when a task in the queue would have its turn; empty when it has one."""

@@ -233,14 +233,15 @@ class Autonomy:
         self._points = self._laser.points(scan)
         self.whereabouts.take_sweep(self._points, stamp)
         self._swept = self.whereabouts.track.at(stamp)
-        if self._swept is not None and self.engine.active and self.whereabouts.sure:
+        if self._swept is not None and self.whereabouts.sure:
             placed = self._swept.apply(self._points)
-            self.guide.obstacles.see(placed, self._now)
             self.watch.take_sweep(placed, stamp)
+            if self.engine.active:
+                self.guide.obstacles.see(placed, self._now)
 
     def _image(self, image: CompressedImage) -> None:
-        if self.engine.running:
-            self.watch.take_image(image, placing=self.whereabouts.sure)
+        """Pictures come while a task runs and while somebody looks: who drives by hand is told what is in them."""
+        self.watch.take_image(image, placing=self.whereabouts.sure)
 
     def _battery(self, msg: BatteryState) -> None:
         if msg.percentage < LOW_BELOW <= self.battery:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from bridge.msgs.geometry_msgs import Point
-from bridge.msgs.pilothouse_msgs import Event
+from bridge.msgs.pilothouse_msgs import Event, GetEventsRequest, GetEventsResponse
 from bridge.msgs.std_msgs import Time
 from robotside.database.eventlog import EventLog
 from robotside.words import plain
@@ -56,3 +56,10 @@ class Events:
     def since(self, number: int, boot: str) -> list[Event]:
         """The kept events after `number`, oldest first; the newest when `boot` is another log's, or `number` 0."""
         return self._log.since(number, boot)
+
+    def answer(self, asked: GetEventsRequest) -> GetEventsResponse:
+        """What who asked has missed: later events, and which of the `open` ones somebody has seen to."""
+        later = self._log.since(asked.since, asked.boot, asked.most)
+        more = asked.most > 0 and bool(later) and self._log.more(later)
+        seen = [event for event in self._log.seen(asked.open, asked.boot) if event.id <= asked.since]
+        return GetEventsResponse([*seen, *later], more, self._log.oldest)

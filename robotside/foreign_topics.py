@@ -8,8 +8,16 @@ from dataclasses import dataclass
 from bridge.choice import CAMERA, DRIVE, USUAL, command, source
 from bridge.msgs import Msg, ros1_name
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
-from bridge.msgs.pilothouse_msgs import ControlStatus, Following, RobotInfo, TagRead
-from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, Imu, JointState, LaserScan, NavSatFix
+from bridge.msgs.pilothouse_msgs import ControlStatus, Following, LineSensor, RobotInfo, TagRead
+from bridge.msgs.sensor_msgs import (
+    BatteryState,
+    CompressedImage,
+    Imu,
+    JointState,
+    LaserScan,
+    NavSatFix,
+    Range,
+)
 
 __all__ = ["CONTROL", "Found", "match", "usual"]
 
@@ -40,6 +48,8 @@ _PARTS = (
     _Part("/imu/data", Imu),
     _Part("/fix", NavSatFix),
     _Part("/joint_states", JointState),
+    _Part("/line", LineSensor),
+    *(_Part(f"/ultrasound/{side}", Range) for side in ("front", "left", "right", "rear")),
     _Part("/robot/info", RobotInfo),
     _Part("/tag", TagRead),
     _Part("/following", Following),

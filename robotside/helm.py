@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from bridge.msgs.geometry_msgs import Twist
-from robotside.authority import TO_OBJECT, Operator
+from robotside.authority import LAPSE, TO_OBJECT, Operator
 from robotside.commands import Refusal
 from robotside.config import ControlSettings
 from robotside.controls import Controls
@@ -77,6 +77,7 @@ class Helm:
         clock, controls = self._clock(), self._controls
         lost = controls.mind(clock)
         if lost:
+            self._say("control", f"{lost} was not heard for {LAPSE:.0f} s and lost control.", "warn")
             self._lost(lost, now)
         controls.look(clock)
         if controls.expired(clock) and not self._engine.running:

@@ -80,8 +80,9 @@ class _Kept:
         return f"{self._records.places.delete(asked.id).name} is forgotten."
 
     def missions(self, _: Operator, __: CommandRequest) -> GetMissionsResponse:
-        """The names of all missions."""
-        return GetMissionsResponse(True, "", self._records.missions.names())
+        """All missions that have a name."""
+        found = self._records.missions.known()
+        return GetMissionsResponse(True, "", [mission.name for mission in found], found)
 
     def history(self, _: Operator, asked: GetHistoryRequest) -> GetHistoryResponse:
         """What was done, newest first."""

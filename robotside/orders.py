@@ -138,7 +138,7 @@ class _Orders:
 
     def events(self, _: Operator, asked: GetEventsRequest) -> GetEventsResponse:
         """Give the events that a client missed."""
-        return GetEventsResponse(self._station.events.since(asked.since, asked.boot))
+        return self._station.events.answer(asked)
 
 
 def _named(mission: Mission) -> Mission:

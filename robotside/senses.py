@@ -15,7 +15,16 @@ from robotside.tracks import Moving
 __all__ = ["PATIENCE", "Senses"]
 
 _NEEDED = {"/odom": "odometry", "/scan": "laser"}
-_MORE = {"/imu/data": "IMU", "/bumper": "bumper", "/joint_states": "encoders"}
+_MORE = {
+    "/imu/data": "IMU",
+    "/bumper": "bumper",
+    "/joint_states": "encoders",
+    "/line": "line sensor",
+    "/ultrasound/front": "front ultrasound",
+    "/ultrasound/left": "left ultrasound",
+    "/ultrasound/right": "right ultrasound",
+    "/ultrasound/rear": "rear ultrasound",
+}
 """Sensors that a robot may have; they count once they were heard."""
 
 PATIENCE = 1.0

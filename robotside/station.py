@@ -40,7 +40,7 @@ from robotside.database import Records
 from robotside.demand import Demand
 from robotside.events import Events
 from robotside.guarded import Guarded
-from robotside.helm import FOLLOW_LINK, Helm, Options
+from robotside.helm import FOLLOW_LINK, LOST_LINK_STOPS_TASK, Helm, Options
 from robotside.history import History
 from robotside.interrupted import Interrupted
 from robotside.limits import Keeper
@@ -365,6 +365,7 @@ class Station:
             self.events.say("command", problem, "warn")
             return
         self.controls.hold()
+        self.agenda.allow()
         self.agenda.hold("the robot was sent elsewhere")
         order = TaskOrder(task="go_to", goals=[Waypoint(pose.x, pose.y, pose.yaw)])
         self.autonomy.start(order, self.now, self.controls.name(client))
@@ -402,6 +403,7 @@ class Station:
             handover=Time.at(asker.due) if asker else Time(),
             speed_cap=self.controls.pace.shown,
             follows_link=self.controls.follows,
+            lost_link_stops_task=self.options.on(LOST_LINK_STOPS_TASK),
         )
 
     def _controls(self) -> Controls:

@@ -71,21 +71,24 @@ class _Steering:
         return f"{driver.name} has control." if driver else "Control is free."
 
     def set_mode(self, client: Operator, asked: SetModeRequest) -> str | CommandResponse:
-        """MANUAL pauses the task, AUTO goes on with it."""
+        """MANUAL pauses the task and keeps every other from starting by itself, AUTO goes on with what there is."""
         station = self._station
         if asked.mode not in ("MANUAL", "AUTO"):
             raise Refusal(f"The mode is MANUAL or AUTO, not {asked.mode!r}.")
         if station.controls.stopped:
             raise Refusal(STOP_SENTENCE)
         self.acquire(client, asked)
-        engine = station.autonomy.engine
+        engine, agenda = station.autonomy.engine, station.agenda
         if asked.mode == "AUTO":
-            if not (engine.active or engine.interrupted or station.agenda.held):
+            if engine.active or engine.interrupted or agenda.held:
+                self._tasks.resume(client, asked)
+                return "The robot drives itself."
+            if not agenda.allow():
                 raise Refusal("There is no task to go on with; start one.")
-            self._tasks.resume(client, asked)
-            return "The robot drives itself."
+            return "The robot may start by itself what is scheduled and queued."
+        fresh = agenda.stay_manual(station.controls.name(client))
         if not engine.running:
-            return "The robot is driven by hand already."
+            return f"The robot is driven by hand{'; nothing starts by itself' if fresh else ' already'}."
         self._tasks.pause(client, asked)
         return "The robot is driven by hand; its task is paused."
 

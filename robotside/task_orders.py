@@ -80,6 +80,7 @@ class TaskOrders:
         station = self._station
         self._permits.may_move(client)
         home = station.autonomy.assignments.task(TaskOrder(task="go_home"), station.controls.name(client))
+        station.agenda.allow()
         station.agenda.hold("the robot was sent home")
         station.controls.hold()
         self._engine.start(home, station.now)
@@ -112,6 +113,7 @@ class TaskOrders:
             engine.resume()
             return "Resumed."
         if station.agenda.release():
+            station.agenda.allow()
             return "The queue goes on."
         raise Refusal("No task is paused.")
 
@@ -163,4 +165,5 @@ class TaskOrders:
     def _begin(self) -> None:
         """The robot drives itself from now on, and the queue goes on behind it."""
         self._station.controls.hold()
+        self._station.agenda.allow()
         self._station.agenda.release()

@@ -11,7 +11,7 @@ from PIL import Image, ImageChops, ImageDraw, ImageFilter
 from sim.shapes import Shape, Vec3
 from sim.world import Spot, World
 
-__all__ = ["SUN", "markings"]
+__all__ = ["SUN", "arrow_corners", "markings"]
 
 RESOLUTION = 0.02
 """Edge of a pixel [m]."""
@@ -65,8 +65,13 @@ def markings(world: World) -> tuple[tuple[int, int], bytes]:
 def _signs(world: World) -> _Sheet:
     sheet = _Sheet(world)
     for arrow in world.arrows:
-        sheet.polygon([_from_spot(arrow, corner) for corner in _ARROW])
+        sheet.polygon(arrow_corners(arrow))
     return sheet
+
+
+def arrow_corners(arrow: Spot) -> list[Point]:
+    """The outline of an arrow painted at that spot, anticlockwise [m]."""
+    return [_from_spot(arrow, corner) for corner in _ARROW]
 
 
 def _from_spot(spot: Spot, point: Point) -> Point:

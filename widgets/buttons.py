@@ -6,16 +6,17 @@ from collections.abc import Callable
 from typing import Any
 
 from kivy.clock import Clock
+from kivy.graphics.texture import Texture
 from kivy.lang import Builder
 from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, BooleanProperty, OptionProperty, StringProperty
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.labels  # noqa: F401 - its rules draw the icons
-from widgets.base import fitting_size
+from widgets.base import fitting_size, text_texture
 from widgets.theme import theme
 
 __all__ = ["IconButton", "NavButton", "PrimaryButton", "PushButton", "QuietButton"]
@@ -129,7 +130,23 @@ Builder.load_string("""
             pos: self.pos
             size: self.size
             radius: [theme.corner]
+    canvas.after:
+        Color:
+            rgb: theme.danger[:3] if root.urgent else theme.warn[:3]
+            a: 1 if root.count else 0
+        SmoothRoundedRectangle:
+            pos: root.badge_pos
+            size: root.badge_size
+            radius: [root.badge_size[1] / 2]
+        Color:
+            rgb: theme.ink_danger[:3]
+            a: 1 if root.count else 0
+        Rectangle:
+            pos: root.badge_text_pos
+            size: root.badge_texture.size
+            texture: root.badge_texture
     Icon:
+        id: sign
         name: root.icon
         role: root.tint or ('accent' if root.active else 'muted')
         pos_hint: {'center_x': .5}
@@ -222,6 +239,34 @@ class NavButton(ButtonBehavior, BoxLayout):
     """Role of the icon and the words while what it stands for goes on, as a recording; empty for none."""
     framed = BooleanProperty(True)
     """Has a ground while active, as in a rail."""
+    count = NumericProperty(0)
+    """Things behind it that somebody has to see to: said in a mark on its icon, from 100 on as `99+`; 0 for none."""
+    urgent = BooleanProperty(True)
+    """One of them cannot wait: the mark has the colour of danger, else that of a warning."""
+
+    def _badge_texture(self) -> Texture:
+        words = f"{self.count:.0f}" if self.count < 100 else "99+"
+        return text_texture(words, sp(12), theme.font, bold=True)
+
+    badge_texture = AliasProperty(_badge_texture, bind=["count"], cache=True)
+
+    def _badge_size(self) -> tuple[float, float]:
+        width, height = self.badge_texture.size
+        return max(width + dp(9), height + dp(3)), height + dp(3)
+
+    badge_size = AliasProperty(_badge_size, bind=["badge_texture"], cache=True)
+
+    def _badge_pos(self) -> tuple[float, float]:
+        width, height = self.badge_size
+        return min(self.center_x + dp(5), self.right - width), self.top - dp(4) - height
+
+    badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "pos", "size"], cache=True)
+
+    def _badge_text_pos(self) -> tuple[float, float]:
+        (x, y), (width, height), texture = self.badge_pos, self.badge_size, self.badge_texture
+        return x + (width - texture.width) / 2, y + (height - texture.height) / 2
+
+    badge_text_pos = AliasProperty(_badge_text_pos, bind=["badge_pos"], cache=True)
 
 
 def _button(kind: type[PushButton], **kwargs: Any) -> Callable[[], Widget]:
@@ -246,5 +291,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "icon bare": lambda: IconButton(icon="arrow_back", bare=True, role="muted"),
         "nav": lambda: NavButton(icon="sports_esports", text="Drive"),
         "nav going on": lambda: NavButton(icon="fiber_manual_record_fill", text="REC 0:12", tint="danger"),
+        "nav with alarms": lambda: NavButton(icon="list", text="Tasks", count=2),
+        "nav with warnings": lambda: NavButton(icon="list", text="Tasks", count=2, urgent=False),
+        "nav with many": lambda: NavButton(icon="list", text="Tasks", count=140, active=True),
         "nav active": lambda: NavButton(icon="map", text="Mission", active=True),
     }

@@ -86,7 +86,7 @@ Builder.load_string("""
     padding: dp(14), 0, dp(4), 0
     QuietButton:
         text: root.action
-        icon: 'undo'
+        icon: root.action_icon
         size_hint_x: None
         width: dp(112)
         pos_hint: {'center_y': .5}
@@ -196,6 +196,7 @@ class ActionToast(Toast):
     __events__ = ("on_act",)
 
     action = StringProperty("Undo")
+    action_icon = StringProperty("undo")
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**{"closable": False, **kwargs})

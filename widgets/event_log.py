@@ -1,103 +1,47 @@
-"""What happened, newest first: an icon, one sentence, how long ago.
+"""What happened, newest first: an icon, one sentence, how long ago, and who has seen to it.
 
 log = EventLog()
 robot.on("/events", log.show)
+log.bind(on_command=lambda _, event: print(f"somebody has seen to {event.text}"))
 """
 
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Callable
-from functools import lru_cache
+from bisect import bisect_left
+from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any
 
-from kivy.core.text import Label as CoreLabel
+from kivy.clock import Clock
 from kivy.lang import Builder
-from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, NumericProperty, StringProperty
-from kivy.uix.boxlayout import BoxLayout
+from kivy.metrics import dp
+from kivy.properties import AliasProperty, BooleanProperty, ListProperty, NumericProperty, StringProperty
 from kivy.uix.floatlayout import FloatLayout
-from kivy.uix.recycleview.views import RecycleDataViewBehavior
+from kivy.uix.recycleview import RecycleView
 from kivy.uix.widget import Widget
 
-import widgets.labels  # noqa: F401 - its rules draw the rows
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
 from widgets.base import RobotWidget
+from widgets.event_row import ago, is_open, look, note, row_height
 
-__all__ = ["EventLog", "EventRow", "ago", "look"]
+__all__ = ["EventLog", "ago", "look"]
 
 MOST = 200
-"""Events that are kept."""
-
-KINDS = {
-    "waypoint": ("flag", "plan"),
-    "intruder": ("warning", "danger"),
-    "task": ("play_arrow", "ok"),
-    "command": ("check_circle", "ok"),
-    "mission": ("edit_location_alt", "muted"),
-    "contact": ("crisis_alert", "danger"),
-    "battery": ("battery_alert", "warn"),
-    "control": ("person", "accent"),
-    "stop": ("pan_tool", "danger"),
-    "localisation": ("my_location", "accent"),
-}
-"""Kind of an event to its icon and the role of its colour."""
-
-WORDS = {
-    "started": "play_arrow",
-    "resumed": "play_arrow",
-    "paused": "pause",
-    "stopped": "pan_tool",
-    "released": "lock_open",
-    "home": "home",
-    "ended": "stop",
-    "cancelled": "stop",
-    "canceled": "stop",
-    "finished": "check_circle",
-    "done": "check_circle",
-}
-"""Words in a sentence about a task or about STOP to the icon of what happened; the first one counts."""
-
-LEVELS = {"warn": "warn", "alarm": "danger"}
-"""Levels that bring their own role."""
+"""Events that are kept, where nothing else is said."""
 
 Builder.load_string("""
-<EventRow>:
-    size_hint_y: None
-    padding: 0, 0, dp(7), 0
-    spacing: dp(8)
-    Icon:
-        name: root.icon
-        role: root.role
-        font_size: sp(20)
-        pos_hint: {'center_y': .5}
-    Text:
-        text: root.text
-        font_size: sp(14.5)
-        pos_hint: {'center_y': .5}
-    Label:
-        text: root.when
-        font_name: theme.font
-        font_size: sp(13)
-        color: theme.muted
-        disabled_color: self.color
-        size_hint_x: None
-        width: dp(38)
-        text_size: self.size
-        halign: 'right'
-        valign: 'middle'
-
 <EventLog>:
     Text:
         text: root.notice
         role: 'muted'
         font_size: sp(15)
         pos_hint: {'x': 0, 'top': 1}
-    RecycleView:
+    EventView:
         id: view
-        viewclass: 'EventRow'
+        key_viewclass: 'viewclass'
+        now: root.now
         size_hint: None, None
         size: root.width - 2 * root.margin, root.height - root.margin - root.strip
         pos: root.x + root.margin, root.y + root.margin
@@ -106,6 +50,7 @@ Builder.load_string("""
         bar_inactive_color: theme.line
         scroll_type: ['bars', 'content']
         RecycleBoxLayout:
+            id: rows
             orientation: 'vertical'
             size_hint_y: None
             height: self.minimum_height
@@ -115,56 +60,37 @@ Builder.load_string("""
 """)
 
 
-def look(event: Event) -> tuple[str, str]:
-    """Icon and role of an event: by its kind and its words, the role by its level where that is grave."""
-    name, role = KINDS.get(event.kind, ("info", "muted"))
-    if event.kind in ("task", "stop"):
-        said = (WORDS[word] for word in re.findall("[a-z]+", event.text.lower()) if word in WORDS)
-        name = next(said, name)
-    if event.kind == "stop" and event.level == "ok":
-        role = "ok"
-    if event.kind == "command" and event.level in LEVELS:
-        name = "block"
-    return name, LEVELS.get(event.level, role)
+class EventView(RecycleView):
+    """The rows in sight."""
 
-
-def ago(seconds: float) -> str:
-    """How long ago: `now` for less than 2 s, minutes and seconds, then hours; empty for NaN."""
-    if not math.isfinite(seconds):
-        return ""
-    whole = max(0, int(seconds))
-    if whole < 2:
-        return "now"
-    return f"{whole // 60}:{whole % 60:02d}" if whole < 3600 else f"{whole // 3600} h"
-
-
-@lru_cache(maxsize=2 * MOST)
-def row_height(text: str, width: float, font_size: float) -> float:
-    """Height of a row whose sentence is broken into lines `width` long; all in pixels."""
-    label = CoreLabel(text=text, font_name="B612", font_size=font_size, text_size=(width, None))
-    label.refresh()
-    return max(dp(30), label.texture.height + dp(8))
-
-
-class EventRow(RecycleDataViewBehavior, BoxLayout):
-    """One event."""
-
-    icon = StringProperty("info")
-    role = StringProperty("muted")
-    """Role of the icon's colour."""
-    text = StringProperty("")
-    when = StringProperty("")
+    now = NumericProperty(math.nan)
+    """As of the log [s]."""
 
 
 class EventLog(RobotWidget, FloatLayout):
-    """A list of the newest events. An event that is shown twice, by its run and number, is one."""
+    """A list of the newest events. An event that is shown twice, by its run and number, is one.
+
+    With `acts` each one that somebody has to see to can be pressed: dispatches `on_command(event)`.
+    """
 
     accepts = (Event,)
 
+    __events__ = ("on_command",)
+
+    most = NumericProperty(MOST)
+    """Events that are kept."""
     now = NumericProperty(math.nan)
     """The robot's clock [s]; NaN leaves the times away."""
     count = NumericProperty(0)
     """Events in the list."""
+    acts = BooleanProperty(False)
+    """A finger can say that one has been seen to."""
+    asked = ListProperty()
+    """Run and number of those of which the robot is being told that they have been seen to."""
+    missed = ListProperty()
+    """Run and number of those that happened while nobody listened here."""
+    head = StringProperty("")
+    """What is said above the newest of those; empty for nothing."""
 
     def _notice(self) -> str:
         return "" if self.count else "Nothing has happened yet."
@@ -191,79 +117,114 @@ class EventLog(RobotWidget, FloatLayout):
     """The age stands in the strip above the list."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self._events: list[Event] = []
+        self._events: dict[tuple[str, int], Event] = {}
+        self._order: list[tuple[float, int, str]] = []
+        """Newest first, by what `_place` says."""
+        self._soon = Clock.create_trigger(self._write, -1)
         super().__init__(**kwargs)
-        self.bind(now=self._write_times, width=self._rewrite, margin=self._rewrite)
+        self.bind(now=self._write_times)
+        for name in ("width", "margin", "acts", "asked", "missed", "head"):
+            self.fbind(name, self._soon)
 
     def show(self, msg: Event) -> None:
-        """Put an event where it belongs: newest first."""
-        if any(msg.id == event.id and msg.boot == event.boot for event in self._events):
+        """Put an event where it belongs: newest first. One that is there already is brought up to date."""
+        key = msg.boot, msg.id
+        before = self._events.get(key)
+        if before == msg:
             return
-        place = next(
-            (i for i, event in enumerate(self._events) if _order(event) <= _order(msg)), len(self._events)
-        )
-        self._events.insert(place, msg)
-        del self._events[MOST:]
-        self.count = len(self._events)
-        self._write()
+        if before is None:
+            place = _place(msg)
+            self._order.insert(bisect_left(self._order, place), place)
+        self._events[key] = msg
+        while len(self._order) > self.most:
+            _, number, boot = self._order.pop()
+            del self._events[boot, -number]
+        self.count = len(self._order)
+        self._soon()
+
+    def show_all(self, events: Iterable[Event]) -> None:
+        """Show these, in any order."""
+        for event in events:
+            self.show(event)
 
     def clear(self) -> None:
         """Forget everything, as when another robot is connected."""
         self._events.clear()
+        self._order.clear()
         self.count = 0
-        self._write()
+        self._soon()
 
     @property
     def events(self) -> tuple[Event, ...]:
         """What is in the list, newest first."""
-        return tuple(self._events)
+        return tuple(self._events[boot, -number] for _, number, boot in self._order)
 
-    def _rewrite(self, *_: object) -> None:
-        self._write()
+    def on_command(self, event: Event) -> None:
+        """A finger says that somebody has seen to it."""
 
-    def _row(self, event: Event) -> dict[str, Any]:
+    def _row(self, event: Event, asked: set[tuple[str, int]], missed: set[tuple[str, int]]) -> dict[str, Any]:
+        key, open = (event.boot, event.id), is_open(event)
         name, role = look(event)
-        height = row_height(event.text, max(dp(60), self.width - 2 * self.margin - sp(20) - dp(61)), sp(14.5))
-        when = ago(self.now - event.stamp.seconds)
-        return {"icon": name, "role": role, "text": event.text, "when": when, "row_size": (None, height)}
+        says, acts = note(event, asked=key in asked), self.acts and open and key not in asked
+        high = row_height(event, self.width - 2 * self.margin, says=says, acts=acts)
+        return {
+            "viewclass": "EventRow",
+            "icon": name,
+            "role": role,
+            "text": event.text,
+            "note": says,
+            "stamp": event.stamp.seconds,
+            "open": open,
+            "missed": key in missed,
+            "act": partial(self.dispatch, "on_command", event) if acts else None,
+            "row_size": (None, high),
+        }
 
-    def _write(self) -> None:
-        self.ids.view.data = [self._row(event) for event in self._events]
+    def _write(self, *_: object) -> None:
+        asked, missed = {tuple(key) for key in self.asked}, {tuple(key) for key in self.missed}
+        rows = [self._row(event, asked, missed) for event in self.events]
+        first = next((index for index, row in enumerate(rows) if row["missed"]), None)
+        if self.head and first is not None:
+            rows.insert(first, {"viewclass": "EventHead", "text": self.head, "row_size": (None, dp(34))})
+        self.ids.view.data = rows
 
     def _write_times(self, *_: object) -> None:
-        rows = self.ids.view.data
-        fresh = [ago(self.now - event.stamp.seconds) for event in self._events]
-        if fresh != [row["when"] for row in rows]:
-            self._write()
+        for row in self.ids.rows.children:
+            row.tell(self.now)
 
 
-def _order(event: Event) -> tuple[float, int]:
-    return event.stamp.seconds, event.id
+def _place(event: Event) -> tuple[float, int, str]:
+    return -event.stamp.seconds, -event.id, event.boot
+
+
+STORY = [
+    (100, "info", "mission", "6 waypoints sent, stored on robot"),
+    (138, "ok", "command", "Accepted: start patrol (18 ms)"),
+    (138, "info", "task", "Patrol started · loop · 6 points"),
+    (179, "info", "waypoint", "Waypoint 2 reached"),
+    (196, "warn", "battery", "Battery at 34 %, enough for about 51 min"),
+    (199, "alarm", "intruder", "Intruder at 12.4 m, bearing 131°"),
+]
+
+ORDERS = [
+    (150, "info", "task", "Patrol resumed."),
+    (152, "info", "task", "Paused by tablet-B."),
+    (154, "alarm", "stop", "STOP pressed by tablet-B."),
+    (156, "ok", "stop", "STOP released by tablet-B."),
+    (158, "info", "task", "Going home."),
+    (160, "info", "task", "Patrol ended: go home was asked for instead."),
+]
+"""Time, level, kind and sentence of events, for the samples."""
 
 
 def samples() -> dict[str, Callable[[], Widget]]:
     """Empty, and a patrol's events in every state."""
-    story = [
-        (100, "info", "mission", "6 waypoints sent, stored on robot"),
-        (138, "ok", "command", "Accepted: start patrol (18 ms)"),
-        (138, "info", "task", "Patrol started · loop · 6 points"),
-        (179, "info", "waypoint", "Waypoint 2 reached"),
-        (196, "warn", "battery", "Battery at 34 %, enough for about 51 min"),
-        (199, "alarm", "intruder", "Intruder at 12.4 m, bearing 131°"),
-    ]
 
-    words = [
-        (150, "info", "task", "Patrol resumed."),
-        (152, "info", "task", "Paused by tablet-B."),
-        (154, "alarm", "stop", "STOP pressed by tablet-B."),
-        (156, "ok", "stop", "STOP released by tablet-B."),
-        (158, "info", "task", "Going home."),
-        (160, "info", "task", "Patrol ended: go home was asked for instead."),
-    ]
-
-    def make(story: list[tuple[int, str, str, str]] = story, **kwargs: Any) -> Callable[[], Widget]:
+    def make(
+        story: list[tuple[int, str, str, str]] = STORY, high: str = "190dp", **kwargs: Any
+    ) -> Callable[[], Widget]:
         def build() -> Widget:
-            log = EventLog(size_hint=(None, None), size=("330dp", "190dp"), **kwargs)
+            log = EventLog(size_hint=(None, None), size=("330dp", high), **kwargs)
             if log.state != "never":
                 for number, (stamp, level, kind, text) in enumerate(story):
                     log.show(Event(id=number + 1, stamp=Time(stamp), level=level, kind=kind, text=text))
@@ -275,7 +236,16 @@ def samples() -> dict[str, Callable[[], Widget]]:
     return {
         "never": make(),
         "live": make(state="live"),
-        "orders": make(words, state="live"),
+        "orders": make(ORDERS, state="live"),
+        "to be seen": make(high="280dp", state="live", acts=True),
+        "missed": make(
+            high="280dp",
+            state="live",
+            acts=True,
+            missed=[("", 5), ("", 6)],
+            asked=[("", 5)],
+            head="2 while you were away",
+        ),
         "stale": make(state="stale", age=65.0),
         "alarm": make(state="alarm"),
         "disabled": make(state="disabled"),

@@ -29,6 +29,7 @@ KIT = {
     "Amounts": "widgets.amounts",
     "TextField": "widgets.text_field",
     "Rows": "widgets.rows",
+    "EventRow": "widgets.event_row",
 }
 """The kit's modules, shown after the robot widgets."""
 

@@ -21,7 +21,7 @@ from kivy_garden.mapview import MapView
 
 from bridge.geo import Datum
 from widgets.geometry import View, tween
-from widgets.grid_map import patrol
+from widgets.grid_map import fenced, patrol
 from widgets.ink import Word, tint
 from widgets.map_marks import outlined
 from widgets.map_overlay import MapOverlay
@@ -33,6 +33,8 @@ __all__ = ["GeoMap", "samples"]
 
 PROBE = 100.0
 """Length of the ways by which the scale of the pictures is measured [m]."""
+NARROW = 520
+"""Where there is less room, the word about the pictures' origin and the legend stand one above the other [dp]."""
 OVER = 8.0
 """How far the sharpest pictures may be enlarged."""
 HAZE = {"dark": 0.24, "sunlight": 0.52, "night": 0.70}
@@ -113,8 +115,11 @@ class GeoMap(MapOverlay):
         yield from super()._fill_robot(shapes)
         if self._pictures is not None and self._pictures.map_source.attribution:
             x, y, wide, _ = self.free_box
+            low = dp(8) + (0 if math.isnan(self.foot) else self.foot)
+            if self.fence and wide < dp(NARROW):
+                low += dp(24)  # above the legend
             text = self._pictures.map_source.attribution
-            yield from outlined(Word(text, x + wide - dp(10), y + dp(8), sp(11), theme.text, anchor=(1, 0)))
+            yield from outlined(Word(text, x + wide - dp(10), y + low, sp(11), theme.text, anchor=(1, 0)))
 
 
 class _Pictures(MapView):
@@ -150,7 +155,9 @@ def samples() -> dict[str, Callable[[], Widget]]:
     """The states of the map by name."""
     file = Path(__file__).parent / "data" / "parking_lot.mbtiles"
 
-    def made(*, size: tuple[float, float] = (760, 500), **more: Any) -> Callable[[], Widget]:
+    def made(
+        *, size: tuple[float, float] = (760, 500), fence: bool = False, **more: Any
+    ) -> Callable[[], Widget]:
         def build() -> GeoMap:
             map_ = GeoMap(
                 size_hint=(None, None),
@@ -161,6 +168,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
             )
             if map_.state != "never":
                 patrol(map_)
+            if fence:
+                fenced(map_)
             map_.fit()
             return map_
 
@@ -170,6 +179,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "never": made(size=(380, 300)),
         "live": made(state="live"),
         "points": made(state="live", mode="points", selected=3, size=(412, 480)),
+        "fence": made(state="live", mode="points", fence=True),
         "stale": made(state="stale", age=12.0, size=(380, 300)),
         "alarm": made(state="alarm", size=(380, 300)),
         "disabled": made(state="disabled", size=(380, 300)),

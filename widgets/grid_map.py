@@ -22,12 +22,15 @@ from bridge.msgs import Msg
 from bridge.msgs.arrays import Int8Array
 from bridge.msgs.geometry_msgs import (
     Point,
+    Point32,
+    Polygon,
     Pose,
     PoseWithCovariance,
     PoseWithCovarianceStamped,
     Quaternion,
 )
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
+from bridge.msgs.pilothouse_msgs import Limits
 from widgets.geometry import Points, occupancy_pixels, screen_angle, spread, tween
 from widgets.ink import Ink, tint
 from widgets.map_marks import grid_lines
@@ -35,7 +38,7 @@ from widgets.map_overlay import MapOverlay
 from widgets.shapes import Shapes
 from widgets.theme import theme
 
-__all__ = ["GridMap", "patrol", "samples"]
+__all__ = ["GridMap", "fenced", "patrol", "samples"]
 
 
 class GridMap(MapOverlay):
@@ -163,11 +166,27 @@ def patrol(map_: MapOverlay) -> None:
     map_.intruders = [(5.8, -0.4, "Intruder 1")]
 
 
+def fenced(map_: MapOverlay) -> None:
+    """Put a fence onto a map that leaves some of its waypoints out."""
+    corners = [(-16.5, -10.5), (9.0, -10.5), (9.0, -1.0), (16.5, -1.0), (16.5, 10.5), (-16.5, 10.5)]
+    hole = [(-3.0, -1.2), (3.0, -4.8), (5.4, -1.0), (1.2, 0.4)]
+    map_.show(Limits(keep_in=[_area(corners)], keep_out=[_area(hole)]))
+
+
+def _area(corners: list[tuple[float, float]]) -> Polygon:
+    return Polygon([Point32(x, y) for x, y in corners])
+
+
 def samples() -> dict[str, Callable[[], Widget]]:
     """The states of the map by name."""
 
     def made(
-        *, driven: bool = True, grid: bool = True, size: tuple[float, float] = (760, 500), **more: Any
+        *,
+        driven: bool = True,
+        grid: bool = True,
+        fence: bool = False,
+        size: tuple[float, float] = (760, 500),
+        **more: Any,
     ) -> Any:
         def build() -> GridMap:
             map_ = GridMap(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
@@ -175,6 +194,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
                 map_.show(_parking_lot())
             if driven:
                 patrol(map_)
+            if fence:
+                fenced(map_)
             map_.fit()
             return map_
 
@@ -190,6 +211,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "never": made(driven=False, grid=False, size=(380, 300)),
         "live": made(state="live"),
         "points": made(state="live", mode="points", selected=3),
+        "fence": made(state="live", mode="points", selected=3, fence=True),
+        "fence phone": made(state="live", size=(412, 480), fence=True),
         "place": placing,
         "phone": made(state="live", size=(412, 480)),
         "stale": made(state="stale", age=12.0, size=(380, 300)),

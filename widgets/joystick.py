@@ -11,12 +11,15 @@ from collections.abc import Callable
 from typing import Any, ClassVar
 
 import numpy as np
-from kivy.metrics import dp
-from kivy.properties import AliasProperty, NumericProperty
+from kivy.graphics.texture import Texture
+from kivy.lang import Builder
+from kivy.metrics import dp, sp
+from kivy.properties import AliasProperty, NumericProperty, OptionProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import Twist
-from widgets.base import Control
+from widgets.base import Control, text_texture
+from widgets.icons import icon
 from widgets.ink import Drawing, Ink, tint
 from widgets.shapes import Shapes
 from widgets.theme import theme
@@ -27,6 +30,25 @@ DEAD = 0.07
 """Of the way to the rim, round the middle: a resting thumb commands nothing."""
 SLIGHT = 1e-6
 """A share of the way that is only an error of rounding."""
+
+GAMEPAD = {"none": "", "ready": "muted", "drives": "accent", "silent": "warn"}
+"""What is known of a gamepad to the role that its sign is drawn in."""
+
+Builder.load_string("""
+<Joystick>:
+    canvas.after:
+        Color:
+            rgba: theme.surface[:3] + [.88 if root.sign_role else 0]
+        Ellipse:
+            pos: root.sign_pos[0] - dp(3), root.sign_pos[1] - dp(3)
+            size: root.sign_size[0] + dp(6), root.sign_size[1] + dp(6)  # kv does not see a texture's size change
+        Color:
+            rgba: theme.roles[root.sign_role] if root.sign_role else (0, 0, 0, 0)
+        Rectangle:
+            texture: root.sign
+            size: root.sign_size
+            pos: root.sign_pos
+""")
 
 
 class Joystick(Control, Drawing):
@@ -45,6 +67,9 @@ class Joystick(Control, Drawing):
     left = NumericProperty(0.0)
     """How far it is pushed to the left, -1 to 1."""
 
+    gamepad = OptionProperty("none", options=list(GAMEPAD))
+    """A gamepad drives the stick too: `none`, `ready`, `drives`, or `silent`, which commands nothing."""
+
     def _reach(self) -> float:
         return max(1.0, min(self.size) / 2 - self.knob_radius - dp(6))
 
@@ -62,12 +87,38 @@ class Joystick(Control, Drawing):
     knob_pos = AliasProperty(_knob_pos, bind=["left", "forward", "reach", "pos"], cache=True)
     """The knob's middle [px]."""
 
+    def _sign(self) -> Texture:
+        return text_texture(icon("sports_esports"), min(sp(30), min(self.size) * 0.15), theme.icons)
+
+    sign = AliasProperty(_sign, bind=["size"], cache=True)
+    """Of a gamepad, in the corner that the round leaves free."""
+
+    def _sign_size(self) -> tuple[float, float]:
+        return tuple(self.sign.size)
+
+    sign_size = AliasProperty(_sign_size, bind=["sign"], cache=True)
+    """[px]"""
+
+    def _sign_pos(self) -> tuple[float, float]:
+        return self.right - self.sign.width - dp(2), self.top - self.sign.height - dp(2)
+
+    sign_pos = AliasProperty(_sign_pos, bind=["sign", "pos", "size"], cache=True)
+    """[px]"""
+
+    def _sign_role(self) -> str:
+        return GAMEPAD[self.gamepad]
+
+    sign_role = AliasProperty(_sign_role, bind=["gamepad"], cache=True)
+    """Role of its colour; empty while there is none."""
+
     def __init__(self, **kwargs: Any) -> None:
         self._finger: Any = None
         super().__init__(**kwargs)
         self._ink = Ink()
         self.canvas.add(self._ink)
         self.fbind("size", self._round_veil)
+        self.fbind("size", self._rest_under_finger)
+        self.fbind("pos", self._rest_under_finger)
         self._round_veil()
 
     def _round_veil(self, *_: object) -> None:
@@ -80,11 +131,26 @@ class Joystick(Control, Drawing):
     twist = AliasProperty(_twist, bind=["forward", "left", "max_speed", "max_yaw_rate"])
     """What the stick commands now."""
 
-    def lean(self, forward: float, left: float) -> None:
-        """Push the stick to `forward` and `left`, each -1 to 1, and command what that means; for keys and gamepads."""
+    @property
+    def finger(self) -> Any:
+        """The touch that it follows; None without one."""
+        return self._finger
+
+    def lean(self, forward: float, left: float) -> bool:
+        """Push the stick to `forward` and `left`, each -1 to 1, and command what that means; for gamepads.
+
+        False, and nothing is commanded, while a finger has it. ValueError for what is not finite.
+        """
         length = math.hypot(forward, left)
         if not math.isfinite(length):
             raise ValueError(f"A stick leans from -1 to 1, not to {forward}, {left}.")
+        if self._finger is not None:
+            return False
+        self._push(forward, left)
+        return True
+
+    def _push(self, forward: float, left: float) -> None:
+        length = math.hypot(forward, left)
         scale = 0.0 if length < DEAD else 1.0 / max(1.0, length)
         forward, left = (0.0 if abs(share) < SLIGHT else share * scale for share in (forward, left))
         if (forward, left) != (self.forward, self.left):
@@ -96,10 +162,17 @@ class Joystick(Control, Drawing):
         if self._finger is not None:
             self._finger.ungrab(self)
             self._finger = None
-        self.lean(0.0, 0.0)
+        self._push(0.0, 0.0)
+
+    def _rest_under_finger(self, *_: object) -> None:
+        """It was moved: where the finger is now says nothing of where it was to be pushed."""
+        if self._finger is not None:
+            self.rest()
 
     def on_touch_down(self, touch: Any) -> bool:
-        """Take the first finger that comes down on the round."""
+        """Take the first finger that comes down on the round; one that comes down again has been away, unseen."""
+        if touch is self._finger:
+            self.rest()
         inside = math.dist(touch.pos, self.center) <= min(self.size) / 2
         if self.disabled or self._finger is not None or not inside:
             return bool(super().on_touch_down(touch))
@@ -123,7 +196,7 @@ class Joystick(Control, Drawing):
         return True
 
     def _follow(self, touch: Any) -> None:
-        self.lean((touch.y - self.center_y) / self.reach, (self.center_x - touch.x) / self.reach)
+        self._push((touch.y - self.center_y) / self.reach, (self.center_x - touch.x) / self.reach)
 
     def draw(self) -> None:
         """The pad, its arrows, the way from the middle to the knob, the knob."""
@@ -168,5 +241,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "ahead to the right": make(0.8, -0.35),
         "back": make(-0.6, 0.0),
         "disabled": make(state="disabled"),
+        "gamepad there": make(gamepad="ready"),
+        "gamepad drives": make(0.7, 0.2, gamepad="drives"),
+        "gamepad silent": make(gamepad="silent"),
         "small": lambda: Joystick(size_hint=(None, None), size=("140dp", "140dp")),
     }

@@ -7,7 +7,7 @@ map.bind(on_add=lambda _, x, y: map.waypoints.append((x, y)))
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any, ClassVar
 
 import numpy as np
@@ -25,10 +25,12 @@ from kivy.properties import (
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Path
-from bridge.msgs.pilothouse_msgs import IntruderArray
+from bridge.msgs.pilothouse_msgs import IntruderArray, Limits
 from bridge.msgs.sensor_msgs import LaserScan
+from widgets import fence_marks
 from widgets import map_marks as marks
-from widgets.geometry import Points, Trail, View, scan_points, spread
+from widgets.fence import Fence
+from widgets.geometry import Points, Trail, View, nice_floor, scan_points, spread
 from widgets.ink import Drawing, Ink, Word, Words, ground, tint
 from widgets.map_gestures import MapGestures
 from widgets.shapes import Shapes
@@ -48,10 +50,10 @@ NOTHING = np.zeros((0, 2))
 class MapOverlay(MapGestures, Drawing):
     """The robot and its task on a map. Everything is in the `map` frame: x east, y north [m]."""
 
-    accepts: ClassVar = (PoseWithCovarianceStamped, Path, IntruderArray, LaserScan)
+    accepts: ClassVar = (PoseWithCovarianceStamped, Path, IntruderArray, LaserScan, Limits)
     drawn_from: ClassVar = (
         "view", "waypoints", "selected", "home", "placed", "grip", "mode", "robot", "robot_radius", "camera_fov",
-        "plan", "places", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets",
+        "plan", "places", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets", "fence", "foot",
     )  # fmt: skip
 
     robot = ListProperty([math.nan] * 3)
@@ -68,6 +70,10 @@ class MapOverlay(MapGestures, Drawing):
     """What the laser hit, shape (n, 2) [m], placed by the pose known when the sweep came."""
     show_laser = BooleanProperty(False)
     """Draw what the laser hits."""
+    fence = ObjectProperty(Fence())
+    """Where it may be, a `Fence`; waypoints, home and places that it would refuse are marked."""
+    foot = NumericProperty(0)
+    """How far above the lower edge of what is free the scale and the legend begin [px]; NaN draws neither."""
     visited = NumericProperty(0)
     """How many of the first waypoints are done; they are drawn filled."""
     coming = NumericProperty(-1)
@@ -114,6 +120,8 @@ class MapOverlay(MapGestures, Drawing):
         self._trail = Trail()
         self.over_ground = InstructionGroup()
         """Drawn above the ground and below the marks; for a subclass to fill."""
+        self._fence_ink = Ink()
+        self._fence_look: tuple[object, ...] = ()
         self._layers = [(Ink(), Words()) for _ in range(2)]
         self._touched = False
         self._middle = (0.0, 0.0)
@@ -122,6 +130,7 @@ class MapOverlay(MapGestures, Drawing):
         for part in (StencilPush(), self._clip[0], StencilUse()):
             self.canvas.before.add(part)
         self.canvas.add(self.over_ground)
+        self.canvas.add(self._fence_ink)
         for ink, words in self._layers:
             self.canvas.add(ink)
             self.canvas.add(words.canvas)
@@ -133,7 +142,7 @@ class MapOverlay(MapGestures, Drawing):
     # what comes in
 
     def show(self, msg: Msg) -> None:
-        """Take over a pose, a plan, intruders or a laser sweep."""
+        """Take over a pose, a plan, intruders, a laser sweep or limits."""
         if isinstance(msg, PoseWithCovarianceStamped):
             self._show_pose(msg)
         elif isinstance(msg, Path):
@@ -142,6 +151,9 @@ class MapOverlay(MapGestures, Drawing):
             self.intruders = [(i.position.x, i.position.y, f"Intruder {i.id}") for i in msg.intruders]
         elif isinstance(msg, LaserScan):
             self._show_scan(msg)
+        elif isinstance(msg, Limits):
+            self.fence = Fence.of(msg)
+            self._fit_until_touched()
         else:
             super().show(msg)
 
@@ -221,7 +233,8 @@ class MapOverlay(MapGestures, Drawing):
     def extent(self) -> Points:
         """Everything worth seeing, shape (n, 2) [m]."""
         places = [*self.waypoints, self.home, self.robot[:2], *self.intruders, *self.places]
-        return spread(tuple(place[:2]) for place in places if place)
+        corners = [corner for area in self.fence.keep_in for corner in area]
+        return spread(tuple(place[:2]) for place in (*places, *corners) if len(place))
 
     def _centre(self, x: float, y: float) -> None:
         px, py = self._free_middle()
@@ -262,6 +275,7 @@ class MapOverlay(MapGestures, Drawing):
     def draw(self) -> None:
         """Bring ground, marks and robot up to date."""
         self.draw_ground()
+        self._draw_fence()
         for (ink, words), fill in zip(self._layers, (self._fill_task, self._fill_robot), strict=True):
             shapes = Shapes()
             words.write(list(fill(shapes)))
@@ -269,6 +283,16 @@ class MapOverlay(MapGestures, Drawing):
 
     def draw_ground(self) -> None:
         """Bring what lies below the marks up to date."""
+
+    def _draw_fence(self) -> None:
+        """Anew only when it or the view of it has changed: a pose, which comes 20 times a second, is no reason."""
+        look = (self.fence, self.view, *self.pos, *self.size, theme.name)
+        if look != self._fence_look:
+            self._fence_look = look
+            shapes = Shapes()
+            if self.fence:
+                fence_marks.fence_lines(shapes, self.view, self.fence, (*self.pos, *self.size))
+            self._fence_ink.draw(shapes)
 
     def _fill_task(self, shapes: Shapes) -> Iterator[Word]:
         view, places, home = self.view, self._places(), self._home_place()
@@ -285,6 +309,20 @@ class MapOverlay(MapGestures, Drawing):
             shapes, view, places, self.mark_radius,
             visited=self.visited, coming=self.coming, selected=self.selected,
         )  # fmt: skip
+        yield from self._refused(shapes, places, home)
+
+    def _refused(
+        self, shapes: Shapes, waypoints: list[tuple[float, float]], home: Sequence[float]
+    ) -> Iterator[Word]:
+        """Where the robot would not go: of a dock it is the place before it that counts, which is not known here."""
+        if not self.fence:
+            return
+        sizes = [(place, self.mark_radius) for place in waypoints]
+        sizes += [(tuple(home[:2]), self.mark_radius * 0.9)] if home else []
+        sizes += [(place[:2], self.mark_radius * 0.8) for place in self.places if place[3] != "dock"]
+        for (x, y), size in sizes:
+            if self.fence.forbids(x, y, self.robot_radius):
+                yield fence_marks.refused_mark(shapes, self.view, x, y, size)
 
     def _fill_robot(self, shapes: Shapes) -> Iterator[Word]:
         yield from self._alarms(shapes)
@@ -300,8 +338,17 @@ class MapOverlay(MapGestures, Drawing):
             word, _ = marks.place_handle(shapes, self.view, pose, self.mark_radius, self.handle_reach())
             marks.ghost_mark(shapes, self.view, pose, self._robot_disc())
             yield word
+        if math.isnan(self.foot):
+            return
         x, y, wide, _ = self.free_box
-        yield from marks.scale_bar(shapes, self.view, x + dp(16), y + dp(14), min(dp(140), wide / 3))
+        left, low, longest = x + dp(16), y + dp(14) + self.foot, min(dp(140), wide / 3)
+        yield from marks.scale_bar(shapes, self.view, left, low, longest)
+        beside = max(nice_floor(longest / self.view.scale) * self.view.scale, dp(44)) + dp(16)
+        room = wide - dp(16) - beside
+        if room >= fence_marks.legend_width(self.fence):
+            yield from fence_marks.legend(shapes, self.fence, left + beside, low - dp(4), room)
+        else:
+            yield from fence_marks.legend(shapes, self.fence, left, low + dp(30), 0.0)
 
     def _alarms(self, shapes: Shapes) -> Iterator[Word]:
         """The intruders, above the waypoints and below the robot."""

@@ -60,7 +60,7 @@ class Video(Drawing):
     accepts: ClassVar = (Detection2DArray,)
     drawn_from: ClassVar = (
         "frame_size", "taken_size", "fit", "boxes", "rate", "latency", "age", "show_chip", "corner", "insets",
-        "below",
+        "below", "marks", "field_of_view",
     )  # fmt: skip
 
     frame_size = ListProperty([0, 0])
@@ -71,6 +71,10 @@ class Video(Drawing):
     """Width and height of the picture as it was taken [pixel]; more than `frame_size` where it was made smaller on its way."""
     boxes = ListProperty()
     """What was recognised: (label, score, left, top, width, height), from the top left corner of the picture as taken [pixel]."""
+    marks = ListProperty()
+    """What is known to be somewhere: (label, direction [rad, 0 ahead, positive left]), also where it is not in the picture."""
+    field_of_view = NumericProperty(math.nan)
+    """Horizontal, of the camera, which looks ahead [rad]; NaN when not known, and then nothing is marked."""
     rate = NumericProperty(math.nan)
     """Frames a second [Hz]; NaN when not known."""
     latency = NumericProperty(math.nan)
@@ -139,8 +143,9 @@ class Video(Drawing):
             )
         if self._texture is None or self._texture.size != (width, height):
             self._texture = Texture.create(size=(width, height), colorfmt="rgba")
+            seen = self._plain.tex_coords  # a texture brings its own, by which the picture stands on its head
             self._picture.texture = self._plain.texture = self._texture
-            self._picture.tex_coords = WHOLE
+            self._picture.tex_coords, self._plain.tex_coords = WHOLE, seen
             self.frame_size = [width, height]
         self.taken_size = list(taken) if all(taken) else [width, height]
         self._texture.blit_buffer(rgba, colorfmt="rgba", bufferfmt="ubyte")
@@ -165,7 +170,7 @@ class Video(Drawing):
         self._frame.pos, self._frame.size = self.pos, (1, 1) if self._fills() else self.size
         self._frame.radius = [max(self.corner, 0.01)]
         shapes = Shapes()
-        self._words.write([*self._box_marks(shapes), *self._sentence()])
+        self._words.write([*self._box_marks(shapes), *self._pointers(shapes), *self._sentence()])
         self._ink.draw(shapes)
         self._draw_chip()
 
@@ -215,6 +220,42 @@ class Video(Drawing):
         tab = [(x, y), (x + wide + size * 0.7, y), (x + wide + size * 0.7, y + high), (x, y + high)]
         shapes.polygon(tab, theme.danger)
         return Word(text, x + size * 0.35, y + high / 2, size, theme.ink_danger, bold=True, anchor=(0, 0.5))
+
+    def _pointers(self, shapes: Shapes) -> Iterator[Word]:
+        """Over what is in the picture and not boxed there; at the edge, which way to turn for the rest."""
+        if self._texture is None or self.state == "stale" or not 0 < self.field_of_view < math.pi:
+            return
+        left, right = self.x + self.insets[0] + dp(20), self.right - self.insets[2] - dp(20)
+        for label, angle in self.marks:
+            x = self._across(angle)
+            if any(box[2] <= x <= box[2] + box[4] for box in self.boxes):
+                continue
+            at = self.place_on_glass(x, 0)[0]
+            seen = left <= at <= right and abs(angle) < self.field_of_view / 2
+            at = at if seen else left if angle > 0 else right
+            yield self._pointer(
+                shapes, (at, (left, right)), label, -math.pi / 2 if seen else math.pi * (angle > 0)
+            )
+
+    def _across(self, angle: float) -> float:
+        """Column of the picture as taken [pixel] that looks in a direction [rad]; far outside for what is behind."""
+        ahead = max(-1.5, min(1.5, angle))
+        return self.taken_size[0] / 2 * (1 - math.tan(ahead) / math.tan(self.field_of_view / 2))
+
+    def _pointer(
+        self, shapes: Shapes, place: tuple[float, tuple[float, float]], label: str, turn: float
+    ) -> Word:
+        """A triangle that points down at a place of the picture, or past its edge, and the label beside it."""
+        (x, (left, right)), size = place, sp(13)
+        y = self.center_y - dp(8)
+        wide, high = text_texture(label, round(size, 1), theme.font, bold=True).size
+        half = wide / 2 + dp(7)
+        middle = min(max(x, left - dp(12) + half), right + dp(12) - half)
+        text_y = y + dp(11) + high / 2
+        shapes.line(np.array([[middle - half, text_y], [middle + half, text_y]]), high + dp(4), theme.danger)
+        shapes.polygon(_triangle(x, y, turn, dp(15)), theme.surface)
+        shapes.polygon(_triangle(x, y, turn, dp(11)), theme.danger)
+        return Word(label, middle, text_y, size, theme.ink_danger, bold=True)
 
     def _sentence(self) -> Iterator[Word]:
         if self._texture is None:
@@ -266,6 +307,12 @@ class Video(Drawing):
         self._chip_words.write([Word(text, left + dp(7), middle, size, colour, anchor=(0, 0.5))])
 
 
+def _triangle(x: float, y: float, turn: float, size: float) -> list[tuple[float, float]]:
+    """Corners of a triangle round (x, y) whose point looks to `turn` [rad]."""
+    angles = (turn, turn + 2.4, turn - 2.4)
+    return [(x + size * math.cos(angle), y + size * math.sin(angle)) for angle in angles]
+
+
 def _box(detection: Detection2D) -> tuple[str, float, float, float, float, float]:
     hypothesis = detection.results[0].hypothesis if detection.results else None
     label, score = (hypothesis.class_id, hypothesis.score) if hypothesis else ("?", math.nan)
@@ -314,6 +361,9 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "never": made(picture=False),
         "live": made(**live),
         "large": made(size=(960, 540), corner=0, **live),
+        "marked": made(
+            size=(480, 270), field_of_view=1.2, marks=[("2 · 4.2 m", 0.3), ("3 · 6 m", -2.0)], **live
+        ),
         "contain": made(size=(420, 240), fit="contain", **live),
         "stale": made(state="stale", age=3.0, boxes=[seen], rate=0.0),
         "alarm": made(**{**live, "state": "alarm"}),

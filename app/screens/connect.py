@@ -156,7 +156,7 @@ Builder.load_string("""
         BoxLayout:
             id: page
             orientation: 'vertical'
-            padding: root.edge, dp(22), root.edge, dp(22)
+            padding: root.edge, dp(22), root.edge, max(dp(22), root.keep_free[0])
             spacing: dp(22)
             BoxLayout:
                 id: notices
@@ -167,7 +167,7 @@ Builder.load_string("""
             ScrollView:
                 do_scroll_x: False
                 size_hint_y: None
-                height: min(cards.height, page.height - notices.height - actions.height - dp(110))
+                height: min(cards.height, page.height - page.padding[1] - page.padding[3] - notices.height - actions.height - dp(66))
                 GridLayout:
                     id: cards
                     cols: root.columns
@@ -185,14 +185,14 @@ Builder.load_string("""
                     icon: 'add_link'
                     text: 'Add by address'
                     size_hint_x: None
-                    width: root.card_width
+                    width: root.action_width
                     on_release: root.app.ask_address()
                 QuietButton:
                     id: simulate
                     icon: 'play_circle'
                     text: root.simulator_text
                     size_hint_x: None
-                    width: root.card_width
+                    width: root.action_width
                     disabled: not root.can_simulate or root.simulating
                     opacity: 1 if root.can_simulate else 0
                     on_release: root.app.start_simulator()
@@ -293,6 +293,10 @@ class ConnectScreen(FloatLayout):
     """[px]"""
     columns = NumericProperty(1)
     edge = NumericProperty("26dp")
+    keep_free = ListProperty([0.0, 0.0])
+    """What is left to STOP ALL: height along the lower edge, or width beside the ways to get to others [px]."""
+    action_width = NumericProperty("300dp")
+    """[px]"""
     theme_icon = StringProperty("light_mode")
     theme_text = StringProperty("Sunlight")
     can_simulate = BooleanProperty(False)
@@ -305,7 +309,7 @@ class ConnectScreen(FloatLayout):
         super().__init__(**kwargs)
         self._banner: Banner | None = None
         self._hint = Text(text=HINT, role="muted", halign="center", padding=(16, 24))
-        self.bind(size=self._arrange)
+        self.bind(size=self._arrange, keep_free=self._arrange)
         theme.bind(name=self._follow_theme)
         self._follow_theme()
         self._arrange()
@@ -318,6 +322,7 @@ class ConnectScreen(FloatLayout):
         self.columns = connect_columns(self.width, dp)
         self.edge = (26 if self.width > 600 * dp else 14) * dp
         self.card_width = (self.width - 2 * self.edge - (self.columns - 1) * 18 * dp) / self.columns
+        self.action_width = self.card_width - self.keep_free[1] / self.columns
         for card in self.cards:
             card.width = self.card_width
 

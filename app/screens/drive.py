@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
-from kivy.lang import Builder
-from kivy.properties import NumericProperty, ObjectProperty
+from kivy.properties import ObjectProperty
+from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
@@ -20,7 +21,11 @@ from app.feeds import Post
 from app.layout import Instrument, Layout, LayoutError
 from app.link import OFFER
 from app.offer import POSE
+from app.screens.check_card import CheckCard
 from app.screens.placing import put
+from app.screens.senses import Senses
+from app.screens.sight import Sight
+from app.screens.speed_card import SpeedCard, allowed
 from app.session import Session
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.vision_msgs import Detection2DArray
@@ -30,40 +35,10 @@ from widgets.kit import Card, QuietButton, Text
 
 __all__ = ["DriveScreen"]
 
-SPEED, YAW_RATE = 0.5, 1.0
-"""Greatest speeds of the stick until the robot tells its own [m/s, rad/s]."""
 LONGEST_NAME = 14
 """Letters of a topic's name on an instrument."""
 FIRST = 0.6
 """Share of the robot's greatest speed that the slider begins with."""
-
-Builder.load_string("""
-<SpeedCard>:
-    floating: True
-    padding: dp(6), dp(10)
-    spacing: dp(4)
-    SectionLabel:
-        title: 'Max speed' if root.width > dp(90) else 'Max'
-        halign: 'center'
-    Fader:
-        id: fader
-        size_hint_x: 1
-        on_change: root.maximum_speed = args[1]
-    ValueUnit:
-        value: '%.2f' % root.maximum_speed
-        unit: 'm/s'
-        font_size: sp(18)
-        unit_size: sp(14)
-        room: root.width - dp(18)
-        pos_hint: {'center_x': .5}
-""")
-
-
-class SpeedCard(Card):
-    """How fast the stick may drive at its rim."""
-
-    maximum_speed = NumericProperty(SPEED)
-    """[m/s]"""
 
 
 class DriveScreen(FloatLayout):
@@ -80,12 +55,23 @@ class DriveScreen(FloatLayout):
         self.stick = Joystick()
         self.speed = SpeedCard()
         self.actions = GridLayout(cols=1, spacing="10dp")
+        self.senses = Senses(self.session.feeds)
+        self.senses.bind(open=self._uncover, opacity=self._uncover)
+        self.sight = Sight(self.session, self.video, self.dashboard)
         self.places: dict[str, list[Widget]] = {}
         self._titled: list[tuple[Any, Instrument]] = []
         self._places_told: list[tuple[Readout, Instrument]] = []
         self._place("video", self.video)
         self._build_instruments(layout)
         self._build_controls()
+        self.add_widget(self.sight)
+        self.add_widget(self.senses)
+        self.low = BoxLayout(orientation="vertical", spacing="8dp", size_hint=(None, None))
+        """For cards that hold on until they are dealt with, each with a height of its own; they grow upwards."""
+        self.low.bind(minimum_height=self.low.setter("height"))
+        self.add_widget(self.low)
+        self.checks = CheckCard(self.session, self.dashboard, brief=True, pos_hint={"center_x": 0.5})
+        self.low.add_widget(self.checks)
         self.dashboard.bind(self.video, "/detections", fresh=False, empty=Detection2DArray())
         self._limited = False
         self._tall = False
@@ -94,7 +80,9 @@ class DriveScreen(FloatLayout):
     def _build_instruments(self, layout: Layout) -> None:
         readouts = [one for one in layout.instruments if one.slot == "readouts"]
         for one in layout.instruments:
-            if one.slot != "readouts":
+            if one.slot == "senses":
+                self.senses.add(self._instrument(one), one.topics)
+            elif one.slot != "readouts":
                 self._place(one.slot, self._instrument(one))
         card = Card(floating=True, padding=("12dp", "8dp"))
         self.readouts = GridLayout(cols=2, spacing=("10dp", "4dp"))
@@ -129,7 +117,8 @@ class DriveScreen(FloatLayout):
             widget = kind(**{name: value for name, value in offered.items() if hasattr(kind, name) and value})
             if one.title and hasattr(kind, "title"):
                 self._titled.append((widget, one))
-        self.dashboard.bind(widget, one.topic)
+        if one.slot != "senses":  # which look after themselves
+            self.dashboard.bind(widget, one.topic)
         return widget
 
     def _place(self, slot: str, widget: Widget) -> None:
@@ -175,9 +164,24 @@ class DriveScreen(FloatLayout):
         roomy = form == "wide" or places["readouts"].width >= 330 * dp
         self.readouts.cols = 1 if form == "short" else 4 if roomy and tall else 2
         self._trim(roomy)
-        self.notice = places["notice"]
-        self.video.insets = [self.notice.x - 8 * dp - body.x, 0, 0, body.top - places["top"].y]
+        self.notice, low = places["notice"], places["notice_low"]
+        self.low.pos, self.low.width, self.low.height = (low.x, low.y), low.width, self.low.minimum_height
+        self.checks.wide, self.checks.room = min(low.width, 340 * dp), places["top"].y - 8 * dp - low.y
+        self.senses.place(places["senses"], places["senses_open"])
+        self._uncover()
+        self.sight.place(places["badge"], to_right=form != "wide")
+        chip = places["badge" if form == "wide" else "top"].y
+        aside = max(0.0, body.right - self.notice.right - 8 * dp)
+        self.video.insets = [self.notice.x - 8 * dp - body.x, 0, aside, body.top - chip]
         return places["stop"]
+
+    def _uncover(self, *_: object) -> None:
+        """What lies under the unfolded sensors is not seen, not even at its corners."""
+        lid = self._arranged.get("senses_open")
+        covers = lid is not None and self.senses.covers
+        for slot in ("top_left", "top_right", "readouts"):
+            for widget in self.places.get(slot, ()):
+                widget.opacity = 0 if covers and lid.overlaps(self._arranged[slot]) else 1
 
     def _trim(self, roomy: bool) -> None:
         """A phone has room for two figures."""
@@ -192,7 +196,7 @@ class DriveScreen(FloatLayout):
     def hear(self, channel: str, post: Post) -> None:
         """A message came."""
         self.dashboard.deliver(channel, post.value)
-        if channel == "/robot/info":
+        if channel in ("/robot/info", "/limits"):
             self._take_limits()
         elif channel == OFFER:
             self._name_sources()
@@ -216,6 +220,9 @@ class DriveScreen(FloatLayout):
     def tick(self) -> None:
         """Bring up to date what time changes."""
         self.dashboard.tick()
+        self.senses.tick()
+        self.sight.tick()
+        self.checks.tick()
         session = self.session
         self.stick.state = "live" if session.may_drive else "disabled"
         mine = session.connected and session.control != "other"
@@ -267,23 +274,26 @@ class DriveScreen(FloatLayout):
 
     def _take_limits(self) -> None:
         """The slider's range is the robot's; where it stood is kept."""
-        info = self.session.info
-        fader = self.speed.ids.fader
-        fastest = info.max_speed or SPEED
+        limits = self.session.feeds.latest("/limits")
+        self.speed.speed_limit = limits.max_speed if limits is not None else math.nan
+        self.speed.turn_limit = limits.max_yaw_rate if limits is not None else math.nan
+        fader, (fastest, _) = self.speed.ids.fader, allowed(self.session.info, limits)
         if self._limited and fader.maximum == fastest:
+            self._limit()
             return
         fader.minimum, fader.maximum, fader.step = fastest / 10, fastest, 0.0
         wanted = self.speed.maximum_speed if self._limited else fastest * FIRST
-        self._limited = self._limited or bool(info.max_speed)
+        self._limited = self._limited or bool(self.session.info.max_speed)
         fader.value = min(max(wanted, fader.minimum), fastest)
         self.speed.maximum_speed = fader.value
         self._limit()
 
     def _limit(self, *_: object) -> None:
         """Slow on the slider is slow in turning as well, but never below half."""
-        info, share = self.session.info, self.speed.maximum_speed / (self.session.info.max_speed or SPEED)
+        fastest, turn = allowed(self.session.info, self.session.feeds.latest("/limits"))
+        share = self.speed.maximum_speed / fastest
         self.stick.max_speed = self.speed.maximum_speed
-        self.stick.max_yaw_rate = (info.max_yaw_rate or YAW_RATE) * (0.5 + 0.5 * min(1.0, share))
+        self.stick.max_yaw_rate = turn * (0.5 + 0.5 * min(1.0, share))
 
 
 def _brief(name: str) -> str:

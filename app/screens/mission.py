@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from pathlib import Path
+from functools import partial
 from typing import Any
 
-import msgspec
+from kivy.clock import Clock
 from kivy.lang import Builder
-from kivy.metrics import dp
 from kivy.properties import ListProperty, NumericProperty, ObjectProperty, StringProperty
+from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.widget import Widget
 
-import widgets
 from app import arrange
 from app.arrange import Rect
 from app.camera import Picture
@@ -22,34 +21,19 @@ from app.commands import Outcome
 from app.dashboard import Dashboard
 from app.feeds import Post
 from app.link import EVENT, OFFER, OUTCOME
+from app.refusals import summary
+from app.screens.check_card import CheckCard
+from app.screens.mission_maps import Maps
 from app.screens.panel import MissionPanel
 from app.screens.placing import put
-from app.screens.selection import SelectionBar
+from app.screens.pointing import MODES, Pointing
 from app.session import Session
-from bridge.msgs.pilothouse_msgs import Place, PlaceArray, RobotInfo, TaskStatus
+from bridge.msgs.pilothouse_msgs import Place, RobotInfo, TaskStatus
 from bridge.msgs.vision_msgs import Detection2DArray
-from widgets import Compass, GridMap, Video
-from widgets.kit import IconButton, PrimaryButton, QuietButton
+from widgets import Compass, Video
+from widgets.kit import IconButton
 
 __all__ = ["MissionScreen"]
-
-MODES = [
-    ("view", "View"),
-    ("points", "Points"),
-    ("home", "Home"),
-    ("place", "Place"),
-    ("place_robot", "Robot"),
-]
-"""What a finger on the map does, and its word."""
-HINTS = {
-    "points": "Tap to add a point, drag to move one.",
-    "home": "Tap where the robot shall return to.",
-    "place": "Tap to make or change a place.",
-    "place_robot": "Drag it, turn it.",
-}
-
-PICTURES = Path(widgets.__file__).parent / "data"
-"""Aerial pictures, one MBTiles file a world."""
 
 Builder.load_string("""
 <MissionScreen>:
@@ -98,22 +82,28 @@ class MissionScreen(FloatLayout):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.dashboard = Dashboard(self.session.feeds)
-        self.map: Any = GridMap()
-        """The map on the glass: the robot's own, or the one over aerial pictures."""
-        self._other_map: Any = None
+        self._maps = Maps(self.session, self.dashboard)
         self.video = Video(fit="cover")
         self.compass = Compass(transparent=True)
         self.panel = MissionPanel(self.session, self.dashboard)
-        self.selection = SelectionBar()
+        self._pointing = Pointing(self, self.session)
+        self.selection = self._pointing.bar
+        self.checks = CheckCard(self.session, self.dashboard)
+        self.corner = BoxLayout(orientation="vertical", spacing="8dp", size_hint=(None, None))
+        """Over the map: what is selected and the check list, one above the other."""
         self._form, self._body, self._dp = "wide", Rect(0, 0, 1, 1), 1.0
-        self._named: list[Place] = []
-        self._moving: Place | None = None
-        """The place whose position the next tap says; None for a new one."""
+        self._settle_soon = Clock.create_trigger(self._settle, -1)
         self._build()
         self._bind_map()
         self.bind(mode=self._mode_changed, sheet=self._rearrange)
         self.session.mission.on_change = self._chain(self.session.mission.on_change)
+        self._bar = self.notice = self._body
         self._show_draft()
+
+    @property
+    def map(self) -> Any:
+        """The map on the glass: the robot's own, or the one over aerial pictures."""
+        return self._maps.shown
 
     def _chain(self, first: Callable[[], object]) -> Callable[[], None]:
         def both() -> None:
@@ -132,37 +122,22 @@ class MissionScreen(FloatLayout):
         self._build_tools()
         self.add_widget(self.panel)
         self.panel.tasks.size_hint = (None, None)
-        self.panel.tasks.bind(on_command=self._set_going)
+        self.panel.tasks.bind(on_command=lambda _, name: self._pointing.set_going(name))
         self.panel.lacking.bind(on_choose=lambda _, screen: self.app.show(screen))
         ids.handle.bind(on_touch_down=self._pull)
-        for button, icon, act in (
-            ("earlier", "arrow_upward", lambda *_: self._reorder(-1)),
-            ("later", "arrow_downward", lambda *_: self._reorder(1)),
-            ("delete", "delete", lambda *_: self._delete()),
-        ):
-            widget = IconButton(icon=icon, bare=True, pos_hint={"center_y": 0.5})
-            widget.bind(on_release=act)
-            ids[button] = widget
-        for button, text, width, act in (
-            ("place_cancel", "Cancel", "78dp", lambda *_: setattr(self, "mode", "view")),
-            ("place_here", "Set here", "88dp", lambda *_: self._place_robot()),
-        ):
-            kind = PrimaryButton if button == "place_here" else QuietButton
-            word = kind(text=text, size_hint=(None, None), width=width, pos_hint={"center_y": 0.5})
-            # a target as high as gloves need would stick out of the bar
-            word.bind(on_release=act, height=lambda one, _: setattr(one, "height", dp(40)))
-            word.height = dp(40)
-            ids[button] = word
+        ids.floats.add_widget(self.corner)
+        for widget in (self.selection, self.checks):
+            widget.bind(height=self._settle_soon)
         ids.update({"map": self.map, "video": self.video, "selection": self.selection, "panel": self.panel})
         ids.update({"tasks": self.panel.tasks, "send": self.panel.ids.send, "motion": self.panel.motion})
 
     def _build_tools(self) -> None:
         self._tools: dict[str, IconButton] = {}
         for name, icon, act in (
-            ("zoom_in", "add", self.map.zoom_in),
-            ("zoom_out", "remove", self.map.zoom_out),
-            ("centre", "my_location", self.map.centre_on_robot),
-            ("fit", "fit_screen", self.map.fit),
+            ("zoom_in", "add", partial(self._look, "zoom_in")),
+            ("zoom_out", "remove", partial(self._look, "zoom_out")),
+            ("centre", "my_location", partial(self._look, "centre_on_robot")),
+            ("fit", "fit_screen", partial(self._look, "fit")),
             ("layers", "layers", self.change_map),
             ("undo", "undo", self.session.mission.undo),
             ("redo", "redo", self.session.mission.redo),
@@ -171,49 +146,23 @@ class MissionScreen(FloatLayout):
             button.bind(on_release=lambda _, act=act: act())
             self._tools[name] = self.ids[name] = button
 
+    def _look(self, how: str) -> None:
+        """Change what is seen of the map that is on the glass now, which need not be the first one."""
+        getattr(self.map, how)()
+
     def _bind_map(self) -> None:
         bind = self.dashboard.bind
-        self._bind_one_map(self.map)
+        self._maps.follow(self._pointing)
         bind(self.map, "/robot/info", self._show_info, fresh=False)
         bind(self.map, "/task/status", self._show_task, fresh=False)
+        bind(self.map, "/limits", lambda _: self._show_draft(), fresh=False)
         bind(self.compass, "/pose")
         bind(self.video, "/detections", fresh=False, empty=Detection2DArray())
 
-    def _bind_one_map(self, one: Any) -> None:
-        mission, bind = self.session.mission, self.dashboard.bind
-        one.bind(
-            on_add=lambda _, x, y: mission.add(x, y),
-            on_move=lambda _, index, x, y: mission.move(index, x, y),
-            on_select=lambda *_: self._show_selection(),
-            on_set_home=lambda _, x, y: mission.set_home(x, y),
-            on_new_place=lambda _, x, y: self._new_place(x, y),
-            on_open_place=lambda _, index: self._open_place(index),
-        )
-        bind(one, "/places", lambda msg: self._show_places(one, msg), fresh=False)
-        bind(one, "/pose", always=True)
-        for topic in ("/plan", "/intruders", "/scan", *(["/map"] if isinstance(one, GridMap) else [])):
-            bind(one, topic, fresh=False)
-
-    def pictures(self) -> Path | None:
-        """The file with aerial pictures of this robot's world; None when there is none or its place is unknown."""
-        info = self.session.info
-        path = PICTURES / f"{info.world}.mbtiles"
-        return path if math.isfinite(info.latitude) and info.world and path.is_file() else None
-
     def change_map(self) -> None:
         """Change between the robot's own map and the aerial pictures; what is drawn on it stays."""
-        pictures = self.pictures()
-        if self._other_map is None and pictures is not None:
-            from bridge.geo import Datum
-            from widgets import GeoMap
-
-            info = self.session.info
-            self._other_map = GeoMap(tiles=str(pictures), datum=Datum(info.latitude, info.longitude))
-            self._bind_one_map(self._other_map)
-        if self._other_map is None:
+        if not self._maps.change():
             return
-        self.map.let_go()
-        self.map, self._other_map = self._other_map, self.map
         self.ids.ground.clear_widgets()
         self.ids.ground.add_widget(self.map)
         self.ids["map"] = self.map
@@ -231,11 +180,7 @@ class MissionScreen(FloatLayout):
         self._form, self._body, self._dp = form, body, dp
         places = arrange.mission(body, form, dp, sheet_open=bool(self.sheet))
         tall = form == "tall"
-        for name, widget in (
-            ("side", self.ids.side),
-            ("selection", self.selection),
-        ):
-            put(widget, places[name])
+        put(self.ids.side, places["side"])
         put(self.map, places["map"])
         whole = places["modes"]
         put(self.ids.modes, Rect(whole.x, whole.y, whole.width * len(self.modes) / len(MODES), whole.height))
@@ -251,7 +196,9 @@ class MissionScreen(FloatLayout):
         self._place_tasks(places.get("tasks"))
         self._place_tools(places["tools"], dp, tall)
         self._place_floats(places)
-        self.notice = places["notice"]
+        self._bar, self.notice = places["selection"], places["notice"]
+        self._pointing.show()
+        self._settle()
         return places["stop"]
 
     def _place_floats(self, places: dict[str, Rect]) -> None:
@@ -270,6 +217,31 @@ class MissionScreen(FloatLayout):
             low = (bar if beside else video).top - area.y
         self.map.insets = [left, low, area.right - places["tools"].x, top]
         self.map.badge_span = [video.right, places["tools"].x] if self._form == "tall" else [0, 0]
+
+    def show_selection(self, shown: bool) -> None:
+        """Have the bar that says what is selected on the glass, or away; the map that is edited is not covered by more."""
+        wanted: list[Widget] = [self.selection] if shown else []
+        if self.mode == "view":
+            wanted.append(self.checks)
+        if list(reversed(self.corner.children)) != wanted:
+            self.corner.clear_widgets()
+            for widget in wanted:
+                self.corner.add_widget(widget)
+        self._settle_soon()
+
+    def _settle(self, *_: object) -> None:
+        """The corner hangs from the modes, or on a phone stands on its lower edge and lifts scale and legend."""
+        corner, bar, area, wide = self.corner, self._bar, self.map, self._form == "wide"
+        low = area.y + area.insets[1]
+        self.selection.width = self.checks.wide = corner.width = bar.width
+        self.checks.brief, corner.height = not wide, corner.minimum_height
+        corner.pos = bar.x, bar.top - corner.height if wide else bar.y
+        self.checks.room = bar.top - low if wide else self.notice.top - bar.y
+        covers = self.checks.unfolded and self.checks.parent is corner
+        covers = covers or (self.selection.trouble and self.selection.parent is corner)
+        area.foot = 0 if wide or not corner.height else math.nan if covers else max(0, corner.top - low)
+        up = bool(self.sheet) and self._form == "tall"
+        corner.opacity, corner.disabled = float(not up), up
 
     def _place_tasks(self, rect: Rect | None) -> None:
         """On a phone the task's buttons, or what stands for them, are beside STOP; elsewhere in the panel."""
@@ -290,7 +262,7 @@ class MissionScreen(FloatLayout):
         names = ["centre", "layers", "undo", "redo"] if tall else list(self._tools)
         if self.session.lacks_tasks:
             names = [name for name in names if name not in ("undo", "redo")]
-        if self.pictures() is None:
+        if self._maps.pictures() is None:
             names = ["fit" if name == "layers" else name for name in names if name != "layers" or tall]
         side = rect.width
         fit = max(1, int((rect.height + 8 * dp) // (side + 6 * dp)))
@@ -335,10 +307,7 @@ class MissionScreen(FloatLayout):
 
     def _take_offer(self) -> None:
         """A finger on the map can do only what this robot takes."""
-        lacks = self.session.lacks_tasks
-        modes = [one for one in MODES if not lacks or one[0] == "view"]
-        if lacks and self._can_place():
-            modes.append(MODES[-1])
+        modes = self._pointing.modes()
         if modes != self.modes:
             self.modes = modes
             self.mode = "view"
@@ -364,18 +333,15 @@ class MissionScreen(FloatLayout):
         """Bring up to date what time changes."""
         self.dashboard.tick()
         self.panel.tick()
+        self.checks.tick()
         self.ids.undo.disabled = not self.session.mission.can_undo
         self.ids.redo.disabled = not self.session.mission.can_redo
-        self.ids.place_here.disabled = not self.session.connected or not self._can_place()
+        self._pointing.tick()
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
         """A decoded camera frame; `rate` [Hz] and `latency` [s] are said on it, NaN for unknown."""
         self.video.show_frame(picture.width, picture.height, picture.rgba, picture.taken)
         self.video.rate, self.video.latency = rate, latency
-
-    def _can_place(self) -> bool:
-        offer = self.session.offer
-        return offer is None or offer.ours or not offer.rosapi or "/initialpose" in offer.topics
 
     # what the map shows
 
@@ -386,12 +352,17 @@ class MissionScreen(FloatLayout):
         if self.map.selected >= len(draft.points):
             self.map.selected = -1
         self.map.motion_name = draft.motion
+        self._show_refused()
         self.panel.show_draft()
-        self._show_selection()
+        self._pointing.show()
+
+    def _show_refused(self, *_: object) -> None:
+        self.panel.refused = summary(self.session.refusals.draft(self.session.mission.draft))
 
     def _show_info(self, info: RobotInfo) -> None:
         self.map.robot_radius = info.radius or 0.2
         self.map.camera_fov = info.camera_fov
+        self._show_draft()
         self._rearrange()
 
     def _show_task(self, status: TaskStatus) -> None:
@@ -406,84 +377,10 @@ class MissionScreen(FloatLayout):
         if name in ("start", "pause", "resume", "home") or outcome.name == "cancel":
             self.panel.tasks.answer(name, outcome.phase, outcome.reason, outcome.latency)
 
-    # what the fingers do
-
     def _mode_changed(self, *_: object) -> None:
         self.map.mode = self.mode
-        if self.mode != "place":
-            self._moving = None
-        self._show_selection()
-
-    def _set_going(self, _: object, name: str) -> None:
-        """Who sets the robot going is not placing it any more."""
-        if name != "stop" and self.mode == "place_robot":
-            self.mode = "view"
-
-    def _show_selection(self) -> None:
-        bar, index = self.selection, int(self.map.selected)
-        wanted: list[Widget] = []
-        if self.mode == "place_robot":
-            bar.text = HINTS["place_robot"] if self._can_place() else "It takes no /initialpose."
-            wanted = [self.ids.place_cancel, self.ids.place_here]
-        elif self.mode == "points" and 0 <= index < len(self.map.waypoints):
-            bar.text = f"Point {index + 1} of {len(self.map.waypoints)}"
-            wanted = [self.ids.earlier, self.ids.later, self.ids.delete]
-            self.ids.earlier.disabled = index == 0
-            self.ids.later.disabled = index == len(self.map.waypoints) - 1
-        else:
-            moving = self.mode == "place" and self._moving is not None
-            bar.text = f"Tap where {self._moving.name} is." if moving else HINTS.get(self.mode, "")
-        for child in bar.children[:-1]:
-            bar.remove_widget(child)
-        for widget in wanted:
-            bar.add_widget(widget)
-        shown = bool(bar.text)
-        if shown and bar.parent is None:
-            self.ids.floats.add_widget(bar)
-        elif not shown and bar.parent is not None:
-            bar.parent.remove_widget(bar)
-
-    def _reorder(self, step: int) -> None:
-        index = int(self.map.selected)
-        target = index + step
-        if 0 <= index < len(self.map.waypoints) and 0 <= target < len(self.map.waypoints):
-            self.map.selected = target
-            self.session.mission.reorder(index, target)
-
-    def _delete(self) -> None:
-        index = int(self.map.selected)
-        if 0 <= index < len(self.map.waypoints):
-            self.map.selected = -1
-            self.session.mission.remove(index)
-
-    def _show_places(self, one: Any, msg: PlaceArray) -> None:
-        self._named = list(msg.places)
-        one.places = [(place.x, place.y, place.name, place.kind) for place in msg.places]
+        self._pointing.mode_changed()
 
     def move_place(self, place: Place) -> None:
         """Let the next tap say where a place is."""
-        self._moving, self.mode = place, "place"
-        self._show_selection()
-
-    def _new_place(self, x: float, y: float) -> None:
-        """A finger pointed at where a place is; what it is called is asked on another screen."""
-        if not self.session.offers("/places/set"):
-            return
-        place, self._moving = self._moving or Place(), None
-        self.mode = "view"
-        self.app.show("tasks")
-        self.app.screens["tasks"].edit_place(msgspec.structs.replace(place, x=x, y=y), returns=True)
-
-    def _open_place(self, index: int) -> None:
-        if self._moving is not None:  # a place may come to lie on another one's mark
-            self._new_place(self._named[index].x, self._named[index].y)
-        elif index < len(self._named):
-            self.mode = "view"
-            self.app.show("tasks")
-            self.app.screens["tasks"].edit_place(self._named[index], returns=True)
-
-    def _place_robot(self) -> None:
-        if len(self.map.placed) == 3 and all(map(math.isfinite, self.map.placed)):
-            self.session.place_robot(*self.map.placed)
-            self.app.shell.say("Told the robot where it is.", "info")
-            self.mode = "view"
+        self._pointing.move_place(place)

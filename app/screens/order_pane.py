@@ -45,8 +45,8 @@ Builder.load_string("""
         height: max(dp(34), said.height + dp(8))
         spacing: dp(10)
         Icon:
-            name: 'info' if root.complete else 'help'
-            role: 'plan' if root.complete else 'muted'
+            name: 'block' if root.refused else 'info' if root.complete else 'help'
+            role: 'danger' if root.refused else 'plan' if root.complete else 'muted'
             pos_hint: {'center_y': .5}
         Text:
             id: said
@@ -73,6 +73,8 @@ class OrderPane(BoxLayout):
     title = StringProperty("New task")
     sentence = StringProperty("Choose a task.")
     complete = BooleanProperty(False)
+    refused = BooleanProperty(False)
+    """The sentence says why the robot would not take it; it can be asked all the same."""
 
     __events__ = ("on_close",)
 
@@ -177,7 +179,9 @@ class OrderPane(BoxLayout):
             complete = days
         if complete and self.unsent:
             sentence += UNSENT
-        self.sentence, self.complete = sentence, complete
+        refused = self._session.refusals.order(self.order, self._session.mission.draft) if complete else ""
+        self.refused = bool(refused)
+        self.sentence, self.complete = refused or sentence, complete
 
     def _lay(self, *_: object) -> None:
         head, body = self.ids.head.__self__, self.ids.body

@@ -178,6 +178,8 @@ class MissionPanel(BoxLayout):
     sheet_open = BooleanProperty(False)
     """The sheet of a phone is drawn up, so that there is room for more."""
     form = OptionProperty("", options=["", "wide", "short", "tall"])
+    refused = StringProperty("")
+    """What the robot would refuse of the draft, as one short sentence; empty for nothing."""
 
     def __init__(self, session: Session, dashboard: Dashboard, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -307,8 +309,11 @@ class MissionPanel(BoxLayout):
         note, role = STATES[state]
         if state == "draft" and mission.outcome and not mission.outcome.startswith("Accepted"):
             note, role = mission.outcome, "danger"
+        elif state != "empty" and self.refused:
+            note, role = self.refused, "danger"
         self._send.note, self._send.role = note, role
-        self._send.icon = {"stored": "check_circle", "sent": "schedule", "empty": "info"}.get(state, "edit")
+        icons = {"stored": "check_circle", "sent": "schedule", "empty": "info"}
+        self._send.icon = "block" if self.refused and note == self.refused else icons.get(state, "edit")
         self.motion.show(mission.draft.message())
 
     @property

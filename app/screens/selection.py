@@ -1,4 +1,4 @@
-"""The bar over the map that says what is selected, and holds what can be done with it."""
+"""The bar over the map that says what is selected, holds what can be done with it, and what is wrong with it."""
 
 from __future__ import annotations
 
@@ -12,12 +12,13 @@ __all__ = ["SelectionBar"]
 
 Builder.load_string("""
 <SelectionBar>:
+    orientation: 'vertical'
     size_hint: None, None
+    height: dp(52) + (said.height + dp(4) if root.trouble else 0)
     padding: dp(12), dp(6), dp(6), dp(6)
-    spacing: dp(6)
     canvas.before:
         Color:
-            rgba: theme.line
+            rgba: theme.danger if root.trouble else theme.line
         SmoothRoundedRectangle:
             pos: self.pos
             size: self.size
@@ -28,13 +29,33 @@ Builder.load_string("""
             pos: self.x + theme.outline, self.y + theme.outline
             size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
             radius: [theme.corner - theme.outline]
-    Text:
-        text: root.text
-        font_size: sp(15)
-        shorten: True
-        shorten_from: 'right'
-        max_lines: 1
-        pos_hint: {'center_y': .5}
+    BoxLayout:
+        id: row
+        size_hint_y: None
+        height: dp(40)
+        spacing: dp(6)
+        Text:
+            text: root.text
+            font_size: sp(15)
+            shorten: True
+            shorten_from: 'right'
+            max_lines: 1
+            pos_hint: {'center_y': .5}
+    BoxLayout:
+        size_hint_y: None
+        height: said.height if root.trouble else 0
+        opacity: 1 if root.trouble else 0
+        spacing: dp(7)
+        Icon:
+            name: 'block'
+            role: 'danger'
+            font_size: sp(19)
+            pos_hint: {'top': 1}
+        Text:
+            id: said
+            text: root.trouble
+            font_size: sp(14)
+            pos_hint: {'top': 1}
 """)
 
 
@@ -42,3 +63,5 @@ class SelectionBar(BoxLayout):
     """What is selected on the map, and what can be done with it."""
 
     text = StringProperty("")
+    trouble = StringProperty("")
+    """Why the robot would refuse it, as one sentence; empty when it would not."""

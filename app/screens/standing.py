@@ -9,7 +9,10 @@ from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
 from bridge.msgs.sensor_msgs import NavSatFix
 from widgets.task_words import TASKS
 
-__all__ = ["control", "fix", "mode"]
+__all__ = ["control", "control_nav", "fix", "mode"]
+
+LONGEST = 14
+"""Letters of a driver's name in the bar."""
 
 MODES = {
     "MANUAL": ("sports_esports", "accent"),
@@ -51,16 +54,42 @@ def fix(session: Session) -> tuple[str, str]:
 
 
 def control(session: Session, *, brief: bool) -> tuple[str, str, str]:
-    """Words, icon and role of who has control."""
-    who = session.control
+    """Words, icon and role of who has control, who asks for it and how long still."""
+    authority, who = session.authority, session.control
+    status, left = authority.status, _countdown(authority.left)
+    driver, asker = _short(status.driver), _short(status.requested_by)
+    if authority.asked:
+        return f"{asker} asks{left}", "person", "warn"
+    if authority.asking:
+        return f"asked {driver}{left}", "hourglass_top", "accent"
     if who == "other":
-        driver = session.feeds.latest("/control/status").driver
-        return driver if brief else f"driven by {driver}", "person", "warn"
+        if session.command_sent("request"):
+            return f"asking {driver} …", "hourglass_top", "accent"
+        by = driver if brief else f"driven by {driver}"
+        return f"{by} · {asker} asks" if asker else by, "person", "warn"
     icon, role, *words = CONTROLS[who]
-    asked = session.outcomes.get("acquire")
-    if who == "free" and asked is not None and asked.phase == "sent":
+    if who == "free" and session.command_sent("acquire"):
         return "asking …", icon, role
     return words[brief], icon, role
+
+
+def control_nav(session: Session) -> tuple[str, str, str]:
+    """Words, icon and role of the button for control; without a role it looks as its neighbours."""
+    authority = session.authority
+    if authority.status.requested_by and session.control in ("mine", "other"):
+        return f"Ask{_countdown(authority.left)}", "hourglass_top", "warn"
+    _, icon, _ = control(session, brief=True)
+    return "Control", icon, "warn" if session.control == "other" else ""
+
+
+def _countdown(left: float) -> str:
+    """As in ` · 8 s`; empty while it is not known."""
+    return f" · {math.ceil(left)} s" if math.isfinite(left) else ""
+
+
+def _short(name: str) -> str:
+    """The beginning of a long name."""
+    return name if len(name) <= LONGEST else f"{name[: LONGEST - 1]}…"
 
 
 def _accuracy(fix: NavSatFix) -> str:

@@ -1,16 +1,14 @@
-"""The tasks screen: what runs and what comes next, what starts by itself, what was done, and the places by name."""
+"""The tasks screen: what runs and what comes next, what starts by itself, what was done and what happened, the
+places and the missions by name, and the robot's settings."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import ObjectProperty, StringProperty
-from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
-from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
 from app import arrange
@@ -18,20 +16,40 @@ from app.arrange import Rect
 from app.camera import Picture
 from app.dashboard import Dashboard
 from app.feeds import Post
+from app.link import OUTCOME
+from app.screens.act_buttons import Act, ActButtons
+from app.screens.event_list import EventList
+from app.screens.mission_pane import MissionPane
 from app.screens.now_list import NowList
 from app.screens.order_pane import OrderPane
+from app.screens.place_pane import PlacePane
 from app.screens.placing import put
+from app.screens.settings_pane import SettingsPane
+from app.screens.task_tabs import TaskTabs
 from app.session import Session
-from bridge.msgs.pilothouse_msgs import GetHistoryResponse, Place, PlaceArray, TaskStatus
-from widgets import PlaceForm, PlaceList, RunList, ScheduleList
-from widgets.kit import IconButton, PrimaryButton, QuietButton, Text
+from bridge.msgs.pilothouse_msgs import (
+    GetHistoryResponse,
+    KeptMission,
+    Mission,
+    Place,
+    TaskStatus,
+)
+from widgets import MissionList, PlaceList, RunList, ScheduleList
+from widgets.kit import Text
 from widgets.task_words import title
 
 __all__ = ["TasksScreen"]
 
-TABS = [("now", "Now"), ("schedule", "Schedule"), ("history", "History"), ("places", "Places")]
-DETAILS = {"now": "order", "schedule": "schedule", "history": "order", "places": "place"}
+DETAILS = {
+    "now": "order",
+    "schedule": "schedule",
+    "history": "order",
+    "events": "order",
+    "places": "place",
+    "missions": "mission",
+}
 """What is beside each list where there is room for both."""
+PRIMARY = ("start", "save", "keep", "new", "new_scheduled", "recall", "keep_mission", "seen_all")
 NO_TASKS = "This robot offers no tasks and knows no places."
 
 Builder.load_string("""
@@ -50,41 +68,7 @@ Builder.load_string("""
         id: strip
         size_hint: None, None
         spacing: dp(8)
-    Segmented:
-        id: tabs
-        options: root.tab_options
-        value: root.tab
-        font_size: sp(15)
-        on_choose: root.tab = args[1]
-
-<PlacePane>:
-    orientation: 'vertical'
-    spacing: dp(8)
-    BoxLayout:
-        id: head
-        size_hint_y: None
-        height: dp(44)
-        spacing: dp(6)
-        Text:
-            text: root.title
-            bold: True
-            font_size: theme.size_title
-            pos_hint: {'center_y': .5}
-    Text:
-        text: root.sentence
-        role: 'muted'
-        font_size: sp(15)
-        height: self.texture_size[1] if root.sentence else 0
-    BoxLayout:
-        id: body
 """)
-
-
-class PlacePane(BoxLayout):
-    """The place that is being made or changed, or how to come to one."""
-
-    title = StringProperty("Places")
-    sentence = StringProperty("")
 
 
 class TasksScreen(FloatLayout):
@@ -92,46 +76,37 @@ class TasksScreen(FloatLayout):
 
     app = ObjectProperty()
     session: Session = ObjectProperty()
-    tab_options = TABS
     tab = StringProperty("now")
-    """The list that is shown: one of `TABS`."""
+    """The list that is shown: one of `DETAILS`."""
     detail = StringProperty("")
-    """What is opened beside the list, or on a phone in its place: `order`, `schedule`, `place` or nothing."""
+    """What is opened beside the list, or on a phone in its place: `order`, `schedule`, `place`, `mission`, `settings`
+    or nothing."""
     video = None
     """There is none here."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        for name in ("listed", "detail", "strip", "tabs"):  # kv holds ids weakly
+        for name in ("listed", "detail", "strip"):  # kv holds ids weakly
             self.ids[name] = self.ids[name].__self__
-        self.dashboard = Dashboard(self.session.feeds)
-        self.now = NowList(self.session)
+        session = self.session
+        self.dashboard = Dashboard(session.feeds)
+        self.tabs = TaskTabs()
+        self.now, self.events = NowList(session), EventList(session)
         self.places, self.runs, self.schedule = PlaceList(), RunList(), ScheduleList()
-        self.pane, self.place_pane = OrderPane(self.session), PlacePane()
-        self.form = PlaceForm()
+        self.missions = MissionList()
+        self.pane, self.place_pane = OrderPane(session), PlacePane(session)
+        self.mission_pane, self.settings_pane = MissionPane(session), SettingsPane(session)
+        self.form = self.place_pane.form
         self._body, self._form, self._dp = Rect(0, 0, 1, 1), "", 1.0
         self._lacking = Text(text=NO_TASKS, role="muted")
-        self._state, self._returns = "", False
-        self._buttons: dict[str, Any] = {}
+        self._returns = False
         self.notice = Rect(0, 0, 1, 1)
-        self._build()
+        self.acts = ActButtons(self._acts(), PRIMARY)
+        self._buttons = self.acts.by_name
+        self.ids.update({**self._buttons, "tabs": self.tabs})
         self._bind()
 
-    def _build(self) -> None:
-        self.place_pane.ids.body.add_widget(self.form)
-        self._back = IconButton(icon="arrow_back", bare=True, pos_hint={"center_y": 0.5})
-        self._back.bind(on_release=lambda _: self.close())
-        self.remove_widget(self.ids.tabs)
-        self.under = GridLayout(cols=2, spacing=("8dp", "8dp"), size_hint_y=None)
-        """The buttons below the list."""
-        self.under.bind(minimum_height=self.under.setter("height"))
-        for name, text, icon, act in self._acts():
-            primary = name in ("start", "save", "keep", "new", "new_scheduled")
-            button = PrimaryButton(text=text, icon=icon) if primary else QuietButton(text=text, icon=icon)
-            button.bind(on_release=lambda _, act=act: act())
-            self._buttons[name] = self.ids[name] = button
-
-    def _acts(self) -> list[tuple[str, str, str, Callable[[], object]]]:
+    def _acts(self) -> list[Act]:
         return [
             ("start", "Start", "play_arrow_fill", self._start),
             ("queue", "Add to queue", "add", self._queue),
@@ -146,6 +121,10 @@ class TasksScreen(FloatLayout):
             ("again", "Newest", "refresh", self.session.tasking.ask_history),
             ("on_map", "New on map", "add_location_alt", self._point_at_place),
             ("here", "New here", "my_location", self._place_here),
+            ("save_as", "Save under a name", "save", self._save_as),
+            ("keep_mission", "Save", "check", self._keep_mission),
+            ("recall", "Recall", "upload", self._recall),
+            ("seen_all", "All seen", "check", self.events.see_all),
         ]
 
     def _bind(self) -> None:
@@ -154,20 +133,30 @@ class TasksScreen(FloatLayout):
         bind(self.now.card, "/task/progress", fresh=False)
         bind(self.schedule, "/schedule", fresh=False)
         bind(self.places, "/places")
-        bind(self.form, "/places", self._name_places, fresh=False)
+        bind(self.form, "/places", self.place_pane.name_places, fresh=False)
+        bind(self.missions, "/mission", self._mission_told, fresh=False)
+        bind(self.settings_pane.options, "/control/status", fresh=False)
         for widget in (self.places, self.form, self.pane.form):
             bind(widget, "/pose", fresh=False)
         bind(self.pane.form, "/places", fresh=False)
         bind(self.runs, "/task/status", self._task_changed, fresh=False)
         self.places.bind(on_command=lambda _, place: self.edit_place(place))
-        self.form.bind(on_command=lambda *_: self._show_place())
+        self.missions.bind(on_command=lambda _, mission: self._look_at(mission))
+        self.form.bind(on_command=lambda *_: self._show_buttons())
         self.schedule.bind(
             on_command=lambda _, task: tasking.keep_scheduled(task),
             on_open=lambda _, task: self.open_scheduled(task),
         )
         self.runs.bind(on_command=lambda _, before: tasking.ask_history(before))
         tasking.on_history = self._take_history
-        self.pane.bind(on_close=lambda _: self.close(), complete=lambda *_: self._show_buttons())
+        self.session.missions.on_change = self._missions_changed
+        self.session.missions.on_recalled = self._recalled
+        self.tabs.bind(
+            tab=lambda _, tab: setattr(self, "tab", tab), on_settings=lambda _: self._turn_settings()
+        )
+        for pane in (self.pane, self.place_pane, self.mission_pane, self.settings_pane):
+            pane.bind(on_close=lambda _: self.close())
+        self.pane.bind(complete=lambda *_: self._show_buttons())
         self.bind(tab=self._tab_changed, detail=self._lay)
 
     # what the shell calls
@@ -182,6 +171,8 @@ class TasksScreen(FloatLayout):
         self.notice = places["notice"]
         self.pane.compact = form != "wide"
         self.pane.closable = form == "tall"
+        for pane in (self.place_pane, self.mission_pane, self.settings_pane):
+            pane.head.closable = form == "tall"
         self.pane.titled = form != "short"
         self.now.brief = form == "short"
         self._lay()
@@ -190,19 +181,24 @@ class TasksScreen(FloatLayout):
     def hear(self, channel: str, post: Post) -> None:
         """A message came."""
         self.dashboard.deliver(channel, post.value)
+        if channel == OUTCOME:
+            self.settings_pane.hear(post.value)
 
     def enter(self) -> None:
         """Come onto the glass."""
         self.dashboard.enter()
         self.places.refresh()
+        if self.events.has_new_alarms and not self.detail:
+            self.tab = "events"
         self._lay()
-        self._ask_history()
+        self._ask()
         self.tick()
 
     def leave(self) -> None:
         """Leave the glass."""
         self.rest()
         self._returns = False
+        self.events.leave()
         self.dashboard.leave()
 
     def rest(self) -> None:
@@ -210,6 +206,7 @@ class TasksScreen(FloatLayout):
         self.now.queue.rest()
         self.pane.rest()
         self.form.rest()
+        self.mission_pane.rest()
 
     def tick(self) -> None:
         """Bring up to date what time changes."""
@@ -219,7 +216,14 @@ class TasksScreen(FloatLayout):
         self.pane.form.max_speed = self.session.info.max_speed or 1.0
         clock = self.session.link.robot_time()
         if math.isfinite(clock) and not abs(clock - self.schedule.now) < 5.0:
-            self.schedule.now = self.runs.now = clock
+            self.schedule.now = self.runs.now = self.missions.now = clock
+        self.tabs.waiting, self.tabs.has_settings = (
+            len(self.session.logbook.open),
+            not self.session.lacks_tasks,
+        )
+        self.events.tick()
+        self.mission_pane.refresh()
+        self.settings_pane.tick(self.mine)
         self.schedule.state = self.session.feeds.state("/schedule") if self.mine else "disabled"
         self._show_buttons()
 
@@ -246,79 +250,67 @@ class TasksScreen(FloatLayout):
         """What is beside the list, or on a phone over it; empty for the list alone."""
         if self._form == "tall":
             return self.detail
-        return self.detail or DETAILS[self.tab]
+        return str(self.detail) or DETAILS[self.tab]
 
     def _lay(self, *_: object) -> None:
         listed, area, shown = self.ids.listed, self.ids.detail, self._shown_detail()
-        lists = {"now": self.now, "schedule": self.schedule, "history": self.runs, "places": self.places}
+        lists = {
+            "now": self.now,
+            "schedule": self.schedule,
+            "history": self.runs,
+            "events": self.events,
+            "places": self.places,
+            "missions": self.missions,
+        }
         if self.session.lacks_tasks:
             lists, shown = dict.fromkeys(lists, self._lacking), ""
         tall = self._form == "tall"
         listed.clear_widgets()
         area.clear_widgets()
         if not (tall and shown):
-            for widget in (
-                self.ids.tabs,
-                lists[self.tab],
-                *([] if tall or self.tab == "now" else [self.under]),
-            ):
+            below = [] if tall or self.tab == "now" else [self.acts.under]
+            for widget in (self.tabs, lists[self.tab], *below):
                 listed.add_widget(widget)
-        if shown == "place":
-            area.add_widget(self.place_pane)
-        elif shown:
-            if (shown == "schedule") != (self.pane.scheduled is not None):
-                self.pane.schedule() if shown == "schedule" else self.pane.now()
-            area.add_widget(self.pane)
-        head = self.place_pane.ids.head.__self__  # kv holds ids weakly
-        if tall != (self._back.parent is head):
-            (
-                head.add_widget(self._back, index=len(head.children))
-                if tall
-                else head.remove_widget(self._back)
-            )
+        if shown:
+            area.add_widget(self._pane(shown))
         listed.opacity, area.opacity = float(not (tall and shown)), float(bool(shown))
-        self._show_place()
-        self._lay_buttons(shown, tall)
+        self.tabs.at_settings = shown == "settings"
+        self.place_pane.open = self.detail == "place"
+        self.missions.chosen = self.mission_pane.chosen.name if self.mission_pane.chosen else ""
+        (self.events.enter if self.events.parent is listed and self.dashboard.active else self.events.leave)()
+        self._lay_buttons(shown)
 
-    def _lay_buttons(self, shown: str, tall: bool) -> None:
-        strip, under = self.ids.strip, self.under
-        strip.clear_widgets()
-        under.clear_widgets()
+    def _pane(self, shown: str) -> Widget:
+        panes = {"place": self.place_pane, "mission": self.mission_pane, "settings": self.settings_pane}
+        if shown in panes:
+            return panes[shown]
+        if (shown == "schedule") != (self.pane.scheduled is not None):
+            self.pane.schedule() if shown == "schedule" else self.pane.now()
+        return self.pane
+
+    def _lay_buttons(self, shown: str) -> None:
+        tall = self._form == "tall"
         for_list = {
             "now": ["new"] if tall else [],
             "schedule": ["new_scheduled"],
             "history": ["again"],
+            "events": ["seen_all"],
             "places": ["on_map", "here"],
+            "missions": ["save_as"],
         }[self.tab]
         for_detail = {
             "order": ["start", "queue"],
             "schedule": ["save", *(["unschedule"] if self._scheduled_id() else [])],
             "place": ["keep", *(["forget", "go", "move"] if self.form.shown.id else [])],
+            "mission": ["recall" if self.mission_pane.chosen is not None else "keep_mission"],
         }.get(shown, [])
         if self.session.lacks_tasks:
             for_list = for_detail = []
-        if shown == "place" and not self._has_place():
+        if shown == "place" and not self.place_pane.there:
             for_detail = []
         names = for_list if tall and not shown else for_detail
-        strip.cols = (2 if len(names) > 2 else 1) if tall else max(1, len(names))
-        brief = len(names) > 2 or self._form == "short"
-        for name in names:
-            self._add(strip, name, None)
-            self._buttons[name].flow = "vertical" if brief and not tall else "horizontal"
-        if not tall:
-            under.cols = max(1, len(for_list))
-            for name in for_list:
-                self._add(under, name, 1)
+        self.acts.lay(self.ids.strip, names, [] if tall else for_list, form=self._form)
         self._show_buttons()
-
-    def _add(self, parent: Widget, name: str, fixed: int | None) -> None:
-        button = self._buttons[name]
-        if button.parent is not None:
-            button.parent.remove_widget(button)
-        button.size_hint_y = None if fixed else 1
-        if fixed:
-            button.height, button.flow = "52dp", "horizontal"
-        parent.add_widget(button)
 
     def _scheduled_id(self) -> int:
         return self.pane.scheduled.id if self.pane.scheduled is not None else 0
@@ -334,17 +326,28 @@ class TasksScreen(FloatLayout):
         buttons["keep"].disabled = not mine or bool(self.form.lacking)
         for name in ("forget", "unschedule", "here"):
             buttons[name].disabled = not mine
+        buttons["recall"].disabled = not mine or not session.offers("/mission/recall")
+        buttons["keep_mission"].disabled = not mine or bool(self.mission_pane.lacking)
+        waiting = len(self.events.waiting)
+        buttons["seen_all"].disabled = not waiting or not self.events.log.acts
+        buttons["seen_all"].text = f"All seen ({waiting})" if waiting else "All seen"
         located = math.isfinite(self.places.robot[0])
         buttons["here"].disabled = not mine or not located
 
     def _tab_changed(self, *_: object) -> None:
         self.detail, self._returns = "", False
+        self.tabs.tab = self.tab
+        if self.tab == "missions":
+            self.mission_pane.begin()
         self._lay()
-        self._ask_history()
+        self._ask()
 
-    def _ask_history(self) -> None:
+    def _ask(self) -> None:
+        """What the robot does not tell by itself is asked for when it is looked at."""
         if self.tab == "history" and self.session.connected and self.session.offers("/history/get"):
             self.session.tasking.ask_history()
+        if self.tab == "missions" and self.session.connected and self.session.offers("/missions/get"):
+            self.session.missions.ask()
 
     def open(self, detail: str) -> None:
         """Open what is beside the lists, on a phone in their place."""
@@ -406,23 +409,9 @@ class TasksScreen(FloatLayout):
         """Make a place (id 0) or change one; `returns` to the map afterwards."""
         if self.tab != "places":
             self.tab = "places"
-        self.form.show(place)
-        self._name_places(self.session.feeds.latest("/places") or PlaceArray())
+        self.place_pane.edit(place)
         self._returns = returns
         self.open("place")
-
-    def _name_places(self, msg: PlaceArray) -> None:
-        self.form.taken = [place.name for place in msg.places if place.id != self.form.shown.id]
-
-    def _has_place(self) -> bool:
-        return bool(self.form.shown.id) or self.detail == "place"
-
-    def _show_place(self) -> None:
-        pane, there = self.place_pane, self._has_place()
-        pane.title = "Places" if not there else "Place" if self.form.shown.id else "New place"
-        pane.sentence = self.form.lacking if there else "Choose a place to change it, or make a new one."
-        self.form.opacity, self.form.disabled = float(there), not there
-        self._show_buttons()
 
     def _point_at_place(self) -> None:
         self.app.show("mission")
@@ -434,13 +423,11 @@ class TasksScreen(FloatLayout):
         self.edit_place(Place(x=x, y=y, yaw=yaw))
 
     def _keep_place(self) -> None:
-        self.session.tasking.keep_place(self.form.place)
-        self.form.show(Place())
+        self.place_pane.keep()
         self.close()
 
     def _forget_place(self) -> None:
-        self.session.tasking.forget_place(self.form.shown)
-        self.form.show(Place())
+        self.place_pane.forget()
         self.close()
 
     def _go_there(self) -> None:
@@ -455,6 +442,41 @@ class TasksScreen(FloatLayout):
         self.app.show("mission")
         self.app.screens["mission"].move_place(place)
 
+    # missions
+
+    def _look_at(self, mission: KeptMission) -> None:
+        self.mission_pane.chosen = mission
+        self.open("mission")
+
+    def _save_as(self) -> None:
+        self.mission_pane.begin()
+        self.open("mission")
+
+    def _keep_mission(self) -> None:
+        self.mission_pane.save()
+        self.close()
+
+    def _recall(self) -> None:
+        self.mission_pane.recall()
+        self.mission_pane.begin()
+        self.close()
+
+    def _missions_changed(self) -> None:
+        self.missions.missions = list(self.session.missions.kept)
+
+    def _mission_told(self, mission: Mission) -> None:
+        self.missions.current = mission.name
+        if self.tab == "missions" and self.dashboard.active:
+            self._ask()
+
+    def _recalled(self, words: str, undo: Any) -> None:
+        self.app.shell.notices.offer(words, "Undo", undo)
+
+    # the robot's settings
+
+    def _turn_settings(self) -> None:
+        self.open("" if self.detail == "settings" else "settings")
+
     # history
 
     def _take_history(self, answer: GetHistoryResponse) -> None:
@@ -462,4 +484,5 @@ class TasksScreen(FloatLayout):
         self.runs.more = bool(self.runs.runs) and self.runs.runs[-1].id > 1
 
     def _task_changed(self, _: TaskStatus) -> None:
-        self._ask_history()
+        if self.tab == "history":
+            self._ask()

@@ -6,7 +6,8 @@ line says how long after that the first frame was drawn. Then each line of JSON 
 
 `--bare` is a Kivy app with one button instead. `--no-gl` swallows every call to OpenGL: what is left is what the app
 does where a GPU draws. `--frame-loop` has Kivy's default clock and has the frame loop
-send the stick 20 times a second, as simple apps do; `--json-camera` takes pictures from the rosbridge topic.
+send the stick 20 times a second, as simple apps do; `--json-camera` takes pictures from the rosbridge topic. `--no-life`
+has nobody look whether what pushes the stick is still there, and no heartbeat.
 """
 
 from __future__ import annotations
@@ -31,6 +32,12 @@ PERIOD = 1 / 20
 """How often the frame loop sends [s]."""
 BETWEEN = (0.06, 0.12)
 """Between two moves of the finger [s]: not in step with the frames, and slow enough to be told apart."""
+PAUSE = (0.1, 0.3)
+"""Before a tap [s]."""
+ASK_AGAIN = 2.5
+"""A question without an answer is asked again after this [s]."""
+CONFIRMED = 5.0
+"""What is not confirmed within this never is [s]."""
 REACH = 0.55
 """How far the finger moves from the stick's middle, as a share of its radius."""
 
@@ -40,7 +47,8 @@ def options() -> argparse.Namespace:
     parser = argparse.ArgumentParser()
     parser.add_argument("--started", type=float, required=True)
     parser.add_argument("--size", default="1280x800")
-    for flag in ("--bare", "--no-gl", "--frame-loop", "--json-camera"):
+    parser.add_argument("--settings", default="")
+    for flag in ("--bare", "--no-gl", "--frame-loop", "--json-camera", "--no-life"):
         parser.add_argument(flag, action="store_true")
     return parser.parse_args()
 
@@ -87,6 +95,7 @@ class Script:
         self.commands: list[tuple[float, ...]] = []
         self.touched = (0.0, 0.0)
         self.pictures: list[tuple[float, float]] = []
+        self._grip: Any = None
 
     def connect(self, url: str) -> dict[str, Any]:
         """Connect, and wait until every widget of the drive screen is live and there is a picture."""
@@ -162,6 +171,139 @@ class Script:
         x, y = stick.to_window(*stick.center)
         return round(x), round(Window.height - y), min(stick.size) / 2
 
+    def stop(self, count: int, seed: int) -> dict[str, Any]:
+        """Tap STOP `count` times at odd moments and release it; gives how long each took to be confirmed [s].
+
+        One that is not confirmed within CONFIRMED counts as infinite: null.
+        """
+        from bench.support.finger import Finger
+
+        finger, rng, taken = Finger(), random.Random(seed), []
+        x, y = in_ui(self._stop_at)
+        for _ in range(count):
+            self._until(lambda: self.app.shell.stop.phase == "ready" and self.app.session.control == "mine")
+            time.sleep(rng.uniform(*PAUSE))
+            confirmed = threading.Event()
+            moments: list[float] = []
+            in_ui(lambda confirmed=confirmed, moments=moments: self._note_stopped(confirmed, moments))
+            tapped = time.monotonic()
+            finger.down(x, y)
+            done = confirmed.wait(CONFIRMED)
+            finger.up(x, y)
+            taken.append(moments[0] - tapped if done else None)
+            time.sleep(0.05)
+            in_ui(self.app.session.release_stop)
+        return {"taken": taken}
+
+    def _stop_at(self) -> tuple[int, int]:
+        from kivy.core.window import Window
+
+        stop = self.app.shell.stop
+        x, y = stop.to_window(*stop.center)
+        return round(x), round(Window.height - y)
+
+    def _note_stopped(self, confirmed: threading.Event, moments: list[float]) -> None:
+        stop = self.app.shell.stop
+
+        def changed(_: object, phase: str) -> None:
+            if phase == "stopped":
+                moments.append(time.monotonic())
+                stop.unbind(phase=changed)
+                confirmed.set()
+
+        stop.bind(phase=changed)
+
+    def _until(self, condition: Callable[[], bool]) -> None:
+        end = time.monotonic() + 10.0
+        while not in_ui(condition):
+            if time.monotonic() > end:
+                raise TimeoutError("The handheld does not come to rest.")
+            time.sleep(0.02)
+
+    def push(self, kind: str) -> dict[str, Any]:
+        """Push the stick and hold it, by `finger` or `pad`."""
+        if self._grip is None:
+            self._grip = in_ui(lambda: grip(self.app))
+        if kind == "pad":
+            in_ui(self._grip.plug_in)
+        self._until(lambda: self._grip.ready)
+        in_ui(lambda: self._grip.take(kind))
+        return {}
+
+    def lose(self, way: str) -> dict[str, Any]:
+        """Lose it in that way of `bench.support.ways`; gives when."""
+        return {"at": in_ui(lambda: self._grip.lose(way))}
+
+    def let_go(self) -> dict[str, Any]:
+        """Let go of what is left, and make good what happened."""
+        in_ui(self._grip.again)
+        return {}
+
+    def attach(self, url: str, task: int, runs: int, queued: int, events: list[int]) -> dict[str, Any]:
+        """Connect and wait until it knows the task that runs, `runs` of the history, the queue and all `events`.
+
+        Gives how long that took [s] and what was missing after CONFIRMED, empty when nothing was.
+        """
+        began = time.monotonic()
+        in_ui(lambda: self.app.open(url))
+        asked = -math.inf
+        while (missing := in_ui(lambda: self._unknown(task, runs, queued, events))) and (
+            time.monotonic() - began < CONFIRMED
+        ):
+            if time.monotonic() - asked > ASK_AGAIN and in_ui(lambda: self.app.session.connected):
+                asked = time.monotonic()
+                in_ui(self.app.session.tasking.ask_history)
+            time.sleep(0.005)
+        return {"took": time.monotonic() - began, "missing": missing}
+
+    def _unknown(self, task: int, runs: int, queued: int, events: list[int]) -> list[str]:
+        session = self.app.session
+        if not session.connected or self.app.shell is None or not self.app.shell.screen:
+            return ["the robot"]
+        status, queue = session.feeds.latest("/task/status"), session.feeds.latest("/task/queue")
+        history = session.outcomes.get("history")
+        told = history.answer.runs if history is not None and history.answer is not None else []
+        heard = {event.id for event in session.logbook.events}
+        found = {
+            "the task": status is not None and (status.task_id, status.state) == (task, "RUNNING"),
+            "the queue": queue is not None and len(queue.orders) == queued,
+            "the history": len(told) >= runs,
+            "its progress": session.feeds.state("/task/progress") == "live",
+            "the events": heard.issuperset(events),
+        }
+        return [name for name, known in found.items() if not known]
+
+    def command(self, name: str) -> dict[str, Any]:
+        """Give a command that needs no more than its name."""
+        in_ui(lambda: self.app.session.command(name))
+        return {}
+
+    def hold(self, seconds: float) -> dict[str, Any]:
+        """Have the robot stay where it is as its task."""
+        from bridge.msgs.pilothouse_msgs import TaskOrder
+
+        order = TaskOrder(task="hold", duration=seconds)
+        in_ui(lambda: self.app.session.command("start", order=order))
+        return {}
+
+    def knows(self) -> dict[str, Any]:
+        """Who has control, and the state of the task, empty while it is not known."""
+        return in_ui(self._known)
+
+    def _known(self) -> dict[str, Any]:
+        session = self.app.session
+        status = session.feeds.latest("/task/status")
+        return {"control": session.control, "task": status.state if status else ""}
+
+    def flood(self, topic: str) -> dict[str, Any]:
+        """Listen to everything on a topic of Odometry."""
+        from bridge.msgs.nav_msgs import Odometry
+
+        link = self.app.session.link
+        client, network = link._client, link._network  # noqa: SLF001 - no screen listens to so much
+        network.call(lambda: client.subscribe(topic, Odometry, lambda *_: None))
+        return {}
+
     def watch(self, seconds: float) -> dict[str, Any]:
         """Look on for a while: the main thread's share of a core, memory, frames and pictures."""
         self.pictures.clear()
@@ -209,6 +351,45 @@ def send_by_frame_loop() -> None:
     Link.drive = keep  # type: ignore[method-assign]
 
 
+def believe_fingers() -> None:
+    """What is put into SDL's queue leaves the state of its mouse as it was: no finger would be there."""
+    from app.sdl import Sdl
+
+    lifted = Sdl.lifted
+    Sdl.lifted = lambda self, device, finger: device != "mouse" and lifted(self, device, finger)  # type: ignore[method-assign]
+
+
+def grip(app: Any) -> Any:
+    """A hand on the app's stick that goes on with each frame."""
+    from kivy.base import EventLoop
+    from kivy.clock import Clock
+
+    from bench.support.losses import Grip
+    from examples.demo.fingers import Hand
+
+    hand = Hand()
+    EventLoop.add_input_provider(hand)
+    made = Grip(app, hand)
+    Clock.schedule_interval(lambda _: made.frame(), 0)
+    return made
+
+
+def trust_blindly() -> None:
+    """Forward what the stick says as it comes."""
+    from app import commands
+    from app.inputs import Inputs
+
+    def look(self: Any) -> None:
+        stick = self.stick
+        if stick is not None:
+            for state in self._source.pads():
+                stick.lean(state.forward, state.left)
+            stick.gamepad = "ready"
+
+    Inputs.look, Inputs.rest = look, lambda *_: None  # type: ignore[method-assign]
+    commands.HEARTBEAT = commands.REARM = math.inf
+
+
 def watch_by_topic() -> None:
     """Have pictures come as base64 in JSON."""
     from app.link import Link
@@ -237,6 +418,9 @@ def real(asked: argparse.Namespace, folder: str) -> Any:
         send_by_frame_loop()
     if asked.json_camera:
         watch_by_topic()
+    if asked.no_life:
+        trust_blindly()
+    believe_fingers()
     return PilothouseApp(screen="drive", settings_dir=folder, discover=False, poll=not asked.frame_loop)
 
 
@@ -248,7 +432,7 @@ def main() -> None:
     from kivy.core.window import Window
 
     with tempfile.TemporaryDirectory() as folder:
-        app = bare() if asked.bare else real(asked, folder)
+        app = bare() if asked.bare else real(asked, asked.settings or folder)
 
         def drawn(*_: object) -> None:
             Window.unbind(on_flip=drawn)

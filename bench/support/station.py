@@ -44,9 +44,9 @@ class Serving:
 
 
 @contextmanager
-def serving(module: str = "robotside") -> Iterator[Serving]:
-    """Run `python -m module serve` with the simulated patrol robot until the end of the block."""
-    options = ("serve", "--port", "0", "--http-port", "0", "--state")
+def serving(module: str = "robotside", *more: str) -> Iterator[Serving]:
+    """Run `python -m module serve`, with the simulated patrol robot unless `more` says otherwise, until the end of the block."""
+    options = ("serve", "--port", "0", "--http-port", "0", *more, "--state")
     with tempfile.TemporaryDirectory() as state, child(module, *options, state) as process:
         while not (ready := READY.match(process.line())):
             pass

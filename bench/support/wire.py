@@ -7,13 +7,17 @@ import contextlib
 import math
 import select
 import socket
-from collections.abc import AsyncIterator, Coroutine
+import struct
+import threading
+from collections.abc import AsyncIterator, Coroutine, Iterator
 from typing import Any
 
-__all__ = ["Wire", "wire"]
+__all__ = ["Wire", "wire", "wired"]
 
 BUFFER = 4096
 """What the kernel may keep on either side of the wire in each direction [byte]; it doubles that itself."""
+AT_ONCE = struct.pack("ii", 1, 0)
+"""Of SO_LINGER: throw away what is unsent and tell the other side by RST."""
 PIECE = 1024
 """As much goes over the wire at a time [byte]."""
 
@@ -48,6 +52,12 @@ class Wire:
     def thaw(self) -> None:
         """What still waits with those who have not given up passes, late."""
         self._thawed.set()
+
+    async def reset(self) -> None:
+        """Break every connection at once, by RST to either side, and take none until opened again."""
+        for each in self._sockets:
+            each.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, AT_ONCE)
+        await self.cut()
 
     async def cut(self) -> None:
         """Break every connection and take none until opened again."""
@@ -120,3 +130,26 @@ async def wire(to: int, rate: float = math.inf) -> AsyncIterator[Wire]:
         yield made
     finally:
         await made.cut()
+
+
+@contextlib.contextmanager
+def wired(to: int, rate: float = math.inf) -> Iterator[int]:
+    """The port of one that lives in a thread of its own, for what is no coroutine."""
+    loop, ended, ready = asyncio.new_event_loop(), asyncio.Event(), threading.Event()
+    ports: list[int] = []
+
+    async def live() -> None:
+        async with wire(to, rate) as link:
+            ports.append(link.port)
+            ready.set()
+            await ended.wait()
+
+    thread = threading.Thread(target=loop.run_until_complete, args=(live(),), name="wire")
+    thread.start()
+    ready.wait(5.0)
+    try:
+        yield ports[0]
+    finally:
+        loop.call_soon_threadsafe(ended.set)
+        thread.join()
+        loop.close()

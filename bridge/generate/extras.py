@@ -86,6 +86,7 @@ DEFAULTS = {
     "pilothouse_msgs/FlightState": {"height": "math.nan"},
     "pilothouse_msgs/AckermannState": {"turning_radius": "math.inf"},
     "pilothouse_msgs/Following": {"distance": "math.nan"},
+    "pilothouse_msgs/LineSensor": {"spacing": "math.nan"},
     "pilothouse_msgs/RunTaskGoal": {"stamp": "math.nan"},
     "pilothouse_msgs/RunTaskFeedback": dict.fromkeys(
         ("progress", "distance_to_next", "time_left"), "math.nan"

@@ -16,6 +16,7 @@ from collections.abc import Generator
 from pathlib import Path
 from typing import Any
 
+from app.__main__ import quieten
 from examples.demo.options import options
 
 
@@ -36,6 +37,7 @@ def _prepare(size: str, *, window: bool) -> None:
         Config.set("graphics", key, value)
     for key, _ in Config.items("input"):
         Config.remove_option("input", key)
+    quieten()
 
 
 GUIDE = {"connect-screen": "connect", "watching": "mission", "driving": "drive"}
@@ -50,8 +52,19 @@ def _keep_pictures(out: Path, folder: Path) -> None:
             shutil.copyfile(picture, folder / f"{name}-tablet.png")
 
 
-def _story(scene: Any, app: Any, record: Path) -> Generator[None, None, None]:
-    """The whole job, step by step."""
+def _errand(scene: Any) -> Generator[None, None, None]:
+    """Places, a delivery, a queue, other people and a power cut, step by step."""
+    from examples.demo import errand, others
+
+    yield from errand.arrive(scene)
+    yield from errand.make_places(scene)
+    yield from errand.deliver(scene)
+    yield from others.hand_over(scene)
+    yield from others.lose_power(scene)
+
+
+def _patrol(scene: Any, app: Any, record: Path) -> Generator[None, None, None]:
+    """The main job, step by step."""
     from examples.demo import patrol, prepare
 
     yield from prepare.connect(scene)
@@ -71,7 +84,7 @@ def _story(scene: Any, app: Any, record: Path) -> Generator[None, None, None]:
     yield from patrol.drive(scene)
 
 
-def _play(arguments: argparse.Namespace, url: str, settings: Path) -> int:
+def _play(arguments: argparse.Namespace, robot: Any, settings: Path) -> int:
     """Run the app with the story in it; returns the exit code."""
     from kivy.base import EventLoop
     from kivy.clock import Clock
@@ -85,9 +98,10 @@ def _play(arguments: argparse.Namespace, url: str, settings: Path) -> int:
 
     report, hand = Report(arguments.out), Hand()
     app = PilothouseApp(settings_dir=settings, theme=arguments.theme)
-    witness = Witness(url)
-    scene = Scene(Glass(hand), witness, report, url, arguments.speed, arguments.until)
-    story = _story(scene, app, arguments.out / "run.mcap")
+    witness = Witness(robot.url)
+    scene = Scene(Glass(hand), witness, report, robot.url, arguments.speed, arguments.until, robot.power_cut)
+    record = arguments.out / "run.mcap"
+    story = _errand(scene) if arguments.story == "errand" else _patrol(scene, app, record)
 
     def turn(_: float) -> None:
         try:
@@ -106,10 +120,8 @@ def _play(arguments: argparse.Namespace, url: str, settings: Path) -> int:
     finally:
         witness.close()
     seconds = round(time.monotonic() - started, 1)
-    size = (arguments.out / "run.mcap").stat().st_size if (arguments.out / "run.mcap").exists() else 0
-    return report.write(
-        robot=url, speed=arguments.speed, seconds=seconds, recording={"file": "run.mcap", "bytes": size}
-    )
+    recording = {"file": record.name, "bytes": record.stat().st_size} if record.exists() else None
+    return report.write(robot=robot.url, speed=arguments.speed, seconds=seconds, recording=recording)
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -120,16 +132,16 @@ def main(argv: list[str] | None = None) -> int:
         print(f"demo: {mistake}", file=sys.stderr)
         return 2
     _prepare(arguments.size, window=arguments.window)
-    from examples.demo.robot import RobotProcess
+    from examples.demo.robot import Restarting
 
     folder = Path(tempfile.mkdtemp(prefix="pilothouse-demo-"))
     command = ["--robot", "sim:patrol", "--world", "parking_lot", "--speed", str(arguments.speed)]
+    if arguments.story == "errand":
+        command += ["--config", str(Path(__file__).with_name("errand.toml"))]
     arguments.out.mkdir(parents=True, exist_ok=True)
     try:
-        with RobotProcess(
-            *command, "--state", str(folder / "robot"), log=arguments.out / "robot.log"
-        ) as robot:
-            code = _play(arguments, robot.url, folder / "handheld")
+        with Restarting(*command, "--state", str(folder / "robot"), log=arguments.out / "robot.log") as robot:
+            code = _play(arguments, robot, folder / "handheld")
             left = robot.close()
     finally:
         shutil.rmtree(folder, ignore_errors=True)

@@ -154,3 +154,18 @@ class Glass:
     def tap(self, widget: Widget) -> Wait:
         """Tap a widget in its middle."""
         yield from self.hand.tap(middle(widget))
+
+    def write(self, hint: str, words: str) -> Wait:
+        """Tap the field that says `hint` while it is empty, and type `words`; Unseen when there is none."""
+
+        def fields() -> list[Widget]:
+            return [w for w in self.all("TextInput") if getattr(w, "hint_text", "").startswith(hint)]
+
+        found = yield from self.until(fields, 5.0, f"a field that says {hint!r}")
+        field: Any = found[0]
+        yield from self.tap(field)
+        yield from self.until(lambda: field.focus, 2.0, "the keyboard")
+        for letter in words:
+            Window.dispatch("on_textinput", letter)
+        yield from self.until(lambda: words in field.text, 2.0, f"{words!r} in the field")
+        field.focus = False

@@ -10,14 +10,21 @@ from typing import NoReturn
 
 from app.__main__ import SIZE, THEMES
 
-__all__ = ["STEPS", "options"]
+__all__ = ["STORIES", "options"]
 
-STEPS = (
-    *("connect-screen", "connected", "misplaced", "initialised", "points", "dragged", "reordered", "deleted"),
-    *("undone", "home", "motion", "sent", "started", "on-the-way", "paused", "resumed", "patrolled", "stop"),
-    *("released", "going-home", "at-home", "drive-screen", "driven", "stop-while-driving"),
-)
-"""Of the story, in its order."""
+STORIES = {
+    "patrol": (
+        *("connect-screen", "connected", "misplaced", "initialised", "points", "dragged", "reordered"),
+        *("deleted", "undone", "home", "motion", "sent", "started", "on-the-way", "paused", "resumed"),
+        *("patrolled", "stop", "released", "going-home", "at-home", "drive-screen", "driven"),
+        "stop-while-driving",
+    ),
+    "errand": (
+        *("fenced", "place-made", "place-here", "ordered", "picked-up", "handed-over", "delivered"),
+        *("asked-for-control", "control-handed-over", "control-back", "power-cut", "offered", "discarded"),
+    ),
+}
+"""The steps of each story, in their order."""
 FASTEST = 100.0
 """The robot's own limit of `--speed`."""
 
@@ -39,6 +46,11 @@ def options(argv: Sequence[str] | None, description: str | None) -> argparse.Nam
     parser.add_argument("--size", default="1280x800", metavar="WxH", help="of the window")
     parser.add_argument("--theme", default="dark", help="dark, sunlight or night")
     parser.add_argument("--pictures", type=Path, metavar="DIR", help="where the guide's pictures go as well")
+    parser.add_argument(
+        "--story",
+        default="patrol",
+        help="patrol: place the robot, set points, patrol, stop, drive; errand: places, a delivery, a queue, hand-over, a power cut",
+    )
     parser.add_argument("--until", metavar="STEP", help="end after this step, as in sent")
     parser.add_argument("--window", action="store_true", help="in a window, to watch it")
     chosen = parser.parse_args(argv)
@@ -53,5 +65,8 @@ def _check(chosen: argparse.Namespace) -> None:
         raise ValueError(f"A size is written as 412x892, not {chosen.size!r}.")
     if chosen.theme not in THEMES:
         raise ValueError(f"There is no theme {chosen.theme!r}; there are {', '.join(THEMES)}.")
-    if chosen.until is not None and chosen.until not in STEPS:
-        raise ValueError(f"There is no step {chosen.until!r}; there are {', '.join(STEPS)}.")
+    if chosen.story not in STORIES:
+        raise ValueError(f"There is no story {chosen.story!r}; there are {', '.join(STORIES)}.")
+    steps = STORIES[chosen.story]
+    if chosen.until is not None and chosen.until not in steps:
+        raise ValueError(f"There is no step {chosen.until!r}; there are {', '.join(steps)}.")

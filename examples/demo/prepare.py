@@ -23,24 +23,19 @@ def connect(scene: Scene) -> Wait:
     """Find the robot on the connect screen and connect to it."""
     glass, started = scene.glass, time.monotonic()
     with scene.step("connect-screen") as check:
-        found = yield from glass.soon(lambda: _cards(scene), 10)
+        found = yield from glass.soon(scene.cards, 10)
         seconds = time.monotonic() - started
         check(f"the robot is on the list within {LISTED:g} s", seconds, bool(found) and seconds <= LISTED)
         yield from glass.pause(0.7)
     with scene.step("connected") as check:
         started = time.monotonic()
-        yield from glass.tap(_cards(scene)[0].ids.connect)
+        yield from glass.tap(scene.cards()[0].ids.connect)
         yield from glass.one("MapOverlay", 10)
         live = yield from glass.soon(lambda: not _waiting(scene), 10)
         seconds = time.monotonic() - started
         check(f"every widget lives within {LIVE:g} s of Connect", seconds, bool(live) and seconds <= LIVE)
         check("no widget still waits for its first message", _waiting(scene), not _waiting(scene))
         yield from glass.pause(1.0)
-
-
-def _cards(scene: Scene) -> list[Any]:
-    cards: list[Any] = scene.glass.all("RobotCard")
-    return [card for card in cards if card.entry is not None and card.entry.url == scene.url]
 
 
 def _waiting(scene: Scene) -> list[str]:

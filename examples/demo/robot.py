@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 from typing import Self
 
-__all__ = ["RobotProcess"]
+__all__ = ["Restarting", "RobotProcess"]
 
 READY = re.compile(r"^robotside: ready bridge=(?P<bridge>\S+)")
 
@@ -33,7 +33,7 @@ class RobotProcess:
             *options,
         ]
         log.parent.mkdir(parents=True, exist_ok=True)
-        self._log = log.open("w")
+        self._log = log.open("a")
         self._process = subprocess.Popen(serve, stdout=subprocess.PIPE, stderr=self._log, text=True)
         self._ready = threading.Event()
         self._reader = threading.Thread(target=self._read, name="robot's words", daemon=True)
@@ -61,6 +61,12 @@ class RobotProcess:
                     self._ready.set()
         self._ready.set()
 
+    def kill(self) -> None:
+        """End it as a power cut would: nothing is said and nothing saved."""
+        self._process.kill()
+        self._process.wait()
+        self._reader.join(10)
+
     def close(self) -> int:
         """End it as `kill` would; returns its exit code, 0 when it brought the robot to rest and left."""
         if self._process.poll() is None:
@@ -74,6 +80,41 @@ class RobotProcess:
         self._reader.join(max(0.0, deadline - time.monotonic()))
         self._log.close()
         return self._process.returncode
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+class Restarting:
+    """A robot side whose computer can lose its power and come back at the same address."""
+
+    def __init__(self, *options: str, log: Path) -> None:
+        """As of `RobotProcess`."""
+        log.unlink(missing_ok=True)
+        self._options, self._log = options, log
+        self._robot = RobotProcess(*options, log=log)
+        self.url = self._robot.url
+        """Where it serves, before and after."""
+        self._starting: threading.Thread | None = None
+
+    def power_cut(self) -> None:
+        """Kill it, and start it again without waiting for it."""
+        self._robot.kill()
+        self._starting = threading.Thread(target=self._start, name="robot's start")
+        self._starting.start()
+
+    def _start(self) -> None:
+        port = self.url.rsplit(":", 1)[1].strip("/")
+        self._robot = RobotProcess(*self._options, "--port", port, log=self._log)
+
+    def close(self) -> int:
+        """As of `RobotProcess`."""
+        if self._starting is not None:
+            self._starting.join()
+        return self._robot.close()
 
     def __enter__(self) -> Self:
         return self

@@ -37,6 +37,8 @@ class Scene:
     """Robot seconds per second."""
     until: str | None = None
     """Name of the last step to play; None plays all."""
+    power_cut: Callable[[], None] = lambda: None
+    """Kills the robot's computer and has it start again."""
 
     @property
     def hand(self) -> Hand:
@@ -56,6 +58,11 @@ class Scene:
             yield self.report.check
         finally:
             self.report.end()
+
+    def cards(self) -> list[Any]:
+        """The robot's own card on the connect screen; empty while it was not heard."""
+        cards: list[Any] = self.glass.all("RobotCard")
+        return [card for card in cards if card.entry is not None and card.entry.url == self.url]
 
     def map(self) -> Widget:
         """The map on the glass."""

@@ -26,6 +26,8 @@ LATEST = (
     "/intruders",
     "/mission",
     "/battery_state",
+    "/places",
+    "/task/queue",
 )
 
 

@@ -43,14 +43,39 @@ class EventLog:
             self._prune()
         return event
 
-    def since(self, number: int, identity: str) -> list[Event]:
-        """The events on the disk after `number`, oldest first; the newest ones when it is of another log or 0."""
+    @property
+    def oldest(self) -> int:
+        """Number of the oldest event on the disk; 0 when there is none."""
+        return min(self._ledger.stored("events"), default=0)
+
+    def since(self, number: int, identity: str, most: int = 0) -> list[Event]:
+        """The events on the disk after `number`, oldest first; the newest ones when it is of another log or 0.
+
+        With `most` above 0 the first so many of them, of another log from its first on; who names no log still
+        gets the newest.
+        """
         rows = self._ledger.stored("events")
         known = number if identity == self.identity else 0
-        found = [
-            msgspec.structs.replace(rows[key], boot=self.identity) for key in sorted(rows) if key > known
-        ]
-        return found if known > 0 else found[-AT_FIRST:]
+        keys = [key for key in sorted(rows) if key > known]
+        if most > 0:
+            keys = keys[:most] if identity else keys[-most:]
+        elif known <= 0:
+            keys = keys[-AT_FIRST:]
+        return [self._signed(rows[key]) for key in keys]
+
+    def more(self, told: Iterable[Event]) -> bool:
+        """Whether there are events on the disk after all that were `told`."""
+        last = max((event.id for event in told), default=0)
+        return max(self._ledger.stored("events"), default=0) > last
+
+    def seen(self, ids: Iterable[int], identity: str) -> list[Event]:
+        """Those of the events named that somebody has seen to, as it is on the disk; none of another log."""
+        rows = self._ledger.stored("events")
+        known = sorted(set(ids)) if identity == self.identity else []
+        return [self._signed(rows[id]) for id in known if id in rows and rows[id].acknowledged_by]
+
+    def _signed(self, event: Event) -> Event:
+        return msgspec.structs.replace(event, boot=self.identity)
 
     def acknowledge(
         self, ids: Iterable[int], by: str, stamp: Time, publish: Callable[[Event], None]

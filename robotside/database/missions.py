@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 
 import msgspec
 
-from bridge.msgs.pilothouse_msgs import Mission, Waypoint
+from bridge.msgs.pilothouse_msgs import KeptMission, Mission, Waypoint
 from robotside.database.jobs import NotRecorded
 from robotside.database.ledger import Ledger, within
 from robotside.words import plain
@@ -48,6 +49,17 @@ class Missions:
         """Of all missions on the disk that have one, in the order of the alphabet."""
         found = {mission.name for mission in self._ledger.stored("missions").values()}
         return sorted(filter(None, found), key=lambda name: (name.casefold(), name))
+
+    def known(self) -> list[KeptMission]:
+        """What is on the disk of each mission that has a name, in the order of the alphabet."""
+        rows, newest, count = self._ledger.stored("missions"), dict[str, Mission](), Counter[str]()
+        for key in sorted(rows):
+            newest[rows[key].name] = rows[key]
+            count[rows[key].name] += 1
+        found = [newest[name] for name in self.names()]
+        return [
+            KeptMission(one.name, one.stamp, len(one.waypoints), one.motion, count[one.name]) for one in found
+        ]
 
     def revisions(self, name: str) -> list[Mission]:
         """All that is kept under `name`, oldest first."""

@@ -1,4 +1,4 @@
-"""What can be mounted on a vehicle besides what it has: a laser, sonars, a camera, lights, a tag reader, an arm.
+"""What can be mounted on a vehicle besides what it has: rangers, a line sensor, a camera, lights, a tag reader, an arm.
 
 mount(vehicle, ["arm", "lights"])
 
@@ -14,8 +14,25 @@ from pathlib import Path
 import msgspec
 
 from sim.payloads.arm import ArmParameters, MountedArm
-from sim.payloads.mounted import CameraMount, LaserMount, LightsMount, Mounted, SonarMount, TagReaderMount
-from sim.payloads.simple import MountedCamera, MountedLaser, MountedLights, MountedSonar, MountedTagReader
+from sim.payloads.mounted import (
+    CameraMount,
+    LaserMount,
+    LightsMount,
+    LineMount,
+    Mounted,
+    SonarMount,
+    TagReaderMount,
+    UltrasoundMount,
+)
+from sim.payloads.simple import (
+    MountedCamera,
+    MountedLaser,
+    MountedLights,
+    MountedLine,
+    MountedSonar,
+    MountedTagReader,
+    MountedUltrasound,
+)
 from sim.vehicles.model import Vehicle
 from sim.vehicles.parameters import Table
 
@@ -27,6 +44,8 @@ class Figures(Table, frozen=True, kw_only=True):
 
     laser: LaserMount
     sonar: SonarMount
+    ultrasound: UltrasoundMount
+    line_sensor: LineMount
     camera: CameraMount
     lights: LightsMount
     tag_reader: TagReaderMount
@@ -69,6 +88,10 @@ def _make(name: str, vehicle: Vehicle, figures: Figures) -> Mounted:
             return MountedLaser(vehicle, figures.laser)
         case "sonar":
             return MountedSonar(vehicle, figures.sonar)
+        case "ultrasound":
+            return MountedUltrasound(vehicle, figures.ultrasound)
+        case "line_sensor":
+            return MountedLine(vehicle, figures.line_sensor)
         case "camera":
             return MountedCamera(vehicle, figures.camera)
         case "lights":

@@ -8,7 +8,17 @@ from bridge.msgs import Msg
 from sim.shapes import Shape
 from sim.vehicles.parameters import Positive, Table
 
-__all__ = ["CameraMount", "LaserMount", "LightsMount", "Mount", "Mounted", "SonarMount", "TagReaderMount"]
+__all__ = [
+    "CameraMount",
+    "LaserMount",
+    "LightsMount",
+    "LineMount",
+    "Mount",
+    "Mounted",
+    "SonarMount",
+    "TagReaderMount",
+    "UltrasoundMount",
+]
 
 
 class Mounted(Protocol):
@@ -74,6 +84,30 @@ class CameraMount(Mount, frozen=True, kw_only=True):
 
 class LightsMount(Mount, frozen=True, kw_only=True):
     """A pair of lamps that look ahead."""
+
+
+class UltrasoundMount(Mount, frozen=True, kw_only=True):
+    """Four rangers, ahead, to the sides and behind."""
+
+    rate: Positive
+    rays: int
+    field_of_view: Positive
+    range_min: Positive
+    range_max: Positive
+    noise: float
+
+
+class LineMount(Mount, frozen=True, kw_only=True):
+    """A row of cells that look at the ground under the bow; not for what swims, floats or flies."""
+
+    rate: Positive
+    cells: int
+    spacing: Positive
+    spot: Positive
+    dark: float
+    bright: float
+    mismatch: float
+    noise: float
 
 
 class TagReaderMount(Mount, frozen=True, kw_only=True):

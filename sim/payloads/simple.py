@@ -9,15 +9,34 @@ from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import LightState, TagRead
 from bridge.msgs.std_msgs import Header, Time
 from sim.backend_bullet import State
-from sim.payloads.mounted import CameraMount, LaserMount, LightsMount, SonarMount, TagReaderMount
+from sim.paint import Paint
+from sim.payloads.mounted import (
+    CameraMount,
+    LaserMount,
+    LightsMount,
+    LineMount,
+    SonarMount,
+    TagReaderMount,
+    UltrasoundMount,
+)
 from sim.sensors.laser import Laser, LaserParameters
+from sim.sensors.line import LineCells, LineParameters
 from sim.sensors.sonar import Sonar, SonarParameters
+from sim.sensors.ultrasound import SIDES, UltrasoundParameters, Ultrasounds
 from sim.shapes import Quat, Shape, Vec3, place
 from sim.vehicles.model import Vehicle
 from sim.vehicles.parameters import CameraParameters
 from sim.vehicles.suite import Measurement
 
-__all__ = ["MountedCamera", "MountedLaser", "MountedLights", "MountedSonar", "MountedTagReader"]
+__all__ = [
+    "MountedCamera",
+    "MountedLaser",
+    "MountedLights",
+    "MountedLine",
+    "MountedSonar",
+    "MountedTagReader",
+    "MountedUltrasound",
+]
 
 _BLACK, _GLASS, _LIT, _DARK = (0.08, 0.08, 0.09), (0.10, 0.14, 0.19), (1.0, 0.97, 0.85), (0.55, 0.55, 0.50)
 _AHEAD: Quat = (0.0, 0.7071067811865476, 0.0, 0.7071067811865476)
@@ -94,6 +113,63 @@ class MountedSonar(_Plain):
         scene = vehicle.scene
         sonar = Sonar(parameters, scene.backend, vehicle.body, scene.generator("payload sonar"))
         vehicle.suite.add("sonar", figures.rate, lambda _, stamp: [("/sonar", sonar.measure(stamp))])
+
+
+class MountedUltrasound(_Plain):
+    """Four rangers under `/ultrasound/SIDE`."""
+
+    def __init__(self, vehicle: Vehicle, figures: UltrasoundMount) -> None:
+        """At the edge of the deck of `vehicle`."""
+        at, radius = on_deck(vehicle, figures.at), vehicle.parameters.radius
+        eyes = ((radius * math.cos(yaw), radius * math.sin(yaw)) for yaw in SIDES.values())
+        super().__init__(
+            figures.power,
+            tuple(Shape("box", (0.03, 0.03, 0.03), (x, y, at[2]), colour=_BLACK) for x, y in eyes),
+        )
+        parameters = UltrasoundParameters(
+            rate=figures.rate,
+            rays=figures.rays,
+            offset=radius,
+            height=at[2],
+            field_of_view=figures.field_of_view,
+            range_min=figures.range_min,
+            range_max=figures.range_max,
+            noise=figures.noise,
+        )
+        scene = vehicle.scene
+        rangers = Ultrasounds(parameters, scene.backend, vehicle.body, scene.generator("payload ultrasound"))
+        vehicle.suite.add(
+            "ultrasound",
+            figures.rate,
+            lambda _, stamp: ((f"/ultrasound/{side}", echo) for side, echo in rangers.measure(stamp)),
+        )
+
+
+class MountedLine(_Plain):
+    """Cells that look at the ground, under `/line`."""
+
+    def __init__(self, vehicle: Vehicle, figures: LineMount) -> None:
+        """Under the bow of `vehicle`; ValueError for one that does not drive on the ground."""
+        info = vehicle.parameters.info
+        if info.kind not in ("wheels", "ackermann"):
+            raise ValueError(f"{info.name} does not drive on the ground, which a line sensor looks at.")
+        super().__init__(figures.power, ())
+        parameters = LineParameters(
+            rate=figures.rate,
+            cells=figures.cells,
+            spacing=figures.spacing,
+            ahead=vehicle.parameters.radius,
+            spot=figures.spot,
+            dark=figures.dark,
+            bright=figures.bright,
+            mismatch=figures.mismatch,
+            noise=figures.noise,
+        )
+        scene = vehicle.scene
+        cells = LineCells(parameters, Paint(scene.world), scene.generator("payload line"))
+        vehicle.suite.add(
+            "line_sensor", figures.rate, lambda state, stamp: [("/line", cells.measure(state, stamp))]
+        )
 
 
 class MountedCamera(_Plain):

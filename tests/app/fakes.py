@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import itertools
+import math
 import threading
 import time
 from collections.abc import Callable
@@ -14,6 +15,8 @@ import msgspec
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
+    AcknowledgeEventsRequest,
+    AcknowledgeEventsResponse,
     CommandRequest,
     CommandResponse,
     ControlStatus,
@@ -26,13 +29,22 @@ from bridge.msgs.pilothouse_msgs import (
     GetEventsResponse,
     GetHistoryRequest,
     GetHistoryResponse,
+    GetMissionsRequest,
+    GetMissionsResponse,
+    KeptMission,
     Mission,
     Place,
     PlaceArray,
+    RecallMissionRequest,
+    RecallMissionResponse,
     RobotInfo,
     Schedule,
     ScheduledTask,
     SetMissionRequest,
+    SetModeRequest,
+    SetModeResponse,
+    SetOptionRequest,
+    SetOptionResponse,
     SetPlaceRequest,
     SetPlaceResponse,
     SetQueueRequest,
@@ -44,6 +56,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskQueue,
     TaskRun,
 )
+from bridge.msgs.std_msgs import Time
 from bridge.network import NetworkThread
 from bridge.server import BridgeServer, Service, Session
 
@@ -58,6 +71,11 @@ REQUESTS: dict[str, type[Msg]] = {
     "/task/go_home": CommandRequest,
     "/control/acquire": CommandRequest,
     "/control/release": CommandRequest,
+    "/control/request": CommandRequest,
+    "/control/grant": CommandRequest,
+    "/control/object": CommandRequest,
+    "/mode/set": SetModeRequest,
+    "/settings/set": SetOptionRequest,
     "/task/start": StartTaskRequest,
     "/mission/set": SetMissionRequest,
     "/task/confirm": CommandRequest,
@@ -67,16 +85,27 @@ REQUESTS: dict[str, type[Msg]] = {
     "/schedule/set": SetScheduleRequest,
     "/schedule/delete": DeleteScheduleRequest,
     "/history/get": GetHistoryRequest,
+    "/events/acknowledge": AcknowledgeEventsRequest,
+    "/missions/get": GetMissionsRequest,
+    "/mission/recall": RecallMissionRequest,
 }
 RESPONSES: dict[str, type[CommandResponse]] = {
+    "/mode/set": SetModeResponse,
+    "/settings/set": SetOptionResponse,
     "/places/set": SetPlaceResponse,
     "/places/delete": DeletePlaceResponse,
     "/task/queue/set": SetQueueResponse,
     "/schedule/set": SetScheduleResponse,
     "/schedule/delete": DeleteScheduleResponse,
     "/history/get": GetHistoryResponse,
+    "/events/acknowledge": AcknowledgeEventsResponse,
+    "/missions/get": GetMissionsResponse,
+    "/mission/recall": RecallMissionResponse,
 }
 """Of the services that answer with more than a sentence, or in a class of their own."""
+
+OPTIONS = {"follow_link": "follows_link", "lost_link_stops_task": "lost_link_stops_task"}
+"""Settings to the fields of ControlStatus that tell them."""
 
 
 class FakeRobot:
@@ -96,6 +125,8 @@ class FakeRobot:
         """What it has against a service and its request; None for nothing."""
         self.events: list[Event] = []
         self.places: list[Place] = []
+        self.missions: dict[str, Mission] = {}
+        """Those that have a name."""
         self.queue = TaskQueue(revision=1)
         self.schedule: list[ScheduledTask] = []
         self.runs: list[TaskRun] = []
@@ -199,7 +230,7 @@ class FakeRobot:
                 self.changed.notify_all()
             await self._answering.wait()
             refusal = self.objection(name, request)
-            if refusal is None and name.startswith(("/stop", "/control")):
+            if refusal is None and name.startswith(("/stop", "/control", "/mode/set", "/settings")):
                 self._become(name, request)
             kind = RESPONSES.get(name, CommandResponse)
             more = self._keep(name, request) if refusal is None else {}
@@ -207,13 +238,24 @@ class FakeRobot:
 
         return call
 
-    def _become(self, name: str, request: CommandRequest) -> None:
-        stopped = self.control.stopped if name.startswith("/control") else name == "/stop"
-        driver = {"/control/acquire": request.client_id, "/control/release": ""}.get(
-            name, self.control.driver_id
-        )
-        mode = "STOPPED" if stopped else "MANUAL"
-        self.control = ControlStatus(mode=mode, driver=driver, driver_id=driver, stopped=stopped)
+    def _become(self, name: str, request: Any) -> None:
+        now, who = self.control, (request.client_id, request.client_id)
+        asker = (now.requested_by, now.requested_by_id)
+        changes: dict[str, Any] = {
+            "/stop": {"stopped": True, "mode": "STOPPED"},
+            "/stop/release": {"stopped": False, "mode": "MANUAL"},
+            "/control/acquire": _asked() | _driven(*who),
+            "/control/release": _asked() | ({} if asker == who else _driven(*asker)),
+            "/control/grant": _asked() | _driven(*asker),
+            "/control/object": _asked(),
+            "/control/request": _asked(*who, self.clock() + 10.0),
+            "/mode/set": {"mode": getattr(request, "mode", "")},
+            "/settings/set": {
+                OPTIONS.get(getattr(request, "name", ""), "follows_link"): getattr(request, "value", "")
+                == "on"
+            },
+        }.get(name, {})
+        self.control = msgspec.structs.replace(now, **changes)
         self._server.publish("/control/status", self.control)
 
     def wait_for(self, *orders: TaskOrder) -> None:
@@ -228,6 +270,8 @@ class FakeRobot:
 
     def _keep(self, name: str, request: Any) -> dict[str, Any]:
         """Do what was asked about what is kept; gives what the answer says beyond its sentence."""
+        if name.startswith(("/events", "/mission")):
+            return self._keep_by_name(name, request)
         if name == "/history/get":
             runs = [run for run in self.runs if not request.before or run.id < request.before]
             return {"runs": runs[: request.limit]}
@@ -244,6 +288,40 @@ class FakeRobot:
             self._set_queue(request.orders)
         self._tell_kept()
         return more
+
+    def happen(self, *events: Event) -> None:
+        """Let these happen, one after the other."""
+        for event in events:
+            self.events.append(event)
+            self.publish("/events", event)
+
+    def _keep_by_name(self, name: str, request: Any) -> dict[str, Any]:
+        if name == "/events/acknowledge":
+            self._see_to(request)
+        elif name != "/missions/get":
+            self._take_mission(request.mission if name == "/mission/set" else self.missions[request.name])
+        else:
+            kept = [
+                KeptMission(one.name, one.stamp, len(one.waypoints), one.motion, 1)
+                for _, one in sorted(self.missions.items())
+            ]
+            return {"names": [one.name for one in kept], "missions": kept}
+        return {}
+
+    def _take_mission(self, mission: Mission) -> None:
+        if mission.name:
+            mission = msgspec.structs.replace(mission, stamp=Time.at(self.clock()))
+            self.missions[mission.name] = mission
+            self._server.publish("/mission", mission)
+
+    def _see_to(self, request: AcknowledgeEventsRequest) -> None:
+        """Note who has seen to events, the first who did, and tell everybody."""
+        for index, event in enumerate(self.events):
+            if event.id in request.ids and not event.acknowledged_by:
+                by = request.client_name
+                seen = msgspec.structs.replace(event, acknowledged_by=by, acknowledged=Time.at(self.clock()))
+                self.events[index] = seen
+                self._server.publish("/events", seen)
 
     def _set_queue(self, orders: list[TaskOrder]) -> None:
         numbered = [
@@ -263,4 +341,22 @@ class FakeRobot:
         self._server.publish("/schedule", Schedule(tasks=self.schedule))
 
     def _tell_events(self, session: Session, request: GetEventsRequest) -> GetEventsResponse:
-        return GetEventsResponse(events=[event for event in self.events if event.id > request.since])
+        same = any(event.boot == request.boot for event in self.events)
+        known = request.since if same else 0
+        later = [event for event in self.events if event.id > known]
+        told = later[: request.most] if request.boot else later[-request.most :]
+        open = request.open if same else ()
+        seen = [one for one in self.events if one.id in open and one.id <= known and one.acknowledged_by]
+        return GetEventsResponse([*seen, *told], bool(told) and told[-1] is not later[-1])
+
+
+def _driven(name: str, client_id: str) -> dict[str, Any]:
+    return {"driver": name, "driver_id": client_id}
+
+
+def _asked(name: str = "", client_id: str = "", due: float = 0.0) -> dict[str, Any]:
+    return {
+        "requested_by": name,
+        "requested_by_id": client_id,
+        "handover": Time.at(due) if math.isfinite(due) else Time(),
+    }

@@ -37,4 +37,5 @@ class Glass:
         return touch
 
     def banners(self) -> list[str]:
-        return [child.text for child in self.app.shell.ids.notices.children]
+        """Sentences over the screen, whatever cards lie there."""
+        return [child.text for child in self.app.shell.ids.notices.children if hasattr(child, "text")]

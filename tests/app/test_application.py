@@ -10,7 +10,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
+from app.feeds import Post
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Twist
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskStatus
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
@@ -67,33 +69,34 @@ def test_a_push_reaches_the_robot_and_letting_go_stops_it(driving: Glass, robot:
     rested(driving, robot)
 
 
-def test_a_screen_change_under_a_pushed_stick_stops_the_robot(driving: Glass, robot: FakeRobot) -> None:
-    push(driving, robot)
-    driving.app.show("mission")
-    rested(driving, robot)
+LOSSES: dict[str, Callable[[Glass], object]] = {
+    "turned": lambda glass: setattr(glass.stage.window, "size", glass.stage.window.size[::-1]),
+    "resized": lambda glass: setattr(glass.stage.window, "size", (1000, 700)),
+    "hidden": lambda glass: glass.stage.window.dispatch("on_hide"),
+    "minimised": lambda glass: glass.stage.window.dispatch("on_minimize"),
+    "out of focus": lambda glass: setattr(glass.stage.window, "_focus", False),
+    "another screen": lambda glass: glass.app.show("mission"),
+    "control given up": lambda glass: glass.app.session.release_control(),
+}
 
 
-@pytest.mark.parametrize(
-    "happens",
-    [
-        pytest.param(lambda window: setattr(window, "size", window.size[::-1]), id="turned"),
-        pytest.param(lambda window: setattr(window, "size", (1000, 700)), id="resized"),
-        pytest.param(lambda window: window.dispatch("on_hide"), id="hidden"),
-        pytest.param(lambda window: window.dispatch("on_minimize"), id="minimised"),
-        pytest.param(lambda window: setattr(window, "_focus", False), id="out of focus"),
-    ],
-)
-def test_a_window_that_changes_under_a_pushed_stick_stops_the_robot(
-    driving: Glass, robot: FakeRobot, happens: Callable[[Any], object]
+def test_whatever_happens_to_a_pushed_stick_it_lets_go_and_the_robot_is_told_to_rest(
+    driving: Glass, robot: FakeRobot
 ) -> None:
-    window = driving.stage.window
+    window, stick = driving.stage.window, driving.app.screens["drive"].stick
     size = tuple(window.size)
-    push(driving, robot)
-    try:
-        happens(window)
-        rested(driving, robot)
-    finally:
-        window.size, window._focus = size, True
+    for name, happens in LOSSES.items():
+        robot.heard.clear()
+        touch = push(driving, robot)
+        try:
+            happens(driving)
+            assert (stick.finger, stick.twist) == (None, Twist()), name
+            driving.until(lambda: robot.twists()[-1] == Twist(), name)
+        finally:
+            window.size, window._focus = size, True
+            touch.touch_up()
+        driving.app.show("drive")
+        driving.stage.frames(3)
 
 
 def test_stop_is_sent_when_the_finger_comes_down_and_shown_when_the_robot_confirms(
@@ -109,6 +112,16 @@ def test_stop_is_sent_when_the_finger_comes_down_and_shown_when_the_robot_confir
     driving.until(lambda: "/stop/release" in robot.services(), "a hold did not release")
     touch.touch_up()
     driving.until(lambda: stop.phase == "ready", "not released")
+
+
+def test_escape_is_stop_on_every_screen(driving: Glass, monkeypatch: pytest.MonkeyPatch) -> None:
+    stopped: list[str] = []
+    monkeypatch.setattr(driving.app.session, "stop", lambda: stopped.append(driving.app.shell.screen))
+    for screen in driving.app.shell.screens:
+        driving.app.show(screen)
+        driving.stage.window.dispatch("on_key_down", 27, 41, None, [])
+        driving.stage.window.dispatch("on_key_up", 27, 41)
+    assert stopped == list(driving.app.shell.screens)
 
 
 def test_a_link_that_is_silent_says_so_before_it_is_lost(driving: Glass, robot: FakeRobot) -> None:
@@ -150,6 +163,17 @@ def test_a_second_tap_on_pause_does_not_resume(
     assert asked == ["pause"]
     driving.tap(pause)
     assert asked == ["pause", "resume"]
+
+
+def test_what_became_of_stop_is_shown_when_it_is_known_and_not_at_the_next_tick(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    shown = []
+    for stopped in (True, False):
+        told = replace(robot.control, stopped=stopped, at_rest=True)
+        driving.app.session.deliver("/control/status", Post(told, 0.0, 1))
+        shown.append(driving.app.shell.stop.phase)
+    assert shown == ["stopped", "ready"]
 
 
 @pytest.mark.parametrize("screen", ["drive", "mission"])
@@ -276,7 +300,7 @@ def test_who_is_driven_by_another_is_only_watched(glass: Glass, robot: FakeRobot
     robot.publish("/control/status", robot.control)
     glass.app.open(robot.url, watch=True)
     glass.until(
-        lambda: glass.app.shell is not None and glass.app.shell.control_text == "driven by tablet-B",
+        lambda: glass.app.shell is not None and glass.app.shell.bar.control_text == "driven by tablet-B",
         "not said",
     )
     glass.app.show("drive")

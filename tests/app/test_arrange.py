@@ -31,8 +31,8 @@ NOTICES = [(size, name) for size in SIZES for name in ("mission", "sheet", "driv
 def test_nothing_overlaps(size: tuple[int, int], name: str) -> None:
     places = screens(*size)[name]
     ground = MAY_LIE_ON if name == "drive" else MAY_LIE_ON - {"video"}
-    # a notice comes and goes; a bar for the selected point may lie under it on the smallest phone
-    things = {key: rect for key, rect in places.items() if key not in {*ground, "notice"}}
+    # a notice comes and goes, as does the unfolded strip; a bar for the selected point may lie under it on the smallest phone
+    things = {key: rect for key, rect in places.items() if key not in {*ground, "notice", "senses_open"}}
     for (one, first), (two, second) in itertools.combinations(things.items(), 2):
         assert not first.overlaps(second), f"{one} {first} overlaps {two} {second}"
 
@@ -51,6 +51,21 @@ def test_a_notice_covers_nothing_that_can_be_touched(size: tuple[int, int], name
     places = screens(*size)[name]
     for key in {"stop", "stick", "slider", "actions", "modes", "tools", "panel", "tasks"} & places.keys():
         assert not places["notice"].overlaps(places[key]), key
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_unfolded_sensors_cover_nothing_that_drives_or_stops(size: tuple[int, int]) -> None:
+    places = screens(*size)["drive"]
+    for key in ("stop", "stick", "slider", "actions"):
+        assert not places["senses_open"].overlaps(places[key]), key
+    assert places["senses_open"].height >= 126, "three sensors need so much"
+
+
+@pytest.mark.parametrize("size", [size for size in SIZES if min(size) > 360])
+def test_what_stays_until_it_is_dealt_with_has_room_for_a_finger(size: tuple[int, int]) -> None:
+    room = screens(*size)["drive"]["notice_low"]
+    assert room.width >= 200
+    assert room.height >= 53
 
 
 @pytest.mark.parametrize(("size", "name"), CASES)

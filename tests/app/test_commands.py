@@ -78,6 +78,20 @@ def test_a_dead_user_interface_brings_the_robot_to_rest(hand: Hand) -> None:
     assert first_zero <= 50.2 + 0.15 + 0.021
 
 
+def test_the_sender_looks_again_the_moment_that_the_heartbeat_is_too_old(hand: Hand) -> None:
+    assert hand.slot.patience(0.05) == 0.05
+    hand.slot.want(AHEAD)
+    hand.pass_time(0.5)
+    stopped, waits = hand.clock.now, []
+    while hand.sent[-1][1] != ZERO:
+        waits.append(hand.slot.patience(0.05))
+        hand.clock.now += waits[-1]
+        if (twist := hand.slot.due()) is not None:
+            hand.sent.append((hand.clock.now, twist))
+    assert hand.sent[-1][0] - stopped == pytest.approx(0.151)
+    assert all(0 < wait <= 0.05 for wait in waits)
+
+
 def test_a_stick_held_through_a_short_stall_drives_on(hand: Hand) -> None:
     hand.slot.want(AHEAD)
     hand.pass_time(0.2)

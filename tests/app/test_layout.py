@@ -24,7 +24,10 @@ def one(**changes: object) -> str:
     [
         ("title = ", "Layout x is no TOML"),
         ("instrument = 3", r"\[\[instrument\]\] tables"),
-        (one(slot="middle"), "instrument 1: slot is one of top_left, top, top_right, readouts, not 'middle'"),
+        (
+            one(slot="middle"),
+            "instrument 1: slot is one of top_left, top, top_right, readouts, senses, not 'middle'",
+        ),
         (one(slot=None), "slot is one of .*, not None"),
         (one(widget="Compas"), "widget is one of Compass, LaserScanView, Readout, not 'Compas'"),
         (one(topic="/cmd_vel"), "topic is one of .*/scan.*, not '/cmd_vel'"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -12,6 +13,7 @@ import pytest
 
 from app.feeds import Feeds, Mailbox, Post
 from app.link import Link
+from app.logbook import marks
 from app.session import Session
 from app.settings import Settings
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
@@ -27,18 +29,28 @@ AHEAD = Twist.planar(0.3, 0.0)
 class Operator:
     """A session without glass: takes out what the mailbox holds until something is the case."""
 
-    def __init__(self, url: str, folder: Path, *, wants_control: bool) -> None:
+    def __init__(
+        self, url: str, folder: Path, *, wants_control: bool, client_id: str = "me", name: str = "tablet"
+    ) -> None:
         self.network = NetworkThread()
-        self.mailbox = Mailbox(lambda: None)
+        self.woken = threading.Event()
+        self.mailbox = Mailbox(self.woken.set)
         self.settings = Settings(folder)
-        self.link = Link(url, self.mailbox, self.network, client_id="me", client_name="tablet")
+        self.link = Link(
+            url,
+            self.mailbox,
+            self.network,
+            client_id=client_id,
+            client_name=name,
+            marks=marks(self.settings),
+        )
         self.session = Session(
             self.link,
             Feeds(time.monotonic),
             self.settings,
             now=time.monotonic,
-            client_id="me",
-            client_name="tablet",
+            client_id=client_id,
+            client_name=name,
             wants_control=wants_control,
         )
         self.said: list[tuple[str, Any]] = []
@@ -329,6 +341,23 @@ def test_a_link_closed_under_a_pushed_stick_says_rest_at_last(
     assert robot.until(lambda: robot.twists()[-1] == Twist())
 
 
+def test_control_that_is_given_up_under_a_pushed_stick_leaves_a_robot_told_to_rest(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
+    operator = connect()
+    drives(operator, robot)
+    before: list[Twist] = []
+
+    def note(name: str, _: Any) -> None:
+        if name == "/control/release":
+            before.append(robot.twists()[-1])
+
+    robot.objection = note
+    operator.session.release_control()
+    operator.until(lambda: "/control/release" in robot.services())
+    assert before == [Twist()]
+
+
 def test_a_frozen_glass_stops_the_robot(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
     operator = connect()
     operator.until(lambda: operator.session.control == "mine")
@@ -358,6 +387,54 @@ def test_after_a_lost_link_everything_comes_back_but_the_old_drive_command(
     operator.until(lambda: operator.session.control == "mine" and operator.texts() == ["one", "two"])
     assert robot.twists() == []
     assert operator.session.mission.draft.points == ((1.0, 1.0),)
+
+
+def test_an_app_that_was_killed_and_comes_back_gets_all_it_missed_and_nothing_twice(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
+    robot.events = [Event(id=1, boot="a", text="1")]
+    first = connect()
+    first.until(lambda: first.texts() == ["1"] and marks(first.settings) == {"a": 1})
+    first.close()
+    robot.events += [Event(id=number, boot="a", text=f"{number}") for number in range(2, 602)]
+    again = connect()
+    again.until(lambda: again.session.logbook.missed)
+    assert again.texts() == [f"{number}" for number in range(2, 602)]
+    assert [one.id for one in again.session.logbook.missed] == list(range(2, 602))
+
+
+def test_what_another_handheld_saw_to_while_the_link_was_lost_waits_for_nobody(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
+    robot.events = [Event(id=1, boot="a", text="alarm", level="alarm")]
+    operator = connect()
+    operator.until(lambda: operator.session.logbook.alarms == 1)
+    robot.stop()
+    operator.until(lambda: not operator.session.connected)
+    robot.events = [Event(id=1, boot="a", text="alarm", level="alarm", acknowledged_by="Anna")]
+    robot.start()
+    operator.until(lambda: operator.session.logbook.alarms == 0)
+    assert operator.session.logbook.events[0].acknowledged_by == "Anna"
+
+
+def test_an_acknowledgement_that_gets_no_answer_for_the_link_is_lost_is_given_once_the_link_is_back(
+    robot: FakeRobot, connect: Callable[..., Operator]
+) -> None:
+    robot.events = [Event(id=1, boot="a", text="alarm", level="alarm")]
+    operator = connect()
+    book = operator.session.logbook
+    operator.until(lambda: book.alarms == 1)
+    robot.hold_answers()
+    book.acknowledge(book.open)
+    assert robot.until(lambda: "/events/acknowledge" in robot.services())
+    assert book.is_asked(book.events[0])
+    robot.cut()
+    operator.until(lambda: not operator.session.connected)
+    robot.give_answers()
+    operator.until(lambda: book.alarms == 0)
+    asked = [request.command_id for name, request in robot.asked if name == "/events/acknowledge"]
+    assert len(set(asked)) == 1
+    assert book.events[0].acknowledged_by == "tablet"
 
 
 def test_a_stream_is_live_and_goes_stale(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
@@ -408,3 +485,14 @@ def test_a_draft_that_was_under_way_over_a_closed_link_can_be_sent_again(
     operator.session.resume(operator.link)
     assert operator.session.mission.state == "draft"
     assert operator.session.mission.outcome == "No reply: the link was closed."
+
+
+def test_whether_it_is_stopped_wakes_the_glass_at_once(
+    connect: Callable[..., Operator], robot: FakeRobot
+) -> None:
+    operator = connect(wants_control=False)
+    operator.until(lambda: operator.session.feeds.latest("/control/status") is not None)
+    operator.woken.clear()
+    robot.publish("/control/status", ControlStatus(stopped=True))
+    assert operator.woken.wait(PATIENCE)
+    operator.until(lambda: operator.session.stop_latched)

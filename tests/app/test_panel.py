@@ -28,6 +28,7 @@ def session(tmp_path: Path) -> Session:
     link = SimpleNamespace(
         state=LinkState(Phase.CONNECTED, "", 0, 0.0),
         silent=False,
+        silence=0.0,
         robot_time=lambda: 100.0,
         command=lambda *_, **__: None,
     )

@@ -22,6 +22,7 @@ class Wire:
     """Stands for the link; notes what it is asked for."""
 
     state = LinkState(Phase.CONNECTED, "", 0, 0.0)
+    silence = 0.0
 
     def __init__(self) -> None:
         self.asked: list[str] = []

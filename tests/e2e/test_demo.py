@@ -29,3 +29,14 @@ def test_the_demo_finds_the_robot_and_sends_it_a_mission(tmp_path):
     with (tmp_path / "run.mcap").open("rb") as recording:
         topics = {channel.topic for _, channel, _ in make_reader(recording).iter_messages()}
     assert {"/pose", "/scan", "/map", "/mission", "/control/status"} <= topics
+
+
+def test_the_second_story_makes_places_and_orders_a_delivery(tmp_path):
+    command = [sys.executable, "-m", "examples.demo", "--story", "errand", "--out", str(tmp_path)]
+    done = subprocess.run(
+        [*command, "--until", "ordered"], cwd=ROOT, capture_output=True, text=True, check=False, timeout=120
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "Traceback" not in done.stderr
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert [step["name"] for step in summary["steps"]] == ["fenced", "place-made", "place-here", "ordered"]

@@ -60,3 +60,19 @@ def test_a_watcher_stops_a_robot_that_somebody_else_drives(
         glass.until(lambda: stop.phase == "ready", "the release after a hold", 4.0)
         glass.hand.up(finger)
         glass.run(0.1)
+
+
+def test_stop_all_from_the_connect_screen_stops_what_somebody_else_drives_and_counts_it_once(
+    robot: RobotProcess, witness: Witness, tmp_path: Path
+) -> None:
+    with handheld(tmp_path, discover=False) as glass, somebody_drives(robot.url):
+        glass.until(lambda: witness.speed() > 0.2, "the other client to drive")
+        for address in (robot.url, robot.url.replace("127.0.0.1", "localhost")):
+            glass.app.robots.add(address)
+        button = glass.one("StopAll")
+        glass.settle(button)
+        glass.play(glass.hand.tap(button.to_window(*button.center)))
+        glass.until(lambda: button.word == "1 of 1", "one robot, and that stopped", 5.0)
+        assert glass.one("StopList").title == "STOPPED 1 of 1"
+        glass.run(1.0)
+        assert witness.speed() < 0.01, "a latched STOP holds against the stick of anybody"

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from examples.demo import patrol, prepare
+from examples.demo import errand, others, patrol, prepare
 from examples.demo.__main__ import main
-from examples.demo.options import STEPS, options
+from examples.demo.options import STORIES, options
 
 
 @pytest.mark.parametrize(
@@ -15,7 +15,8 @@ from examples.demo.options import STEPS, options
     [
         (["--size", "foo"], "A size is written as 412x892, not 'foo'."),
         (["--theme", "foo"], "There is no theme 'foo'; there are dark, sunlight, night."),
-        (["--until", "foo"], f"There is no step 'foo'; there are {', '.join(STEPS)}."),
+        (["--until", "foo"], f"There is no step 'foo'; there are {', '.join(STORIES['patrol'])}."),
+        (["--story", "foo"], "There is no story 'foo'; there are patrol, errand."),
         (["--speed", "0"], "The speed must be above 0 and at most 100, not 0.0."),
         (["--speed", "fast"], "Argument --speed: invalid float value: 'fast'."),
         (["--sizes", "1"], "Unrecognized arguments: --sizes 1."),
@@ -31,9 +32,23 @@ def test_what_is_allowed_is_taken():
     assert (chosen.size, chosen.theme, chosen.until, chosen.speed) == ("412x892", "night", "sent", 2.0)
 
 
-def test_the_steps_are_those_of_the_story():
-    trees = [ast.parse(Path(module.__file__).read_text()) for module in (prepare, patrol)]
-    calls = [node for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Call)]
-    steps = [c.args[0].value for c in calls if isinstance(c.func, ast.Attribute) and c.func.attr == "step"]
-    assert set(steps) == set(STEPS)
-    assert len(steps) == len(STEPS)
+@pytest.mark.parametrize(("story", "modules"), [("patrol", (prepare, patrol)), ("errand", (errand, others))])
+def test_the_steps_are_those_of_the_story(story, modules):
+    trees = [ast.parse(Path(module.__file__).read_text()) for module in modules]
+    steps = [name for tree in trees for name in _steps(tree)]
+    assert set(steps) == set(STORIES[story])
+    assert len(steps) == len(STORIES[story])
+
+
+def _steps(tree):
+    """The names of steps, written in the call or in what the call's loop runs over."""
+    loops = [node for node in ast.walk(tree) if isinstance(node, ast.For)]
+    looped = {
+        loop.target.elts[0].id: [item.elts[0].value for item in loop.iter.elts]
+        for loop in loops
+        if isinstance(loop.target, ast.Tuple) and isinstance(loop.iter, ast.Tuple)
+    }
+    for call in ast.walk(tree):
+        if isinstance(call, ast.Call) and isinstance(call.func, ast.Attribute) and call.func.attr == "step":
+            name = call.args[0]
+            yield from [name.value] if isinstance(name, ast.Constant) else looped[name.id]

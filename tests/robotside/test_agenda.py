@@ -14,6 +14,7 @@ from bridge.msgs.pilothouse_msgs import (
     GetHistoryRequest,
     Schedule,
     ScheduledTask,
+    SetModeRequest,
     SetQueueRequest,
     SetScheduleRequest,
     StartTaskRequest,
@@ -249,6 +250,47 @@ def test_what_is_due_while_something_is_against_it_is_skipped_and_said(
     assert scene.events("task").count(said) == 1
     assert "go_to" not in begun(scene)
     assert queue(scene).orders == []
+
+
+def mode(scene: Scene, word: str) -> str:
+    answer = scene.ask("/mode/set", SetModeRequest(mode=word, client_name="Anna"))
+    assert answer.success, answer.message
+    return answer.message
+
+
+def test_nothing_starts_by_itself_while_the_mode_was_set_to_manual(scene: Scene, tmp_path: Path) -> None:
+    plan(scene, point(2.0, 0.0), at="00:17")
+    assert mode(scene, "MANUAL") == "The robot is driven by hand; nothing starts by itself."
+    told = "Anna set the mode to MANUAL: nothing starts by itself until it is AUTO."
+    assert told in scene.events("control")
+    said = fill(scene, HOLD)
+    assert said == "1 task waits in the queue; it waits, since Anna set the mode to MANUAL."
+    scene.run(17.0)
+    skipped = "A way to a place that was due now is skipped: Anna set the mode to MANUAL."
+    assert scene.events("task").count(skipped) == 1
+    again = Scene(FakeRobot(), tmp_path)
+    again.ask("/task/queue/set", SetQueueRequest(revision=queue(again).revision))
+    fill(again, HOLD)
+    again.run(5.0)
+    assert begun(again) == [], "a restart is no reason to start"
+    assert mode(again, "AUTO") == "The robot drives itself."
+    again.run(2.0)
+    assert begun(again) == ["hold"]
+
+
+def test_auto_lets_the_schedule_start_again_and_so_does_a_task_that_somebody_starts(scene: Scene) -> None:
+    plan(scene, HOLD, every=60.0)
+    mode(scene, "MANUAL")
+    assert mode(scene, "AUTO") == "The robot may start by itself what is scheduled and queued."
+    scene.run(61.0)
+    assert begun(scene) == ["hold"]
+    mode(scene, "MANUAL")
+    scene.run(61.0)
+    assert begun(scene) == ["hold"]
+    scene.ask("/task/cancel")
+    scene.ask("/task/start", StartTaskRequest(order=point(1.0, 0.0)))
+    scene.run(61.0)
+    assert begun(scene) == ["hold", "go_to", "hold"]
 
 
 def test_what_was_due_while_the_computer_was_off_is_skipped_and_said(scene: Scene, tmp_path: Path) -> None:

@@ -82,6 +82,36 @@ def test_the_camera_is_wanted_only_while_a_task_runs(scene: Scene) -> None:
     assert not scene.robot.wanted["/camera/image/compressed"]
 
 
+def show_cone(scene: Scene) -> None:
+    """Five pictures of a cone 3 m ahead."""
+    image, draw = picture()
+    focal = 320 / math.tan(0.6)
+    cone(draw, 320, 240 + focal * 0.36 / 3.0, 0.6 * focal / 3.0)
+    for n in range(5):
+        shot = CompressedImage(Header(Time.at(scene.now - 0.5 + 0.21 * n), "camera"), "jpeg", jpeg(image))
+        scene.station.autonomy.take("/camera/image/compressed", shot, scene.now)
+
+
+def test_who_drives_by_hand_and_looks_at_the_camera_is_told_of_an_intruder(scene: Scene) -> None:
+    scene.run(0.5)
+    show_cone(scene)
+    assert not scene.station.autonomy.engine.active
+    known = scene.station.bus.last("/intruders")
+    assert isinstance(known, IntruderArray)
+    assert [intruder.id for intruder in known.intruders] == [1]
+    assert len(scene.events("intruder")) == 1
+
+
+def test_an_intruder_found_while_a_patrol_rests_leaves_what_is_said_of_the_patrol(scene: Scene) -> None:
+    scene.set(Waypoint(6.0, -4.0), stop_on_intruder=True)
+    scene.start()
+    scene.run(0.1)
+    scene.station.autonomy.engine.pause("Paused: Anna took the stick.")
+    show_cone(scene)
+    assert len(scene.events("intruder")) == 1
+    assert scene.task.reason == "Paused: Anna took the stick."
+
+
 @pytest.mark.parametrize(
     ("words", "state", "phase"),
     [
@@ -95,15 +125,10 @@ def test_the_camera_is_wanted_only_while_a_task_runs(scene: Scene) -> None:
 def test_an_intruder_is_told_once_and_the_patrol_does_about_it_what_the_mission_says(
     scene: Scene, words: dict[str, object], state: str, phase: str
 ) -> None:
-    image, draw = picture()
-    focal = 320 / math.tan(0.6)
-    cone(draw, 320, 240 + focal * 0.36 / 3.0, 0.6 * focal / 3.0)
     scene.set(Waypoint(6.0, -4.0), **words)
     scene.start()
     scene.run(0.1)
-    for n in range(5):
-        shot = CompressedImage(Header(Time.at(scene.now - 0.5 + 0.21 * n), "camera"), "jpeg", jpeg(image))
-        scene.station.autonomy.take("/camera/image/compressed", shot, scene.now)
+    show_cone(scene)
     assert len(scene.events("intruder")) == 1
     known = scene.station.bus.last("/intruders")
     assert isinstance(known, IntruderArray)

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from robotside.expiry import UNSTAMPED, VALID, Expiry
+from robotside.expiry import HELD, UNSTAMPED, VALID, Expiry
 from tests.fakes import FakeClient
 
 NOW = 100.0
@@ -25,11 +25,18 @@ def test_a_stamp_of_a_clock_that_was_never_compared_does_not_count(client: FakeC
     assert Expiry().fault(client, NOW, NOW, rest=False) == ""
 
 
-@pytest.mark.parametrize(("age", "counts"), [(0.0, True), (VALID, True), (VALID + 0.01, False)])
-def test_a_command_is_too_old_after_three_tenths_of_a_second(
+@pytest.mark.parametrize(("age", "counts"), [(0.0, True), (HELD - 1e-6, True), (HELD + 0.01, False)])
+def test_a_command_that_moves_has_to_come_while_it_would_be_in_force(
     client: FakeClient, age: float, counts: bool
 ) -> None:
     assert (Expiry().fault(client, NOW, NOW - age, rest=False) == "") == counts
+
+
+@pytest.mark.parametrize(("age", "counts"), [(VALID - 1e-6, True), (VALID + 0.01, False)])
+def test_one_to_rest_counts_for_three_tenths_of_a_second(
+    client: FakeClient, age: float, counts: bool
+) -> None:
+    assert (Expiry().fault(client, NOW, NOW - age, rest=True) == "") == counts
 
 
 @pytest.mark.parametrize("stamp", [None, math.nan])

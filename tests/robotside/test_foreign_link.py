@@ -260,6 +260,8 @@ async def test_a_robot_side_drives_patrols_and_stops_through_another_and_rests_w
         await order(client, "/stop")
         await until(lambda: far.at_rest)
         assert await order(client, "/stop/release") == "STOP is released."
+        # behind it is released a moment later
+        await until(lambda: not (robot.trouble or serves.station.unfit))
         assert await order(client, "/task/resume") == "Resumed."
         await until(lambda: far.pose[0] > 0.5)
 

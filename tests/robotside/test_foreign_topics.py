@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.pilothouse_msgs import LineSensor
+from bridge.msgs.sensor_msgs import Range
 from robotside.autonomy import CAMERA
 from robotside.foreign_topics import CONTROL, match, usual
 
@@ -21,6 +23,14 @@ def test_usual_names_need_no_word() -> None:
     assert found.topics["/odom"] == ("/odom", Odometry)
     assert (found.command, found.stamped) == ("/cmd_vel", False)
     assert found.remarks == (f"/camera/rgb/image_raw/compressed is taken for {CAMERA}, by its type.",)
+
+
+def test_small_sensors_are_passed_on_where_a_robot_has_them() -> None:
+    found = match(TURTLEBOT | {"/line": "pilothouse_msgs/LineSensor", "/sonar": "sensor_msgs/Range"})
+    assert found.topics["/line"] == ("/line", LineSensor)
+    assert found.topics["/ultrasound/front"] == ("/sonar", Range)
+    assert "/ultrasound/left" not in found.topics
+    assert "/line" not in match(TURTLEBOT).topics
 
 
 def test_a_bare_robot_says_what_it_has_not() -> None:

@@ -190,6 +190,12 @@ def test_the_configuration_says_what_the_settings_are_at_first(tmp_path: Path) -
     assert scene.control.follows_link
 
 
+def test_everybody_is_told_how_the_settings_stand(scene: Scene) -> None:
+    assert not scene.control.lost_link_stops_task
+    assert scene.ask("/settings/set", SetOptionRequest(name="lost_link_stops_task", value="on")).success
+    assert scene.control.lost_link_stops_task
+
+
 class Kind(FakeRobot):
     """A robot of another kind; it flies or dives in name only."""
 

@@ -73,6 +73,11 @@ def test_a_mission_is_recalled_by_its_name_and_is_the_stored_one_then(scene: Sce
     scene.set(Waypoint(1.0, 1.0), name="Day", home=[Waypoint(2.0, 2.0)])
     names: Any = scene.ask("/missions/get", GetMissionsRequest())
     assert names.names == ["Day", "Night"]
+    assert [(one.name, one.points, one.motion, one.revisions) for one in names.missions] == [
+        ("Day", 1, "loop", 1),
+        ("Night", 3, "loop", 1),
+    ]
+    assert all(one.stamp.seconds > 0 for one in names.missions)
     assert (
         scene.ask("/mission/recall", RecallMissionRequest(name="Night")).message
         == "Night is the mission now."

@@ -12,7 +12,7 @@ import msgspec
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist
-from robotside.controls import VALID
+from robotside.controls import HELD, VALID
 from robotside.expiry import UNSTAMPED
 from tests.fakes import FakeClient, FakeRobot
 from tests.robotside.scene import Scene
@@ -22,6 +22,8 @@ CUTS = 100
 TICK = 1 / 60
 PERIOD = 1 / 20
 """Between two commands of a stick [s]."""
+SPARE = 0.03
+"""For a computer that is busy: what its scheduling may add in real time [s]."""
 FULL = Twist.planar(0.7, 1.2)
 
 
@@ -48,7 +50,8 @@ class Cut:
     """One drive and how its link ends."""
 
     how: str
-    """lost: nothing comes any more; closed: the socket is; stalled: all comes later, in one breath."""
+    """lost: nothing comes any more; closed: the socket is; stalled: all comes later, in one breath; slowing: each takes
+    longer than the one before."""
     stamped: bool
     after: float
     """How long it is driven [s]."""
@@ -59,7 +62,7 @@ class Cut:
     @classmethod
     def some(cls, rng: random.Random) -> Cut:
         return cls(
-            how=rng.choice(["lost", "closed", "stalled"]),
+            how=rng.choice(["lost", "closed", "stalled", "slowing"]),
             stamped=rng.random() < 0.7,
             after=rng.uniform(0.1, 0.9),
             way=rng.uniform(0.0, 0.06),
@@ -68,9 +71,9 @@ class Cut:
 
     def arrivals(self, start: float, rng: random.Random) -> Iterator[tuple[float, float]]:
         """When each command comes and when it was given, in order."""
-        last, given = start, start
+        last, given, more = start, start, rng.uniform(0.2, 0.8) if self.how == "slowing" else 0.0
         while given < start + self.after + (1.0 if self.how == "stalled" else 0.0):
-            last = max(last, given + self.way * (1 + rng.random()))
+            last = max(last, given + self.way * (1 + rng.random()) + more * (given - start))
             cut = start + self.after
             if last < cut:
                 yield last, given
@@ -104,7 +107,7 @@ class Trial:
             before = len(self.robot.commands)
             scene.drive(FULL, client, given if cut.stamped else None)
             if len(self.robot.commands) > before and self.robot.moving:
-                assert moment - given <= (VALID if cut.stamped else UNSTAMPED)
+                assert moment - given <= (HELD if cut.stamped else UNSTAMPED)
                 valid, moved = (given if cut.stamped else moment), True
         assert moved
         assert not self.robot.moving
@@ -136,4 +139,4 @@ def test_the_commanded_speed_is_zero_300_ms_after_the_last_valid_command(kind: s
     rng, trial = random.Random(f"cuts of {kind}"), Trial(kind, tmp_path)
     for _ in range(CUTS):
         trial.drive(Cut.some(rng), rng)
-    assert 0.2 < trial.worst <= VALID
+    assert 0.2 < trial.worst <= VALID - SPARE

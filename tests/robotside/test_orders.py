@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
+import msgspec
 import pytest
 
+from bridge.msgs.arrays import Int32Array
 from bridge.msgs.geometry_msgs import (
     Point,
     Pose,
@@ -15,6 +18,7 @@ from bridge.msgs.geometry_msgs import (
     Twist,
 )
 from bridge.msgs.pilothouse_msgs import (
+    AcknowledgeEventsRequest,
     CommandRequest,
     GetEventsRequest,
     GetMissionRequest,
@@ -186,6 +190,21 @@ def test_what_was_missed_can_be_asked_for(scene: Scene) -> None:
     later = scene.ask("/events/get", GetEventsRequest(2, "b1")).events  # type: ignore[attr-defined]
     assert later == everything[2:]
     assert scene.ask("/events/get", GetEventsRequest(2, "another")).events == everything  # type: ignore[attr-defined]
+
+
+def test_the_answer_says_whether_there_is_more_and_what_others_have_seen_to(scene: Scene) -> None:
+    for number in range(4):
+        scene.station.events.say("contact", f"It touched something {number}.", "alarm")
+    ask = GetEventsRequest(since=1, boot="b1", most=2)
+    answer: Any = scene.ask("/events/get", ask)
+    assert ([event.id for event in answer.events], answer.more, answer.oldest) == ([2, 3], True, 1)
+    seen = AcknowledgeEventsRequest(client_name="Anna", ids=Int32Array([1]))
+    assert scene.ask("/events/acknowledge", seen).success
+    ask = msgspec.structs.replace(ask, since=3, open=Int32Array([1, 3]), most=500)
+    last: Any = scene.ask("/events/get", ask)
+    first, *later = last.events
+    assert (first.id, first.acknowledged_by, last.more) == (1, "Anna", False)
+    assert [event.id for event in later] == list(range(4, later[-1].id + 1))
 
 
 def test_a_mission_survives_a_restart(tmp_path: Path) -> None:

@@ -14,7 +14,8 @@ from bridge.msgs.geometry_msgs import (
     Vector3,
 )
 from bridge.msgs.nav_msgs import Odometry
-from bridge.msgs.sensor_msgs import Imu, LaserScan
+from bridge.msgs.pilothouse_msgs import LineSensor
+from bridge.msgs.sensor_msgs import Imu, LaserScan, Range
 from robotside.pose2 import Pose2
 from robotside.senses import PATIENCE, Senses
 from robotside.tracks import Moving
@@ -60,3 +61,13 @@ def test_what_it_drives_with_is_missed_from_the_start_and_the_rest_once_it_was_t
     senses.take("/imu/data", Imu(), 0.0)
     senses.take("/odom", ODOM, 2.0)
     assert senses.silent(2.0) == ["laser", "IMU"]
+
+
+def test_small_sensors_that_fell_silent_are_named() -> None:
+    senses = Senses()
+    for topic, message in (("/odom", ODOM), ("/scan", LaserScan()), ("/line", LineSensor())):
+        senses.take(topic, message, 0.0)
+    senses.take("/ultrasound/rear", Range(), 0.0)
+    for topic, message in (("/odom", ODOM), ("/scan", LaserScan())):
+        senses.take(topic, message, 2.0)
+    assert senses.silent(2.0) == ["line sensor", "rear ultrasound"]

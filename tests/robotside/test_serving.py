@@ -262,7 +262,7 @@ def test_a_mistake_in_the_settings_file_is_one_sentence_and_no_robot_is_made(
         ("serve --speed nan", "The speed must be above 0 and at most 100, not nan."),
         (
             "serve --payloads catapult",
-            "There is no payload 'catapult'; there is laser, sonar, camera, lights, tag_reader, arm.",
+            "There is no payload 'catapult'; there is laser, sonar, ultrasound, line_sensor, camera, lights, tag_reader, arm.",
         ),
         (
             "serve --robot ros:ws://192.0.2.1:9090 --payloads arm",

@@ -62,7 +62,11 @@ def test_control_is_free_again_when_its_driver_falls_silent(scene: Scene) -> Non
     assert scene.control.driver == "Anna"
     scene.run(0.2)
     assert scene.control.driver == ""
-    assert scene.events("control") == ["Anna has control.", "Control is free."]
+    assert scene.events("control") == [
+        "Anna has control.",
+        "Anna was not heard for 2 s and lost control.",
+        "Control is free.",
+    ]
 
 
 def test_a_drive_command_that_is_no_number_is_said_once_and_moves_nothing(scene: Scene) -> None:

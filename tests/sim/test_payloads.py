@@ -42,6 +42,8 @@ def test_every_payload_can_be_mounted_on_every_robot_that_has_none_and_says_what
         vehicle = simulation.vehicle
         free = [payload for payload in PAYLOADS if payload not in vehicle.suite]
         free = [payload for payload in free if not (payload == "camera" and name == "commander")]
+        on_wheels = model.parameters.info.kind in ("wheels", "ackermann")
+        free = [payload for payload in free if on_wheels or payload != "line_sensor"]
         robot = SimRobot(simulation, camera=False, payloads=free)
         assert robot.info.payloads == free
         for told, message in (*robot.read(0.0), *robot.read(0.3)):
@@ -81,7 +83,10 @@ def test_a_payload_that_is_there_already_or_that_nobody_knows_is_refused_in_one_
         make("patrol", "parking_lot", camera=False, payloads=["laser"])
     with pytest.raises(ValueError, match="Scout-1 has an arm already"):
         make("scout", "parking_lot", camera=False, payloads=["arm", "arm"])
-    with pytest.raises(ValueError, match="There is no payload 'catapult'; there is laser, sonar, camera"):
+    with pytest.raises(
+        ValueError,
+        match="There is no payload 'catapult'; there is laser, sonar, ultrasound, line_sensor, camera",
+    ):
         make("scout", "parking_lot", camera=False, payloads=["catapult"])
     with pytest.raises(ValueError, match="Commander-1 has a camera 'rear' already"):
         make("commander", "parking_lot", camera=False, payloads=["camera"])
@@ -110,6 +115,21 @@ def test_an_order_for_what_is_not_mounted_is_refused():
     with pytest.raises(ValueError, match="takes no orders"):
         robot.command("laser", LightState())
     robot.close()
+
+
+def test_mounted_rangers_and_a_line_sensor_measure_what_is_round_and_under_it():
+    line = "[[lines]]\nfrom = [-1.0, 0.0]\nto = [3.0, 0.0]\nwidth = 0.3\n"
+    robot = carrying("ultrasound", "line_sensor", world=room(6.0, 5.0, extra=line))
+    messages = until(robot, 0.2)
+    robot.close()
+    assert said(messages, "/ultrasound/front")[0].range == pytest.approx(3.0 - 0.205, abs=0.02)
+    assert said(messages, "/ultrasound/left")[0].range == pytest.approx(2.5 - 0.205, abs=0.02)
+    assert all(value > 0.8 for value in said(messages, "/line")[0].values)
+
+
+def test_what_does_not_drive_takes_no_line_sensor():
+    with pytest.raises(ValueError, match="Ardrone-1 does not drive on the ground"):
+        make("ardrone", "parking_lot", camera=False, payloads=["line_sensor"])
 
 
 def test_a_reader_tells_of_a_tag_once_when_it_comes_near_and_once_when_it_goes():

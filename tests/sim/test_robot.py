@@ -15,7 +15,20 @@ from sim.vehicles.patrol.looks import looks
 from sim.world import load
 from tests.sim.rooms import robot_in, room
 
-STREAMS = ("/odom", "/imu/data", "/fix", "/scan", "/bumper", "/battery_state", "/joint_states")
+STREAMS = (
+    "/odom",
+    "/imu/data",
+    "/fix",
+    "/scan",
+    "/bumper",
+    "/battery_state",
+    "/joint_states",
+    "/line",
+    "/ultrasound/front",
+    "/ultrasound/left",
+    "/ultrasound/right",
+    "/ultrasound/rear",
+)
 
 
 @pytest.fixture

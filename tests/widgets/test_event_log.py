@@ -3,11 +3,14 @@ from __future__ import annotations
 import math
 
 import pytest
+from kivy.base import EventLoop
 
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time
-from widgets.event_log import KINDS, MOST, WORDS, EventLog, ago, look
+from widgets.event_log import MOST, EventLog, ago, look
+from widgets.event_row import KINDS, WORDS, is_open, note, row_height
 from widgets.icons import ICONS
+from widgets.theme import theme
 
 
 def event(number, stamp=0.0, **kwargs):
@@ -20,7 +23,17 @@ def log(stage):
 
 
 def texts(log):
-    return [row["text"] for row in log.ids.view.data]
+    return [row["text"] for row in rows(log)]
+
+
+def rows(log):
+    EventLoop.idle()
+    return log.ids.view.data
+
+
+def times(log):
+    EventLoop.idle()
+    return {row.text: row.when for row in log.ids.rows.children}
 
 
 def test_an_empty_log_says_so(log):
@@ -59,14 +72,14 @@ def test_it_keeps_the_newest_200(log):
 def test_it_says_how_long_ago(log):
     log.show(event(1, 100.0))
     log.now = 162.4
-    assert log.ids.view.data[0]["when"] == "1:02"
+    assert times(log) == {"event 1": "1:02"}
     log.now = 163.4
-    assert log.ids.view.data[0]["when"] == "1:03"
+    assert times(log) == {"event 1": "1:03"}
 
 
 @pytest.mark.parametrize(
     ("seconds", "text"),
-    [(0.3, "now"), (-4.0, "now"), (21, "0:21"), (62, "1:02"), (7300, "2 h"), (math.nan, "")],
+    [(0.3, "now"), (-4.0, "now"), (21, "0:21"), (62, "1:02"), (7300, "2 h"), (200000, "2 d"), (math.nan, "")],
 )
 def test_ages_are_short(seconds, text):
     assert ago(seconds) == text
@@ -119,8 +132,8 @@ def test_a_long_sentence_is_given_a_taller_row(stage, log):
     log.show(event(1))
     log.show(Event(id=2, text="Refused: " + "the battery is too low for so long a way " * 3))
     stage.frames(4)
-    rows = {row["text"]: row["row_size"][1] for row in log.ids.view.data}
-    assert rows["event 1"] < max(rows.values())
+    high = {row["text"]: row["row_size"][1] for row in rows(log)}
+    assert high["event 1"] < max(high.values())
 
 
 def test_cleared_it_is_empty(log):
@@ -129,3 +142,63 @@ def test_cleared_it_is_empty(log):
     assert (texts(log), log.count) == ([], 0)
     log.show(event(1))
     assert log.count == 1
+
+
+def test_who_has_seen_to_it_is_said_where_the_event_stands(log):
+    log.show(event(1, level="alarm"))
+    log.show(event(2))
+    assert [(row["open"], row["note"]) for row in rows(log)] == [(False, ""), (True, "")]
+    log.show(event(1, level="alarm", acknowledged_by="Anna"))
+    assert [(row["text"], row["open"], row["note"]) for row in rows(log)] == [
+        ("event 2", False, ""),
+        ("event 1", False, "Seen by Anna"),
+    ]
+
+
+def test_the_time_of_day_is_said_where_it_is_known():
+    seen = event(1, level="alarm", acknowledged_by="Anna", acknowledged=Time.at(1000.0))
+    assert note(seen).startswith("Seen by Anna, ")
+    assert not is_open(seen)
+    assert note(event(1), asked=True) == "Telling the robot …"
+
+
+def test_one_tap_says_that_it_has_been_seen_to(stage, log):
+    heard = []
+    log.bind(on_command=lambda _, event: heard.append(event.id))
+    log.acts = True
+    for number, level in enumerate(("alarm", "info", "warn"), 1):
+        log.show(event(number, number, level=level))
+    stage.frames(4)
+    buttons = {row.text: row.children[0] for row in log.ids.rows.children}
+    assert {text: one.disabled for text, one in buttons.items()} == {
+        "event 1": False,
+        "event 2": True,
+        "event 3": False,
+    }
+    stage.tap(*buttons["event 3"].to_window(*buttons["event 3"].center))
+    stage.frames(4)
+    assert heard == [3]
+    log.asked = [("a", 3)]
+    stage.frames(4)
+    assert [row["act"] is None for row in rows(log)] == [True, True, False]
+
+
+def test_what_was_missed_is_marked_and_counted_above(log):
+    for number in (1, 2, 3):
+        log.show(event(number, number))
+    log.missed, log.head = [("a", 2), ("a", 3)], "2 while you were away"
+    assert texts(log) == ["2 while you were away", "event 3", "event 2", "event 1"]
+    assert [row.get("missed") for row in rows(log)] == [None, True, True, False]
+    log.missed = []
+    assert texts(log) == ["event 3", "event 2", "event 1"]
+
+
+def test_a_row_that_can_be_pressed_is_large_enough_for_a_finger(log):
+    assert row_height(event(1, level="alarm"), 300, acts=True) >= theme.target
+
+
+def test_thousands_are_shown_without_laying_each_out(log):
+    log.most = 5000
+    log.show_all(event(number, number, text=f"Waypoint {number} reached") for number in range(3000))
+    assert len(texts(log)) == 3000
+    assert len(log.ids.rows.children) < 60

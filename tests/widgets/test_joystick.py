@@ -139,3 +139,39 @@ def test_the_knob_stays_within_the_round(stage, stick):
     for angle in range(0, 360, 30):
         stick.lean(math.sin(math.radians(angle)), math.cos(math.radians(angle)))
         assert math.dist(stick.knob_pos, stick.center) + stick.knob_radius <= SIZE / 2
+
+
+def test_a_finger_whose_end_was_lost_does_not_drive_when_it_comes_down_elsewhere(stage, stick):
+    finger = hold(stage, MIDDLE, MIDDLE + stick.reach)
+    finger.sx, finger.sy = (
+        0.9,
+        0.9,
+    )  # the system gives the next finger the same number, and Kivy the same touch
+    finger.touch_down()
+    assert stick.twists == [(0.5, 0.0), (0.0, 0.0)]
+    finger.touch_move(MIDDLE, MIDDLE + stick.reach)
+    assert (stick.finger, stick.twists[-1]) == (None, (0.0, 0.0))
+
+
+def test_a_finger_whose_end_was_lost_and_comes_down_on_the_stick_again_pushes_anew(stage, stick):
+    finger = hold(stage, MIDDLE, MIDDLE + stick.reach)
+    finger.touch_down()
+    assert stick.twists == [(0.5, 0.0), (0.0, 0.0), (0.5, 0.0)]
+    finger.touch_up()
+    assert stick.twists[-1] == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("change", [{"pos": (40, 0)}, {"size": (200, 200)}])
+def test_moved_away_under_the_finger_it_rests(stage, stick, change):
+    hold(stage, MIDDLE, MIDDLE + stick.reach)
+    for name, value in change.items():
+        setattr(stick, name, value)
+    assert (stick.finger, stick.twists[-1]) == (None, (0.0, 0.0))
+
+
+def test_a_finger_takes_the_stick_from_a_gamepad_and_the_gamepad_does_not_take_it_back(stage, stick):
+    stick.lean(1.0, 0.0)
+    hold(stage, MIDDLE - stick.reach, MIDDLE)
+    assert stick.twists == [(0.5, 0.0), (0.0, 2.0)]
+    assert not stick.lean(1.0, 0.0)
+    assert stick.twists == [(0.5, 0.0), (0.0, 2.0)]

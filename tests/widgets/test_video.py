@@ -13,6 +13,7 @@ from bridge.msgs.vision_msgs import (
     Point2D,
     Pose2D,
 )
+from widgets.shapes import Shapes
 from widgets.video import Video, samples
 
 FRAME = bytes(64 * 48 * 4)
@@ -146,3 +147,48 @@ def test_boxes_that_lie_outside_the_cut_picture_are_not_drawn(video, stage):
 @pytest.mark.parametrize("name", samples())
 def test_every_sample_can_be_shown(stage, name):
     assert stage.show(samples()[name]()).height > 0
+
+
+def marked(stage, *marks, **more):
+    video = stage.show(Video(state="live", field_of_view=1.2, **more), size=(640, 480))
+    video.show_frame(640, 480, bytes(640 * 480 * 4))
+    video.marks = list(marks)
+    stage.frames(2)
+    return {word.text: word for word in video._pointers(Shapes())}
+
+
+def test_a_picture_of_another_size_does_not_stand_on_its_head_until_it_is_laid_out(stage):
+    video = stage.show(Video(state="live", corner=0), size=(320, 240))
+    video.show_frame(64, 48, FRAME)
+    stage.frames(2)
+    upright = list(video._plain.tex_coords)
+    assert upright[1] > upright[5]
+    video.show_frame(32, 24, bytes(32 * 24 * 4))
+    assert list(video._plain.tex_coords) == upright
+
+
+def test_what_is_known_to_be_ahead_is_marked_in_the_middle_and_to_the_left_on_the_left(stage):
+    found = marked(stage, ("1", 0.0), ("2", 0.3))
+    assert found["1"].x == pytest.approx(320)
+    assert found["2"].x == pytest.approx(320 - 320 * math.tan(0.3) / math.tan(0.6))
+
+
+@pytest.mark.parametrize(("angle", "side"), [(1.0, "left"), (3.0, "left"), (-0.7, "right"), (-2.0, "right")])
+def test_what_is_outside_the_picture_is_marked_at_the_edge_that_leads_there(stage, angle, side):
+    (word,) = marked(stage, ("1", angle)).values()
+    assert word.x < 40 if side == "left" else word.x > 600
+
+
+def test_a_mark_keeps_clear_of_what_lies_over_the_picture(stage):
+    (word,) = marked(stage, ("1", 2.0), insets=[100, 0, 50, 0]).values()
+    assert 100 < word.x < 150
+
+
+def test_what_is_boxed_is_not_marked_twice(stage):
+    assert not marked(stage, ("1", 0.0), boxes=[("cone", 0.9, 300, 100, 40, 80)])
+
+
+def test_without_a_field_of_view_nothing_is_marked(stage):
+    video = stage.show(Video(state="live", marks=[("1", 0.0)]), size=(640, 480))
+    video.show_frame(640, 480, bytes(640 * 480 * 4))
+    assert not list(video._pointers(Shapes()))

@@ -26,7 +26,6 @@ from bridge.msgs.pilothouse_msgs.part1 import (
     GetEventsRequest,
     GetEventsResponse,
     GetHistoryRequest,
-    Waypoint,
 )
 from bridge.msgs.pilothouse_msgs.part2 import (
     GetHistoryResponse,
@@ -36,19 +35,22 @@ from bridge.msgs.pilothouse_msgs.part2 import (
     GetMissionsResponse,
     Intruder,
     IntruderArray,
+    KeptMission,
     LightState,
     Limits,
+    LineSensor,
     Manoeuvre,
     Mission,
     MotorArray,
     Place,
     PlaceArray,
-    RecallMissionRequest,
-    RecallMissionResponse,
     TaskOrder,
     TaskRun,
+    Waypoint,
 )
 from bridge.msgs.pilothouse_msgs.part3 import (
+    RecallMissionRequest,
+    RecallMissionResponse,
     RobotInfo,
     RudderState,
     RunTaskFeedback,
@@ -71,10 +73,9 @@ from bridge.msgs.pilothouse_msgs.part3 import (
     SonarRing,
     StartTaskRequest,
     StartTaskResponse,
-    TagRead,
     TaskProgress,
 )
-from bridge.msgs.pilothouse_msgs.part4 import TaskQueue, TaskStatus
+from bridge.msgs.pilothouse_msgs.part4 import TagRead, TaskQueue, TaskStatus
 
 __all__ = [
     "AckermannState",
@@ -106,9 +107,11 @@ __all__ = [
     "GetMissionsResponse",
     "Intruder",
     "IntruderArray",
+    "KeptMission",
     "LONGEST_DWELL",
     "LightState",
     "Limits",
+    "LineSensor",
     "MANOEUVRES",
     "MOST_LAPS",
     "MOTIONS",

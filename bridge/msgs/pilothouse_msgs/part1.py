@@ -36,7 +36,6 @@ __all__ = [
     "GetEventsRequest",
     "GetEventsResponse",
     "GetHistoryRequest",
-    "Waypoint",
 ]
 
 
@@ -257,6 +256,7 @@ class ControlStatus(Msg, frozen=True, gc=False):
         "float64",
         "bool",
         "time",
+        "bool",
     )
     stamp: Time = Time()
     """When it changed."""
@@ -284,6 +284,8 @@ class ControlStatus(Msg, frozen=True, gc=False):
     """The speed falls with the driver's link; /settings/set switches it."""
     stop_tested: Time = Time()
     """When STOP was last pressed and brought it to rest, operators' clock; 0 when never since it started."""
+    lost_link_stops_task: bool = False
+    """A task is paused when the link to the driver is lost; /settings/set switches it."""
 
 
 class DeletePlaceRequest(CommandRequest, frozen=True, gc=False):
@@ -390,20 +392,30 @@ class GetEventsRequest(Msg, frozen=True, gc=False):
     """Ask for the events after since."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetEventsRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string", "int32[]", "int32")
     since: int32 = 0
     """Number of the last event that is known."""
     boot: str = ""
-    """The boot that since belongs to; another one gives all events that are kept."""
+    """The boot that since belongs to; of another one all are given, for an empty one the newest 500."""
+    open: Int32Array = field(default_factory=Int32Array)
+    """Earlier events that nobody has seen to, as far as is known; those that somebody has are given too."""
+    most: int32 = 0
+    """At most so many later events in one answer, the first of them; 0 for all, or the newest 500 of
+    another boot.
+    """
 
 
 class GetEventsResponse(Msg, frozen=True, gc=False):
     """What `GetEvents` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetEventsResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("pilothouse_msgs/Event[]",)
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("pilothouse_msgs/Event[]", "bool", "int32")
     events: list[Event] = []
     """Oldest first."""
+    more: bool = False
+    """There are later ones: ask again, since the last of these."""
+    oldest: int32 = 0
+    """Number of the oldest event that is kept; 0 when there is none, or it is not known."""
 
 
 class GetHistoryRequest(CommandRequest, frozen=True, gc=False):
@@ -424,19 +436,3 @@ class GetHistoryRequest(CommandRequest, frozen=True, gc=False):
     """Only runs with a smaller number; 0 begins with the newest."""
     limit: int32 = 50
     """At most so many."""
-
-
-class Waypoint(Msg, frozen=True, gc=False):
-    """A place to pass, in the map frame."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Waypoint"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("float64", "float64", "float64", "string")
-    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "yaw": "rad"}
-    x: float = 0.0
-    """East of the map's origin [m]."""
-    y: float = 0.0
-    """North of the map's origin [m]."""
-    yaw: float = math.nan
-    """Direction to stand in [rad], 0 east, anticlockwise; NaN when any will do."""
-    name: str = ""
-    """What people call it; empty when it has no name."""

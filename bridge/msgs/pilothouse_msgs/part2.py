@@ -7,11 +7,11 @@ from typing import ClassVar
 
 from msgspec import field
 
-from bridge.msgs.arrays import Float64Array
+from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.geometry_msgs import Point, Polygon, Twist
-from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse, Waypoint
+from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
@@ -22,18 +22,35 @@ __all__ = [
     "GetMissionsResponse",
     "Intruder",
     "IntruderArray",
+    "KeptMission",
     "LightState",
     "Limits",
+    "LineSensor",
     "Manoeuvre",
     "Mission",
     "MotorArray",
     "Place",
     "PlaceArray",
-    "RecallMissionRequest",
-    "RecallMissionResponse",
     "TaskOrder",
     "TaskRun",
+    "Waypoint",
 ]
+
+
+class Waypoint(Msg, frozen=True, gc=False):
+    """A place to pass, in the map frame."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Waypoint"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("float64", "float64", "float64", "string")
+    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "yaw": "rad"}
+    x: float = 0.0
+    """East of the map's origin [m]."""
+    y: float = 0.0
+    """North of the map's origin [m]."""
+    yaw: float = math.nan
+    """Direction to stand in [rad], 0 east, anticlockwise; NaN when any will do."""
+    name: str = ""
+    """What people call it; empty when it has no name."""
 
 
 class TaskOrder(Msg, frozen=True, gc=False):
@@ -178,20 +195,39 @@ class GetMissionResponse(Msg, frozen=True, gc=False):
 
 
 class GetMissionsRequest(CommandRequest, frozen=True, gc=False):
-    """Ask for the names of the missions that are kept."""
+    """Ask for the missions that are kept."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionsRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string")
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
 
 
+class KeptMission(Msg, frozen=True, gc=False):
+    """A mission that is kept under a name."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/KeptMission"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "time", "int32", "string", "int32")
+    name: str = ""
+    """What it is kept as."""
+    stamp: Time = Time()
+    """When its newest revision was stored, operators' clock."""
+    points: int32 = 0
+    """Waypoints of it."""
+    motion: str = ""
+    """loop, random or intermittent."""
+    revisions: int32 = 0
+    """How many of its revisions are kept, 20 at most."""
+
+
 class GetMissionsResponse(CommandResponse, frozen=True, gc=False):
     """What `GetMissions` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionsResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string[]")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string[]", "pilothouse_msgs/KeptMission[]")
     names: list[str] = []
     """In the order of the alphabet."""
+    missions: list[KeptMission] = []
+    """The same with what is known of each."""
 
 
 class Intruder(Msg, frozen=True, gc=False):
@@ -274,6 +310,20 @@ class Limits(Msg, frozen=True, gc=False):
     """Areas in map [m], of which it stays in at least one; none for everywhere."""
     keep_out: list[Polygon] = []
     """Areas in map [m] that it never enters, holes of the others included."""
+
+
+class LineSensor(Msg, frozen=True, gc=False):
+    """A row of cells that look down at the ground and measure how bright it is."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/LineSensor"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float32[]", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"spacing": "m"}
+    header: Header = Header()
+    """Its frame; the cells lie along the frame's y axis."""
+    values: Float32Array = field(default_factory=Float32Array)
+    """From the leftmost cell to the rightmost one, 0 dark to 1 bright; NaN for a cell that tells nothing."""
+    spacing: float = math.nan
+    """Between the middles of two neighbouring cells [m]; NaN when not known."""
 
 
 class Manoeuvre(Msg, frozen=True, gc=False):
@@ -396,20 +446,3 @@ class PlaceArray(Msg, frozen=True, gc=False):
     """When it changed, operators' clock."""
     places: list[Place] = []
     """In the order of their ids."""
-
-
-class RecallMissionRequest(CommandRequest, frozen=True, gc=False):
-    """Make a kept mission the stored one."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RecallMissionRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
-    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
-    name: str = ""
-    """What it was stored as."""
-
-
-class RecallMissionResponse(CommandResponse, frozen=True, gc=False):
-    """What `RecallMission` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RecallMissionResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")

@@ -15,6 +15,8 @@ from bridge.msgs.pilothouse_msgs.part2 import Mission, Place, TaskOrder
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "RecallMissionRequest",
+    "RecallMissionResponse",
     "RobotInfo",
     "RudderState",
     "RunTaskFeedback",
@@ -37,11 +39,27 @@ __all__ = [
     "SonarRing",
     "StartTaskRequest",
     "StartTaskResponse",
-    "TagRead",
     "TaskProgress",
 ]
 
 _Boolx7: TypeAlias = Annotated[list[bool], Meta(min_length=7, max_length=7)]
+
+
+class RecallMissionRequest(CommandRequest, frozen=True, gc=False):
+    """Make a kept mission the stored one."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RecallMissionRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    name: str = ""
+    """What it was stored as."""
+
+
+class RecallMissionResponse(CommandResponse, frozen=True, gc=False):
+    """What `RecallMission` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RecallMissionResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
 
 
 class RobotInfo(Msg, frozen=True, gc=False):
@@ -429,14 +447,3 @@ class StartTaskResponse(CommandResponse, frozen=True, gc=False):
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/StartTaskResponse"
     ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
-
-
-class TagRead(Msg, frozen=True, gc=False):
-    """A card at the robot's reader; /tag, once per change."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TagRead"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "string")
-    header: Header = Header()
-    """When it was read, robot's clock."""
-    tag: str = ""
-    """What was read; empty when the card is gone."""

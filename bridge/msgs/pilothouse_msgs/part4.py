@@ -7,8 +7,20 @@ from typing import ClassVar
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.pilothouse_msgs.part2 import TaskOrder
+from bridge.msgs.std_msgs import Header
 
-__all__ = ["TaskQueue", "TaskStatus"]
+__all__ = ["TagRead", "TaskQueue", "TaskStatus"]
+
+
+class TagRead(Msg, frozen=True, gc=False):
+    """A card at the robot's reader; /tag, once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TagRead"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "string")
+    header: Header = Header()
+    """When it was read, robot's clock."""
+    tag: str = ""
+    """What was read; empty when the card is gone."""
 
 
 class TaskQueue(Msg, frozen=True, gc=False):

@@ -7,12 +7,15 @@ from pathlib import Path
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from sim.backend_bullet import State
+from sim.paint import Paint
 from sim.scene import Scene
 from sim.sensors.battery import DriveBattery, DriveBatteryParameters
 from sim.sensors.gps import Gps, GpsParameters
 from sim.sensors.imu import InertialUnit
 from sim.sensors.laser import Laser, LaserParameters
+from sim.sensors.line import LineCells, LineParameters
 from sim.sensors.odometry import WheelOdometry
+from sim.sensors.ultrasound import UltrasoundParameters, Ultrasounds
 from sim.shapes import from_yaw
 from sim.vehicles.chassis import Chassis
 from sim.vehicles.differential import DifferentialDrive, DifferentialParameters, body_of
@@ -30,6 +33,8 @@ class PatrolParameters(DifferentialParameters, frozen=True, kw_only=True):
     battery: DriveBatteryParameters
     laser: LaserParameters
     gps: GpsParameters
+    line: LineParameters
+    ultrasound: UltrasoundParameters
 
 
 PARAMETERS: PatrolParameters = load(Path(__file__).parent / "patrol.toml", PatrolParameters)
@@ -70,6 +75,12 @@ class Patrol(Chassis[PatrolParameters]):
         suite.add("odometry", parameters.odometry.rate, self._measure_wheels)
         suite.add("laser", parameters.laser.rate, lambda _, at: [("/scan", laser.measure(at))])
         suite.add("gps", parameters.gps.rate, lambda state, at: [("/fix", gps.measure(state, at))])
+        line = LineCells(parameters.line, Paint(scene.world), scene.generator("line"))
+        self._ultrasounds = Ultrasounds(
+            parameters.ultrasound, scene.backend, self.body, scene.generator("ultrasound")
+        )
+        suite.add("line_sensor", parameters.line.rate, lambda state, at: [("/line", line.measure(state, at))])
+        suite.add("ultrasound", parameters.ultrasound.rate, self._measure_echoes)
         suite.add(
             "battery", parameters.battery.rate, lambda _, at: [("/battery_state", self.battery.message(at))]
         )
@@ -87,6 +98,10 @@ class Patrol(Chassis[PatrolParameters]):
         if self.battery.empty:
             self._drive.brake()
         self._drive.step()
+
+    def _measure_echoes(self, _: State, stamp: float) -> Iterator[Measurement]:
+        for side, echo in self._ultrasounds.measure(stamp):
+            yield f"/ultrasound/{side}", echo
 
     def _measure_wheels(self, _: State, stamp: float) -> Iterator[Measurement]:
         left, right = self.scene.backend.joints(self.body, 2)

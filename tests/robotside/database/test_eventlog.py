@@ -37,6 +37,38 @@ def test_who_knows_another_log_or_none_is_told_the_newest() -> None:
     assert len(records.events.since(1, records.events.identity)) == AT_FIRST + 9
 
 
+def test_what_was_missed_comes_in_rounds_and_nothing_is_left_out() -> None:
+    records = Records.in_memory()
+    say(records, 1203)
+    log, known, rounds = records.events, 3, 0
+    heard: list[int] = []
+    while True:
+        told = log.since(known, log.identity, 500)
+        heard += [event.id for event in told]
+        known, rounds = heard[-1], rounds + 1
+        if not log.more(told):
+            break
+    assert (heard, rounds) == (list(range(4, 1204)), 3)
+
+
+def test_of_a_log_that_was_started_fresh_everything_was_missed() -> None:
+    records = Records.in_memory()
+    say(records, 700)
+    assert [event.id for event in records.events.since(400, "another", 500)] == list(range(1, 501))
+    newcomer = records.events.since(0, "", 500)
+    assert [event.id for event in newcomer] == list(range(201, 701))
+
+
+def test_what_others_saw_to_meanwhile_is_told_of_the_events_named_and_of_no_other_log() -> None:
+    records = Records.in_memory()
+    say(records, 4)
+    log = records.events
+    log.acknowledge([2, 3], "Anna", Time(9), lambda _: None)
+    told = log.seen([1, 2, 99, -1], log.identity)
+    assert [(event.id, event.acknowledged_by, event.boot) for event in told] == [(2, "Anna", log.identity)]
+    assert log.seen([2], "another") == []
+
+
 def test_the_newest_are_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("robotside.database.eventlog.KEPT", 5)
     records = Records.in_memory()

@@ -1,0 +1,182 @@
+"""Gamepads: which one drives, how far it leans, and when it must not, because it went, says nothing, or was never let go.
+
+What they measure comes from SDL (`app.sdl`) or, where that cannot be asked, from Kivy's events (`Told`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Container, Iterable
+from dataclasses import dataclass
+
+from app.sdl import PadState
+
+__all__ = ["DEAD_ZONE", "SILENT", "Gamepads", "News", "Told"]
+
+DEAD_ZONE = 0.12
+"""Of the way of the stick, round its middle, that commands nothing: worn sticks do not come back to the very middle."""
+SILENT = 0.12
+"""A pushed gamepad that measures nothing new for longer drives nothing [s]."""
+REARM = 1.0
+"""After a longer silence its stick must be let go before it drives again [s]."""
+AXES, EAST = (0, 1), 1
+"""Axes of the left stick and the button on the right of the four, as most gamepads number them."""
+
+
+@dataclass(frozen=True, slots=True)
+class News:
+    """Something about a gamepad that the operator is told."""
+
+    what: str
+    """`plugged`, `unplugged`, `unplugged driving`, or `silent`."""
+    name: str
+
+
+@dataclass(slots=True)
+class _Known:
+    """What is remembered of a gamepad that is plugged in."""
+
+    state: PadState
+    alive: float
+    """When it measured something new [s]."""
+    centred: bool = False
+    """Its stick was let go since it was last forbidden to drive."""
+    told_silent: bool = False
+
+    @property
+    def pushed(self) -> bool:
+        return math.hypot(self.state.forward, self.state.left) > DEAD_ZONE
+
+
+class Gamepads:
+    """Looked at with each heartbeat of the user interface."""
+
+    def __init__(
+        self,
+        now: Callable[[], float],
+        *,
+        on_stop: Callable[[], object],
+        on_news: Callable[[News], object],
+        wired: Container[str] = (),
+    ) -> None:
+        """`wired` names those that hang on a cable: they may be silent, since one that is pulled out is gone at once."""
+        self._now, self._on_stop, self._on_news = now, on_stop, on_news
+        self.wired = wired
+        self._known: dict[int, _Known] = {}
+        self._driver: int | None = None
+
+    @property
+    def standing(self) -> str:
+        """What the stick shows: `none`, `ready`, `drives` or `silent`."""
+        if not self._known:
+            return "none"
+        if self._driver is not None:
+            return "drives"
+        return "silent" if any(known.told_silent for known in self._known.values()) else "ready"
+
+    def hear(self, states: Iterable[PadState]) -> None:
+        """Take in what is plugged in now and what it measures; STOP and news are told from here."""
+        there = {state.number: state for state in states}
+        for number in self._known.keys() - there.keys():
+            self._lose(number)
+        for number, state in there.items():
+            known = self._known.get(number)
+            if known is None:
+                self._known[number] = _Known(state, self._now())
+                self._on_news(News("plugged", state.name))
+                continue
+            if state.stop and not known.state.stop:
+                self._on_stop()
+            if state.raw != known.state.raw:
+                if self._now() - known.alive > REARM and known.pushed:
+                    known.centred = False
+                known.alive = self._now()
+            known.state = state
+
+    def press(self, number: int, button: int) -> None:
+        """A button went down, by Kivy's event: one that is short falls between two looks."""
+        known = self._known.get(number)
+        if button == (known.state.stop_button if known is not None else EAST):
+            self._on_stop()
+
+    def lose(self) -> None:
+        """The system took an input device away and does not say which: no gamepad drives until it is let go."""
+        if self._driver is not None:
+            self._on_news(News("unplugged driving", self._known[self._driver].state.name))
+        self.forbid()
+
+    def forbid(self) -> None:
+        """Nothing may be driven now: each gamepad must be let go before it drives again."""
+        self._driver = None
+        for known in self._known.values():
+            known.centred = False
+
+    def lean(self) -> tuple[float, float] | None:
+        """Forward and left, each -1 to 1, of the one gamepad that drives; None when none does."""
+        for number, known in self._known.items():
+            self._judge(number, known)
+        if self._driver is None:
+            return None
+        state = self._known[self._driver].state
+        length = math.hypot(state.forward, state.left)
+        scale = (min(1.0, length) - DEAD_ZONE) / (1.0 - DEAD_ZONE) / length
+        return state.forward * scale, state.left * scale
+
+    def _judge(self, number: int, known: _Known) -> None:
+        """One that is pushed drives if it was let go before, is alive, and no other does."""
+        drives = self._driver == number
+        if not known.pushed:
+            known.centred, known.told_silent = True, False
+        silent = known.pushed and self._now() - known.alive > SILENT and known.state.name not in self.wired
+        if silent and known.centred and not known.told_silent:
+            known.told_silent = True
+            self._on_news(News("silent", known.state.name))
+        if known.told_silent and not silent:
+            known.told_silent = False
+        if drives and (silent or not known.pushed or not known.centred):
+            self._driver = None
+        elif self._driver is None and known.pushed and known.centred and not silent:
+            self._driver = number
+        elif known.pushed and not drives and self._driver is not None:
+            known.centred = False
+
+    def _lose(self, number: int) -> None:
+        known, drives = self._known.pop(number), self._driver == number
+        if drives:
+            self._driver = None
+        self._on_news(News("unplugged driving" if drives else "unplugged", known.state.name))
+
+
+class Told:
+    """Gamepads as Kivy's events tell of them, for a system whose SDL cannot be asked: none ever comes out."""
+
+    def __init__(self) -> None:
+        self._axes: dict[int, dict[int, float]] = {}
+        self._events: dict[int, int] = {}
+
+    def axis(self, number: int, axis: int, value: int) -> None:
+        """An axis moved; `value` is from -32768 to 32767."""
+        self._axes.setdefault(number, {})[axis] = value / 32768.0
+        self._events[number] = self._events.get(number, 0) + 1
+
+    def pads(self) -> list[PadState]:
+        """Every gamepad that was heard of."""
+        return [
+            PadState(
+                number,
+                "Gamepad",
+                forward=-axes.get(AXES[1], 0.0),
+                left=-axes.get(AXES[0], 0.0),
+                stop=False,
+                stop_button=EAST,
+                raw=(self._events[number],),
+            )
+            for number, axes in self._axes.items()
+        ]
+
+    def lifted(self, device: str, finger: object) -> bool:
+        """Nothing is known of fingers."""
+        return False
+
+    def close(self) -> None:
+        """Nothing to let go of."""

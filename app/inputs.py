@@ -1,0 +1,292 @@
+"""What the operator's hands and the system do to the app as a whole: keys, gamepads, a window that goes away, and the
+life of whatever pushes the stick.
+
+A resting finger sends no events and drives on. What ends it, since its end may never be told: Kivy or SDL know the touch
+no longer, something came over the stick, the window lost its focus or was turned, and the robot may not be driven.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+import time
+from collections.abc import Callable
+from typing import Any
+
+from kivy.base import EventLoop
+from kivy.core.window import Window
+from kivy.uix.anchorlayout import AnchorLayout
+from kivy.uix.behaviors import FocusBehavior
+from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.floatlayout import FloatLayout
+from kivy.uix.gridlayout import GridLayout
+from kivy.uix.widget import Widget
+
+from app.device import input_devices, rotation, sdl_library
+from app.gamepad import Gamepads, News, Told
+from app.sdl import Sdl
+
+__all__ = ["BACK", "Inputs", "covered"]
+
+log = logging.getLogger(__name__)
+
+RESTING = ("size", "on_hide", "on_minimize")
+"""What happens to the window and brings every control to rest."""
+BACK = 27
+"""Key code of Android's Back, and of Escape."""
+ESCAPE = 41
+"""Scan code of Escape, which Back has not."""
+SPACE = 32
+ROUND = 0.96
+"""Of a stick's width and height is its round, less an edge that a neighbour may touch."""
+BARE = (FloatLayout, BoxLayout, AnchorLayout, GridLayout, Widget)
+"""Classes that show nothing themselves: they cover what their children cover."""
+
+
+def covered(widget: Widget) -> bool:
+    """Something is drawn over the round in the widget's middle, or it is not on the glass."""
+    child, middle = widget, widget.to_window(*widget.center)
+    round_ = (*middle, min(widget.size) * ROUND / 2)
+    while child.parent is not None and child.parent is not child:
+        siblings = child.parent.children
+        if any(_over(other, round_) for other in siblings[: siblings.index(child)]):
+            return True
+        if child.parent is Window:
+            return False
+        child = child.parent
+    return True
+
+
+def _over(widget: Widget, round_: tuple[float, float, float]) -> bool:
+    if not widget.opacity or not all(widget.size):
+        return False
+    x, y, radius = round_
+    left, low = widget.to_window(*widget.pos)
+    nearest = min(max(x, left), left + widget.width), min(max(y, low), low + widget.height)
+    apart = math.dist(nearest, (x, y)) >= radius
+    if apart or type(widget) not in BARE:
+        return not apart
+    return any(_over(child, round_) for child in widget.children)
+
+
+def _typing() -> bool:
+    """A field on the glass takes what is typed."""
+    everything = (widget for root in Window.children for widget in root.walk())
+    return any(isinstance(widget, FocusBehavior) and widget.focus for widget in everything)
+
+
+class Inputs:
+    """Listens to the window from `open` to `close`; `look` belongs to the heartbeat. Everything in the UI thread."""
+
+    def __init__(
+        self,
+        app: Any,
+        now: Callable[[], float] = time.monotonic,
+        source: Sdl | Told | None = None,
+        devices: Callable[[], frozenset[int]] = input_devices,
+        turned: Callable[[], int] = rotation,
+    ) -> None:
+        """`app` is asked for its `shell`, `session` and `corner`. `source` tells of gamepads and fingers, SDL where there is one;
+
+        `devices` numbers what the system has plugged in, `turned` says how the screen is turned [quarters].
+        """
+        self._app, self._devices, self._turned = app, devices, turned
+        self._source = source or _source()
+        self.gamepads = Gamepads(
+            now, on_stop=self.stop, on_news=self._tell, wired=app.settings.get("wired_gamepads") or ()
+        )
+        self._keys: set[int] = set()
+        """STOP's keys that are down: a held one repeats."""
+        self._offered: set[str] = set()
+        """Gamepads whose silence was told before."""
+        self._led = False
+        """A gamepad pushes the stick."""
+        self._hidden = False
+        """Something was over the stick at the last look."""
+        self._held_under: tuple[frozenset[int], int] | None = None
+        """Devices and turn of the screen while the stick is pushed."""
+        self._bound = {
+            "on_key_down": self._key_down,
+            "on_key_up": self._key_up,
+            "on_keyboard": self._keyboard,
+            "on_joy_button_down": self._button,
+            "on_joy_axis": self._axis,
+            "on_touch_down": self._touch_down,
+            "focus": self._focus,
+            **dict.fromkeys(RESTING, self.rest),
+        }
+
+    def open(self) -> None:
+        """Begin to listen."""
+        Window.bind(**self._bound)
+
+    def close(self) -> None:
+        """Listen no longer."""
+        Window.unbind(**self._bound)
+        self._source.close()
+
+    def stop(self) -> None:
+        """STOP, as a finger on the button in its corner would: of the robot, else of all; nothing where none is known."""
+        shell, session = self._app.shell, self._app.session
+        if shell is not None:
+            shell.stop.dispatch("on_command")
+        elif session is not None:
+            session.stop()
+        elif self._app.corner.button.robots:
+            self._app.corner.press()
+
+    # the stick
+
+    @property
+    def stick(self) -> Any:
+        """The stick of the screen that is on the glass; None on a screen without."""
+        shell = self._app.shell
+        return getattr(shell.screens.get(shell.screen), "stick", None) if shell is not None else None
+
+    def look(self) -> None:
+        """Whatever pushes the stick is looked at: is it still there, may it still?"""
+        self.gamepads.hear(self._source.pads())
+        stick = self.stick
+        if stick is None:
+            self._forbid()
+            return
+        if not self._app.session.may_drive or self._covered(stick) or self._moved_on(stick):
+            stick.rest()
+            self._forbid()
+        elif stick.finger is not None:
+            self._forbid()
+            if self._gone(stick.finger):
+                stick.rest()
+        elif not Window.focus:
+            stick.rest()
+            self._forbid()
+        else:
+            self._lead(stick)
+        stick.gamepad = self.gamepads.standing
+
+    def _covered(self, stick: Any) -> bool:
+        """Something is over the stick, and was at the last look: what is being laid out is anywhere for a frame."""
+        before, self._hidden = self._hidden, covered(stick)
+        return before and self._hidden
+
+    def _lead(self, stick: Any) -> None:
+        """A gamepad pushes the stick; where something else brought that to rest, it must be let go first."""
+        if self._led and not (stick.forward or stick.left):
+            self._forbid()
+        lean = self.gamepads.lean()
+        if lean is not None:
+            self._led = True
+            stick.lean(*lean)
+        elif self._led:
+            self._led = False
+            stick.rest()
+
+    def _forbid(self) -> None:
+        self._led = False
+        self.gamepads.forbid()
+
+    def _gone(self, touch: Any) -> bool:
+        """The touch is over though its end was not told."""
+        known = any(touch is other for other in EventLoop.touches)
+        return not known or touch.time_end >= 0 or self._source.lifted(touch.device, touch.id)
+
+    def _moved_on(self, stick: Any) -> bool:
+        """The screen was turned, or an input device was taken away, while the stick is pushed."""
+        if not (stick.forward or stick.left):
+            self._held_under = None
+            return False
+        before, now = self._held_under, (self._devices(), self._turned())
+        self._held_under = now
+        if before is None or before == now:
+            return False
+        if self._led and not before[0] <= now[0]:
+            self.gamepads.lose()
+            return True
+        return before[1] != now[1]
+
+    # what the window tells
+
+    def rest(self, *_: object) -> None:
+        """Every control lets go, and a gamepad must be let go before it drives again."""
+        if self._app.shell is not None:
+            self._app.shell.rest()
+        self._forbid()
+
+    def _focus(self, _: object, focus: bool) -> None:
+        self._keys.clear()
+        if not focus:
+            self.rest()
+
+    def _touch_down(self, _: object, touch: Any) -> None:
+        """The stick's own touch comes down again: its end was lost, wherever it is now."""
+        stick = self.stick
+        if stick is not None and stick.finger is touch:
+            stick.rest()
+
+    def _key_down(self, _: object, key: int, scancode: int, *__: object) -> bool:
+        if not self._is_stop(key, scancode):
+            return False
+        if key not in self._keys:
+            self._keys.add(key)
+            self.stop()
+        return True
+
+    def _key_up(self, _: object, key: int, *__: object) -> None:
+        self._keys.discard(key)
+
+    def _is_stop(self, key: int, scancode: int) -> bool:
+        """Escape everywhere, Space where nothing is being typed, where there is a robot to stop."""
+        if self._app.session is None and not self._app.corner.button.robots:
+            return False
+        return (key == BACK and scancode == ESCAPE) or (key == SPACE and not _typing())
+
+    def _keyboard(self, _: object, key: int, *__: object) -> bool:
+        return bool(self._app.back()) if key == BACK else False
+
+    def _button(self, _: object, number: int, button: int) -> None:
+        self.gamepads.press(number, button)
+
+    def _axis(self, _: object, number: int, axis: int, value: int) -> None:
+        if isinstance(self._source, Told):
+            self._source.axis(number, axis, value)
+
+    # what is said
+
+    def _tell(self, news: News) -> None:
+        shell = self._app.shell
+        if shell is None:
+            return
+        if news.what == "plugged":
+            shell.say(f"{news.name}: its left stick drives, B is STOP.", "info", about="gamepad")
+        elif news.what == "unplugged":
+            shell.say(f"{news.name} is unplugged.", "info", about="gamepad")
+        elif news.what == "unplugged driving":
+            shell.say(f"{news.name} is unplugged: the robot was told to rest.", "warn", about="gamepad")
+        else:
+            self._tell_silence(shell, news.name)
+
+    def _tell_silence(self, shell: Any, name: str) -> None:
+        """With a way out the first time: what hangs on a cable and is held still tells nothing either."""
+        shell.unsay("gamepad")
+        if name in self._offered:
+            shell.say("The gamepad is silent: told to rest.", "warn", about="gamepad")
+        else:
+            self._offered.add(name)
+            text = "The gamepad is silent: told to rest. Is it wired?"
+            shell.notices.offer(text, "Wired", lambda: self._trust(name), icon="cable")
+
+    def _trust(self, name: str) -> None:
+        """The operator says that it hangs on a cable: it may be held still from now on."""
+        settings = self._app.settings
+        wired = [*(settings.get("wired_gamepads") or ()), name]
+        settings.set("wired_gamepads", wired)
+        self.gamepads.wired = wired
+
+
+def _source() -> Sdl | Told:
+    library = sdl_library()
+    try:
+        return Sdl(library) if library is not None else Told()
+    except OSError as problem:
+        log.warning("Gamepads are known by Kivy's events alone: %s", problem)
+        return Told()

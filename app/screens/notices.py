@@ -1,0 +1,77 @@
+"""What is said over every screen: one sentence at a time that leaves by itself, and cards that stay until they are answered."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.metrics import Metrics
+from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.widget import Widget
+
+from widgets.kit import ActionToast, Toast
+
+__all__ = ["BRIEF", "LONG", "Notices"]
+
+BRIEF, LONG = 4.0, 10.0
+"""How long a sentence stays over the screen, and one that is said once of a robot [s]."""
+WIDEST = 560.0
+"""Wider ones are hard to read [dp]."""
+
+Builder.load_string("""
+<Notices>:
+    orientation: 'vertical'
+    size_hint: None, None
+    height: self.minimum_height
+    spacing: dp(8)
+""")
+
+
+class Notices(BoxLayout):
+    """Sentences and cards, the newest sentence lowest."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._said = ""
+
+    def place(self, screen: Any) -> None:
+        """Stand in the room that `screen` leaves, and tell its video what is covered."""
+        room = screen.notice
+        self.width = min(WIDEST * Metrics.density, room.width)
+        # what is too much for its room goes up, never down over what can be touched
+        low = max(room.y, room.top - self.height)
+        self.pos = (room.x + (room.width - self.width) / 2, low)
+        if screen.video is not None:
+            screen.video.below = low if self.children else math.inf
+
+    def say(self, text: str, level: str, about: str, stay: float) -> None:
+        """One sentence for `stay` [s], in the place of the last one; `about` is what it tells of."""
+        self.unsay(self._said)
+        self._said = about
+        self.add_widget(Toast(text=text, level=level, stay=stay))
+
+    def unsay(self, about: str) -> None:
+        """Take the sentence away that was said about something: it is no longer true."""
+        if about != self._said:
+            return
+        for child in list(self.children):
+            if isinstance(child, Toast) and not isinstance(child, ActionToast):
+                self.remove_widget(child)
+
+    def offer(self, text: str, action: str, act: Callable[[], None], icon: str = "undo") -> None:
+        """One sentence with something to do about it, `icon` on its button."""
+        toast = ActionToast(text=text, action=action, action_icon=icon, stay=LONG)
+        toast.bind(on_act=lambda _: act())
+        self.add_widget(toast)
+
+    def keep(self, card: Widget, *, shown: bool, first: bool = False, under: Widget | None = None) -> None:
+        """Have a card here for as long as it is `shown`; `first` puts it above all others but the one it is `under`."""
+        if shown == (card.parent is self):
+            return
+        if not shown:
+            self.remove_widget(card)
+            return
+        top = self.children.index(under) if under in self.children else len(self.children)
+        self.add_widget(card, index=top if first else 0)

@@ -1,0 +1,157 @@
+"""The bar on top of every screen of a robot: which one it is, its mode, battery and link, and who has control."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.metrics import Metrics
+from kivy.properties import BooleanProperty, OptionProperty, StringProperty
+from kivy.uix.boxlayout import BoxLayout
+
+import widgets.battery
+import widgets.link_quality  # noqa: F401 - their rules draw what is used here
+from app.screens import standing
+from app.session import Session
+
+__all__ = ["TopBar"]
+
+PARTS = ("back", "name", "mode", "battery", "link", "satellites", "gap", "control")
+"""What it holds, from left to right; a narrow one only the first five."""
+NARROW = 5
+ROOMY = 840.0
+"""A phone's side narrower than this has no room for the satellites [dp]."""
+
+Builder.load_string("""
+<TopBar>:
+    size_hint: None, None
+    padding: (dp(4), 0) if root.form == 'tall' else (dp(6), 0, dp(16), 0)
+    spacing: dp(5) if root.form == 'tall' else dp(12)
+    canvas.before:
+        Color:
+            rgba: theme.surface
+        Rectangle:
+            pos: self.pos
+            size: self.size
+        Color:
+            rgba: theme.line
+        Rectangle:
+            pos: self.pos
+            size: self.width, theme.outline
+    IconButton:
+        id: back
+        icon: 'arrow_back'
+        role: 'muted'
+        bare: True
+        width: dp(46) if root.form != 'tall' else dp(38)
+        pos_hint: {'center_y': .5}
+        on_release: root.dispatch('on_back')
+    Text:
+        id: name
+        text: root.robot_name
+        bold: True
+        font_size: theme.size_title if root.form != 'tall' else sp(17)
+        shorten: root.form == 'tall'
+        shorten_from: 'right'
+        pos_hint: {'center_y': .5}
+        size_hint_x: 1 if root.form == 'tall' else None
+        text_size: (self.width, None) if root.form == 'tall' else (None, None)
+        width: self.texture_size[0]
+    Chip:
+        id: mode
+        icon: root.mode_icon if root.form != 'tall' else ''
+        role: root.mode_role
+        text: root.mode_text
+        usual: 'STOPPED' if root.form == 'tall' else 'PAUSED · patrol'
+        spacing: dp(8) if self.icon else 0
+        edge: dp(13) if root.form != 'tall' else dp(10)
+        outlined: True
+        pressable: root.mode_offered
+        pos_hint: {'center_y': .5}
+        on_release: root.dispatch('on_mode')
+    BatteryChip:
+        id: battery
+        brief: root.form == 'tall'
+        pos_hint: {'center_y': .5}
+    LinkQuality:
+        id: link
+        brief: root.form != 'wide'
+        pos_hint: {'center_y': .5}
+    Chip:
+        id: satellites
+        icon: 'satellite_alt'
+        role: root.fix_role
+        text: root.fix_text
+        pos_hint: {'center_y': .5}
+    Widget:
+        id: gap
+    Chip:
+        id: control
+        icon: root.control_icon
+        role: root.control_role
+        text: root.control_text
+        pressable: True
+        pos_hint: {'center_y': .5}
+        on_release: root.dispatch('on_control')
+""")
+
+
+class TopBar(BoxLayout):
+    """Dispatches `on_back`, `on_mode` and `on_control` as they are tapped."""
+
+    __events__ = ("on_back", "on_control", "on_mode")
+
+    form = OptionProperty("wide", options=["wide", "short", "tall"])
+    """Shape of the window, as in `app.arrange.form`."""
+    robot_name = StringProperty("")
+    mode_text = StringProperty("—")
+    mode_icon = StringProperty("help")
+    mode_role = StringProperty("muted")
+    mode_offered = BooleanProperty(False)
+    """The robot takes a command for its mode."""
+    fix_text = StringProperty("—")
+    fix_role = StringProperty("muted")
+    control_text = StringProperty("")
+    control_icon = StringProperty("help")
+    control_role = StringProperty("muted")
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        for name in PARTS:  # kv holds ids weakly, and the narrow bar takes some of them out
+            self.ids[name] = self.ids[name].__self__
+
+    def arrange(self, form: str) -> None:
+        """Take the shape of the window; the narrow bar leaves out what is said elsewhere."""
+        self.form = form
+        wanted = list(PARTS[:NARROW] if form == "tall" else PARTS)
+        if form == "short" and self.width < ROOMY * Metrics.density:
+            wanted.remove("satellites")
+        shown = [self.ids[name] for name in wanted]
+        if list(reversed(self.children)) != shown:
+            self.clear_widgets()
+            for widget in shown:
+                self.add_widget(widget)
+
+    def tick(self, session: Session) -> None:
+        """Say how the robot stands now."""
+        self.robot_name = session.name
+        self.mode_text, self.mode_icon, self.mode_role = standing.mode(session, brief=self.form == "tall")
+        self.mode_offered = session.connected and not session.foreign and session.offers("/mode/set")
+        self.fix_text, self.fix_role = standing.fix(session)
+        self.control_text, self.control_icon, self.control_role = standing.control(
+            session, brief=self.form != "wide"
+        )
+        chip = self.ids.link
+        chip.state = "live"
+        chip.rtt, chip.lost = session.link.rtt, session.link.lost
+        chip.silence = session.link.silence if session.connected and session.link.silent else 0.0
+        chip.sentence = "" if session.connected else "no link"
+
+    def on_back(self) -> None:
+        """The arrow was tapped."""
+
+    def on_mode(self) -> None:
+        """The mode was tapped."""
+
+    def on_control(self) -> None:
+        """Who has control was tapped."""

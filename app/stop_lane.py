@@ -1,0 +1,324 @@
+"""STOP's way to one robot over a socket of its own, whoever else is connected to what.
+
+A robot of ours is asked until it says that STOP is pressed and that it rests. One that has no STOP is sent zero speed for
+as long as the lane lasts. Everything here lives in the network thread; `StopLane.report` may be read in any.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import math
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any, Protocol, TypeVar
+
+from app.commands import Commands, Outcome
+from app.local_stop import LocalStop
+from app.offer import DRIVE, NOTHING, Offer, ask
+from bridge.choice import drive_message
+from bridge.client import BridgeClient, LinkState, Phase
+from bridge.errors import BridgeError
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import Twist, TwistStamped
+from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
+from bridge.msgs.std_msgs import Time
+
+__all__ = ["Client", "Report", "StopLane", "silence"]
+
+M = TypeVar("M", bound=Msg)
+
+TICK = 0.1
+"""Between two looks at how it goes, and between two commands to rest [s]."""
+DOUBT = 1.0
+"""A STOP that the robot did not take after this is unanswered; it goes on being sent [s]."""
+COMES_TO_REST = 2.0
+"""A robot that took STOP rests within this, or it is not obeyed [s]."""
+AGAIN = 1.0
+"""To a robot that took STOP and moves it is sent anew after this [s]."""
+BACKOFF = (0.5, 2.0)
+"""First and longest wait between two attempts to reach it [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """What is known of one robot's STOP."""
+
+    phase: str
+    """`sent`; `stopped`, it says that it is pressed and that it rests; `moves`, pressed and it does not come to rest;
+    `no_answer`; `released`, by somebody, after it was stopped."""
+    sentence: str = ""
+    """The same for the operator; empty where the phase says it all."""
+    name: str = ""
+    """What the robot calls itself; empty until it said so."""
+    reached: bool = False
+    """The connection stands."""
+    foreign: bool = False
+    """It has no STOP of its own: zero speed is sent for as long as the lane lasts."""
+    identity: tuple[str, str, Time] | None = None
+    """Alike for the same robot under two addresses; None while that is not known."""
+
+
+class Client(Protocol):
+    """What is needed of `bridge.client.BridgeClient`."""
+
+    @property
+    def foreign(self) -> bool:
+        """The server is none of ours."""
+
+    async def call(
+        self, service: str, request: Msg | None, response: type[M], /, *, timeout: float = 2.0
+    ) -> M:
+        """Ask for something to be done once."""
+
+    def publish(self, topic: str, msg: Msg, /, *, even_late: bool = False) -> bool:
+        """Send a message at once."""
+
+    def subscribe(
+        self, topic: str, kind: type[M], callback: Callable[[M, float], object], /
+    ) -> Callable[[], None]:
+        """Have `callback(msg, received)` called for each message."""
+
+    def advertise(self, topic: str, kind: type[Msg], /) -> None:
+        """Say that it is published here."""
+
+    def robot_time(self) -> float:
+        """The robot's clock [s]; NaN until it is known."""
+
+    async def run(self) -> None:
+        """Connect again and again until `close`."""
+
+    async def close(self) -> None:
+        """End the link for good."""
+
+
+def silence(seconds: float) -> str:
+    """So long [s] in the words of the glass, as in `12 s` or `3 min`."""
+    if seconds < 60:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 3600 else f"{seconds / 3600:.0f} h"
+
+
+class StopLane:
+    """STOP to one robot from `run` until that is cancelled."""
+
+    def __init__(
+        self,
+        url: str,
+        *,
+        now: Callable[[], float],
+        new_id: Callable[[], str],
+        client_id: str,
+        client_name: str,
+        connect: Callable[..., Client] = BridgeClient,
+    ) -> None:
+        """`now` is our clock [s]; `client_id` and `client_name` are who this handheld is to the robot."""
+        self._now = now
+        self._client = connect(url, on_state=self._on_state, now=now, backoff=BACKOFF)
+        self._commands = Commands(
+            self._client.call,
+            self._on_outcome,
+            now=now,
+            robot_time=self._client.robot_time,
+            new_id=new_id,
+            client_id=client_id,
+            client_name=client_name,
+        )
+        self._zero = LocalStop(now)
+        self._wanted, self._done = asyncio.Event(), asyncio.Event()
+        self._pressed_at = self._taken_at = self._moves_since = self._lost_at = self._reached_at = math.nan
+        self._identity: tuple[str, str, Time] | None = None
+        self._why = ""
+        self._refusal = ""
+        self._phase: Phase = Phase.CLOSED
+        self._offer: Offer | None = None
+        self._status: ControlStatus | None = None
+        self._info = RobotInfo()
+        self._released = False
+        self._listening: dict[str, Callable[[], None]] = {}
+        self._learning: asyncio.Task[None] | None = None
+        self.report = Report("sent")
+        """What is known now."""
+        self.press()
+
+    # what it is told
+
+    def press(self) -> None:
+        """STOP was pressed; again while it is being sent changes nothing, after a release it begins anew."""
+        if not self._wanted.is_set():
+            self._pressed_at, self._taken_at, self._lost_at = self._now(), math.nan, math.nan
+            self._released, self._refusal = False, ""
+        self._done.clear()
+        self._wanted.set()
+        self._zero.press()
+        self._look()
+
+    async def run(self) -> None:
+        """Reach the robot and stop it, until cancelled; ends within 0.5 s then."""
+        link = asyncio.create_task(self._client.run())
+        work = [asyncio.create_task(part) for part in (self._send_stop(), self._keep_zero())]
+        try:
+            await asyncio.wait({link, *work}, return_when=asyncio.FIRST_EXCEPTION)
+        finally:
+            for task in [*work, *([self._learning] if self._learning else [])]:
+                task.cancel()
+            await self._client.close()  # and not by cancelling it, which twice would leave its socket open
+            await asyncio.gather(link, *work, return_exceptions=True)
+
+    # what goes out
+
+    async def _send_stop(self) -> None:
+        while True:
+            await self._wanted.wait()
+            if not self._only_zero:
+                await self._commands.stop()
+                with suppress(TimeoutError):
+                    async with asyncio.timeout(AGAIN):
+                        await self._done.wait()
+            if self._done.is_set() or self._only_zero:
+                self._wanted.clear()
+
+    async def _keep_zero(self) -> None:
+        while True:
+            if self._has_none and self._reached and self._zero.latched and self._drive is not None:
+                zero = drive_message(Twist(), self._client.robot_time(), stamped=self._stamped)
+                self._client.publish(self._drive, zero, even_late=True)
+            self._look()
+            await asyncio.sleep(TICK)
+
+    # what comes in
+
+    def _on_state(self, state: LinkState) -> None:
+        if self._reached:
+            self._lost_at = self._now() if self.report.phase == "stopped" else math.nan
+            self._status, self._moves_since = None, math.nan
+        self._phase, self._why = state.phase, state.sentence
+        if self._learning is not None:
+            self._learning.cancel()
+        if self._reached:
+            self._reached_at = self._now()
+            self._learning = asyncio.get_running_loop().create_task(self._learn())
+        self._look()
+
+    async def _learn(self) -> None:
+        """Listen to what tells of STOP; of a server that is not ours, find out first what there is."""
+        if not self._client.foreign:
+            self._follow()
+            return
+        while self._offer is None or not self._offer.ours:
+            with suppress(BridgeError):
+                self._offer = await ask(self._client.call, self._offer)
+                self._follow()
+            await asyncio.sleep(AGAIN)
+
+    def _follow(self) -> None:
+        if self._only_zero:
+            self._commands.void_stop()
+            self._listen((self._offer or NOTHING).source("/odom"), Odometry, self._zero.hear)
+            if self._drive is not None:
+                self._client.advertise(self._drive, TwistStamped if self._stamped else Twist)
+            return
+        self._listen("/control/status", ControlStatus, self._on_status)
+        self._listen("/robot/info", RobotInfo, self._on_info)
+
+    def _listen(self, topic: str | None, kind: type[Msg], hear: Callable[[Any, float], object]) -> None:
+        if topic is not None and topic not in self._listening:
+            self._listening[topic] = self._client.subscribe(topic, kind, hear)
+
+    def _on_info(self, info: RobotInfo, received: float) -> None:
+        self._info = info
+        if self._status is not None:
+            self._on_status(self._status, received)
+
+    def _on_status(self, status: ControlStatus, _: float) -> None:
+        self._status = status
+        if status.stopped and status.at_rest:
+            self._moves_since = math.nan
+            if not math.isnan(self._taken_at) or self._commands.stopping:
+                self._done.set()
+            self._commands.confirm_stop()
+        elif status.stopped:
+            self._moves_since = self._now() if math.isnan(self._moves_since) else self._moves_since
+        elif self._done.is_set():
+            self._released = True
+        if self._info.name and status.stamp != Time():
+            self._identity = (self._info.name, self._info.model, status.stamp)
+        self._look()
+
+    def _on_outcome(self, outcome: Outcome) -> None:
+        if outcome.phase == "accepted":
+            self._taken_at, self._refusal = self._now(), ""
+            if self._rests:
+                self._done.set()
+        elif outcome.phase == "no_reply":
+            self._refusal = outcome.reason if outcome.reason != "Still sending it." else ""
+        self._look()
+
+    # what is known
+
+    @property
+    def _reached(self) -> bool:
+        return self._phase is Phase.CONNECTED
+
+    @property
+    def _has_none(self) -> bool:
+        """It has no STOP of its own, as far as is known."""
+        if self._offer is not None:
+            return not self._offer.ours
+        return self._client.foreign
+
+    @property
+    def _only_zero(self) -> bool:
+        """It is known to have no STOP of its own."""
+        return self._offer is not None and not self._offer.ours
+
+    @property
+    def _drive(self) -> str | None:
+        return DRIVE if self._offer is None else self._offer.drive
+
+    @property
+    def _stamped(self) -> bool:
+        return self._offer is not None and self._offer.stamped
+
+    @property
+    def _rests(self) -> bool:
+        status = self._status
+        return status is not None and status.stopped and status.at_rest
+
+    def _look(self) -> None:
+        phase, sentence = self._judged()
+        self.report = Report(phase, sentence, self._info.name, self._reached, self._has_none, self._identity)
+
+    def _judged(self) -> tuple[str, str]:
+        if not self._reached:
+            return self._unreached()
+        if self._has_none:
+            drives = self._drive is not None
+            phase = self._zero.phase if drives else "no_answer"
+            return phase, self._zero.sentence(drives)
+        if self._released:
+            return "released", "Somebody has released STOP."
+        if self._status is not None and self._status.stopped:
+            return self._latched(self._status)
+        if self._now() - max(self._pressed_at, self._reached_at) < DOUBT:
+            return "sent", ""
+        if not math.isnan(self._taken_at):
+            return "no_answer", "It took STOP and does not say that it rests."
+        return "no_answer", self._refusal or "It does not answer; STOP is sent again and again."
+
+    def _latched(self, status: ControlStatus) -> tuple[str, str]:
+        if status.at_rest:
+            return "stopped", f"Pressed by {status.stopped_by}." if status.stopped_by else ""
+        if self._now() - self._moves_since < COMES_TO_REST:
+            return "sent", "STOP is pressed; it comes to rest."
+        return "moves", "STOP is pressed, and it does not come to rest."
+
+    def _unreached(self) -> tuple[str, str]:
+        if not math.isnan(self._lost_at):
+            ago = silence(self._now() - self._lost_at)
+            return "no_answer", f"STOPPED when it was last heard, {ago} ago. {self._why}"
+        hopeless = self._phase is Phase.CLOSED and self._why  # such an address can never work
+        if not hopeless and self._now() - self._pressed_at < DOUBT:
+            return "sent", ""
+        return "no_answer", self._why

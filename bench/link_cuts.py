@@ -1,0 +1,118 @@
+"""Links that are cut at random instants while a robot drives at full speed, over all kinds of robots.
+
+Each kind's robot side is a process of its own, driven by our client at 20 Hz over a real socket through a proxy that breaks
+the connection by RST or passes nothing any more, while the driver goes on; later what still waited in the line is let
+through. All kinds are driven at the same time. What counts is what the robot's port was told: from the moment that the last
+command which it obeyed was given to the command to rest. Missed is a cut after which anything moved the robot later than
+300 ms after it was given. Rest is by odometry, and what its brakes need from full speed is taken off.
+
+Wheels are the simulated patrol robot. Of the other kinds no simulation exists yet: they are bodies that speed up and
+brake as their kind does (`bench/support/kinds.py`) behind the same robot side. The other way is a server that hands every
+twist on to the same robots and minds neither its age nor who is gone; what these drive on is looked at for no longer than ours.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import random
+import threading
+from collections.abc import Iterable, Iterator
+from contextlib import ExitStack, contextmanager
+
+from bench.support.child import Child
+from bench.support.cuts import Cut, Driver, Line, cut, naive, ours
+from bench.support.figures import Figure, percentile
+from bench.support.harness import Context, Sides
+from bench.support.kinds import KINDS
+from bench.support.station import serving
+
+RELAY = "a relay without expiry"
+CUTS = 500
+THEIRS = 50
+"""The other way does it less often: every time comes to the same."""
+FIGURES = (
+    Figure("cuts", "", "links that were cut"),
+    Figure("missed", "%", "of them moved the robot later than 300 ms after the command", 0.0, against=RELAY),
+    Figure(
+        "reset_p50", "ms", "last valid command to zero at the robot, broken by RST, median", against=RELAY
+    ),
+    Figure("silent_p50", "ms", "the same, nothing passes any more, median", against=RELAY),
+    Figure("worst", "ms", "the longest of all", 300.0, against=RELAY),
+    Figure("late", "s", "at rest later than its brakes need, the longest of all"),
+    *(
+        Figure(f"way_{kind}", "m", f"{kind}: driven after the last valid command, median", against=RELAY)
+        for kind in KINDS
+    ),
+)
+REPEATS = 1
+
+
+@contextmanager
+def prepare(_: Context) -> Iterator[Sides]:
+    """Nothing is kept."""
+    yield Sides(lambda: run(CUTS, ours), theirs)
+
+
+def cuts(kinds: Iterable[str], count: int, driver: Driver, *flags: str) -> dict[str, list[Cut]]:
+    """Cut `count` links of each of these kinds, of all of them at the same time."""
+    with ExitStack() as stack:
+        robots = {kind: stack.enter_context(robot(kind, *flags)) for kind in kinds}
+        return asyncio.run(_all(robots, count, driver))
+
+
+def run(count: int, driver: Driver, *flags: str) -> dict[str, float]:
+    """Cut `count` links, as many of each kind."""
+    found = cuts(KINDS, count // len(KINDS), driver, *flags)
+    every = [each for its in found.values() for each in its]
+    late = [
+        each.rest - KINDS[kind].speed / KINDS[kind].braking for kind, its in found.items() for each in its
+    ]
+    ways = {f"way_{kind}": percentile([each.way for each in its], 0.5) for kind, its in found.items()}
+    return {
+        "cuts": len(every),
+        "missed": sum(each.missed for each in every) / len(every) * 100,
+        "reset_p50": percentile([each.zero for each in every if each.hard], 0.5) * 1e3,
+        "silent_p50": percentile([each.zero for each in every if not each.hard], 0.5) * 1e3,
+        "worst": max(each.longest for each in every) * 1e3,
+        "late": max(late),
+        **ways,
+    }
+
+
+def theirs() -> dict[str, float]:
+    """Without what says nothing of robots that never rest."""
+    found = run(THEIRS, naive, "--relay")
+    return {name: value for name, value in found.items() if name not in ("cuts", "late")}
+
+
+@contextmanager
+def robot(kind: str, *flags: str) -> Iterator[tuple[int, list[Line]]]:
+    """A robot side of that kind: its port on this machine, and what the robot's own port tells, which grows."""
+    told: list[Line] = []
+    with serving("bench.support.port", "--robot", f"sim:{KINDS[kind].model}", *flags) as serves:
+        reader = threading.Thread(target=_listen, args=(serves.child, told), daemon=True)
+        reader.start()
+        yield int(serves.url.rsplit(":", 1)[1]), told
+    reader.join(5.0)
+
+
+def _listen(process: Child, told: list[Line]) -> None:
+    lines = process.process.stdout or ()
+    told.extend(json.loads(line) for line in lines if line.startswith("["))
+
+
+async def _all(robots: dict[str, tuple[int, list[Line]]], count: int, driver: Driver) -> dict[str, list[Cut]]:
+    async with asyncio.TaskGroup() as group:
+        tasks = {
+            kind: group.create_task(_each(kind, *where, count, driver)) for kind, where in robots.items()
+        }
+    return {kind: task.result() for kind, task in tasks.items()}
+
+
+async def _each(kind: str, port: int, told: list[Line], count: int, driver: Driver) -> list[Cut]:
+    rng = random.Random(f"cuts of {kind}")
+    return [
+        await cut(port, told, KINDS[kind], driver, rng, 1.0 if number % 2 else -1.0)
+        for number in range(count)
+    ]

@@ -1,0 +1,85 @@
+"""`python -m bench.support.port serve --robot sim:MODEL …`: the robot side, with a robot of that model or kind whose port tells.
+
+With `--relay` it is no robot side but what is written in an afternoon: a server that hands every twist on to the robot, as
+rosbridge_server and a simple drive do, and minds neither its age nor who is gone.
+
+Prints a line of JSON for each: `["drive", at, forward, yaw rate]`, `["stop", at]` and, 20 times a second by odometry,
+`["speed", at, over ground]`. `at` is `time.monotonic()` [s].
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import math
+import sys
+import time
+from collections.abc import Iterable
+
+from websockets.asyncio.server import ServerConnection, serve
+from websockets.exceptions import ConnectionClosed
+
+import sim.robot
+from bench.support.kinds import Body
+from bench.support.probe import Probe, tell
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.nav_msgs import Odometry
+from robotside.__main__ import main
+from robotside.robot import Robot
+
+TICK = 1 / 60
+"""[s]"""
+
+
+class Port(Probe):
+    """Tells of every command and of the speed."""
+
+    def stop(self) -> None:
+        """Tell that it is to rest."""
+        tell("stop", time.monotonic())
+        super().stop()
+
+    def read(self, now: float) -> Iterable[tuple[str, Msg]]:
+        """Tell how fast it goes."""
+        for topic, msg in self._robot.read(now):
+            if isinstance(msg, Odometry) and topic == "/odom":
+                v = msg.twist.twist.linear
+                tell("speed", time.monotonic(), math.hypot(v.x, v.y))
+            yield topic, msg
+
+
+def make(model: str, world: str, *, seed: int) -> Robot:
+    """The simulated robot of that name, else a body of that kind, behind a port that tells."""
+    robot = simulated(model, world, seed=seed) if model in sim.robot.ROBOTS else Body(model)
+    return Port(robot)
+
+
+async def relay(robot: Robot) -> None:
+    """Hand on every twist that comes, from anyone."""
+
+    async def hear(ws: ServerConnection) -> None:
+        with contextlib.suppress(ConnectionClosed):
+            async for raw in ws:
+                op = json.loads(raw)
+                if op["op"] == "publish":
+                    linear, angular = op["msg"]["linear"], op["msg"]["angular"]
+                    robot.drive(Twist.planar(linear["x"], angular["z"]))
+
+    async with serve(hear, "127.0.0.1", 0) as server:
+        port = server.sockets[0].getsockname()[1]
+        print(f"robotside: ready bridge=ws://127.0.0.1:{port}", flush=True)
+        while True:
+            for _ in robot.read(time.monotonic()):
+                pass
+            await asyncio.sleep(TICK)
+
+
+if __name__ == "__main__":
+    simulated = sim.robot.make
+    if "--relay" in sys.argv:
+        named = sys.argv[sys.argv.index("--robot") + 1]
+        asyncio.run(relay(make(named.removeprefix("sim:"), "parking_lot", seed=0)))
+    sim.robot.make = make  # type: ignore[assignment]
+    sys.exit(main())

@@ -1,0 +1,211 @@
+"""Control on the glass: asking, handing over, the mode, a task paused by the stick, a speed that follows the link."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from app.inputs import covered
+from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
+from bridge.msgs.std_msgs import Time
+from tests.app.fakes import FakeRobot
+from tests.app.glass import Glass
+
+PATROL = TaskStatus(task="patrol", state="RUNNING", reason="Driving to point 2.")
+
+COARSE = 1 / 16
+"""Length of a frame where nothing is moved [s]."""
+
+
+def cards(glass: Glass) -> list[str]:
+    """Headlines of what lies over the screen, from top to bottom."""
+    return [
+        child.headline for child in reversed(glass.app.shell.notices.children) if hasattr(child, "headline")
+    ]
+
+
+def press(glass: Glass, button: Any) -> None:
+    """As a finger that has seen what it presses."""
+    glass.until(lambda: not button.disabled, button)
+    glass.stage.run_for(0.6, COARSE)
+    glass.tap(button)
+
+
+def tell(robot: FakeRobot, **changes: Any) -> None:
+    """Let the robot say so of itself, and go on from there."""
+    fields = {name: getattr(robot.control, name) for name in robot.control.__struct_fields__}
+    robot.control = ControlStatus(**{**fields, **changes})
+    robot.publish("/control/status", robot.control)
+
+
+def anna_asks(glass: Glass, robot: FakeRobot) -> Any:
+    due = Time.at(robot.clock() + 8.0)
+    tell(robot, requested_by="Anna", requested_by_id="a", handover=due)
+    glass.until(lambda: glass.app.shell.cards.handover.parent is not None, "nobody asks")
+    return glass.app.shell.cards.handover
+
+
+def paused(glass: Glass, robot: FakeRobot, reason: str) -> Any:
+    robot.publish("/task/status", PATROL)
+    glass.until(lambda: glass.app.session.running and not glass.app.shell.cards.paused.open, "not running")
+    tell(robot, mode="PAUSED")
+    robot.publish("/task/status", TaskStatus(task="patrol", state="PAUSED", reason=reason))
+    glass.until(lambda: glass.app.shell.cards.paused.open, "not paused")
+    glass.stage.run_for(0.4, COARSE)
+    return glass.app.shell.cards.paused
+
+
+def test_the_driver_sees_on_every_screen_who_asks_and_hands_over(driving: Glass, robot: FakeRobot) -> None:
+    card = anna_asks(driving, robot)
+    for screen in ("mission", "tasks", "topics", "drive"):
+        driving.app.show(screen)
+        driving.stage.run_for(0.4, COARSE)
+        (headline,) = cards(driving)
+        assert headline.startswith("Anna asks for control · ")
+    assert 0 < card.left <= 8.0
+    press(driving, card.hand_over)
+    assert robot.until(lambda: "/control/grant" in robot.services())
+    driving.until(lambda: driving.banners() == ["Anna has control now."], driving.banners())
+    stick = driving.app.screens["drive"].stick
+    driving.until(lambda: stick.state == "disabled", "the stick still lives")
+
+
+def test_the_driver_keeps_control(driving: Glass, robot: FakeRobot) -> None:
+    card = anna_asks(driving, robot)
+    robot.refusals["/control/object"] = "The disk is full."
+    press(driving, card.keep)
+    refused = "Refused: keep control. The disk is full."
+    driving.until(lambda: refused in driving.banners(), driving.banners())
+    del robot.refusals["/control/object"]
+    press(driving, card.keep)
+    assert robot.until(lambda: "/control/object" in robot.services())
+    driving.until(lambda: not cards(driving), "the card stayed")
+    assert driving.app.session.control == "mine"
+
+
+def test_who_somebody_else_drives_is_asked_for_and_that_is_taken_back(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    tell(robot, driver="Bob", driver_id="b")
+    driving.until(lambda: driving.app.session.control == "other", "still ours")
+    driving.tap(driving.app.shell.ids.control)
+    driving.until(lambda: cards(driving), "not asked")
+    assert cards(driving)[0].startswith("You asked Bob · ")
+    assert driving.app.shell.bar.control_text.startswith("asked Bob · ")
+    press(driving, driving.app.shell.cards.handover.take_back)
+    driving.until(lambda: not cards(driving), "still asked")
+    assert [name for name in robot.services() if "control" in name][-2:] == [
+        "/control/request",
+        "/control/release",
+    ]
+    assert driving.app.session.control == "other"
+
+
+def test_the_mode_is_a_command_whose_answer_is_said(driving: Glass, robot: FakeRobot) -> None:
+    chip, card = driving.app.shell.ids.mode, driving.app.shell.cards.mode
+    driving.until(lambda: chip.pressable, "not offered")
+    driving.tap(chip)
+    driving.until(lambda: card.parent is not None, "no choice")
+    assert card.auto.disabled
+    assert card.said == "You drive. For AUTO start a task."
+    paused(driving, robot, "Paused by tablet-B.")
+    driving.until(lambda: not card.auto.disabled, "no AUTO")
+    robot.refusals["/mode/set"] = "The battery is empty."
+    press(driving, card.auto)
+    refused = "Refused: switch to AUTO. The battery is empty."
+    driving.until(lambda: refused in driving.banners(), driving.banners())
+    assert card.open
+    del robot.refusals["/mode/set"]
+    press(driving, card.auto)
+    driving.until(lambda: "Done." in driving.banners(), driving.banners())
+    driving.until(lambda: card.parent is None, "the card stayed")
+    assert (robot.asked[-1][0], robot.asked[-1][1].mode) == ("/mode/set", "AUTO")
+    driving.until(lambda: chip.text.startswith("AUTO"), chip.text)
+
+
+def test_with_stop_pressed_or_another_driving_the_mode_is_not_to_be_changed(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    card = driving.app.shell.cards.mode
+    paused(driving, robot, "Paused by tablet-B.")
+    driving.app.shell.cards.ask_mode()
+    driving.until(lambda: not card.auto.disabled, "no AUTO")
+    tell(robot, stopped=True, mode="STOPPED")
+    driving.until(lambda: card.auto.disabled, "AUTO under STOP")
+    assert card.said == "STOP is pressed; hold it to release."
+    tell(robot, stopped=False, mode="PAUSED", driver="Bob", driver_id="b")
+    driving.until(lambda: card.said == "Bob has control.", card.said)
+    assert card.auto.disabled
+
+
+def test_taking_the_stick_pauses_the_task_and_offers_to_resume_it(driving: Glass, robot: FakeRobot) -> None:
+    card = paused(driving, robot, f"Paused: {driving.app.client_name} took the stick.")
+    assert cards(driving) == ["Patrol is paused"]
+    assert card.said == "You took the stick."
+    stick = driving.app.screens["drive"].stick
+    touch = driving.hold(stick)
+    touch.touch_move(stick.center_x, stick.top - 10)
+    driving.until(lambda: card.resume.disabled, "resumed under the stick")
+    touch.touch_up()
+    press(driving, card.resume)
+    assert robot.until(lambda: "/task/resume" in robot.services())
+    robot.publish("/task/status", PATROL)
+    driving.until(lambda: not cards(driving), "still offered")
+
+
+def test_what_was_paused_by_the_button_is_not_offered_twice(driving: Glass, robot: FakeRobot) -> None:
+    robot.publish("/task/status", PATROL)
+    pause = driving.app.screens["drive"].ids["pause"]
+    press(driving, pause)
+    assert robot.until(lambda: "/task/pause" in robot.services())
+    robot.publish("/task/status", TaskStatus(task="patrol", state="PAUSED", reason="Paused by tablet."))
+    driving.until(lambda: pause.text == "Resume", "not paused")
+    driving.stage.run_for(0.4, COARSE)
+    assert cards(driving) == []
+
+
+def test_an_offer_to_resume_is_put_away_until_the_next_pause(driving: Glass, robot: FakeRobot) -> None:
+    card = paused(driving, robot, "Paused: Bob took the stick.")
+    assert card.said == "Bob took the stick."
+    driving.tap(card.cross)
+    driving.stage.run_for(0.4, COARSE)
+    assert cards(driving) == []
+    paused(driving, robot, "Paused: Bob took the stick.")
+    assert cards(driving) == ["Patrol is paused"]
+
+
+def test_a_capped_speed_is_shown_where_one_drives_and_switched_off_and_on(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    driving.app.session.link._measure = lambda: None
+    driving.app.session.link.rtt = 0.32
+    cap = driving.app.shell.cards.cap
+    tell(robot, speed_cap=0.4)
+    driving.until(lambda: cards(driving) == ["40 % speed"], cards(driving))
+    driving.until(lambda: cap.said == "Slow link, 320 ms.", cap.said)
+    driving.app.show("mission")
+    driving.stage.run_for(0.4, COARSE)
+    assert cards(driving) == []
+    driving.app.show("drive")
+    press(driving, cap.switch)
+    driving.until(lambda: cards(driving) == ["Full speed always"], cards(driving))
+    assert (robot.asked[-1][1].name, robot.asked[-1][1].value) == ("follow_link", "off")
+    press(driving, cap.switch)
+    driving.until(lambda: cards(driving) == ["40 % speed"], cards(driving))
+    tell(robot, driver="Bob", driver_id="b")
+    driving.until(lambda: cap.said == "Slow link of Bob.", cap.said)
+    assert cap.switch.disabled
+
+
+def test_no_card_lies_over_the_stick_or_over_stop(driving: Glass, robot: FakeRobot) -> None:
+    anna_asks(driving, robot)
+    tell(robot, speed_cap=0.4)
+    paused(driving, robot, "Paused: Bob took the stick.")
+    driving.app.shell.cards.ask_mode()
+    before = tuple(driving.app.root.size)
+    for size in ((412, 892), (892, 412), (1280, 800), (1920, 1200)):
+        driving.app.root.size = size
+        driving.stage.run_for(0.4, COARSE)
+        assert cards(driving)[0].startswith("Anna asks for control")
+        assert not covered(driving.app.screens["drive"].stick), size
+        assert not covered(driving.app.shell.stop), size
+    driving.app.root.size = before

@@ -1,0 +1,480 @@
+"""Inputs expire: whatever pushes the stick and dies, at the sender zero speed leaves within 200 ms, in virtual time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from app.commands import DriveSlot
+from app.sdl import PadState
+from bridge.msgs.geometry_msgs import Twist
+from tests.headless import Stage
+
+LIMIT = 0.2
+"""From the loss to the last command that moves the robot [s]."""
+STEP = 1 / 128
+PAD = PadState(1, "Pad", 0.0, 0.0, stop=False, stop_button=1, raw=(0,))
+ESCAPE, SPACE = (27, 41), (32, 44)
+"""Key codes and scan codes."""
+BACK = (27, 270)
+
+
+class Source:
+    """What SDL would tell."""
+
+    def __init__(self) -> None:
+        self.there: dict[int, PadState] = {}
+        self.trembles, self.count = True, 0
+        self.gone: set[Any] = set()
+
+    def pads(self) -> list[PadState]:
+        self.count += self.trembles
+        return [replace(state, raw=(self.count,)) for state in self.there.values()]
+
+    def lifted(self, device: str, finger: Any) -> bool:
+        return finger in self.gone
+
+    def close(self) -> None:
+        """Nothing to close."""
+
+
+class Session:
+    may_drive = True
+
+
+class Shell:
+    """As much of the frame round the screens as the inputs ask for."""
+
+    def __init__(self, screen: Any, stop: Any) -> None:
+        self.screens, self.screen, self.stop = {"drive": screen, "mission": object()}, "drive", stop
+        self.said: list[str] = []
+        self.offers: list[tuple[str, Callable[[], None]]] = []
+        self.notices = self
+
+    def rest(self) -> None:
+        self.screens["drive"].stick.rest()
+
+    def say(self, text: str, level: str, about: str) -> None:
+        self.said.append(text)
+
+    def unsay(self, about: str) -> None:
+        """Nothing is said any longer."""
+
+    def offer(self, text: str, action: str, act: Callable[[], None], icon: str) -> None:
+        self.offers.append((text, act))
+
+
+class Corner:
+    """STOP ALL of the connect screen."""
+
+    def __init__(self) -> None:
+        self.robots = self.presses = 0
+        self.button = self
+
+    def press(self) -> None:
+        self.presses += 1
+
+
+class Hands:
+    """A stick on the glass, its way to the sender, and everything that can happen to either."""
+
+    def __init__(self, stage: Stage) -> None:
+        from kivy.uix.floatlayout import FloatLayout
+
+        from app.inputs import Inputs
+        from widgets import Joystick, StopButton
+
+        self.stage, self.source, self.session = stage, Source(), Session()
+        self.devices, self.turn = frozenset({1, 2}), 0
+        self.settings: dict[str, Any] = {}
+        self.page = FloatLayout()
+        self.stick = Joystick(max_speed=0.5, size_hint=(None, None), size=(200, 200), pos=(100, 100))
+        self.stop = StopButton(size_hint=(None, None), size=(100, 100), pos=(1000, 0))
+        self.stops = 0
+        self.stop.bind(on_command=self._stopped)
+        self.page.add_widget(self.stick)
+        self.page.add_widget(self.stop)
+        self.root = FloatLayout()
+        self.root.add_widget(self.page)
+        stage.show(self.root, stage.window.size)
+        screen: Any = type("Screen", (), {"stick": self.stick})
+        self.shell: Any = Shell(screen, self.stop)
+        self.slot = DriveSlot(stage.time)
+        self.stick.bind(on_command=lambda _, twist: self.slot.want(twist))
+        self.sent: list[tuple[float, Twist]] = []
+        self.corner = Corner()
+        self.frozen = False
+        self._beaten = 0.0
+        self.back_pressed = 0
+        self.inputs = Inputs(
+            self, stage.time, self.source, devices=lambda: self.devices, turned=lambda: self.turn
+        )
+        self.inputs.open()
+
+    # what the inputs ask the app for
+
+    def back(self) -> bool:
+        self.back_pressed += 1
+        return True
+
+    def _stopped(self, _: object) -> None:
+        self.stops += 1
+
+    # what the test does
+
+    def pass_time(self, seconds: float) -> None:
+        end = self.stage.time.now + seconds
+        while self.stage.time.now < end:
+            if self.frozen:
+                self.stage.time.now += STEP
+            else:
+                self.stage.frames(1, STEP)
+                if self.stage.time.now - self._beaten >= 0.03:
+                    self._beaten = self.stage.time.now
+                    self.inputs.look()
+                    self.slot.beat()
+            if (twist := self.slot.due()) is not None:
+                self.sent.append((self.stage.time.now, twist))
+
+    @property
+    def moving(self) -> bool:
+        return bool(self.sent) and self.sent[-1][1] != Twist()
+
+    def push(self) -> Any:
+        """A finger pushes the stick ahead and rests there without a move for a second."""
+        touch = self.stage.touch(200, 200)
+        touch.touch_down()
+        touch.touch_move(200, 290)
+        self.pass_time(1.0)
+        assert self.moving
+        return touch
+
+    def lean(self) -> None:
+        """A gamepad pushes it ahead for a second."""
+        self.source.there = {1: PAD}
+        self.pass_time(0.1)
+        self.source.there = {1: replace(PAD, forward=1.0)}
+        self.pass_time(1.0)
+        assert self.moving
+
+    def rests_in_time(self, lost: float) -> None:
+        """And stays at rest."""
+        self.pass_time(1.5)
+        last = max(at for at, twist in self.sent if twist != Twist())
+        assert last - lost <= LIMIT
+        assert not self.moving
+
+    def cover(self) -> Any:
+        from app.screens.dialogs import AddressDialog
+
+        dialog = AddressDialog(lambda _: None)
+        self.root.add_widget(dialog)
+        return dialog
+
+
+@pytest.fixture
+def hands(stage: Stage) -> Iterator[Hands]:
+    hands = Hands(stage)
+    yield hands
+    hands.inputs.close()
+
+
+def small_card(hands: Hands, pos: tuple[int, int] = (40, 90)) -> None:
+    from widgets.kit import Card
+
+    hands.page.add_widget(Card(size_hint=(None, None), size=(120, 60), pos=pos))
+
+
+def end_unseen(hands: Hands, touch: Any) -> None:
+    """Kivy forgets the touch and the stick is never told."""
+    hands.stage.loop.touches.remove(touch)
+
+
+def end_in_sdl(hands: Hands, touch: Any) -> None:
+    """Kivy dropped the end, as it does while the app is paused; SDL knows it."""
+    hands.source.gone.add(touch.id)
+
+
+def come_again(hands: Hands, touch: Any) -> None:
+    """The end was lost and the next finger, elsewhere, has the same number: Kivy makes it the same touch."""
+    touch.sx, touch.sy = 0.9, 0.05
+    touch.touch_down()
+    touch.touch_move(200, 290)
+
+
+def come_again_on_stop(hands: Hands, touch: Any) -> None:
+    """As before, and the stick never sees it come down."""
+    width, height = hands.stage.window.size
+    touch.sx, touch.sy = 1050 / width, 50 / height
+    touch.move({"x": 1050 / width, "y": 50 / height})
+    hands.stage.loop.touches.remove(touch)
+    touch.touch_down()
+    assert hands.stop.pressed
+
+
+LOSSES: dict[str, Callable[[Hands, Any], object]] = {
+    "lifted": lambda hands, touch: touch.touch_up(),
+    "cancelled by the system": lambda hands, touch: touch.touch_up(),  # which is what SDL makes of it
+    "end never told": end_unseen,
+    "end dropped in a pause": end_in_sdl,
+    "number given to another finger": come_again,
+    "number given to another finger, on STOP": come_again_on_stop,
+    "out of focus": lambda hands, _: setattr(hands.stage.window, "_focus", False),
+    "hidden": lambda hands, _: hands.stage.window.dispatch("on_hide"),
+    "minimised": lambda hands, _: hands.stage.window.dispatch("on_minimize"),
+    "turned": lambda hands, _: setattr(hands.stage.window, "size", (800, 1280)),
+    "turned upside down": lambda hands, _: setattr(hands, "turn", 2),
+    "dialog over it": lambda hands, _: hands.cover(),
+    "card over it": lambda hands, _: small_card(hands),
+    "moved by the layout": lambda hands, _: setattr(hands.stick, "y", 180),
+    "another screen": lambda hands, _: (hands.shell.rest(), setattr(hands.shell, "screen", "mission")),
+    "may not drive": lambda hands, _: setattr(hands.session, "may_drive", False),
+    "disabled": lambda hands, _: setattr(hands.stick, "state", "disabled"),
+    "frozen": lambda hands, _: setattr(hands, "frozen", True),
+    "paused": lambda hands, _: paused(hands),
+}
+
+
+@pytest.fixture
+def upright(hands: Hands) -> Iterator[None]:
+    """Puts the window back as it was."""
+    window = hands.stage.window
+    size = tuple(window.size)
+    yield
+    window.size, window._focus = size, True
+
+
+@pytest.mark.usefixtures("upright")
+@pytest.mark.parametrize("happens", LOSSES.values(), ids=LOSSES)
+def test_a_finger_that_is_lost_drives_no_longer(
+    hands: Hands, happens: Callable[[Hands, Any], object]
+) -> None:
+    touch = hands.push()
+    happens(hands, touch)
+    hands.rests_in_time(hands.stage.time.now)
+
+
+def test_a_finger_that_rests_without_a_move_drives_on(hands: Hands) -> None:
+    hands.push()
+    hands.pass_time(10.0)
+    assert hands.moving
+
+
+def test_a_second_finger_on_the_stick_and_its_end_change_nothing(hands: Hands) -> None:
+    hands.push()
+    second = hands.stage.touch(180, 220)
+    second.touch_down()
+    second.touch_up()
+    hands.pass_time(0.5)
+    assert hands.moving
+
+
+def test_what_touches_only_the_corner_beside_the_round_is_not_over_the_stick(hands: Hands) -> None:
+    hands.push()
+    small_card(hands, (0, 60))
+    hands.pass_time(0.5)
+    assert hands.moving
+
+
+def test_what_is_being_laid_out_is_over_the_stick_for_a_frame_and_does_not_end_the_drive(
+    hands: Hands,
+) -> None:
+    from widgets.kit import Card
+
+    hands.push()
+    card = Card(size_hint=(None, None), size=(120, 60), pos=(100, 100))
+    hands.page.add_widget(card)
+    hands.pass_time(0.02)
+    card.pos = (900, 600)
+    hands.pass_time(0.5)
+    assert hands.moving
+
+
+GAMEPAD: dict[str, Callable[[Hands], object]] = {
+    "let go": lambda hands: setattr(hands.source, "there", {1: PAD}),
+    "unplugged": lambda hands: hands.source.there.clear(),
+    "taken away, and SDL does not know yet": lambda hands: setattr(hands, "devices", frozenset({1})),
+    "silent": lambda hands: setattr(hands.source, "trembles", False),
+    **{
+        name: lambda hands, happens=happens: happens(hands, None)
+        for name, happens in LOSSES.items()
+        if name in ("out of focus", "hidden", "minimised", "turned", "turned upside down", "dialog over it")
+        or name in ("card over it", "another screen", "may not drive", "disabled", "frozen", "paused")
+    },
+}
+
+
+@pytest.mark.usefixtures("upright")
+@pytest.mark.parametrize("happens", GAMEPAD.values(), ids=GAMEPAD)
+def test_a_gamepad_that_is_lost_drives_no_longer(hands: Hands, happens: Callable[[Hands], object]) -> None:
+    hands.lean()
+    happens(hands)
+    hands.rests_in_time(hands.stage.time.now)
+
+
+def test_a_gamepad_that_was_held_through_a_dialog_must_be_let_go_first(hands: Hands) -> None:
+    hands.lean()
+    dialog = hands.cover()
+    hands.pass_time(0.5)
+    hands.root.remove_widget(dialog)
+    hands.pass_time(0.5)
+    assert not hands.moving
+    hands.lean()
+
+
+def test_a_gamepad_that_stop_brought_to_rest_must_be_let_go_first(hands: Hands) -> None:
+    hands.lean()
+    hands.stick.rest()
+    hands.rests_in_time(hands.stage.time.now)
+
+
+def test_a_finger_takes_the_stick_and_the_gamepad_waits_until_both_let_go(hands: Hands) -> None:
+    hands.lean()
+    finger = hands.stage.touch(200, 200)
+    finger.touch_down()
+    finger.touch_move(110, 200)
+    hands.pass_time(0.5)
+    assert hands.sent[-1][1].linear.x == pytest.approx(0.0)
+    assert hands.sent[-1][1].angular.z > 0.5
+    finger.touch_up()
+    hands.rests_in_time(hands.stage.time.now)
+    hands.lean()
+
+
+def finger_on_it(hands: Hands) -> Callable[[], object]:
+    return hands.push().touch_up  # type: ignore[no-any-return]
+
+
+def dialog_over_it(hands: Hands) -> Callable[[], object]:
+    return hands.cover().close  # type: ignore[no-any-return]
+
+
+def other_screen(hands: Hands) -> Callable[[], object]:
+    hands.shell.screen = "mission"
+    return lambda: setattr(hands.shell, "screen", "drive")
+
+
+def paused(hands: Hands) -> Callable[[], object]:
+    """As the app does, and then it runs no longer."""
+    hands.inputs.rest()
+    hands.frozen = True
+    return lambda: setattr(hands, "frozen", False)
+
+
+@pytest.mark.parametrize("begin", [finger_on_it, dialog_over_it, other_screen, paused])
+def test_a_gamepad_that_was_pushed_while_it_might_not_drive_does_not_begin_to_by_itself(
+    hands: Hands, begin: Callable[[Hands], Callable[[], object]]
+) -> None:
+    hands.source.there = {1: PAD}
+    hands.pass_time(0.2)
+    end = begin(hands)
+    hands.pass_time(0.2)
+    hands.source.there = {1: replace(PAD, forward=-1.0)}
+    hands.pass_time(0.5)
+    end()
+    hands.pass_time(1.0)
+    assert not hands.moving
+    hands.lean()
+
+
+@pytest.mark.usefixtures("upright")
+def test_while_the_window_has_no_focus_a_gamepad_does_not_drive(hands: Hands) -> None:
+    hands.stage.window._focus = False
+    with pytest.raises(AssertionError):
+        hands.lean()
+    hands.stage.window._focus = True
+    hands.lean()
+
+
+def test_the_stick_shows_what_the_gamepad_does_and_what_happens_to_it_is_said(hands: Hands) -> None:
+    assert hands.stick.gamepad == "none"
+    hands.lean()
+    assert hands.stick.gamepad == "drives"
+    hands.source.trembles = False
+    hands.pass_time(0.5)
+    assert hands.stick.gamepad == "silent"
+    hands.source.there.clear()
+    hands.pass_time(0.1)
+    assert hands.stick.gamepad == "none"
+    assert hands.shell.said == ["Pad: its left stick drives, B is STOP.", "Pad is unplugged."]
+    assert [text for text, _ in hands.shell.offers] == ["The gamepad is silent: told to rest. Is it wired?"]
+
+
+def test_a_gamepad_said_to_hang_on_a_cable_may_be_held_still_and_that_is_remembered(hands: Hands) -> None:
+    hands.settings = Kept()
+    hands.lean()
+    hands.source.trembles = False
+    hands.pass_time(0.5)
+    assert not hands.moving
+    hands.shell.offers[0][1]()
+    hands.source.trembles = True
+    hands.lean()
+    hands.source.trembles = False
+    hands.pass_time(2.0)
+    assert hands.moving
+    assert hands.settings["wired_gamepads"] == ["Pad"]
+
+
+class Kept(dict):  # type: ignore[type-arg]
+    def set(self, name: str, value: Any) -> None:
+        self[name] = value
+
+
+def press(hands: Hands, keys: tuple[int, int]) -> None:
+    """The key goes down, repeats as long as it is held, and up."""
+    window = hands.stage.window
+    for _ in range(3):
+        if not window.dispatch("on_key_down", *keys, None, []):
+            window.dispatch("on_keyboard", *keys, None, [])
+    window.dispatch("on_key_up", *keys)
+
+
+@pytest.mark.parametrize("keys", [ESCAPE, SPACE], ids=["Escape", "Space"])
+def test_a_key_is_stop_once_however_long_it_is_held(hands: Hands, keys: tuple[int, int]) -> None:
+    press(hands, keys)
+    assert (hands.stops, hands.back_pressed) == (1, 0)
+    press(hands, keys)
+    assert hands.stops == 2
+
+
+def test_while_somebody_types_escape_is_stop_and_space_is_a_space(hands: Hands) -> None:
+    dialog = hands.cover()
+    field = dialog.ids.field
+    field.focus = True
+    press(hands, ESCAPE)
+    assert (hands.stops, field.focus, dialog.parent) == (1, True, hands.root)
+    press(hands, SPACE)
+    assert hands.stops == 1
+    dialog.close()
+
+
+def test_androids_back_is_no_stop(hands: Hands) -> None:
+    press(hands, BACK)
+    assert (hands.stops, hands.back_pressed) == (0, 3)
+
+
+def test_where_there_is_no_robot_escape_is_back(hands: Hands) -> None:
+    hands.session = hands.shell = None  # type: ignore[assignment]
+    press(hands, ESCAPE)
+    assert (hands.stops, hands.back_pressed) == (0, 3)
+
+
+@pytest.mark.parametrize("keys", [ESCAPE, SPACE], ids=["Escape", "Space"])
+def test_where_several_robots_are_known_and_none_is_connected_a_key_stops_them_all(
+    hands: Hands, keys: tuple[int, int]
+) -> None:
+    hands.session = hands.shell = None  # type: ignore[assignment]
+    hands.corner.robots = 2
+    press(hands, keys)
+    assert (hands.corner.presses, hands.back_pressed) == (1, 0)
+
+
+def test_the_gamepads_button_is_stop_on_every_screen(hands: Hands) -> None:
+    hands.source.there = {1: PAD}
+    hands.shell.screen = "mission"
+    hands.pass_time(0.1)
+    hands.stage.window.dispatch("on_joy_button_down", 1, 1)
+    assert hands.stops == 1

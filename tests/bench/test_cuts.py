@@ -1,0 +1,50 @@
+"""A cut link is judged by what the robot's port was told."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from bench.support.cuts import CODE, Cut, judge
+
+GIVEN = {1: 10.0, 2: 10.05}
+
+
+def judged(*told: tuple[object, ...]) -> Cut:
+    return judge(told, GIVEN, hard=True)
+
+
+def drive(at: float, number: int, speed: float = 0.7) -> tuple[object, ...]:
+    return "drive", at, speed, number * CODE
+
+
+def test_zero_counts_from_when_the_last_command_was_given() -> None:
+    found = judged(drive(10.01, 1), drive(10.07, 2), ("stop", 10.3))
+    assert found.zero == pytest.approx(0.25)
+    assert not found.missed
+
+
+def test_a_twist_that_only_turns_is_rest() -> None:
+    assert judged(drive(10.07, 2), drive(10.3, 2, 0.0)).zero == pytest.approx(0.25)
+
+
+def test_a_robot_that_is_not_told_to_rest_is_a_miss() -> None:
+    found = judged(drive(10.07, 2))
+    assert found.zero == math.inf == found.rest
+    assert found.missed
+
+
+def test_one_that_is_told_to_rest_too_late_is_a_miss() -> None:
+    assert judged(drive(10.07, 2), ("stop", 10.36)).missed
+
+
+def test_an_old_command_that_comes_after_it_stood_is_a_miss() -> None:
+    assert judged(drive(10.01, 1), ("stop", 10.25), drive(10.9, 2), ("stop", 10.91)).missed
+
+
+def test_rest_and_way_are_by_its_odometry_after_the_last_command() -> None:
+    speeds = [("speed", 9.9, 0.7), ("speed", 10.1, 0.5), ("speed", 10.3, 0.5), ("speed", 10.4, 0.0)]
+    found = judged(drive(10.07, 2), ("stop", 10.3), *speeds)
+    assert found.rest == pytest.approx(0.1)
+    assert found.way == pytest.approx(0.5 * 0.3)

@@ -1,0 +1,170 @@
+"""STOP ALL: the small one beside STOP, for every robot that is known; afterwards it counts how many are stopped.
+
+stop_all = StopAll(robots=3)
+stop_all.bind(on_command=lambda _: fleet.press(robots.entries()))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.metrics import dp, sp
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
+from kivy.uix.anchorlayout import AnchorLayout
+from kivy.uix.widget import Widget
+
+from widgets.base import Control, fitting_size
+
+__all__ = ["StopAll"]
+
+TIGHT = 1.5
+"""Narrower than so many heights its word goes on two lines."""
+
+Builder.load_string("""
+<StopAll>:
+    canvas.before:
+        Color:
+            rgba: theme.stop
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.radius]
+        Color:
+            rgba: theme.stop if root.filled else theme.raised
+        SmoothRoundedRectangle:
+            pos: self.x + dp(2), self.y + dp(2)
+            size: self.width - dp(4), self.height - dp(4)
+            radius: [theme.radius - dp(2)]
+        Color:
+            rgba: theme.shade[:3] + [.22 if root.pressed else 0]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.radius]
+    BoxLayout:
+        orientation: 'vertical'
+        size_hint: None, None
+        size: self.minimum_size
+        Label:
+            text: root.word
+            font_name: theme.font
+            font_size: root.word_size
+            bold: True
+            halign: 'center'
+            line_height: .95
+            color: theme.roles[root.ink]
+            disabled_color: self.color
+            size_hint: None, None
+            size: self.texture_size
+            pos_hint: {'center_x': .5}
+        Label:
+            text: root.note
+            font_name: theme.font
+            font_size: root.note_size
+            color: theme.roles[root.ink if root.filled else 'text']
+            disabled_color: self.color
+            size_hint: None, None
+            size: self.texture_size
+            pos_hint: {'center_x': .5}
+""")
+
+
+class StopAll(Control, AnchorLayout):
+    """Dispatches `on_command` the moment a finger comes down, however often."""
+
+    veiled = False
+
+    robots = NumericProperty(0)
+    """So many are known."""
+    active = BooleanProperty(False)
+    """It was pressed and not let go."""
+    stopped = NumericProperty(0)
+    """So many say that they are stopped and rest."""
+    total = NumericProperty(0)
+    """Of so many that it was meant for."""
+    pressed = NumericProperty(0)
+    """Fingers on it."""
+
+    def _filled(self) -> bool:
+        return self.active and self.stopped < self.total
+
+    filled = AliasProperty(_filled, bind=["active", "stopped", "total"], cache=True)
+    """Not all of them are stopped."""
+
+    def _ink(self) -> str:
+        return "ink_stop" if self.filled else "danger"
+
+    ink = AliasProperty(_ink, bind=["filled"], cache=True)
+    """Role of the word."""
+
+    def _tight(self) -> bool:
+        return self.width < self.height * TIGHT
+
+    tight = AliasProperty(_tight, bind=["size"], cache=True)
+
+    def _word(self) -> str:
+        if self.active:
+            return f"{self.stopped}/{self.total}" if self.tight else f"{self.stopped} of {self.total}"
+        return "STOP\nALL" if self.tight else "STOP ALL"
+
+    word = AliasProperty(_word, bind=["active", "stopped", "total", "tight"], cache=True)
+
+    def _note(self) -> str:
+        if self.active:
+            return "STOPPED"
+        return f"{self.robots} robot{'' if self.robots == 1 else 's'}"
+
+    note = AliasProperty(_note, bind=["active", "robots"], cache=True)
+
+    def _word_size(self) -> float:
+        lines = 2 if self.tight and not self.active else 1
+        most = min(self.height * (0.36 if lines == 1 else 0.24), sp(26))
+        return fitting_size(self.word.split("\n"), most, self.width - dp(14), bold=True)
+
+    word_size = AliasProperty(_word_size, bind=["size", "word", "tight", "active"], cache=True)
+    """Height of the type [px]."""
+
+    def _note_size(self) -> float:
+        return fitting_size([self.note], min(sp(14), self.height * 0.24), self.width - dp(10))
+
+    note_size = AliasProperty(_note_size, bind=["size", "note"], cache=True)
+    """Height of the note's type [px]."""
+
+    def on_touch_down(self, touch: Any) -> bool:
+        """Command at once."""
+        if not self.collide_point(*touch.pos):
+            return False
+        touch.grab(self)
+        self.pressed += 1
+        self.dispatch("on_command")
+        return True
+
+    def on_touch_up(self, touch: Any) -> bool:
+        """Letting go changes nothing."""
+        if touch.grab_current is not self:
+            return False
+        touch.ungrab(self)
+        self.pressed = max(0, self.pressed - 1)
+        return True
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """As it waits, while robots have not confirmed, and when all have; narrow, flat and as on the connect screen."""
+
+    def make(width: str, height: str, **kwargs: Any) -> Callable[[], Widget]:
+        return lambda: StopAll(size_hint=(None, None), size=(width, height), **kwargs)
+
+    states: dict[str, dict[str, Any]] = {
+        "ready": {"robots": 3},
+        "waiting": {"robots": 3, "active": True, "stopped": 2, "total": 3},
+        "stopped": {"robots": 3, "active": True, "stopped": 3, "total": 3},
+    }
+    shapes = {"": ("240dp", "64dp"), " narrow": ("56dp", "106dp"), " flat": ("111dp", "54dp")}
+    found = {
+        f"{state}{shape}": make(*size, **kwargs)
+        for state, kwargs in states.items()
+        for shape, size in shapes.items()
+    }
+    return found | {"fifty": make("64dp", "76dp", robots=50, active=True, stopped=48, total=50)}
