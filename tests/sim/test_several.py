@@ -143,6 +143,7 @@ def test_a_twist_beyond_the_limits_is_cut_and_that_is_said_once():
     robot.drive(Twist.planar(0.5, 9.0))
     robot.drive(Twist.planar(0.5, 9.0))
     assert events(robot.read(2.2)) == ["Scout-1 turns at most 2.0 rad/s; 9.0 rad/s was asked for."]
+    assert robot.simulation.vehicle.order.twist == Twist.planar(0.5, 2.0)
     robot.close()
 
 
