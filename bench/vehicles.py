@@ -1,15 +1,16 @@
 """The simulated vehicles: what a step of each costs, of several in one world, and of a beam.
 
-CPU time of the whole process, without sockets and cameras: each vehicle drives by itself with all its sensors, then one of
+CPU time of the whole process, without sockets and, but for the cameras' own figure, without cameras: each vehicle drives by itself with all its sensors, then one of
 each together over the lake's model of water, then one to twenty patrol robots in one car park. A beam's cost is the
 difference of two sweeps of the truck's laser. The shares of a core are at 240 steps a second, in real time.
 """
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import replace
 
 import msgspec
@@ -19,12 +20,16 @@ from bench.support.harness import Context, Sides
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from sim.backend_bullet import STEPS_PER_SECOND
+from sim.camera import jpeg
+from sim.renderer import Renderer
 from sim.robot import ROBOTS
 from sim.sensors.laser import Laser
 from sim.sensors.noise import Noise
+from sim.shapes import from_yaw
 from sim.simulation import Simulation
 from sim.vehicles.commander import PARAMETERS
 from sim.vehicles.model import Vehicle
+from sim.view import View
 from sim.world import Start, World, load, parse
 
 KINDS = tuple(ROBOTS)
@@ -43,11 +48,18 @@ FIGURES = (
         for count, target in zip(CROWDS, (40, None, 1), strict=True)
     ),
     Figure("added patrol", "µs", "a step more for each patrol robot more, of twenty"),
+    Figure(
+        "cameras",
+        "%",
+        "of a core: five cameras of 640 x 480 at 15 Hz in the office, JPEG included",
+        target=35,
+    ),
     Figure("beam", "µs", "each more of a laser's beams"),
     Figure("half beams", "µs", "the same in the upper half of the beams: equal where the cost is linear"),
 )
 REPEATS = 3
 SWEEPS = 60
+CAMERAS, CAMERA_RATE, VIEWS = 5, 15, 24
 SECONDS = 4.0
 """Simulated of each [s]."""
 GOING = Twist(Vector3(0.4, 0.0, 0.0), Vector3(0.0, 0.0, 0.3))
@@ -86,6 +98,7 @@ def ours() -> dict[str, float]:
     for count, step in zip(CROWDS, crowds, strict=True):
         values[f"patrols {count}"] = 1 / (step * STEPS_PER_SECOND)
     values["added patrol"] = (crowds[-1] - crowds[0]) / (CROWDS[-1] - CROWDS[0]) * 1e6
+    values["cameras"] = picture() * CAMERAS * CAMERA_RATE * 100
     few, half, all_ = (sweep(beams) for beams in (90, 540, 1080))
     values["beam"] = (half - few) / 450 * 1e6
     values["half beams"] = (all_ - half) / 540 * 1e6
@@ -142,6 +155,20 @@ def measure(simulation: Simulation, seconds: float) -> float:
             for _message in vehicle.measure(simulation.time, truth=False):
                 pass
     return time.process_time() - started
+
+
+def picture() -> float:
+    """CPU time of one picture in the office with its JPEG [s], all round in its corridor."""
+    with closing(Renderer(load("office"))) as renderer:
+        views = [
+            View((0.0, 0.0, 0.4), from_yaw(math.tau * number / VIEWS), (640, 480), 1.2)
+            for number in range(VIEWS)
+        ]
+        jpeg(renderer.render(views[0]))
+        started = time.process_time()
+        for view in views:
+            jpeg(renderer.render(view))
+        return (time.process_time() - started) / VIEWS
 
 
 def sweep(beams: int) -> float:

@@ -31,6 +31,8 @@ _NOTHING = 0.99999
 _EVERYTHING = -1
 _FIRST_GROUP, _GROUPS = 64, 24
 """Collision groups of vehicles, one each, so that a vehicle's own rays look through it; the 25th shares the first's."""
+_MOST_SOLIDS = 16
+"""Of a thing; pybullet leaves out what is more, without a word."""
 _KNUCKLE = 0.5
 """Mass of what a steered wheel hangs on [kg], and its moments of inertia [kg m2]."""
 
@@ -92,10 +94,14 @@ class Bullet:
         return self.ground
 
     def add_static(self, shapes: Sequence[Shape]) -> int:
-        """One thing made of solids that nothing moves; its number.
+        """One thing made of solids that nothing moves; its number, or that of its first part when it has many solids.
 
         A step costs time for each thing, not for each solid: what belongs together is added together.
         """
+        if len(shapes) > _MOST_SOLIDS:
+            first = self.add_static(shapes[:_MOST_SOLIDS])
+            self.add_static(shapes[_MOST_SOLIDS:])
+            return first
         if len(shapes) == 1:
             shape = shapes[0]
             number, place_ = self._collision(shape), (shape.position, shape.rotation)

@@ -64,7 +64,7 @@ class _Kind:
         self._array = context.vertex_array(program, content, index_buffer=context.buffer(order))
 
     def draw(self, view: View, moving: NDArray[np.float32]) -> None:
-        table = self.fixed[_visible(self.fixed, self._reach, view)]
+        table = _nearest_first(self.fixed[_visible(self.fixed, self._reach, view)], view)
         if len(moving):
             table = np.concatenate((table, moving))
         if len(table):
@@ -90,6 +90,12 @@ def _visible(table: NDArray[np.float32], reach: NDArray[Any], view: View) -> NDA
         high < ahead * half_y + reach * np.hypot(1, half_y)
     )
     return np.asarray(inside & (ahead > -reach) & (reach > ahead * _SMALLEST))
+
+
+def _nearest_first(table: NDArray[np.float32], view: View) -> NDArray[np.float32]:
+    """What hides other things is drawn before them, so that nothing is coloured that cannot be seen."""
+    offset = table[:, :3] - np.array(view.eye, dtype=np.float32)
+    return np.asarray(table[np.argsort((offset * offset).sum(axis=1), kind="stable")])
 
 
 class Renderer:
@@ -168,6 +174,7 @@ class Renderer:
         self._ground["markings"], self._ground["grain"] = 0, 1
         self._ground["extent"] = (world.ground.length, world.ground.width)
         self._paint(world)
+        self._ground["marked"] = bool(world.bays or world.lines)
         self._ground["horizon"] = HORIZON
         self._world, self._under = world, False
         self._solid["sun"] = tuple(part / length for part in SUN)

@@ -14,7 +14,7 @@ import msgspec
 
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import Event, Manoeuvre, RobotInfo
+from bridge.msgs.pilothouse_msgs import Event, Manoeuvre, Place, RobotInfo
 from sim.cameras import CAMERA_TOPIC, Cameras
 from sim.mishaps import Mishaps
 from sim.occupancy import occupancy
@@ -85,6 +85,23 @@ class SimRobot:
         self._mishaps = Mishaps(self._vehicle.parameters.info, self.simulation.world)
         self._cameras = Cameras(self.simulation, number) if camera else None
         self._run.join(self._collect)
+
+    @property
+    def places(self) -> list[Place]:
+        """The places of its world that have names, as a robot side may take them over; their ids are 0."""
+        return [
+            Place(
+                name=entry.name,
+                kind=entry.kind,
+                floor=entry.floor,
+                x=entry.x,
+                y=entry.y,
+                yaw=entry.angle,
+                tag=entry.tag,
+                note=entry.note,
+            )
+            for entry in self.simulation.world.places
+        ]
 
     def drive(self, twist: Twist) -> None:
         """Go for `twist` in `base_link`, within its limits, until the next `drive` or `stop`."""

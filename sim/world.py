@@ -224,6 +224,11 @@ class Place(Spot, frozen=True, kw_only=True):
     name: str
     kind: str = "place"
     """As in `bridge.msgs.additions.PLACE_KINDS`."""
+    floor: str = "0"
+    tag: str = ""
+    """Of the card of who belongs here; empty when nobody has one."""
+    note: str = ""
+    """What to tell people who are led here."""
 
 
 class Tag(_Entry, frozen=True):

@@ -56,6 +56,11 @@ class WheelOdometry:
         self._driven = 0.0
         self._turned = 0.0
 
+    def restart(self, pose: tuple[float, float, float]) -> None:
+        """Believe to be at x, y [m], yaw [rad] in `odom`, wherever it was until now."""
+        self.pose = pose
+        self._driven = self._turned = 0.0
+
     def update(self, left: Joint, right: Joint) -> None:
         """Take in the wheels as they stand now; call it often, for the arc between two calls is taken as straight."""
         angles = tuple(math.floor(joint.angle / self._tick) * self._tick for joint in (left, right))

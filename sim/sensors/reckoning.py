@@ -60,6 +60,10 @@ class Reckoning:
         self._rotation: Quat = (0.0, 0.0, 0.0, 1.0)
         self._way = 0.0
 
+    def restart(self, pose: tuple[float, float, float]) -> None:
+        """Believe to be at x, y [m], yaw [rad] in `odom`, wherever it was until now."""
+        self.pose, self._stamp, self._way = pose, None, 0.0
+
     def measure(self, state: State, stamp: float) -> Odometry:
         """The belief at `stamp` [s] of a body in `state`, `odom` to `base_link`."""
         period = 0.0 if self._stamp is None else stamp - self._stamp

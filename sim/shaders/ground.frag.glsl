@@ -8,6 +8,7 @@ uniform vec3 haze;
 uniform float murk;           // how much of the haze a metre of water brings; 0 in air
 uniform float level;          // height of this plane [m]
 uniform int look;             // 0 asphalt, 1 water, 2 floor, 3 grass, 4 sand
+uniform bool marked;           // there are lines
 uniform vec3 horizon;
 uniform vec4 rows[ROWS];      // rows of bays: x and y of the south-west corner, breadth of a bay, depth [m]
 uniform float bays[ROWS];     // bays in the row
@@ -74,7 +75,7 @@ void main() {
         colour = water(way / away);
     } else if (max(outside.x, outside.y) < 0.0 || look == 4) {
         vec2 mark = texture(markings, place / extent + 0.5, -1.5).rg;
-        float paint = max(mark.r, lines_here());
+        float paint = marked ? max(mark.r, lines_here()) : mark.r;
         colour = mix(bare(rough), vec3(0.92, 0.93, 0.92), paint * (0.78 + 0.20 * rough)) * mark.g;
     } else {
         colour = mix(vec3(0.26, 0.37, 0.18), vec3(0.42, 0.53, 0.28), rough);

@@ -106,6 +106,11 @@ class AckermannDrive:
         self._goal = (0.0, self._now[1])
         self._rate, self._brakes = self._limits.braking, True
 
+    def halt(self) -> None:
+        """Stand still at once, wheels straight."""
+        self._goal = self._now = (0.0, 0.0)
+        self._apply()
+
     def step(self) -> None:
         """Come one physics step nearer to what is wanted."""
         if self._now == self._goal:

@@ -26,8 +26,8 @@ MANOEUVRE_RATE = 10.0
 class Odometer(Protocol):
     """Something that adds up a way."""
 
-    pose: tuple[float, float, float]
-    """Believed x, y [m], yaw [rad] in `odom`."""
+    def restart(self, pose: tuple[float, float, float]) -> None:
+        """Believe to be at x, y [m], yaw [rad] in `odom`."""
 
 
 P = TypeVar("P", bound=Parameters)
@@ -79,8 +79,13 @@ class Chassis(Generic[P]):
         self.scene.backend.place(self.body, *self._home)
         if self.odometer is not None:
             start = self.scene.start
-            self.odometer.pose = (start.x, start.y, start.angle)
+            self.odometer.restart((start.x, start.y, start.angle))
         self.stop()
+        self.halt()
+
+    def halt(self) -> None:
+        """Let wheels, fins, propellers and rotors stand still at once, as they never do by themselves."""
+        raise NotImplementedError
 
     def begin(self, order: Manoeuvre) -> None:
         """Take up an order of a known kind."""

@@ -126,6 +126,11 @@ class DifferentialDrive:
         self._goal = (0.0, 0.0)
         self._rates = (self._limits.braking, self._limits.yaw_braking)
 
+    def halt(self) -> None:
+        """Stand still at once."""
+        self._goal = self._now = (0.0, 0.0)
+        self._apply()
+
     def step(self) -> None:
         """Come one physics step nearer to what is wanted."""
         if self._now == self._goal:

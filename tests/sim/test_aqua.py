@@ -130,6 +130,28 @@ def test_it_comes_to_a_depth_and_a_heading_and_holds_both():
     assert way[-1][1] == pytest.approx(math.pi / 2, abs=0.01)
 
 
+def test_its_fins_hold_down_what_it_is_too_light_by_from_the_first_moment(aqua):
+    aqua.manoeuvre(Manoeuvre(kind="hover"))
+    until(aqua, 0.5)
+    before = height(aqua)
+    until(aqua, 3.0)
+    assert abs(height(aqua) - before) < 0.008
+
+
+def test_a_fin_turns_round_no_faster_than_it_can():
+    robot = swimmer()
+    robot.manoeuvre(Manoeuvre(kind="course", throttle=1.0))
+    until(robot, 3.0)
+    robot.manoeuvre(Manoeuvre(kind="course", throttle=-1.0))
+    fins, way = robot.simulation.vehicle.fins, []
+    for _ in range(60):
+        before = fins.offsets[0]
+        robot.simulation.advance()
+        way.append(abs(math.remainder(fins.offsets[0] - before, math.tau)))
+    robot.close()
+    assert max(way) == pytest.approx(FINS.turn_rate / STEPS_PER_SECOND)
+
+
 def test_a_twist_moves_what_it_holds(aqua):
     aqua.drive(Twist(Vector3(0.4, 0.0, -0.1), Vector3(0.0, 0.0, 0.2)))
     until(aqua, 10.0)

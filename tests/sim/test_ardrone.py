@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 import statistics
 
+import msgspec
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from sim.backend_bullet import GRAVITY
-from sim.vehicles.ardrone import ARDRONE, PARAMETERS
+from sim.vehicles.ardrone import ARDRONE, PARAMETERS, Ardrone
+from sim.vehicles.model import Model
 from tests.sim.rooms import alone, plain, room, until
 
 BODY, ROTORS = PARAMETERS.body, PARAMETERS.rotors
@@ -54,6 +56,31 @@ def test_it_hovers_on_the_speed_that_carries_its_weight(drone):
     assert expected == pytest.approx(361.57, abs=0.01)
     assert vehicle.rotors.speeds == pytest.approx([expected] * 4, rel=2e-4)
     assert math.dist(before, motion(drone).position) < 0.01
+
+
+def test_a_crazyflie_of_published_figures_hovers_and_climbs_as_its_simulator_has_it():
+    """gym-pybullet-drones (MIT licence): CF2X hovers at 14 468 turns a minute, and lifts 2.25 times its weight; g is 9.8."""
+    per_turn = (60 / math.tau) ** 2
+    replace = msgspec.structs.replace
+    figures = replace(
+        PARAMETERS,
+        body=replace(BODY, mass=0.027, inertia=(1.4e-5, 1.4e-5, 2.17e-5), width=0.1, height=0.03),
+        rotors=replace(
+            ROTORS,
+            arm=0.0397,
+            lift=3.16e-10 * per_turn,
+            torque=7.94e-12 * per_turn,
+            lag=0.02,
+            speed=21_702 / 60 * math.tau,
+        ),
+    )
+    robot = alone(Model(Ardrone, figures, ARDRONE.looks, "air"), plain())
+    fly(robot)
+    speeds = robot.simulation.vehicle.rotors.speeds
+    robot.close()
+    turns = [speed / math.tau * 60 * math.sqrt(9.8 / GRAVITY) for speed in speeds]
+    assert turns == pytest.approx([14_468.4] * 4, rel=5e-4)
+    assert (figures.rotors.speed / figures.hover) ** 2 == pytest.approx(2.25, rel=2e-3)
 
 
 def test_it_stands_until_it_is_told_to_take_off(drone):

@@ -101,3 +101,12 @@ def test_the_engine_prints_nothing_and_leaves_standard_output_working():
 def test_closing_twice_does_nothing(backend):
     backend.close()
     backend.close()
+
+
+@pytest.mark.parametrize("count", [16, 17, 40])
+def test_a_thing_of_many_solids_has_them_all(backend, count):
+    backend.add_static([Shape("sphere", (0.1, 0.1, 0.1), (1.0 + 0.5 * i, 0.0, 0.0)) for i in range(count)])
+    eye = backend.add_body(Shape("sphere", (0.01, 0.01, 0.01)), 0.001)
+    starts = [(1.0 + 0.5 * i, 0.0, 2.0) for i in range(count)]
+    hits = backend.rays(eye, starts, [(x, y, -z) for x, y, z in starts])
+    assert (hits < 1.0).all()

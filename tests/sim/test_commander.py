@@ -147,6 +147,8 @@ def test_its_front_laser_sees_three_quarters_of_the_circle_from_its_bumper():
     assert scan.angle_min == pytest.approx(-scan.angle_max, abs=1e-6)
     assert scan.ranges[135] == pytest.approx(10.0 - PARAMETERS.laser.ahead, abs=2e-3)
     assert scan.ranges[225] == pytest.approx(15.0, abs=2e-3)
+    # backwards past its own body, which it looks through
+    assert scan.ranges[270] == pytest.approx((10.0 + PARAMETERS.laser.ahead) * math.sqrt(2), abs=2e-3)
 
 
 def test_an_order_that_it_does_not_know_is_refused_and_changes_nothing(truck):

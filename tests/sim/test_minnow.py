@@ -139,6 +139,15 @@ def test_at_full_throttle_thrust_and_drag_balance(boat):
     assert reached == pytest.approx(lag + PARAMETERS.propeller.lag, abs=0.08)
 
 
+def test_astern_its_propeller_pushes_less(boat):
+    boat.manoeuvre(Manoeuvre(kind="steer", throttle=-1.0))
+    until(boat, 12.0)
+    speed = motion(boat).through[0]
+    drag = HULL.damping[0] * speed - 1.225 / 2 * HULL.wind_drag * HULL.windage[0] * speed**2
+    full = PARAMETERS.propeller.thrust * PARAMETERS.propeller.astern
+    assert drag == pytest.approx(-full, rel=1e-3)
+
+
 def test_a_rudder_to_the_left_turns_it_left_while_it_slides_outward(boat):
     boat.manoeuvre(Manoeuvre(kind="steer", throttle=1.0, steering=math.radians(20)))
     until(boat, 15.0)

@@ -181,6 +181,16 @@ def test_the_robot_starts_where_its_world_says():
     robot.close()
 
 
+def test_it_knows_the_places_of_its_world_that_have_names():
+    robot = make("scout", "office", camera=False)
+    places = {place.name: place for place in robot.places}
+    robot.close()
+    assert len(places) == 12
+    assert (places["lab"].kind, places["lab"].note) == ("lab", "Here robots are built and tested.")
+    assert places["room_3"].tag == "card-3"
+    assert places["dock"].yaw == 0.0
+
+
 def test_closing_twice_does_nothing(robot):
     robot.close()
     robot.close()

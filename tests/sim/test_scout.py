@@ -80,6 +80,7 @@ def test_its_sixteen_sonars_measure_a_room():
                 (3.0 * math.copysign(1, dy) - y) / dy if abs(dy) > 1e-9 else math.inf,
             ]
         assert distance == pytest.approx(min(reaches), abs=own.step)
+        assert distance / own.step == pytest.approx(round(distance / own.step), abs=1e-4)
 
 
 def test_in_a_corridor_left_and_right_tell_the_same():

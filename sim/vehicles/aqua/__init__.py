@@ -96,6 +96,11 @@ class Aqua(Chassis[SwimmerParameters]):
         self.dynamics.look(self.scene.weather.current)
         self._pilot.begin(order, self.dynamics, fresh=order.kind != self.order.kind)
 
+    def halt(self) -> None:
+        """Let the fins stand still at once."""
+        self.fins.amplitudes = [0.0] * len(LEGS)
+        self.fins.rest()
+
     def push(self) -> None:
         """Let the fins follow the order, and the water act on the body."""
         body, fins = self.dynamics, self.fins

@@ -100,10 +100,14 @@ class Ardrone(Chassis[QuadrotorParameters]):
         self.pilot.begin(order, self.motion())
 
     def reset(self) -> None:
-        """Stand where it started, rotors still."""
-        self.rotors.speeds = [0.0] * len(ROTORS)
+        """Stand where it started."""
         self.pilot = Pilot(self.parameters, self._home[0])
         super().reset()
+
+    def halt(self) -> None:
+        """Let the rotors stand still at once."""
+        self.rotors.stop()
+        self.rotors.speeds = [0.0] * len(ROTORS)
 
     def motion(self) -> Motion:
         """How it flies, as it was last looked at."""

@@ -133,6 +133,10 @@ class Commander(Chassis[CommanderParameters]):
         else:
             self._drive.brake()
 
+    def halt(self) -> None:
+        """Let the wheels stand still at once."""
+        self._drive.halt()
+
     def push(self) -> None:
         """Let the drive come a step nearer to what is wanted."""
         if self.battery.empty:

@@ -104,6 +104,11 @@ class Minnow(Chassis[BoatParameters]):
         if order.kind in ("course", "hover"):
             self._course = given(order.yaw, self._course)
 
+    def halt(self) -> None:
+        """Let propeller and rudder stand still at once."""
+        works = self.works
+        works.throttle = works.thrust = works.wanted = works.angle = 0.0
+
     def push(self) -> None:
         """Let rudder and propeller follow the order, and water and wind act on the hull."""
         body, works = self.dynamics, self.works
