@@ -50,7 +50,12 @@ class Watch:
         )
         self.authority = self.session.authority
         self.news: list[tuple[str, str]] = []
+        self.past = 0
         self.authority.on_news = lambda text, level: self.news.append((text, level))
+        self.authority.on_past = self._past
+
+    def _past(self) -> None:
+        self.past += 1
 
     def told(self, status: ControlStatus) -> None:
         self.session.deliver("/control/status", Post(status, self.clock.time, 1))
@@ -173,6 +178,37 @@ def test_control_that_lapsed_is_said_and_asked_for_again(watch: Watch) -> None:
     assert watch.news == [
         ("Your control lapsed: the robot heard nothing for 2\u00a0s. It is asked for again.", "warn")
     ]
+
+
+def test_control_that_lapsed_and_came_back_is_said_in_its_place(watch: Watch) -> None:
+    watch.session.wants_control = True
+    watch.told(MINE)
+    watch.link_becomes(DROPPED)
+    watch.link_becomes(BACK)
+    watch.told(FREE)
+    watch.told(MINE)
+    assert watch.news[1:] == [
+        ("You have control again; it lapsed: while the link was away.", "info"),
+    ]
+    watch.told(BOBS)
+    watch.told(MINE)
+    assert watch.news[-1][0].startswith("Your control lapsed"), "had again is not said twice"
+
+
+@pytest.mark.parametrize("then", ["FREE", "CAROL", "ASKED"])
+def test_what_was_told_is_past_as_soon_as_control_changes_again(watch: Watch, then: str) -> None:
+    watch.told(BOBS)
+    watch.told(watch.asks(BOBS, "tablet", "me"))
+    watch.told(BOBS)
+    watch.told(BOBS)
+    assert (watch.news, watch.past) == ([("Bob keeps control.", "info")], 2), "heard, and asked for"
+    later = {
+        "FREE": FREE,
+        "CAROL": ControlStatus(driver="Carol", driver_id="c"),
+        "ASKED": watch.asks(BOBS, "tablet", "me"),
+    }
+    watch.told(later[then])
+    assert watch.past == 3
 
 
 def test_control_that_was_given_back_did_not_lapse(watch: Watch) -> None:

@@ -69,6 +69,24 @@ def test_the_driver_sees_on_every_screen_who_asks_and_hands_over(driving: Glass,
     driving.until(lambda: stick.state == "disabled", "the stick still lives")
 
 
+def test_who_has_control_now_is_not_said_any_more_once_it_is_free_or_the_link_is_gone(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    for end in ("free", "gone"):
+        anna_asks(driving, robot)
+        tell(robot, driver="Anna", driver_id="a", requested_by="", requested_by_id="")
+        driving.until(lambda: driving.banners() == ["Anna has control now."], driving.banners())
+        if end == "free":
+            tell(robot, driver="", driver_id="")
+            driving.until(lambda: not driving.banners(), driving.banners())
+            driving.app.session.authority.take()
+            driving.until(lambda: driving.app.session.control == "mine", "no control")
+    robot.stop()
+    driving.until(lambda: not driving.app.session.connected, "still connected")
+    driving.stage.frames(8)
+    assert not any("Anna" in text for text in driving.banners())
+
+
 def test_the_driver_keeps_control(driving: Glass, robot: FakeRobot) -> None:
     card = anna_asks(driving, robot)
     robot.refusals["/control/object"] = "The disk is full."
