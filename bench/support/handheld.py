@@ -386,7 +386,10 @@ def trust_blindly() -> None:
                 stick.lean(state.forward, state.left)
             stick.gamepad = "ready"
 
-    Inputs.look, Inputs.rest = look, lambda *_: None  # type: ignore[method-assign]
+    def rest(self: Any, *_: object) -> None:
+        """Kivy finds it by its name."""
+
+    Inputs.look, Inputs.rest = look, rest  # type: ignore[method-assign]
     commands.HEARTBEAT = commands.REARM = math.inf
 
 

@@ -65,8 +65,8 @@ class _Lane:
         try:
             await asyncio.Event().wait()
         finally:
-            while not self._lanes.may_end.is_set():
-                await asyncio.sleep(0.005)
+            if not self._lanes.may_end.is_set():
+                await asyncio.to_thread(self._lanes.may_end.wait)
             del self._lanes.open[self._url]
 
 

@@ -82,7 +82,6 @@ class Trial:
         if kind == "pad":
             grip.plug_in()
         self.until(lambda: grip.ready, "control and a live stick")
-        self._glass.settle(grip.stick)
         self.until(off, "the robot to drive off")
 
     def loses(self, way: str) -> None:
