@@ -343,7 +343,7 @@ class Station:
             self.autonomy.engine.fail(said)
 
     def _place(self, client: Operator, pose: Pose2) -> None:
-        problem = self.controls.objection(client)
+        problem = self.controls.acquire(client, self.clock())  # tasks and the fence go by where it is
         if not all(map(math.isfinite, pose)):
             problem = "The pose to place the robot at is not all numbers."
         problem = problem or self.mapless

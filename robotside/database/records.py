@@ -81,9 +81,22 @@ class Records:
         """A setting that an operator changed; `default` when nobody did."""
         return str(self._ledger.rows("settings").get(name, default))
 
-    def set_setting(self, name: str, value: str) -> None:
-        """Keep a setting under a name of at most 64 characters; which there are is the caller's."""
-        self._ledger.order("settings", name, value)
+    def set_setting(self, name: str, value: str, then: Callable[[], object] | None = None) -> None:
+        """Keep a setting under a name of at most 64 characters; which there are is the caller's.
+
+        `then` is called once it is on the disk.
+        """
+        self._ledger.order("settings", name, value, then)
+
+    def note_setting(self, name: str, value: str) -> None:
+        """Have a setting so whatever the disk says; whoever caused it waits until it was tried."""
+        with self._ledger.together() as job:
+            job.urgent = True
+            self._ledger.fact("settings", name, value)
+
+    def undecided(self, *tables: str) -> bool:
+        """Something that was asked for in one of the `tables` is on its way to the disk and may be taken back yet."""
+        return self._ledger.memory.asked(tables)
 
     @property
     def stopped_by(self) -> str:
