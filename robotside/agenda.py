@@ -90,8 +90,6 @@ class Agenda:
     """The task that does not hold the queue, however it ended."""
     _held_under = 0
     """The task that was under way when the queue was parked; 0 for none."""
-    _held_under = 0
-    """The task that was under way when the queue was parked; 0 for none."""
 
     def step(self, now: float) -> None:
         """Look what is due at `now` [s, robot clock]; call it often."""

@@ -24,7 +24,6 @@ from robotside.controls import Operator
 from robotside.permits import Permits
 from robotside.station import Station
 from robotside.tasks import Task
-from robotside.tasks import Task
 
 __all__ = ["TaskOrders", "task_services"]
 
