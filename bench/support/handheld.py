@@ -236,6 +236,7 @@ class Script:
 
     def let_go(self) -> dict[str, Any]:
         """Let go of what is left, and make good what happened."""
+        self._until(lambda: self._grip.settled)
         in_ui(self._grip.again)
         return {}
 

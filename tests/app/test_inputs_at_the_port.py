@@ -91,6 +91,7 @@ class Trial:
             self.until(
                 lambda: not self.port.moving and self.grip.stick.twist == Twist(), f"rest after: {way}"
             )
+        self.until(lambda: self.grip.settled, "STOPPED")
         self.grip.again()
         EventLoop.idle()
 
