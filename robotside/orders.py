@@ -86,7 +86,7 @@ class _Orders:
         doubt = self._station.stop_doubt
         if doubt:
             raise Refusal(f"STOP is pressed, but {doubt[0].lower()}{doubt[1:]}")
-        return "Stopped."
+        return f"Stopped. {self._station.stop_unkept}".strip()
 
     def release_stop(self, client: Operator, _: CommandRequest) -> str:
         """Unlatch STOP."""

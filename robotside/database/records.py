@@ -103,10 +103,20 @@ class Records:
         """Who had pressed STOP, which is pressed until it is released; empty when it is not."""
         return str(self._ledger.rows("facts").get("stopped by", ""))
 
-    def note_stop(self, by: str) -> None:
-        """Note who pressed STOP, or with an empty name that it was released."""
+    @property
+    def stop_kept(self) -> bool:
+        """That STOP is pressed or released is on the disk as it is."""
+        return bool(self._ledger.stored("facts").get("stopped by")) == bool(self.stopped_by)
+
+    def note_stop(self, by: str, after: Callable[[], object] | None = None) -> None:
+        """Note who pressed STOP, or with an empty name that it was released; `after` is called once it was tried."""
         if by != self.stopped_by:
-            self._ledger.fact("facts", "stopped by", by)
+            self._ledger.fact("facts", "stopped by", by, after)
+
+    @property
+    def trouble(self) -> str:
+        """Why nothing can be written just now, as one sentence; empty when it can, as far as is known."""
+        return self._ledger.trouble
 
     def owe(self, facts: list[Put], trouble: str) -> None:
         """Have `facts` written when the trouble is over, of which the sentence is among the problems."""

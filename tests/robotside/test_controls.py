@@ -335,3 +335,12 @@ def test_only_its_holder_releases_control(controls: Controls, anna: FakeClient, 
     assert "has control" in controls.release(bert)
     assert controls.release(anna) == ""
     assert controls.driver is None
+
+
+def test_stop_is_latched_whoever_pressed_it_even_without_a_name() -> None:
+    controls = Controls(max_speed=1.0, max_yaw_rate=1.0)
+    controls.stop("")
+    assert controls.stopped
+    assert controls.stopped_by == "somebody"
+    controls.release_stop()
+    assert (controls.stopped, controls.stopped_by) == (False, "")
