@@ -22,6 +22,7 @@ from app.missions import KeptMissions
 from app.offer import CAMERA, Offer
 from app.refusals import Refusals
 from app.settings import Settings
+from app.stopping import Stopping
 from app.tasking import Tasking
 from bridge.client import LinkState, Phase
 from bridge.msgs.geometry_msgs import (
@@ -37,10 +38,6 @@ from bridge.msgs.std_msgs import Header, Time
 
 __all__ = ["Session"]
 
-STOP_SETTLES = 1.0
-"""An accepted STOP shows in the robot's status within this [s]."""
-COMES_TO_REST = 2.0
-"""A robot whose STOP is latched rests within this, or it is not obeyed [s]."""
 PLACED_WITHIN = (0.25, 0.25, 0.07)
 """Variance of a place pointed at by finger: x, y [m2] and yaw [rad2]."""
 
@@ -88,9 +85,9 @@ class Session:
         self.link_state: LinkState = link.state
         self.ever_connected = False
         self._settings, self._now = settings, now
-        self._state_since = self._stop_at = now()
-        self._moves_since = math.inf
-        """Since when the robot says that STOP is latched and not that it rests [s]."""
+        self._state_since = now()
+        self._stopping = Stopping(now)
+        self._stopping.reach(self.connected)
         self._asked_control = False
         self._known = False
         self._told_mission: Mission | None = None
@@ -179,6 +176,11 @@ class Session:
         )
 
     @property
+    def may_ask(self) -> bool:
+        """The robot can be asked for something from here: the link stands, and it is known that nobody else has control."""
+        return self.connected and self.control not in ("other", "unknown")
+
+    @property
     def stop_latched(self) -> bool:
         """STOP is known to be pressed, at the robot or, where it has none, here; whether it rests is another question."""
         if self.foreign:
@@ -188,30 +190,21 @@ class Session:
 
     @property
     def stop_phase(self) -> str:
-        """What became of STOP: `ready`, `sent`, `stopped` or `no_answer`.
-
-        `stopped` when it is latched and the robot, or else its odometry, says that it rests.
-        """
-        if self.foreign:
-            return self.local_stop.phase
-        status: ControlStatus | None = self.feeds.latest("/control/status")
-        if status is not None and status.stopped:
-            moves = not status.at_rest
-            return "stopped" if not moves else "no_answer" if self._unrested else "sent"
-        outcome = self.outcomes.get("stop")
-        if outcome is None:
-            return "ready"
-        if outcome.phase == "accepted":
-            fresh = self._now() - self._stop_at < STOP_SETTLES
-            return "stopped" if status is None else "sent" if fresh else "ready"
-        return "sent" if outcome.phase == "sent" else "no_answer"
+        """What became of STOP, as of `stopping.Verdict`; `ready` again when somebody has released it."""
+        phase = self.local_stop.phase if self.foreign else self._stopping.verdict.phase
+        return "ready" if phase == "released" else phase
 
     @property
-    def _unrested(self) -> bool:
-        """The robot says itself that STOP is not done, or does not say in time that it rests."""
-        outcome = self.outcomes.get("stop")
-        doubted = outcome is not None and outcome.phase in ("refused", "no_reply")
-        return doubted or self._now() - self._moves_since > COMES_TO_REST
+    def stop_sentence(self) -> str:
+        """The same for the operator; empty where the phase says it all."""
+        if self.foreign:
+            return self.local_stop.sentence(self.link.drive_topic is not None, self.connected)
+        return self._stopping.verdict.sentence
+
+    @property
+    def stop_lost_for(self) -> float:
+        """So long ago the link to a robot was lost that was stopped then [s]; NaN where it was not."""
+        return self._stopping.lost_for
 
     @property
     def retry_in(self) -> float:
@@ -256,8 +249,7 @@ class Session:
             self._told_mission = post.value
             self._take_mission()
         elif channel == "/control/status":
-            moves = post.value.stopped and not post.value.at_rest
-            self._moves_since = min(self._moves_since, self._now()) if moves else math.inf
+            self._stopping.hear(post.value)
             self.authority.hear(post.value)
             self._take_control()
         self._tell(channel, post)
@@ -309,6 +301,7 @@ class Session:
     def _link_changed(self, state: LinkState) -> None:
         self.link_state, self._state_since = state, self._now()
         self.feeds.link(self.connected)
+        self._stopping.reach(self.connected, state.sentence, hopeless=state.phase is Phase.CLOSED)
         self.authority.link_changed()
         if self.connected:
             self.ever_connected = True
@@ -318,7 +311,7 @@ class Session:
     def _outcome(self, outcome: Outcome) -> None:
         self.outcomes[outcome.name] = outcome
         if outcome.name == "stop":
-            self._stop_at = self._now()
+            self._stopping.answered(outcome)
         if outcome.name == "mission" and outcome.phase != "sent":
             sent = Draft.of(outcome.fields["mission"])
             self.mission.answered(sent, outcome.phase == "accepted", outcome.sentence)
@@ -370,11 +363,13 @@ class Session:
         """STOP, by the robot's own service or, where it has none, by zero speed until `release_stop`."""
         if self.offer is None or self.foreign:
             self.local_stop.press()
+        self._stopping.press()
         self.link.stop()
 
     def release_stop(self) -> None:
         """The operator wants to drive again; nothing moves by that alone."""
         self.local_stop.release()
+        self._stopping.forget()
         self.outcomes.pop("stop", None)
         self.link.unlatch()
         if not self.foreign:
