@@ -23,6 +23,7 @@ from app.screens.placing import put
 from app.screens.rail import Rail
 from app.screens.top_bar import TopBar
 from app.session import Session
+from app.stopping import silence
 from widgets import QuestionCard, StopButton
 from widgets.kit import Banner
 from widgets.theme import theme
@@ -243,7 +244,10 @@ class Shell(FloatLayout):
         if self.stop.phase == "stopped" != self.session.stop_phase:
             for kind in ("stop", "task"):
                 self.unsay(kind)
-        self.stop.local = self.session.foreign or self.session.stop_latched
+        lost_for = self.session.stop_lost_for
+        self.stop.ago = "" if math.isnan(lost_for) else silence(lost_for)
+        # without a link nothing that the robot holds can be let go
+        self.stop.local = self.session.foreign or (self.session.stop_latched and self.session.connected)
         self.stop.phase = self.session.stop_phase
 
     def _tick_banner(self) -> None:
