@@ -15,7 +15,7 @@ from app import arrange
 from app.commands import Outcome
 from app.dashboard import Dashboard
 from app.feeds import Post
-from app.link import EVENT, OFFER, OUTCOME
+from app.link import EVENT, LINK, OFFER, OUTCOME
 from app.screens import standing
 from app.screens.control_cards import ControlCards
 from app.screens.notices import BRIEF, LONG, Notices
@@ -24,11 +24,15 @@ from app.screens.rail import Rail
 from app.screens.top_bar import TopBar
 from app.session import Session
 from app.stopping import silence
+from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets import QuestionCard, StopButton
 from widgets.kit import Banner
 from widgets.theme import theme
 
 __all__ = ["Shell"]
+
+STANDING = ("/control/status", "/task/status", "/robot/info", LINK, OFFER)
+"""Channels that tell how the robot stands."""
 
 Builder.load_string("""
 <Shell>:
@@ -71,6 +75,8 @@ class Shell(FloatLayout):
         for widget in (self._banner, self._stop_banner, self.question, self.notices):
             widget.bind(height=self._place_notices)
         self._greeted = ""
+        self._stands: object = None
+        """What was last said of the robot, as of `_look`."""
         self.session.tasking.on_forgotten = self._offer_undo
         self._dashboard = Dashboard(self.session.feeds)
         self._dashboard.bind(self.bar.ids.battery, "/battery_state")
@@ -175,6 +181,8 @@ class Shell(FloatLayout):
         self._dashboard.deliver(channel, post.value)
         for screen in self.screens.values():
             screen.hear(channel, post)
+        if channel in STANDING:
+            self._look()
         if channel in (OUTCOME, "/control/status"):
             self._show_stop()
         if channel == OUTCOME:
@@ -186,6 +194,16 @@ class Shell(FloatLayout):
             news = self.session.logbook.is_news(post.value, self.session.link.robot_time())
             if post.value.level == "alarm" and news:
                 self.app.alarm(post.value)
+
+    def _look(self) -> None:
+        """Say in the same frame what the robot is and who has it, as soon as that is another."""
+        session, status = self.session, self.session.control_status
+        task: TaskStatus | None = session.feeds.latest("/task/status")
+        told = (session.name, session.link_state.phase, session.offer, task and (task.task_id, task.state))
+        held = status and (status.mode, status.stopped, status.driver_id, status.requested_by_id)
+        if (told, held) != self._stands:
+            self._stands = told, held
+            self.tick()
 
     def _greet(self) -> None:
         """Say once what is missing on a robot that is not ours."""
@@ -276,7 +294,9 @@ class Shell(FloatLayout):
         card = self.question
         card.blocked = not self.session.connected or self.session.control == "other"
         card.held = self.session.stop_latched
-        self.notices.keep(card, shown=card.open)
+        # a phone on its side has room for one card: the one that counts down goes first
+        waits = self.form == "short" and self.cards.handover.parent is not None
+        self.notices.keep(card, shown=card.open and not waits)
 
     # what is asked
 

@@ -26,6 +26,8 @@ class Sight(IntruderBadge):
 
     told = BooleanProperty(False)
     """The robot has said what it found, be it nothing."""
+    covered = BooleanProperty(False)
+    """Something lies over its place."""
 
     def __init__(self, session: Session, video: Video, dashboard: Dashboard) -> None:
         """Shows what comes by `dashboard`."""
@@ -44,7 +46,7 @@ class Sight(IntruderBadge):
         """Bring up to date whether it is seen, and the mark in the picture."""
         feeds: Feeds = self._session.feeds
         self.told = feeds.latest(FOUND) is not None
-        self.opacity = 1 if self.told else 0
+        self._show()
         self._grow_old(feeds)
         fov = self._session.info.camera_fov
         self._video.field_of_view = fov if fov > 0 else math.nan
@@ -52,6 +54,11 @@ class Sight(IntruderBadge):
         marks = [(f"{self.number} · {away_text(self.away)}", self.angle)] if placed else []
         if marks != self._video.marks:
             self._video.marks = marks
+
+    def _show(self, *_: object) -> None:
+        self.opacity = 1 if self.told and not self.covered else 0
+
+    on_covered = _show
 
     def _grow_old(self, feeds: Feeds) -> None:
         """What was found is said once; where it is from here is as old as the robot's own place."""

@@ -230,3 +230,16 @@ def test_nobody_claims_control_over_a_link_that_is_silent(watch: Watch) -> None:
 def test_a_long_name_is_cut_in_the_bar(watch: Watch) -> None:
     watch.told(ControlStatus(driver="the tablet of the harbour master", driver_id="b"))
     assert standing.control(watch.session, brief=True)[0] == "the tablet of…"
+
+
+def test_the_button_of_a_phone_says_who_drives_by_name_and_sign(watch: Watch) -> None:
+    watch.told(FREE)
+    assert standing.control_nav(watch.session) == ("Control", "lock_open", "")
+    watch.told(MINE)
+    assert standing.control_nav(watch.session) == ("You", "person", "")
+    watch.told(BOBS)
+    assert standing.control_nav(watch.session) == ("Bob", "lock", "warn")
+    watch.told(ControlStatus(driver="Anna's tablet", driver_id="a"))
+    assert standing.control_nav(watch.session)[0] == "Anna's…"
+    watch.link.silence = 2.1
+    assert standing.control_nav(watch.session) == ("Control", "help", "")
