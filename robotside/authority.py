@@ -10,7 +10,7 @@ from typing import Protocol
 
 from robotside.words import number, plain
 
-__all__ = ["AGAIN", "LAPSE", "SILENT", "TO_OBJECT", "Asker", "Authority", "Driver", "Operator"]
+__all__ = ["AGAIN", "LAPSE", "REMEMBERED", "SILENT", "TO_OBJECT", "Asker", "Authority", "Driver", "Operator"]
 
 LAPSE = 2.0
 """Control is free again when its driver was not heard for this long [s]."""
@@ -30,7 +30,7 @@ LONGEST_NAME = 40
 LONGEST_ID = 64
 """Characters kept of a client's id."""
 
-_REFUSED = 64
+REMEMBERED = 64
 """As many objections are remembered."""
 
 
@@ -180,7 +180,7 @@ class Authority:
         if problem or self._driver is None or self._asker is None:
             return problem
         self._refused[self._driver.client_id, self._asker.client_id] = now + AGAIN
-        while len(self._refused) > _REFUSED:
+        while len(self._refused) > REMEMBERED:
             del self._refused[next(iter(self._refused))]
         self._asker = None
         return ""
