@@ -200,7 +200,7 @@ class Agenda:
         if status.state == "CANCELED" and status.task_id != self._settled and not fresh:
             return "the task before it was canceled"
         barred = self._barred(_drains(orders[0]))
-        return f"{barred[0].lower()}{barred[1:].rstrip('.')}" if barred else ""
+        return _tail(barred)
 
     def _start(self, order: TaskOrder, now: float, otherwise: str) -> None:
         try:
@@ -281,6 +281,12 @@ class Agenda:
 
     def _show_schedule(self) -> None:
         self._publish("/schedule", Schedule(Time.at(self._clock()), self._records.schedule.stored()))
+
+
+def _tail(why: str) -> str:
+    """A reason as the end of a sentence, whether it is one itself or not."""
+    first = why.partition(" ")[0]
+    return (why if first.isupper() and len(first) > 1 else f"{why[:1].lower()}{why[1:]}").rstrip(".")
 
 
 def _drains(order: TaskOrder) -> bool:
