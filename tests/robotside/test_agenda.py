@@ -66,7 +66,10 @@ def begun(scene: Scene) -> list[str]:
 
 
 def test_the_queue_is_done_in_its_order_one_after_the_other(scene: Scene) -> None:
-    assert fill(scene, point(2.0, 0.0), HOLD, point(2.0, 2.0)) == "3 tasks wait in the queue; the first one begins now."
+    assert (
+        fill(scene, point(2.0, 0.0), HOLD, point(2.0, 2.0))
+        == "3 tasks wait in the queue; the first one begins now."
+    )
     scene.run(1.0)
     assert scene.task.state == "RUNNING"
     assert [order.task for order in queue(scene).orders] == ["hold", "go_to"]
