@@ -60,7 +60,7 @@ def test_the_answer_about_a_queue_says_whether_it_begins(scene: Scene) -> None:
     assert said == "1 task waits in the queue; it begins now."
     scene.run(1.1)
     assert scene.task.state == "RUNNING"
-    said = scene.ask("/task/queue/set", SetQueueRequest(revision=3, orders=[STRAIGHT])).message
+    said = scene.ask("/task/queue/set", SetQueueRequest(revision=4, orders=[STRAIGHT])).message
     assert said == "1 task waits in the queue.", "for the one that runs"
 
 

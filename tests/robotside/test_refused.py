@@ -132,10 +132,9 @@ async def test_a_queue_sets_nothing_off_before_it_is_kept_and_never_when_it_is_r
 
 
 async def test_a_scheduled_task_that_is_refused_is_not_begun_meanwhile(slow: Slow) -> None:
-    task = ScheduledTask(order=STRAIGHT, every=1.0, enabled=True)
-    slow.clock = 1000.0
+    task = ScheduledTask(order=STRAIGHT, every=60.0)
     answer = slow.ask("/schedule/set", SetScheduleRequest(task=task))
-    slow.clock += 60.0
+    slow.clock += 70.0
     slow.run(3.0)
     assert slow.station.autonomy.engine.status.state == "IDLE"
     assert not (await done(slow, answer, FULL)).success
