@@ -59,13 +59,13 @@ class Shell(FloatLayout):
     """Name of the screen on the glass, as in `screens`."""
     recording = BooleanProperty(False)
     shares_stop = BooleanProperty(False)
-    """STOP leaves a part of its room to STOP ALL."""
+    """STOP ALL is in STOP's corner as well."""
 
     def __init__(self, screens: dict[str, Any], **kwargs: Any) -> None:
         """`screens` are the screens by name, each with `arrange`, `enter`, `leave`, `tick` and `rest`."""
         super().__init__(**kwargs)
         self.screens = screens
-        self.stop_room = arrange.Rect(0, 0, 1, 1)
+        self.stop_place = arrange.StopPlace(0, 0, 1, 1)
         """Where STOP is, alone or together with STOP ALL [px]."""
         self._build_frame()
         self._banner = Banner(level="danger")
@@ -166,9 +166,11 @@ class Shell(FloatLayout):
         self.nav.arrange(places["nav"], self.form, dp)
         if self.screen:
             screen = self.screens[self.screen]
-            put(screen, places["body"])
-            self.stop_room = screen.arrange(places["body"], self.form, dp)
-            put(self.stop, arrange.shared_stop(self.stop_room, dp)[0] if self.shares_stop else self.stop_room)
+            room = places["body"]
+            put(screen, room)
+            body = arrange.Body(room.x, room.y, room.width, room.height, self.shares_stop)
+            self.stop_place = screen.arrange(body, self.form, dp)
+            put(self.stop, self.stop_place)
         self._place_notices()
 
     def _place_notices(self, *_: object) -> None:

@@ -296,6 +296,8 @@ class TasksScreen(FloatLayout):
         return self.pane
 
     def _lay_buttons(self, shown: str) -> None:
+        if not self._places:
+            return
         tall = self._form == "tall"
         for_list = {
             "now": ["new"] if tall else [],
@@ -316,7 +318,8 @@ class TasksScreen(FloatLayout):
         if shown == "place" and not self.place_pane.there:
             for_detail = []
         names = for_list if tall and not shown else for_detail
-        self.acts.lay(self.ids.strip, names, [] if tall else for_list, form=self._form)
+        below, stop = [] if tall else for_list, self._places["stop"]
+        self.acts.lay(self.ids.strip, names, below, form=self._form, stop=stop)
         self._show_buttons()
 
     def _scheduled_id(self) -> int:
