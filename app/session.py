@@ -8,8 +8,6 @@ from dataclasses import replace
 from typing import Any
 from urllib.parse import urlsplit
 
-import msgspec
-
 from app.checks import Checks
 from app.commands import Outcome
 from app.control import Authority
@@ -20,6 +18,7 @@ from app.logbook import Logbook
 from app.mission import Draft, MissionEditor
 from app.missions import KeptMissions
 from app.offer import CAMERA, Offer
+from app.own_name import OwnName
 from app.refusals import Refusals
 from app.settings import Settings
 from app.stopping import Stopping
@@ -33,11 +32,13 @@ from bridge.msgs.geometry_msgs import (
     Quaternion,
     Twist,
 )
-from bridge.msgs.pilothouse_msgs import ControlStatus, Event, Mission, RobotInfo, TaskStatus
+from bridge.msgs.pilothouse_msgs import ControlStatus, Mission, RobotInfo, TaskStatus
 from bridge.msgs.std_msgs import Header, Time
 
 __all__ = ["Session"]
 
+UNDECIDED = 20
+"""So many events may wait for the robot's word of control."""
 PLACED_WITHIN = (0.25, 0.25, 0.07)
 """Variance of a place pointed at by finger: x, y [m2] and yaw [rad2]."""
 
@@ -58,10 +59,13 @@ class Session:
     ) -> None:
         """`wants_control` takes control whenever it is free; without it the robot is only watched.
 
-        `client_name` is what the robot calls this handheld in its sentences.
+        `client_name` is what this handheld calls itself.
         """
         self.link, self.feeds = link, feeds
-        self.client_id, self.client_name = client_id, client_name
+        self.client_id = client_id
+        self.own_name = OwnName(client_id, client_name, now)
+        self._undecided: list[Post] = []
+        """Events that may be about us, until the robot's word of control comes."""
         self.wants_control = wants_control
         self.mission = MissionEditor(on_change=self._mission_changed)
         self.tasking = Tasking(self)
@@ -250,37 +254,46 @@ class Session:
             self._take_mission()
         elif channel == "/control/status":
             self._stopping.hear(post.value)
+            self.own_name.hear(post.value)
+            self._decide()
             self.authority.hear(post.value)
             self._take_control()
         self._tell(channel, post)
 
     def _hear_event(self, post: Post) -> None:
-        event = self._addressed(post.value)
+        if (
+            self.wants_control
+            and len(self._undecided) < UNDECIDED
+            and self.own_name.undecided(post.value, self.link.robot_time())
+        ):
+            self._undecided.append(post)
+        else:
+            self._take_event(post)
+
+    def _take_event(self, post: Post) -> None:
+        stop = self.outcomes.get("stop" if "pressed" in post.value.text else "stop_release")
+        asked = post.value.kind == "stop" and stop is not None and stop.phase in ("sent", "accepted")
+        event = self.own_name.said(post.value, self.link.robot_time(), asked=asked)
         if self.logbook.take(event):
             post = replace(post, value=event)
             if not self.listeners:
                 self.early.append(post)
             self._tell(EVENT, post)
 
+    def _decide(self) -> None:
+        """The robot's word of control says whether what was told of somebody of our name was about us."""
+        undecided, self._undecided = self._undecided, []
+        for post in undecided:
+            self._take_event(post)
+
     def _tell(self, channel: str, post: Post) -> None:
         for listener in list(self.listeners):
             listener(channel, post)
 
-    def _addressed(self, event: Event) -> Event:
-        """A robot tells everybody who has control by name; the one who has it is told so.
-
-        Not while another handheld of the same name has it, nor where control was never asked for.
-        """
-        named = bool(self.client_name) and event.text == f"{self.client_name} has control."
-        if event.kind != "control" or not named or not self.wants_control:
-            return event
-        status: ControlStatus | None = self.feeds.latest("/control/status")
-        namesake = self.control == "other" and status is not None and status.driver == self.client_name
-        return event if namesake else msgspec.structs.replace(event, text="You have control.")
-
     def resume(self, link: Link) -> None:
         """Go on over a new link to the same robot; what was entered and heard stays."""
         self.link = link
+        self._decide()
         if self.local_stop.latched:
             link.latch()
         stop = self.outcomes.get("stop")

@@ -35,7 +35,7 @@ class ControlCards:
         self._session, self._notices, self._say = session, notices, say
         self._unknown = False
         self.handover = HandoverCard(me=session.client_id)
-        self.mode, self.paused, self.cap = ModeCard(), PausedCard(name=session.client_name), SpeedCap()
+        self.mode, self.paused, self.cap = ModeCard(), PausedCard(), SpeedCap()
         self._closed = self._pause_asked = False
         for card in (self.handover, self.mode, self.cap):
             dashboard.bind(card, "/control/status", fresh=False)
@@ -79,6 +79,7 @@ class ControlCards:
         self.handover.left = authority.left
         self._tick_mode(other=other)
         self.paused.held = session.link.driving
+        self.paused.name = session.own_name.known
         self.cap.rtt = session.link.rtt
         self.cap.driver = authority.status.driver if other else ""
         self.cap.blocked = other

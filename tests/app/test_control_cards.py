@@ -48,7 +48,7 @@ def anna_asks(glass: Glass, robot: FakeRobot) -> Any:
 def paused(glass: Glass, robot: FakeRobot, reason: str) -> Any:
     robot.publish("/task/status", PATROL)
     glass.until(lambda: glass.app.session.running and not glass.app.shell.cards.paused.open, "not running")
-    tell(robot, mode="PAUSED")
+    tell(robot, mode="PAUSED", driver=f"{glass.app.client_name} (2)")
     robot.publish("/task/status", TaskStatus(task="patrol", state="PAUSED", reason=reason))
     glass.until(lambda: glass.app.shell.cards.paused.open, "not paused")
     glass.stage.run_for(0.4, COARSE)
@@ -157,7 +157,7 @@ def test_with_stop_pressed_or_another_driving_the_mode_is_not_to_be_changed(
 
 
 def test_taking_the_stick_pauses_the_task_and_offers_to_resume_it(driving: Glass, robot: FakeRobot) -> None:
-    card = paused(driving, robot, f"Paused: {driving.app.client_name} took the stick.")
+    card = paused(driving, robot, f"Paused: {driving.app.client_name} (2) took the stick.")
     assert cards(driving) == ["Patrol is paused"]
     assert card.said == "You took the stick."
     stick = driving.app.screens["drive"].stick

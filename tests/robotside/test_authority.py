@@ -205,3 +205,29 @@ def test_of_ever_more_objections_the_oldest_is_forgotten(authority: Authority, a
         authority.object(anna, NOW)
     assert "has objected" in authority.request(others[1], NOW)
     assert authority.request(others[0], NOW) == ""
+
+
+def test_two_of_one_name_can_be_told_apart_and_keep_their_names(authority: Authority) -> None:
+    one, other = FakeClient("c1", NOW), FakeClient("c2", NOW)
+    authority.introduce(one, "id-1", "vm")
+    authority.introduce(other, "id-2", "vm")
+    assert (authority.name(one), authority.name(other)) == ("vm", "vm (2)")
+    authority.gone(one)
+    authority.gone(other)
+    again, back = FakeClient("c3", NOW), FakeClient("c4", NOW)
+    authority.introduce(again, "id-2", "vm")
+    authority.introduce(back, "id-1", "vm")
+    assert (authority.name(again), authority.name(back)) == ("vm (2)", "vm")
+    authority.introduce(again, "id-2", "Bert's phone")
+    assert authority.name(again) == "Bert's phone"
+
+
+def test_a_crowd_of_one_name_is_bounded_and_nobody_s_name_too_long(authority: Authority) -> None:
+    names = set()
+    for number in range(300):
+        client = FakeClient(f"c{number}", NOW)
+        authority.introduce(client, f"id-{number}", "v" * 99)
+        names.add(authority.name(client))
+        authority.gone(client)
+    assert len(names) >= 256
+    assert max(map(len, names)) <= 40
