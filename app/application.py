@@ -422,6 +422,7 @@ class PilothouseApp(App):
         for post in self.session.early:
             self.shell.replay(post)
         self.show(self._first_screen)
+        self.shell.tick()  # nothing comes onto the glass that says less than is known
 
     def show(self, screen: str) -> None:
         """Put `mission`, `drive`, `tasks` or `topics` on the glass; KeyError for another."""

@@ -10,13 +10,14 @@ from dataclasses import dataclass
 
 __all__ = [
     "CORNER",
+    "Body",
     "Rect",
+    "StopPlace",
     "connect_columns",
     "corner",
     "drive",
     "form",
     "mission",
-    "shared_stop",
     "shell",
     "stop_list",
     "tasks",
@@ -31,6 +32,8 @@ STRIP = 54
 """Height of the folded card: a finger opens it [dp]."""
 BADGE = 46
 """Height of what says that intruders were found [dp]."""
+ALL = 54
+"""Height of STOP ALL where it is above something [dp]."""
 CHIP = 200
 """Width of a phone's glass that the picture's size and rate need [dp]."""
 
@@ -62,6 +65,49 @@ class Rect:
         """Whether `other` lies within."""
         inside = self.x <= other.x and other.right <= self.right + 1e-6
         return inside and self.y <= other.y and other.top <= self.top + 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class Body(Rect):
+    """The room of a screen between bar and navigation."""
+
+    crowded: bool = False
+    """STOP ALL is in STOP's corner as well."""
+
+
+@dataclass(frozen=True, slots=True)
+class StopPlace(Rect):
+    """Where STOP is, the largest thing to press, and the smaller STOP ALL beside or above it."""
+
+    other: Rect | None = None
+    """Where STOP ALL is; None where there is none."""
+
+    @property
+    def left(self) -> float:
+        """x of the left edge of both [px]."""
+        return self.x if self.other is None else min(self.x, self.other.x)
+
+    @property
+    def head(self) -> float:
+        """y of the upper edge of both [px]."""
+        return self.top if self.other is None else max(self.top, self.other.top)
+
+
+def _crowded(body: Rect) -> bool:
+    return isinstance(body, Body) and body.crowded
+
+
+def _stop_place(room: Rect, body: Rect, dp: float) -> StopPlace:
+    """STOP in the room that it has alone, or together with STOP ALL: beside each other, or one above the other."""
+    gap = 8 * dp
+    if not _crowded(body):
+        return StopPlace(room.x, room.y, room.width, room.height)
+    if room.width >= 1.3 * room.height:
+        small = (84 if room.width >= 250 * dp else 54) * dp
+        other = Rect(room.x, room.y, small, room.height)
+        return StopPlace(room.x + small + gap, room.y, room.width - small - gap, room.height, other)
+    low = room.height - ALL * dp - gap
+    return StopPlace(room.x, room.y, room.width, low, Rect(room.x, room.y + low + gap, room.width, ALL * dp))
 
 
 def form(width: float, height: float, dp: float = 1.0) -> str:
@@ -99,7 +145,8 @@ def mission(body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False
     gap, wide = 14 * dp, shape == "wide"
     side = min(max(344 * dp, body.width * 0.22), 420 * dp) if wide else 304 * dp
     panel = Rect(body.right - side, body.y, side, body.height)
-    stop = Rect(panel.x + gap, body.y + gap, side - 2 * gap, (76 if wide else 68) * dp)
+    room = Rect(panel.x + gap, body.y + gap, side - 2 * gap, (84 if wide else 68) * dp)
+    stop = _stop_place(room, body, dp)
     area = Rect(body.x, body.y, body.width - side, body.height)
     places = {"map": area, "panel": _above(panel, stop, gap), "side": panel, "stop": stop}
     button = (52 if wide else 46) * dp
@@ -147,12 +194,10 @@ def _mission_instruments(area: Rect, gap: float, dp: float) -> dict[str, Rect]:
 
 def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
     gap = 12 * dp
-    low = min(314 * dp, body.height * 0.5)
+    stop, tasks = _stop_tall(body, gap, dp)
+    low = min(208 * dp + stop.height, body.height * (0.58 if _crowded(body) else 0.5))
     height = body.height - 120 * dp if sheet_open else low
     sheet = Rect(body.x, body.y, body.width, height)
-    stop_width = min(max(158 * dp, body.width * 0.3), 260 * dp)
-    stop = Rect(body.right - gap - stop_width, body.y + gap, stop_width, 106 * dp)
-    tasks = Rect(body.x + gap, stop.y, stop.x - body.x - 2 * gap, stop.height)
     handle = 22 * dp
     panel = Rect(
         sheet.x + gap,
@@ -182,6 +227,17 @@ def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
     }
 
 
+def _stop_tall(body: Rect, gap: float, dp: float) -> tuple[StopPlace, Rect]:
+    """STOP in an upright screen's corner, and the strip beside it; STOP ALL is above the strip, and STOP grows with it."""
+    width, height = min(max(158 * dp, body.width * 0.43), 260 * dp), 118 * dp
+    x = body.right - gap - width
+    strip = Rect(body.x + gap, body.y + gap, x - body.x - 2 * gap, height)
+    if not _crowded(body):
+        return StopPlace(x, strip.y, width, height), strip
+    other = Rect(strip.x, strip.top + 8 * dp, strip.width, ALL * dp)
+    return StopPlace(x, strip.y, width, other.top - strip.y, other), strip
+
+
 def _between(left: float, low: float, right: float, top: float) -> Rect:
     return Rect(left, low, right - left, top - low)
 
@@ -209,14 +265,15 @@ def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     wide = shape == "wide"
     dp = dp * min(1.0, body.height / ((590 if wide else 364) * dp))
     gap = (16 if wide else 10) * dp
-    stop = Rect(
+    room = Rect(
         body.right - gap - (210 if wide else 150) * dp, body.y + gap, *_pair(wide, (210, 180), (150, 156), dp)
     )
+    stop = _stop_place(room, body, dp)
     size = (242 if wide else 176) * dp
     stick = Rect(body.x + gap, body.y + gap, size, size)
     slider = Rect(stick.right + (38 if wide else 12) * dp, stick.y, *_pair(wide, (96, 238), (80, 176), dp))
     actions = Rect(
-        stop.x - 16 * dp - (150 if wide else 132) * dp, stop.y, (150 if wide else 132) * dp, stop.height
+        room.x - 16 * dp - (150 if wide else 132) * dp, room.y, (150 if wide else 132) * dp, room.height
     )
     left = Rect(
         body.x + gap, body.top - gap - (228 if wide else 148) * dp, *_pair(wide, (326, 228), (212, 148), dp)
@@ -254,18 +311,18 @@ def _senses_wide(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
         "badge": badge,
         "senses": senses,
         "senses_open": senses if free >= SENSES_LEAST * dp else laser,
-        "notice_low": Rect(left, slider.y, right - left, places["stop"].height),
+        "notice_low": Rect(left, slider.y, right - left, places["actions"].height),
         "notice": _between(tape.x, slider.top + 8 * dp, tape.right, badge.y - 32 * dp),
     }
 
 
 def _senses_short(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
     """A strip between slider and buttons, or above them where that is too narrow; the badge above STOP."""
-    tape, slider, stop, right = places["top"], places["slider"], places["stop"], places["top_right"]
+    tape, slider, actions, right = places["top"], places["slider"], places["actions"], places["top_right"]
     low = places["readouts"].x
-    badge = Rect(low, stop.top + 8 * dp, right.right - low, right.y - stop.top - 16 * dp)
+    badge = _between(low, actions.top + 8 * dp, right.right, right.y - 8 * dp)
     notice = _between(tape.x, slider.top + 8 * dp, tape.right, tape.y - 8 * dp)
-    left, wide = slider.right + 12 * dp, places["actions"].x - slider.right - 24 * dp
+    left, wide = slider.right + 12 * dp, actions.x - slider.right - 24 * dp
     if wide >= 180 * dp:
         strip = Rect(left, slider.y, wide, STRIP * dp)
         above = _between(left, strip.top + 8 * dp, left + wide, slider.top)
@@ -296,8 +353,13 @@ def _drive_tall(body: Rect, dp: float) -> dict[str, Rect]:
     controls = Rect(body.x + gap, body.y + gap, stick, stick)
     slider = Rect(controls.right + gap, body.y + gap, 80 * dp, stick)
     spare = body.right - gap - slider.right - gap
-    stop = Rect(body.right - gap - min(spare, 240 * dp), body.y + gap, min(spare, 240 * dp), stick)
-    actions = Rect(body.x + gap, controls.top + gap, body.width - 2 * gap, 52 * dp)
+    width = min(spare, 240 * dp)
+    room = Rect(body.right - gap - width, body.y + gap, width, stick)
+    stop, across, low = StopPlace(room.x, room.y, width, stick), body.width - 2 * gap, controls.top + gap
+    if _crowded(body):  # in a row with what is done once, so that STOP keeps its size
+        stop = StopPlace(room.x, room.y, width, stick, Rect(room.x, low, width, ALL * dp))
+        across -= width + gap
+    actions = Rect(body.x + gap, low, across, (ALL if _crowded(body) else 52) * dp)
     cards_low = actions.top + gap
     cards = Rect(body.x + gap, cards_low, body.width - 2 * gap, video.y - gap - cards_low)
     side = min(cards.height, cards.width * 0.52)
@@ -343,21 +405,28 @@ def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     """
     gap = 12 * dp
     if shape == "tall":
-        stop = _mission_tall(body, dp, sheet_open=False)["stop"]
-        low = stop.top + 10 * dp
+        stop, strip = _stop_tall(body, gap, dp)
+        low = stop.head + 10 * dp
         whole = Rect(body.x + gap, low, body.width - 2 * gap, body.top - gap - low)
-        strip = Rect(whole.x, stop.y, stop.x - gap - whole.x, stop.height)
         notice = Rect(whole.x, low, whole.width, 120 * dp)
         return {"list": whole, "detail": whole, "strip": strip, "stop": stop, "notice": notice}
     wide = shape == "wide"
-    stop = mission(body, shape, dp)["stop"]
+    stop = _stop_of_lists(body, shape, dp)
     left = min(max(420 * dp, 0.3 * body.width) if wide else 320 * dp, body.width * 0.42)
     listed = Rect(body.x + gap, body.y + gap, left, body.height - 2 * gap)
     x, low = listed.right + gap, stop.top + gap
     detail = Rect(x, low, body.right - gap - x, body.top - gap - low)
-    strip = Rect(x, stop.y, stop.x - gap - x, stop.height)
+    strip = Rect(x, stop.y, stop.left - gap - x, stop.height)
     notice = Rect(detail.x, low, detail.width, 110 * dp)
     return {"list": listed, "detail": detail, "strip": strip, "stop": stop, "notice": notice}
+
+
+def _stop_of_lists(body: Rect, shape: str, dp: float) -> StopPlace:
+    """As on the mission screen; where there is room STOP ALL is beside it and takes nothing away from it."""
+    room = mission(Rect(body.x, body.y, body.width, body.height), shape, dp)["stop"]
+    if shape == "wide" and _crowded(body):
+        room = Rect(room.x - 92 * dp, room.y, room.width + 92 * dp, room.height)
+    return _stop_place(room, body, dp)
 
 
 def tasks(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
@@ -365,12 +434,13 @@ def tasks(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     a wider list, so that the words over it can be read."""
     places, gap = topics(body, shape, dp), 12 * dp
     if shape == "short":
-        stop, listed, detail = places["stop"], places["list"], places["detail"]
-        width, more = min(stop.width, 190 * dp), 44 * dp
+        whole, listed, detail = places["stop"], places["list"], places["detail"]
+        width, more = 190 * dp, 44 * dp
         x = detail.x + more
-        places["stop"] = stop = Rect(stop.right - width, stop.y, width, stop.height)
+        stop = _stop_place(Rect(whole.right - width, whole.y, width, whole.height), body, dp)
+        places["stop"] = stop
         places["list"] = Rect(listed.x, listed.y, listed.width + more, listed.height)
-        places["strip"] = Rect(x, stop.y, stop.x - gap - x, stop.height)
+        places["strip"] = Rect(x, stop.y, stop.left - gap - x, stop.height)
         places["detail"] = Rect(x, detail.y, detail.width - more, detail.height)
         places["notice"] = Rect(x, places["notice"].y, detail.width - more, places["notice"].height)
     return places
@@ -386,25 +456,13 @@ def corner(width: float, dp: float = 1.0) -> Rect:
     return Rect(width - 14 * dp - across, 12 * dp, across, 64 * dp)
 
 
-def shared_stop(room: Rect, dp: float = 1.0) -> tuple[Rect, Rect]:
-    """STOP and the smaller STOP ALL in the room that STOP has alone: beside each other, or one above the other."""
-    gap = 8 * dp
-    if room.width >= 1.3 * room.height:
-        small = min(max(54 * dp, 0.24 * room.width), 84 * dp)
-        stop = Rect(room.x + small + gap, room.y, room.width - small - gap, room.height)
-        return stop, Rect(room.x, room.y, small, room.height)
-    small = 54 * dp
-    stop = Rect(room.x, room.y, room.width, room.height - small - gap)
-    return stop, Rect(room.x, stop.top + gap, room.width, small)
-
-
-def stop_list(body: Rect, stop: Rect, shape: str, wanted: float, dp: float = 1.0) -> Rect:
+def stop_list(body: Rect, stop: StopPlace, shape: str, wanted: float, dp: float = 1.0) -> Rect:
     """What became of STOP ALL, `wanted` high [px] where there is room: above STOP, on a phone's side left of it."""
     gap = 8 * dp
-    width = min(440 * dp, body.width - 2 * gap)
     if shape == "short":
-        width = min(width, stop.x - body.x - 2 * gap)
+        width = min(440 * dp, stop.left - body.x - 2 * gap)
         height = min(wanted, body.height - 2 * gap)
-        return Rect(stop.x - gap - width, body.y + gap, width, height)
-    low = stop.top + gap
-    return Rect(body.right - gap - width, low, width, min(wanted, body.top - gap - low))
+        return Rect(stop.left - gap - width, body.y + gap, width, height)
+    low, edge = stop.head + gap, body.right - stop.right
+    width = min(440 * dp, body.width - 2 * edge)
+    return Rect(stop.right - width, low, width, min(wanted, body.top - gap - low))

@@ -69,6 +69,8 @@ STOP_TRY, STOP_PAUSE = 0.3, 0.1
 """The same for STOP [s]."""
 STOP_DOUBT = 1.0
 """STOP without an answer for longer is said to be unanswered; it goes on being sent [s]."""
+STILL_SENDING = "Still sending it."
+"""Stands for the reason of a STOP that has no answer at all."""
 
 _ZERO = Twist()
 _INSTANT = 0.001
@@ -425,7 +427,7 @@ class Commands:
                 return
             if latency > STOP_DOUBT and not doubted:
                 doubted = True
-                reason = answer.message if answer is not None else "Still sending it."
+                reason = answer.message if answer is not None else STILL_SENDING
                 self._report(replace(outcome, phase="no_reply", reason=reason))
             await asyncio.sleep(STOP_PAUSE)
 

@@ -30,11 +30,15 @@ class Authority:
         self._session = session
         self.on_news: News = lambda *_: None
         """Called with what the operator has to be told of a change."""
+        self.on_past: Callable[[], object] = lambda: None
+        """Called when what was told last is true no longer and nothing is told in its place."""
         self._before = ControlStatus()
         self._held = False
         """Control was ours, and nothing explains yet that it is not any more."""
         self._away = False
         """The link was gone since control was last known to be ours."""
+        self._lapsed = ""
+        """Why control that was ours lapsed, until it is had again or somebody else's."""
         self._released = self._withdrawn = False
         """We gave control back, or took back that we ask for it."""
 
@@ -123,12 +127,22 @@ class Authority:
         news = self._end(before, status) or self._beginning(before, status)
         mine = status.driver_id == self._session.client_id
         if mine:
+            news = news or self._regained()
             self._held, self._away = True, False
         elif self._held:
             news = news if self._released else self._lost(before, status)
             self._held = self._released = self._away = False
+        if status.driver_id:
+            self._lapsed = ""
         if news:
             self.on_news(*news)
+        elif _parties(before) != _parties(status):
+            self.on_past()
+
+    def _regained(self) -> tuple[str, str] | None:
+        """Control lapsed and is ours again: that it did must not go by unseen."""
+        why, self._lapsed = self._lapsed, ""
+        return (f"You have control again; it lapsed: {why}.", "info") if why else None
 
     def _beginning(self, before: ControlStatus, status: ControlStatus) -> tuple[str, str] | None:
         """Who watches is told that somebody asks; who asks or is asked has a card for it."""
@@ -162,4 +176,10 @@ class Authority:
         why = "while the link was away" if self._away else f"the robot heard nothing for {LAPSE:.0f}\u00a0s"
         free = "It is asked for again" if self._session.wants_control else "It is free"
         now = f"{status.driver} has it now" if status.driver else free
+        self._lapsed = why if self._session.wants_control else ""
         return f"Your control lapsed: {why}. {now}.", "warn"
+
+
+def _parties(status: ControlStatus) -> tuple[str, str]:
+    """Who drives and who asks."""
+    return status.driver_id, status.requested_by_id

@@ -10,7 +10,7 @@ from typing import Any
 from app.feeds import Feeds
 from bridge.msgs import Msg
 
-__all__ = ["Dashboard"]
+__all__ = ["AGE_STEP", "Dashboard"]
 
 AGE_STEP = 0.5
 """Ages closer than this look the same [s]: nothing is drawn anew for less."""

@@ -134,7 +134,7 @@ class EventStream:
         """Learn which log it is. True when it has to be asked anew, from where it is known from an earlier day."""
         self._boot = newest[-1].boot
         mark = self._marks.get(self._boot)
-        if mark is None or mark > newest[-1].id:
+        if mark is None:
             self._last = newest[0].id - 1
             return False
         self._from, self._gone = mark, False

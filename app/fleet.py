@@ -18,7 +18,8 @@ from functools import partial
 from typing import Protocol
 
 from app.discovery import Entry
-from app.stop_lane import DOUBT, Report, StopLane, silence
+from app.stop_lane import Report, StopLane
+from app.stopping import DOUBT, silence
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
 from bridge.msgs.std_msgs import Time
 from bridge.network import NetworkThread
@@ -45,7 +46,7 @@ class Row:
     name: str
     """What people call it, else its address."""
     phase: str
-    """As of `stop_lane.Report`."""
+    """As of `stopping.Verdict`."""
     sentence: str = ""
     foreign: bool = False
     """It has no STOP of its own: zero speed is sent for as long as STOP ALL is held."""
@@ -78,7 +79,11 @@ class Connected(Protocol):
 
     @property
     def stop_phase(self) -> str:
-        """`ready`, `sent`, `stopped` or `no_answer`."""
+        """What became of its STOP, as of `stopping.Verdict`; `ready` when it was released."""
+
+    @property
+    def stop_sentence(self) -> str:
+        """The same for the operator; empty where the phase says it all."""
 
     @property
     def control_status(self) -> ControlStatus | None:
@@ -298,9 +303,10 @@ class Fleet:
             robot.begun = robot.begun or connected.stop_phase != "ready"
             robot.last = _linked_row(connected, begun=robot.begun)
             return robot.last
-        report = robot.lane.report if robot.lane is not None else Report("sent")
-        if robot.lane is None and robot.last is not None:
+        lane = robot.lane  # once: the network thread takes it away
+        if lane is None and robot.last is not None:
             return robot.last
+        report = lane.report if lane is not None else Report("sent")
         sentence = report.sentence
         if robot.heard and not report.reached:
             sentence = f"{robot.heard} {sentence}".strip()
@@ -310,7 +316,8 @@ class Fleet:
         """Note which addresses lead to one robot: the log is the same, or what each says of control, to the nanosecond."""
         first: dict[Hashable, str] = {}
         for robot in self._robots.values():
-            identity = robot.lane.report.identity if robot.lane is not None else None
+            lane = robot.lane  # once: the network thread takes it away
+            identity = lane.report.identity if lane is not None else None
             if connected is not None and robot.url == self._linked:
                 robot.boot, identity = connected.boot or robot.boot, _identity(connected)
             for mark in (robot.boot, identity):
@@ -327,7 +334,7 @@ class Fleet:
         return [replace(row, also=len(alike) - 1) for row, alike in zip(best, found.values(), strict=True)]
 
 
-_CERTAIN = ("released", "moves", "stopped", "sent", "no_answer")
+_CERTAIN = ("released", "moves", "stopped", "sent", "lost", "no_answer")
 """Phases of one robot at several addresses: what it says itself goes before what is not known, the worst first."""
 
 
@@ -351,9 +358,7 @@ def _identity(connected: Connected) -> tuple[str, str, Time] | None:
 
 
 def _linked_row(connected: Connected, *, begun: bool) -> Row:
-    phase, sentence = connected.stop_phase, ""
+    phase, sentence = connected.stop_phase, connected.stop_sentence
     if phase == "ready":
         phase, sentence = ("released", "STOP was released.") if begun else ("sent", "")
-    elif phase == "no_answer":
-        sentence = "It has not confirmed; STOP is sent again and again."
     return Row(connected.url, connected.name, phase, sentence, connected.foreign and phase != "released")

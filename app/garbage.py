@@ -31,19 +31,25 @@ class Collector:
     """Takes Python's collector over from the moment it is made until it is closed.
 
     It holds for the whole process, other threads included; what those leave behind goes with the next frame. What is
-    there from the start stays for good and is never looked at.
+    there from the start stays for good and is never looked at. One may be made while another is at work, as by an app that
+    is tested; the last one that is closed gives back what was left out.
     """
+
+    _at_work = 0
 
     def __init__(self) -> None:
         self._was_enabled = gc.isenabled()
         self._due = False
         self._blocks = sys.getallocatedblocks()
+        Collector._at_work += 1
         gc.freeze()
         self.resume()
 
     def close(self) -> None:
         """Give everything back as it was."""
-        gc.unfreeze()
+        Collector._at_work -= 1
+        if not Collector._at_work:
+            gc.unfreeze()
         self.pause()
 
     def pause(self) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from app.stopping import Known, judge, silence
 from bridge.msgs.nav_msgs import Odometry
 
 __all__ = ["LocalStop"]
@@ -18,8 +19,6 @@ RESTS = 0.3
 """So long its odometry must say so [s]."""
 BELIEVED = 1.0
 """Odometry older than this says nothing of now [s]."""
-DOUBT = 1.0
-"""A STOP that odometry has not confirmed after this is unanswered [s]."""
 
 
 class LocalStop:
@@ -69,12 +68,11 @@ class LocalStop:
 
     @property
     def phase(self) -> str:
-        """As of a STOP button: `ready`, `sent`, `stopped` (odometry says at rest) or `no_answer`."""
+        """As of `stopping.Verdict`, with odometry for what the robot says: `ready`, `sent`, `stopped` or `no_answer`."""
         if not self.latched:
             return "ready"
-        if self._confirmed:
-            return "stopped"
-        return "sent" if self._now() - self._pressed_at < DOUBT else "no_answer"
+        rests = self._confirmed
+        return judge(Known(self._pressed_at, latched=rests or None, at_rest=rests), self._now()).phase
 
     def sentence(self, drives: bool, reaches: bool = True) -> str:
         """What is the case, for the operator; empty while it is not latched.
@@ -92,10 +90,9 @@ class LocalStop:
     @property
     def _witness(self) -> str:
         """What odometry says of its rest."""
-        silence = self._now() - self._heard_at
-        if math.isnan(silence):
+        age = self._now() - self._heard_at
+        if math.isnan(age):
             return "No odometry has come that could confirm that it rests."
-        if silence >= BELIEVED:
-            long_ago = f"{silence:.0f} s" if silence < 60 else f"{silence / 60:.0f} min"
-            return f"Its odometry was last heard {long_ago} ago."
+        if age >= BELIEVED:
+            return f"Its odometry was last heard {silence(age)} ago."
         return f"Its odometry {'says' if self._confirmed else 'does not yet say'} that it rests."

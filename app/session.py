@@ -8,8 +8,6 @@ from dataclasses import replace
 from typing import Any
 from urllib.parse import urlsplit
 
-import msgspec
-
 from app.checks import Checks
 from app.commands import Outcome
 from app.control import Authority
@@ -20,8 +18,10 @@ from app.logbook import Logbook
 from app.mission import Draft, MissionEditor
 from app.missions import KeptMissions
 from app.offer import CAMERA, Offer
+from app.own_name import OwnName
 from app.refusals import Refusals
 from app.settings import Settings
+from app.stopping import Stopping
 from app.tasking import Tasking
 from bridge.client import LinkState, Phase
 from bridge.msgs.geometry_msgs import (
@@ -32,15 +32,13 @@ from bridge.msgs.geometry_msgs import (
     Quaternion,
     Twist,
 )
-from bridge.msgs.pilothouse_msgs import ControlStatus, Event, Mission, RobotInfo, TaskStatus
+from bridge.msgs.pilothouse_msgs import ControlStatus, Mission, RobotInfo, TaskStatus
 from bridge.msgs.std_msgs import Header, Time
 
 __all__ = ["Session"]
 
-STOP_SETTLES = 1.0
-"""An accepted STOP shows in the robot's status within this [s]."""
-COMES_TO_REST = 2.0
-"""A robot whose STOP is latched rests within this, or it is not obeyed [s]."""
+UNDECIDED = 20
+"""So many events may wait for the robot's word of control."""
 PLACED_WITHIN = (0.25, 0.25, 0.07)
 """Variance of a place pointed at by finger: x, y [m2] and yaw [rad2]."""
 
@@ -61,10 +59,13 @@ class Session:
     ) -> None:
         """`wants_control` takes control whenever it is free; without it the robot is only watched.
 
-        `client_name` is what the robot calls this handheld in its sentences.
+        `client_name` is what this handheld calls itself.
         """
         self.link, self.feeds = link, feeds
-        self.client_id, self.client_name = client_id, client_name
+        self.client_id = client_id
+        self.own_name = OwnName(client_id, client_name, now)
+        self._undecided: list[Post] = []
+        """Events that may be about us, until the robot's word of control comes."""
         self.wants_control = wants_control
         self.mission = MissionEditor(on_change=self._mission_changed)
         self.tasking = Tasking(self)
@@ -88,9 +89,9 @@ class Session:
         self.link_state: LinkState = link.state
         self.ever_connected = False
         self._settings, self._now = settings, now
-        self._state_since = self._stop_at = now()
-        self._moves_since = math.inf
-        """Since when the robot says that STOP is latched and not that it rests [s]."""
+        self._state_since = now()
+        self._stopping = Stopping(now)
+        self._stopping.reach(self.connected)
         self._asked_control = False
         self._known = False
         self._told_mission: Mission | None = None
@@ -179,6 +180,11 @@ class Session:
         )
 
     @property
+    def may_ask(self) -> bool:
+        """The robot can be asked for something from here: the link stands, and it is known that nobody else has control."""
+        return self.connected and self.control not in ("other", "unknown")
+
+    @property
     def stop_latched(self) -> bool:
         """STOP is known to be pressed, at the robot or, where it has none, here; whether it rests is another question."""
         if self.foreign:
@@ -188,30 +194,21 @@ class Session:
 
     @property
     def stop_phase(self) -> str:
-        """What became of STOP: `ready`, `sent`, `stopped` or `no_answer`.
-
-        `stopped` when it is latched and the robot, or else its odometry, says that it rests.
-        """
-        if self.foreign:
-            return self.local_stop.phase
-        status: ControlStatus | None = self.feeds.latest("/control/status")
-        if status is not None and status.stopped:
-            moves = not status.at_rest
-            return "stopped" if not moves else "no_answer" if self._unrested else "sent"
-        outcome = self.outcomes.get("stop")
-        if outcome is None:
-            return "ready"
-        if outcome.phase == "accepted":
-            fresh = self._now() - self._stop_at < STOP_SETTLES
-            return "stopped" if status is None else "sent" if fresh else "ready"
-        return "sent" if outcome.phase == "sent" else "no_answer"
+        """What became of STOP, as of `stopping.Verdict`; `ready` again when somebody has released it."""
+        phase = self.local_stop.phase if self.foreign else self._stopping.verdict.phase
+        return "ready" if phase == "released" else phase
 
     @property
-    def _unrested(self) -> bool:
-        """The robot says itself that STOP is not done, or does not say in time that it rests."""
-        outcome = self.outcomes.get("stop")
-        doubted = outcome is not None and outcome.phase in ("refused", "no_reply")
-        return doubted or self._now() - self._moves_since > COMES_TO_REST
+    def stop_sentence(self) -> str:
+        """The same for the operator; empty where the phase says it all."""
+        if self.foreign:
+            return self.local_stop.sentence(self.link.drive_topic is not None, self.connected)
+        return self._stopping.verdict.sentence
+
+    @property
+    def stop_lost_for(self) -> float:
+        """So long ago the link to a robot was lost that was stopped then [s]; NaN where it was not."""
+        return self._stopping.lost_for
 
     @property
     def retry_in(self) -> float:
@@ -256,39 +253,47 @@ class Session:
             self._told_mission = post.value
             self._take_mission()
         elif channel == "/control/status":
-            moves = post.value.stopped and not post.value.at_rest
-            self._moves_since = min(self._moves_since, self._now()) if moves else math.inf
+            self._stopping.hear(post.value)
+            self.own_name.hear(post.value)
+            self._decide()
             self.authority.hear(post.value)
             self._take_control()
         self._tell(channel, post)
 
     def _hear_event(self, post: Post) -> None:
-        event = self._addressed(post.value)
+        if (
+            self.wants_control
+            and len(self._undecided) < UNDECIDED
+            and self.own_name.undecided(post.value, self.link.robot_time())
+        ):
+            self._undecided.append(post)
+        else:
+            self._take_event(post)
+
+    def _take_event(self, post: Post) -> None:
+        stop = self.outcomes.get("stop" if "pressed" in post.value.text else "stop_release")
+        asked = post.value.kind == "stop" and stop is not None and stop.phase in ("sent", "accepted")
+        event = self.own_name.said(post.value, self.link.robot_time(), asked=asked)
         if self.logbook.take(event):
             post = replace(post, value=event)
             if not self.listeners:
                 self.early.append(post)
             self._tell(EVENT, post)
 
+    def _decide(self) -> None:
+        """The robot's word of control says whether what was told of somebody of our name was about us."""
+        undecided, self._undecided = self._undecided, []
+        for post in undecided:
+            self._take_event(post)
+
     def _tell(self, channel: str, post: Post) -> None:
         for listener in list(self.listeners):
             listener(channel, post)
 
-    def _addressed(self, event: Event) -> Event:
-        """A robot tells everybody who has control by name; the one who has it is told so.
-
-        Not while another handheld of the same name has it, nor where control was never asked for.
-        """
-        named = bool(self.client_name) and event.text == f"{self.client_name} has control."
-        if event.kind != "control" or not named or not self.wants_control:
-            return event
-        status: ControlStatus | None = self.feeds.latest("/control/status")
-        namesake = self.control == "other" and status is not None and status.driver == self.client_name
-        return event if namesake else msgspec.structs.replace(event, text="You have control.")
-
     def resume(self, link: Link) -> None:
         """Go on over a new link to the same robot; what was entered and heard stays."""
         self.link = link
+        self._decide()
         if self.local_stop.latched:
             link.latch()
         stop = self.outcomes.get("stop")
@@ -309,6 +314,7 @@ class Session:
     def _link_changed(self, state: LinkState) -> None:
         self.link_state, self._state_since = state, self._now()
         self.feeds.link(self.connected)
+        self._stopping.reach(self.connected, state.sentence, hopeless=state.phase is Phase.CLOSED)
         self.authority.link_changed()
         if self.connected:
             self.ever_connected = True
@@ -318,7 +324,7 @@ class Session:
     def _outcome(self, outcome: Outcome) -> None:
         self.outcomes[outcome.name] = outcome
         if outcome.name == "stop":
-            self._stop_at = self._now()
+            self._stopping.answered(outcome)
         if outcome.name == "mission" and outcome.phase != "sent":
             sent = Draft.of(outcome.fields["mission"])
             self.mission.answered(sent, outcome.phase == "accepted", outcome.sentence)
@@ -370,11 +376,13 @@ class Session:
         """STOP, by the robot's own service or, where it has none, by zero speed until `release_stop`."""
         if self.offer is None or self.foreign:
             self.local_stop.press()
+        self._stopping.press()
         self.link.stop()
 
     def release_stop(self) -> None:
         """The operator wants to drive again; nothing moves by that alone."""
         self.local_stop.release()
+        self._stopping.forget()
         self.outcomes.pop("stop", None)
         self.link.unlatch()
         if not self.foreign:

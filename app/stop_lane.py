@@ -7,7 +7,6 @@ as long as the lane lasts. Everything here lives in the network thread; `StopLan
 from __future__ import annotations
 
 import asyncio
-import math
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
@@ -16,6 +15,7 @@ from typing import Any, Protocol, TypeVar
 from app.commands import Commands, Outcome
 from app.local_stop import LocalStop
 from app.offer import DRIVE, NOTHING, Offer, ask
+from app.stopping import Stopping
 from bridge.choice import drive_message
 from bridge.client import BridgeClient, LinkState, Phase
 from bridge.errors import BridgeError
@@ -25,16 +25,12 @@ from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
 from bridge.msgs.std_msgs import Time
 
-__all__ = ["Client", "Report", "StopLane", "silence"]
+__all__ = ["Client", "Report", "StopLane"]
 
 M = TypeVar("M", bound=Msg)
 
 TICK = 0.1
 """Between two looks at how it goes, and between two commands to rest [s]."""
-DOUBT = 1.0
-"""A STOP that the robot did not take after this is unanswered; it goes on being sent [s]."""
-COMES_TO_REST = 2.0
-"""A robot that took STOP rests within this, or it is not obeyed [s]."""
 AGAIN = 1.0
 """To a robot that took STOP and moves it is sent anew after this [s]."""
 BACKOFF = (0.5, 2.0)
@@ -46,8 +42,7 @@ class Report:
     """What is known of one robot's STOP."""
 
     phase: str
-    """`sent`; `stopped`, it says that it is pressed and that it rests; `moves`, pressed and it does not come to rest;
-    `no_answer`; `released`, by somebody, after it was stopped."""
+    """As of `stopping.Verdict`."""
     sentence: str = ""
     """The same for the operator; empty where the phase says it all."""
     name: str = ""
@@ -93,13 +88,6 @@ class Client(Protocol):
         """End the link for good."""
 
 
-def silence(seconds: float) -> str:
-    """So long [s] in the words of the glass, as in `12 s` or `3 min`."""
-    if seconds < 60:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60:.0f} min" if seconds < 3600 else f"{seconds / 3600:.0f} h"
-
-
 class StopLane:
     """STOP to one robot from `run` until that is cancelled."""
 
@@ -127,15 +115,13 @@ class StopLane:
         )
         self._zero = LocalStop(now)
         self._wanted, self._done = asyncio.Event(), asyncio.Event()
-        self._pressed_at = self._taken_at = self._moves_since = self._lost_at = self._reached_at = math.nan
         self._identity: tuple[str, str, Time] | None = None
-        self._why = ""
-        self._refusal = ""
-        self._phase: Phase = Phase.CLOSED
+        self._stopping = Stopping(now)
+        self._stopping.reach(False)
+        self._reached = False
         self._offer: Offer | None = None
         self._status: ControlStatus | None = None
         self._info = RobotInfo()
-        self._released = False
         self._listening: dict[str, Callable[[], None]] = {}
         self._learning: asyncio.Task[None] | None = None
         self.report = Report("sent")
@@ -146,9 +132,7 @@ class StopLane:
 
     def press(self) -> None:
         """STOP was pressed; again while it is being sent changes nothing, after a release it begins anew."""
-        if not self._wanted.is_set():
-            self._pressed_at, self._taken_at, self._lost_at = self._now(), math.nan, math.nan
-            self._released, self._refusal = False, ""
+        self._stopping.press()
         self._done.clear()
         self._wanted.set()
         self._zero.press()
@@ -190,14 +174,12 @@ class StopLane:
     # what comes in
 
     def _on_state(self, state: LinkState) -> None:
-        if self._reached:
-            self._lost_at = self._now() if self.report.phase == "stopped" else math.nan
-            self._status, self._moves_since = None, math.nan
-        self._phase, self._why = state.phase, state.sentence
+        self._reached = state.phase is Phase.CONNECTED
+        hopeless = state.phase is Phase.CLOSED and bool(state.sentence)  # such an address can never work
+        self._stopping.reach(self._reached, state.sentence, hopeless=hopeless)
         if self._learning is not None:
             self._learning.cancel()
         if self._reached:
-            self._reached_at = self._now()
             self._learning = asyncio.get_running_loop().create_task(self._learn())
         self._look()
 
@@ -226,40 +208,33 @@ class StopLane:
         if topic is not None and topic not in self._listening:
             self._listening[topic] = self._client.subscribe(topic, kind, hear)
 
-    def _on_info(self, info: RobotInfo, received: float) -> None:
+    def _on_info(self, info: RobotInfo, _: float) -> None:
         self._info = info
-        if self._status is not None:
-            self._on_status(self._status, received)
+        self._recognise()
 
     def _on_status(self, status: ControlStatus, _: float) -> None:
         self._status = status
-        if status.stopped and status.at_rest:
-            self._moves_since = math.nan
-            if not math.isnan(self._taken_at) or self._commands.stopping:
+        self._stopping.hear(status)
+        if self._stopping.rests:
+            if self._stopping.taken or self._commands.stopping:
                 self._done.set()
             self._commands.confirm_stop()
-        elif status.stopped:
-            self._moves_since = self._now() if math.isnan(self._moves_since) else self._moves_since
-        elif self._done.is_set():
-            self._released = True
-        if self._info.name and status.stamp != Time():
-            self._identity = (self._info.name, self._info.model, status.stamp)
+        self._recognise()
+
+    def _recognise(self) -> None:
+        """Note what is alike for one robot at two addresses: who it is, and what it says of control to the nanosecond."""
+        info, status = self._info, self._status
+        if info.name and status is not None and status.stamp != Time():
+            self._identity = (info.name, info.model, status.stamp)
         self._look()
 
     def _on_outcome(self, outcome: Outcome) -> None:
-        if outcome.phase == "accepted":
-            self._taken_at, self._refusal = self._now(), ""
-            if self._rests:
-                self._done.set()
-        elif outcome.phase == "no_reply":
-            self._refusal = outcome.reason if outcome.reason != "Still sending it." else ""
+        self._stopping.answered(outcome)
+        if outcome.phase == "accepted" and self._stopping.rests:
+            self._done.set()
         self._look()
 
     # what is known
-
-    @property
-    def _reached(self) -> bool:
-        return self._phase is Phase.CONNECTED
 
     @property
     def _has_none(self) -> bool:
@@ -281,44 +256,14 @@ class StopLane:
     def _stamped(self) -> bool:
         return self._offer is not None and self._offer.stamped
 
-    @property
-    def _rests(self) -> bool:
-        status = self._status
-        return status is not None and status.stopped and status.at_rest
-
     def _look(self) -> None:
         phase, sentence = self._judged()
         self.report = Report(phase, sentence, self._info.name, self._reached, self._has_none, self._identity)
 
     def _judged(self) -> tuple[str, str]:
-        if not self._reached:
-            return self._unreached()
-        if self._has_none:
+        if self._reached and self._has_none:
             drives = self._drive is not None
             phase = self._zero.phase if drives else "no_answer"
             return phase, self._zero.sentence(drives)
-        if self._released:
-            return "released", "Somebody has released STOP."
-        if self._status is not None and self._status.stopped:
-            return self._latched(self._status)
-        if self._now() - max(self._pressed_at, self._reached_at) < DOUBT:
-            return "sent", ""
-        if not math.isnan(self._taken_at):
-            return "no_answer", "It took STOP and does not say that it rests."
-        return "no_answer", self._refusal or "It does not answer; STOP is sent again and again."
-
-    def _latched(self, status: ControlStatus) -> tuple[str, str]:
-        if status.at_rest:
-            return "stopped", f"Pressed by {status.stopped_by}." if status.stopped_by else ""
-        if self._now() - self._moves_since < COMES_TO_REST:
-            return "sent", "STOP is pressed; it comes to rest."
-        return "moves", "STOP is pressed, and it does not come to rest."
-
-    def _unreached(self) -> tuple[str, str]:
-        if not math.isnan(self._lost_at):
-            ago = silence(self._now() - self._lost_at)
-            return "no_answer", f"STOPPED when it was last heard, {ago} ago. {self._why}"
-        hopeless = self._phase is Phase.CLOSED and self._why  # such an address can never work
-        if not hopeless and self._now() - self._pressed_at < DOUBT:
-            return "sent", ""
-        return "no_answer", self._why
+        verdict = self._stopping.verdict
+        return verdict.phase, verdict.sentence

@@ -16,7 +16,7 @@ from bridge.msgs.std_msgs import Time
 from robotside.assignments import Assignments, words_for
 from robotside.bus import Publish
 from robotside.commands import Refusal
-from robotside.database import NotRecorded, Records
+from robotside.database import Job, NotRecorded, Records
 from robotside.database.plans import MOST_QUEUED
 from robotside.events import Say
 from robotside.schedule import Turn, fault, following, turns
@@ -71,13 +71,10 @@ class Agenda:
         return self._records.setting(_MANUAL)
 
     def stay_manual(self, name: str) -> bool:
-        """`name` chose MANUAL: start nothing until `allow`, over restarts too. False when that was so already.
-
-        NotRecorded when it cannot be kept.
-        """
+        """`name` chose MANUAL: start nothing until `allow`, over restarts too. False when that was so already."""
         if self.manual_by:
             return False
-        self._records.set_setting(_MANUAL, name)
+        self._records.note_setting(_MANUAL, name)
         self._say("control", f"{name} set the mode to MANUAL: nothing starts by itself until it is AUTO.")
         self.hold(self._by_hand())
         return True
@@ -86,16 +83,20 @@ class Agenda:
         """Somebody had the robot drive itself; False when nothing kept it from that."""
         if not self.manual_by:
             return False
-        self._records.set_setting(_MANUAL, "")
+        self._records.note_setting(_MANUAL, "")  # a fact, as the motion is that follows
         return True
 
     _settled = 0
     """The task that does not hold the queue, however it ended."""
+    _held_under = 0
+    """The task that was under way when the queue was parked; 0 for none."""
 
     def step(self, now: float) -> None:
         """Look what is due at `now` [s, robot clock]; call it often."""
         if now < self._next:
             return
+        if self._records.undecided("queue", "schedule"):
+            return  # what may be taken back yet sets nothing going
         self._next = now + PERIOD
         for turn in turns(self._records.schedule.all(), self._civil(), self._zone):
             self._records.schedule.note(turn.task)
@@ -107,7 +108,21 @@ class Agenda:
         """Have the queue wait until somebody says so; `why` ends a sentence. Nothing happens when it is empty."""
         if self._records.queue.current.orders and not self.held:
             self.held = why
+            self._held_under = self._engine.status.task_id if self._engine.active else 0
             self._tell_held()
+
+    def taken_up(self) -> None:
+        """The task under way goes on: so does what was parked together with it, and nothing from before it."""
+        if self.held and self._engine.active and self._held_under == self._engine.status.task_id:
+            self.release()
+
+    @property
+    def parked(self) -> str:
+        """What waits until somebody has the queue go on, as a sentence; empty when nothing does."""
+        count = len(self._records.queue.current.orders)
+        if not self.held or not count:
+            return ""
+        return f"{_counted(count)} from before {'waits' if count == 1 else 'wait'} in the queue until told to go on."
 
     def release(self) -> bool:
         """Have the queue go on; False when it did not wait."""
@@ -115,21 +130,32 @@ class Agenda:
         self._settled = self._engine.status.task_id
         return was and bool(self._records.queue.current.orders)
 
-    def set_queue(self, orders: Sequence[TaskOrder], revision: int) -> TaskQueue:
-        """Replace what waits. Refusal when one of them cannot be done, NotRecorded when it has changed meanwhile."""
+    def set_queue(self, orders: Sequence[TaskOrder], revision: int) -> tuple[TaskQueue, str]:
+        """Replace what waits; returns it, and why it does not go on by itself, as the end of a sentence, empty when it does.
+
+        Refusal when one of them cannot be done, NotRecorded when the queue has changed meanwhile.
+        """
         tidy = []
         for number, order in enumerate(orders[:MOST_QUEUED], 1):
             try:
                 tidy.append(self._assignments.task(order).order)
             except Refusal as problem:
                 raise Refusal(f"Task {number} of the queue: {problem}") from problem
-        empty = not self._records.queue.current.orders
-        queue = self._records.queue.set([*tidy, *orders[MOST_QUEUED:]], revision)
-        if empty or not orders:
+        fresh = not (orders and self._records.queue.current.orders)
+        with self._records.together() as job:
+            queue = self._records.queue.set([*tidy, *orders[MOST_QUEUED:]], revision)
+            why = self._against(queue.orders, fresh=fresh)
+            job.then.append(lambda: self._taken_over(job, fresh=fresh))
+        return queue, why
+
+    def _taken_over(self, job: Job, *, fresh: bool) -> None:
+        """The queue is on the disk as it was set, a `fresh` one that waits for nothing or one that was edited."""
+        if job.given_up:
+            self.hold("it was stored too late")
+        elif fresh:
             self.release()
         if self.manual_by:
             self.hold(self._by_hand())
-        return queue
 
     def set_scheduled(self, task: ScheduledTask) -> ScheduledTask:
         """Keep a scheduled task with the time of its next start. Refusal or NotRecorded says what is wrong with it."""
@@ -151,19 +177,30 @@ class Agenda:
     def _go_on(self, now: float) -> None:
         if self.held or self._engine.interrupted:
             return
-        if self.manual_by:
-            self.hold(self._by_hand())
-            return
-        if self._engine.status.state == "CANCELED" and self._engine.status.task_id != self._settled:
-            self.hold("the task before it was canceled")
-            return
-        barred = self._barred(_drains(self._records.queue.current.orders[0]))
-        if barred:
-            self.hold(f"{barred[0].lower()}{barred[1:].rstrip('.')}")
+        why = self._against(self._records.queue.current.orders)
+        if why:
+            self.hold(why)
             return
         order = self._records.queue.take()
         if order is not None:
             self._start(order, now, f"{_title(order)} of the queue is left out")
+
+    def _against(self, orders: Sequence[TaskOrder], *, fresh: bool = False) -> str:
+        """Why `orders` would not go on just now, as the end of a sentence; empty when they would, or after the task that runs.
+
+        A `fresh` queue does not wait for what an older one waits for.
+        """
+        status = self._engine.status
+        if self._by_hand() or (self.held and not fresh):
+            return self._by_hand() or self.held
+        if self._engine.interrupted:
+            return "the task before the restart is neither resumed nor discarded"
+        if self._engine.active or not orders:
+            return ""
+        if status.state == "CANCELED" and status.task_id != self._settled and not fresh:
+            return "the task before it was canceled"
+        barred = self._barred(_drains(orders[0]))
+        return _tail(barred)
 
     def _start(self, order: TaskOrder, now: float, otherwise: str) -> None:
         try:
@@ -194,12 +231,20 @@ class Agenda:
             self._start(order, now, f"{title} now is skipped")
 
     def _wait(self, order: TaskOrder, title: str) -> None:
-        try:
-            self._records.queue.add(order)
-        except NotRecorded as problem:
-            self._skip(title, f"now is skipped: {problem}")
+        with self._records.together() as job:
+            try:
+                self._records.queue.add(order)
+            except NotRecorded as problem:
+                self._skip(title, f"now is skipped: {problem}")
+                return
+            job.after.append(lambda: self._waits(job, title))
+
+    def _waits(self, job: Job, title: str) -> None:
+        if job.problem:
+            self._skip(title, f"now is skipped: {job.problem}")
             return
-        self._say("task", f"{title} now waits in the queue for its turn.", "info")
+        until = f"; it waits, since {self.held}" if self.held else ""
+        self._say("task", f"{title} now waits in the queue for its turn{until}.", "info")
 
     def _by_hand(self) -> str:
         """Who wants that nothing starts by itself, as the end of a sentence; empty when nobody does."""
@@ -224,8 +269,11 @@ class Agenda:
 
     def _tell_held(self) -> None:
         count = len(self._records.queue.current.orders)
-        tasks = "1 task waits" if count == 1 else f"{count} tasks wait"
-        self._say("task", f"{tasks} in the queue, since {self.held}; resume goes on with them.", "warn")
+        these, still = ("this", "waits") if count == 1 else ("these", "wait")
+        said = (
+            f"{_counted(count)} {still} in the queue, since {self.held}, until you choose Go on with {these}."
+        )
+        self._say("task", said, "warn")
 
     def _show_queue(self) -> None:
         stamp = Time.at(self._clock())
@@ -235,9 +283,23 @@ class Agenda:
         self._publish("/schedule", Schedule(Time.at(self._clock()), self._records.schedule.stored()))
 
 
+def _tail(why: str) -> str:
+    """A reason as the end of a sentence, whether it is one itself or not."""
+    first = why.partition(" ")[0]
+    return (why if first.isupper() and len(first) > 1 else f"{why[:1].lower()}{why[1:]}").rstrip(".")
+
+
 def _drains(order: TaskOrder) -> bool:
     """It takes the robot elsewhere than to where it can be charged."""
     return order.task != "hold" and order.task not in TO_CHARGE
+
+
+def _counted(count: int) -> str:
+    return "1 task" if count == 1 else f"{count} tasks"
+
+
+def _counted(count: int) -> str:
+    return "1 task" if count == 1 else f"{count} tasks"
 
 
 def _title(order: TaskOrder) -> str:

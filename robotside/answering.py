@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable
 from typing import Any
 
+from msgspec.structs import replace
+
 from bridge.codec import to_json
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from bridge.server import Service, Session
@@ -18,6 +20,9 @@ __all__ = ["Action", "Answering"]
 
 PATIENCE = 10.0
 """How long an answer waits for the disk [s]."""
+
+UNKEPT = "A restart would not know of it."
+"""Said of what was done and is not on the disk."""
 
 Action = Callable[[Operator, Any], str | CommandResponse]
 """Does it and returns the sentence of success or the whole answer; raises Refusal or NotRecorded."""
@@ -78,7 +83,7 @@ class Answering:
         """Answer at once if nobody has to wait; a command that is sent again waits with the first one."""
         job = self._unwritten.get(key, job)
         if job.done:
-            return self._judged(key, answer, job.problem)
+            return self._judged(key, answer, job)
         if not job.binding:
             return answer
         if key[2]:
@@ -86,17 +91,21 @@ class Answering:
         return self._when_kept(key, answer, job)
 
     async def _when_kept(self, key: _Key, answer: CommandResponse, job: Job) -> CommandResponse:
-        problem = await job.kept(PATIENCE)
+        await job.kept(PATIENCE)
         if job.done:
             self._unwritten.pop(key, None)
-        return self._judged(key, answer, problem)
+        return self._judged(key, answer, job)
 
-    def _judged(self, key: _Key, answer: CommandResponse, problem: str) -> CommandResponse:
-        if not problem or not answer.success:
+    def _judged(self, key: _Key, answer: CommandResponse, job: Job) -> CommandResponse:
+        """What was asked to be kept is refused when it is not; what was done all the same says that it is not kept."""
+        if not (job.trouble and job.binding and answer.success):
             return answer
-        refused = type(answer)(False, problem)
-        self._commands.amend(*key, refused)
-        return refused
+        if job.orders:
+            judged = type(answer)(False, job.trouble)
+        else:
+            judged = replace(answer, message=f"{answer.message} {UNKEPT} {job.trouble}")
+        self._commands.amend(*key, judged)
+        return judged
 
 
 def _done(action: Action, client: Operator, asked: CommandRequest) -> str | CommandResponse:

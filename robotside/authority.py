@@ -10,7 +10,7 @@ from typing import Protocol
 
 from robotside.words import number, plain
 
-__all__ = ["AGAIN", "LAPSE", "SILENT", "TO_OBJECT", "Asker", "Authority", "Driver", "Operator"]
+__all__ = ["AGAIN", "LAPSE", "REMEMBERED", "SILENT", "TO_OBJECT", "Asker", "Authority", "Driver", "Operator"]
 
 LAPSE = 2.0
 """Control is free again when its driver was not heard for this long [s]."""
@@ -30,7 +30,10 @@ LONGEST_NAME = 40
 LONGEST_ID = 64
 """Characters kept of a client's id."""
 
-_REFUSED = 64
+_CALLED = 256
+"""Of as many ids it is remembered what they are called."""
+
+REMEMBERED = 64
 """As many objections are remembered."""
 
 
@@ -76,6 +79,8 @@ class Authority:
         self._driver: Driver | None = None
         self._asker: Asker | None = None
         self._names: dict[str, tuple[str, str]] = {}
+        self._called: dict[str, tuple[str, str]] = {}
+        """What an id wants to be called and what it is called, the one that was heard last at the end."""
         self._fell = ""
         self._refused: dict[tuple[str, str], float] = {}
 
@@ -90,10 +95,27 @@ class Authority:
         return self._asker
 
     def introduce(self, client: Operator, client_id: str, name: str) -> None:
-        """Remember what `client` calls itself, cut to a readable line; empty words change nothing."""
+        """Remember what `client` calls itself, cut to a readable line; empty words change nothing.
+
+        The second id of a name is called `name (2)`.
+        """
         client_id, name = plain(client_id, LONGEST_ID), plain(name, LONGEST_NAME)
         known_id, known_name = self._identity(client)
-        self._names[client.id] = (client_id or known_id, name or known_name)
+        client_id, name = client_id or known_id, name or known_name
+        own = client_id != client.id  # else there is nothing to tell it by the next time
+        self._names[client.id] = (client_id, self._apart(client_id, name) if own else name)
+
+    def _apart(self, client_id: str, name: str) -> str:
+        """`name`, with a number behind it where another id is called so: one id is called the same each time."""
+        asked, given = self._called.pop(client_id, ("", ""))
+        if asked != name:
+            taken = {one for _, one in self._called.values()}
+            numbered = (f"{name[: LONGEST_NAME - 6]} ({number})" for number in range(2, _CALLED + 3))
+            given = next(one for one in (name, *numbered) if one not in taken)
+        self._called[client_id] = name, given
+        while len(self._called) > _CALLED:
+            del self._called[next(iter(self._called))]
+        return given
 
     def knows(self, client: Operator) -> bool:
         """`client` has introduced itself and is still connected."""
@@ -180,7 +202,7 @@ class Authority:
         if problem or self._driver is None or self._asker is None:
             return problem
         self._refused[self._driver.client_id, self._asker.client_id] = now + AGAIN
-        while len(self._refused) > _REFUSED:
+        while len(self._refused) > REMEMBERED:
             del self._refused[next(iter(self._refused))]
         self._asker = None
         return ""

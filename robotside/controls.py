@@ -30,6 +30,9 @@ __all__ = [
 
 STOP_SENTENCE = "STOP is pressed; hold Release to drive again."
 
+SOMEBODY = "somebody"
+"""Who pressed STOP without a name."""
+
 
 @dataclass(frozen=True, slots=True)
 class Ruling:
@@ -56,6 +59,7 @@ class Controls(Authority):
         self._giver: Operator | None = None
         self.pace = Pace()
         """How fast the driver's link lets it go."""
+        self._stopped = False
         self.stopped_by = ""
         """Who pressed STOP; empty when it is not pressed."""
         self.dropped = 0
@@ -64,7 +68,7 @@ class Controls(Authority):
     @property
     def stopped(self) -> bool:
         """STOP is latched."""
-        return bool(self.stopped_by)
+        return self._stopped
 
     @property
     def driving(self) -> bool:
@@ -83,12 +87,13 @@ class Controls(Authority):
 
     def stop(self, name: str) -> None:
         """Latch STOP; from anyone, any time. A stick that is held meanwhile has to come to rest before it counts."""
-        self.stopped_by = self.stopped_by or name
+        if not self._stopped:
+            self._stopped, self.stopped_by = True, name or SOMEBODY
         self.halt()
 
     def release_stop(self) -> None:
         """Unlatch STOP; nothing moves by that alone."""
-        self.stopped_by = ""
+        self._stopped, self.stopped_by = False, ""
 
     def drive(
         self,
@@ -114,7 +119,7 @@ class Controls(Authority):
             said = trouble or self._refusal(client, now, counts)
             if not said:
                 self._sticks.obey(client.id, now)
-                self._giver, self._until = client, min(given, now) + HELD
+                self._giver, self._until = client, self._expiry.given(client, now, stamp) + HELD
                 self.look(now)
                 return Ruling(self._limited(twist))
             self._sticks.void(client.id)

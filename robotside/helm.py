@@ -25,9 +25,12 @@ class Options:
     """The settings that an operator may switch: those kept, else those of the configuration."""
 
     def __init__(
-        self, settings: ControlSettings, kept: Callable[[str], str], keep: Callable[[str, str], None]
+        self,
+        settings: ControlSettings,
+        kept: Callable[[str], str],
+        keep: Callable[[str, str, Callable[[], object]], None],
     ) -> None:
-        """`kept` gives what is kept under a name, empty for nothing; `keep` keeps it, NotRecorded when it cannot."""
+        """`kept` gives what is kept under a name, empty for nothing; `keep` keeps it and calls what it is given then."""
         self._kept, self._keep = kept, keep
         self._usual = {
             FOLLOW_LINK: settings.follow_link,
@@ -39,13 +42,13 @@ class Options:
         value = self._kept(name)
         return value == "on" if value else self._usual[name]
 
-    def set(self, name: str, value: str) -> None:
-        """Switch one; Refusal for what does not exist."""
+    def set(self, name: str, value: str, then: Callable[[], object]) -> None:
+        """Switch one, and call `then` once that is kept; Refusal for what does not exist."""
         if name not in self._usual:
             raise Refusal(f"There is no setting {name!r}; there are {', '.join(self._usual)}.")
         if value not in ("on", "off"):
             raise Refusal(f"{name} is on or off, not {value!r}.")
-        self._keep(name, value)
+        self._keep(name, value, then)
 
 
 class Helm:

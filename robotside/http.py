@@ -97,7 +97,11 @@ def _stop(station: Station, request: Request) -> tuple[str, int]:
     station.press_stop(who)
     station.show_control()
     doubt = station.stop_doubt
-    return (f"STOP is pressed, but {doubt[:1].lower()}{doubt[1:]}\n", 503) if doubt else ("Stopped.\n", 200)
+    return (
+        (f"STOP is pressed, but {doubt[:1].lower()}{doubt[1:]}\n", 503)
+        if doubt
+        else (f"Stopped. {station.stop_unkept}".strip() + "\n", 200)
+    )
 
 
 def _health(station: Station) -> dict[str, object]:

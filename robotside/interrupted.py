@@ -20,7 +20,7 @@ class Interrupted:
         """Offer it."""
         self._cut, self._engine = cut, engine
         run = cut.run
-        offer = "resume to go on, cancel to discard it"
+        offer = "choose Resume to go on, or Discard"
         said = f"The robot's computer restarted in the middle of {words_for(run.order.task)}; {offer}."
         engine.offer(
             TaskStatus(

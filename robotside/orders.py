@@ -86,7 +86,7 @@ class _Orders:
         doubt = self._station.stop_doubt
         if doubt:
             raise Refusal(f"STOP is pressed, but {doubt[0].lower()}{doubt[1:]}")
-        return "Stopped."
+        return f"Stopped. {self._station.stop_unkept}".strip()
 
     def release_stop(self, client: Operator, _: CommandRequest) -> str:
         """Unlatch STOP."""
@@ -98,14 +98,14 @@ class _Orders:
 
     def set_mission(self, client: Operator, asked: SetMissionRequest) -> str:
         """Check a mission and store it."""
-        self._permits.may_change(client)
+        self._permits.may_set_off(client, self._station.autonomy.patrols_mission)
         self._store(asked.mission)
         count = len(asked.mission.waypoints)
         return f"Stored {count} {'point' if count == 1 else 'points'}{self._later(asked.mission)}."
 
     def recall(self, client: Operator, asked: RecallMissionRequest) -> str:
         """Make a kept mission the stored one, as if it was set anew."""
-        self._permits.may_change(client)
+        self._permits.may_set_off(client, self._station.autonomy.patrols_mission)
         mission = self._station.records.missions.recall(asked.name)
         self._store(mission)
         return f"{mission.name} is the mission now{self._later(mission)}."

@@ -22,7 +22,7 @@ RISE = 0.5
 """The share grows by so much in a second: a link that has just come back may go again [1/s]."""
 
 STEP = 0.05
-"""What is shown is a multiple of this, so that it does not change with every ping."""
+"""What is shown is a multiple of this, as CRAWL is, so that it does not change with every ping."""
 
 
 def share(rtt: float) -> float:
@@ -44,7 +44,7 @@ class Pace:
     @property
     def shown(self) -> float:
         """The share as it is told, never more than it is."""
-        return 1.0 if self.share >= 1.0 else max(CRAWL, math.floor(self.share / STEP + 1e-9) * STEP)
+        return 1.0 if self.share >= 1.0 else math.floor(self.share / STEP + 1e-9) * STEP
 
     def look(self, rtt: float, now: float) -> None:
         """The driver's round trip is `rtt` [s] now; NaN when it is not known or nobody drives."""

@@ -30,6 +30,13 @@ class Permits:
         if problem:
             raise Refusal(problem)
 
+    def may_set_off(self, client: Operator, moves: bool) -> None:
+        """`client` may change what the robot will do by itself: it takes control when that `moves` the robot."""
+        if moves:
+            self.need_control(client)
+        else:
+            self.may_change(client)
+
     def may_move(self, client: Operator) -> None:
         """`client` may have the robot move by itself, and it can."""
         if self._station.controls.stopped:

@@ -43,6 +43,7 @@ from robotside.guarded import Guarded
 from robotside.helm import FOLLOW_LINK, LOST_LINK_STOPS_TASK, Helm, Options
 from robotside.history import History
 from robotside.interrupted import Interrupted
+from robotside.latch import Latch
 from robotside.limits import Keeper
 from robotside.pose2 import Pose2
 from robotside.readiness import Readiness
@@ -100,6 +101,7 @@ class Station:
         self.records = records
         """What it keeps while it is switched off."""
         self.events = Events(records.events, clock, lambda event: self.bus.publish("/events", event))
+        self._latch = Latch(records, self.events.say)
         self.readiness = Readiness(clock, self.bus.publish)
         """What is looked through before the first motion."""
         self._next_remark: dict[str, float] = {}
@@ -131,6 +133,7 @@ class Station:
     _next_diagnostics = -math.inf
     _held = False
     _ending = False
+    _unheard = ""
     _next_fault = -math.inf
     _trouble = ""
 
@@ -169,12 +172,22 @@ class Station:
 
     def press_stop(self, name: str) -> None:
         """Latch STOP, bring the robot to rest and hold the task; `name` pressed it."""
-        self.robot.stop() if self._ending else self.robot.press_stop()
-        if not self.controls.stopped:
+        fresh = not self.controls.stopped
+        self.controls.stop(name)  # before all that may fail
+        self._unheard = ""
+        self._press(self.robot.stop if self._ending else self.robot.press_stop)
+        if fresh:
             self.events.say("stop", f"STOP pressed by {name}.", "alarm")
-        self.controls.stop(name)
         self.readiness.stop_pressed()
-        self.autonomy.engine.pause(f"Stopped by {name}.", "alarm")
+        self._press(lambda: self.autonomy.engine.pause(f"Stopped by {name}.", "alarm"))
+        self._note()
+
+    def _press(self, act: Callable[[], None]) -> None:
+        try:
+            act()
+        except Exception as fault:
+            log.exception("The robot's port failed at STOP")
+            self._unheard = f"The robot's port failed: {fault!r}."
 
     def release_stop(self, name: str) -> None:
         """Unlatch STOP; the robot stays where it is."""
@@ -241,7 +254,12 @@ class Station:
     @property
     def stop_doubt(self) -> str:
         """Why a STOP that is pressed may not have reached the robot, as one sentence; empty when it has."""
-        return "" if self.at_rest else self.robot.trouble
+        return "" if self.at_rest else self._unheard or self.robot.trouble
+
+    @property
+    def stop_unkept(self) -> str:
+        """Why a STOP that is pressed would be gone after a restart, as one sentence; empty when it would not."""
+        return self._latch.doubt
 
     def end(self) -> None:
         """Brake, end the task and obey nobody any more: the robot side is about to go."""
@@ -303,7 +321,7 @@ class Station:
     def _note(self) -> None:
         """Note whether STOP is pressed; its own STOP at the end is not a person's."""
         if not self._ending:
-            self.records.note_stop(self.controls.stopped_by)
+            self._latch.note(self.controls.stopped_by)
 
     def _pass_on(self, messages: Iterable[tuple[str, Msg]]) -> None:
         for topic, msg in messages:
@@ -343,7 +361,7 @@ class Station:
             self.autonomy.engine.fail(said)
 
     def _place(self, client: Operator, pose: Pose2) -> None:
-        problem = self.controls.objection(client)
+        problem = self.controls.acquire(client, self.clock())  # tasks and the fence go by where it is
         if not all(map(math.isfinite, pose)):
             problem = "The pose to place the robot at is not all numbers."
         problem = problem or self.mapless

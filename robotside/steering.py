@@ -98,8 +98,11 @@ class _Steering:
         problem = station.controls.objection(client)
         if problem:
             raise Refusal(problem)
-        station.options.set(asked.name, asked.value)
+        said, by = _SAID.get((asked.name, asked.value), ""), station.controls.name(client)
+        station.options.set(
+            asked.name,
+            asked.value,
+            lambda: station.events.say("control", f"{said[:-1]}, says {by}."),
+        )
         station.controls.look(station.clock())
-        said = _SAID[asked.name, asked.value]
-        station.events.say("control", f"{said[:-1]}, says {station.controls.name(client)}.")
         return said

@@ -23,6 +23,7 @@ from robotside.commands import Refusal
 from robotside.controls import Operator
 from robotside.permits import Permits
 from robotside.station import Station
+from robotside.tasks import Task
 
 __all__ = ["TaskOrders", "task_services"]
 
@@ -65,10 +66,7 @@ class TaskOrders:
         permits.charged(task)
         self._begin()
         self._engine.start(task, station.now)
-        course = task.course
-        if task.name == "patrol":
-            return f"Patrol started: {course.count} {'point' if course.count == 1 else 'points'}, {course.motion}."
-        return f"{task.title} started."
+        return " ".join(part for part in (_started(task), station.agenda.parked) if part)
 
     def run(self, client: Operator, asked: RunTaskGoal) -> str:
         """Start a task that is the only one."""
@@ -107,9 +105,10 @@ class TaskOrders:
             self._permits.charged(task)
             self._begin()
             station.interrupted.resume(task, station.now)
-            return "Resumed."
+            return f"Resumed. {station.agenda.parked}".strip()
         if engine.paused:
             self._begin()
+            station.agenda.taken_up()
             engine.resume()
             return "Resumed."
         if station.agenda.release():
@@ -139,16 +138,19 @@ class TaskOrders:
 
     def set_queue(self, client: Operator, asked: SetQueueRequest) -> str:
         """Replace what comes after the task that runs."""
-        self._permits.may_change(client)
+        self._permits.may_set_off(client, bool(asked.orders))
         self._permits.has_map()
-        agenda = self._station.agenda
-        count = len(agenda.set_queue(asked.orders, asked.revision).orders)
-        waits = f"; it waits, since {agenda.held}" if agenda.held and count else ""
-        return f"{count} {'task waits' if count == 1 else 'tasks wait'} in the queue{waits}."
+        queue, why = self._station.agenda.set_queue(asked.orders, asked.revision)
+        count, then = len(queue.orders), ""
+        if count and why:
+            then = f"; it waits, since {why}"
+        elif count and not self._engine.active:
+            then = "; it begins now" if count == 1 else "; the first one begins now"
+        return f"{count} {'task waits' if count == 1 else 'tasks wait'} in the queue{then}."
 
     def set_scheduled(self, client: Operator, asked: SetScheduleRequest) -> SetScheduleResponse:
         """Keep a scheduled task."""
-        self._permits.may_change(client)
+        self._permits.may_set_off(client, asked.task.enabled)
         self._permits.has_map()
         agenda = self._station.agenda
         task = agenda.set_scheduled(asked.task)
@@ -163,7 +165,15 @@ class TaskOrders:
         return f"The schedule has {words_for(task.order.task)} no more."
 
     def _begin(self) -> None:
-        """The robot drives itself from now on, and the queue goes on behind it."""
+        """The robot drives itself from now on. A queue that was said to wait until told goes on waiting for that."""
         self._station.controls.hold()
         self._station.agenda.allow()
-        self._station.agenda.release()
+
+
+def _started(task: Task) -> str:
+    course = task.course
+    if task.name == "patrol":
+        return (
+            f"Patrol started: {course.count} {'point' if course.count == 1 else 'points'}, {course.motion}."
+        )
+    return f"{task.title} started."

@@ -151,9 +151,9 @@ class Engine:
     def pause(self, reason: str, level: str = "info") -> None:
         """Hold the running task where it is; `reason` is one sentence."""
         if self.running:
-            self._guide.rest()
             self._tell("PAUSED", reason)
             self._say("task", reason, level)
+            self._guide.rest()  # last: the robot may fail to obey, and the task is held all the same
 
     def resume(self) -> None:
         """Go on with the paused task, from wherever the robot is now."""

@@ -28,6 +28,8 @@ STATES = ("never", "live", "stale", "alarm", "disabled")
 VEIL = {"never": 0.0, "live": 0.0, "stale": 0.55, "alarm": 0.0, "disabled": 0.62}
 """How much of a widget is hidden in each state, 0 to 1."""
 
+BIG = 150.0
+"""What is higher has room in itself for its age [dp]."""
 SMALLEST = 10.0
 """No type is made smaller than this to fit [sp]."""
 
@@ -76,7 +78,7 @@ def age_text(age: float) -> str:
     if math.isnan(age):
         return ""
     if age < 60:
-        return f"{age:.0f} s old" if age >= 1 else "under 1 s old"
+        return f"{age:.0f} s old" if age >= 1 else "< 1 s old"
     return f"{age / 60:.0f} min old" if age < 3600 else f"{age / 3600:.0f} h old"
 
 
@@ -148,10 +150,11 @@ class RobotWidget(Widget):
 
     def _badge_pos(self) -> tuple[float, float]:
         width, height = self.badge_size
-        low = self.y + dp(8) if self.height > dp(90) else self.center_y - height / 2
+        low = self.y + dp(8) if self.height > dp(BIG) else self.y - height / 2
         return self.center_x - width / 2, low
 
     badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "pos", "size"], cache=True)
+    """Low in what is big, else on the lower edge and half outside, where it lies over no figure."""
 
     def _badge_text_pos(self) -> tuple[float, float]:
         return self.badge_pos[0] + dp(8), self.badge_pos[1] + dp(3)

@@ -85,7 +85,7 @@ class HandoverCard(NoticeCard):
             self.said = "It goes over by itself, unless you keep it."
         if self.sent:
             self.said = "Sent …"
-        elif self.tiny:
+        elif self.tiny and self.part == "asking":
             self.said = ""
         for part, row in self._rows.items():
             if (part == self.part) != (row.parent is self):

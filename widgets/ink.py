@@ -52,6 +52,7 @@ varying vec2 local;
 varying vec4 form;
 varying vec4 ink;
 uniform float strength;
+uniform float seen;
 float dashed(float along, float across, float half_width, float period, float half_dash) {
     float from_middle = abs(mod(along, period) - period * 0.5);
     return half_width - length(vec2(max(from_middle - half_dash, 0.0), across));
@@ -75,7 +76,7 @@ void main() {
         float side = local.x * form.z - abs(local.y) * form.w;
         inside = min(form.y - length(local), side);
     }
-    gl_FragColor = vec4(ink.rgb, ink.a * strength * clamp(inside + 0.5, 0.0, 1.0));
+    gl_FragColor = vec4(ink.rgb, ink.a * strength * seen * clamp(inside + 0.5, 0.0, 1.0));
 }
 """
 
@@ -107,7 +108,7 @@ class Ink(RenderContext):
 
     def __init__(self) -> None:
         super().__init__(vs=VERTEX, fs=FRAGMENT, use_parent_projection=True, use_parent_modelview=True)
-        self["strength"] = 1.0
+        self["strength"] = self["seen"] = 1.0
         self._mesh = Mesh(fmt=FORMAT, mode="triangles")
         self.add(self._mesh)
 
@@ -121,6 +122,10 @@ class Ink(RenderContext):
     def fade(self, strength: float) -> None:
         """Multiply the opacity of all shapes by `strength`, 0 to 1."""
         self["strength"] = float(strength)
+
+    def see(self, opacity: float) -> None:
+        """Follow the opacity of the widget, 0 to 1: Kivy keeps that from whoever has a shader of its own."""
+        self["seen"] = float(opacity)
 
 
 @dataclass(slots=True)
@@ -186,6 +191,14 @@ class Words:
         rectangle.pos = round(word.x - width * word.anchor[0]), round(word.y - height * word.anchor[1])
 
 
+def _see(group: InstructionGroup, opacity: float) -> None:
+    for part in group.children:
+        if isinstance(part, Ink):
+            part.see(opacity)
+        elif isinstance(part, InstructionGroup):
+            _see(part, opacity)
+
+
 class Drawing(RobotWidget):
     """A robot widget that draws itself anew, once before the next frame, when something it shows has changed.
 
@@ -200,13 +213,18 @@ class Drawing(RobotWidget):
         super().__init__(**kwargs)
         for name in ("pos", "size", "state", *self.drawn_from):
             self.fbind(name, self.redraw)
+        self.fbind("opacity", self._on_opacity)
         theme.bind(name=self._on_theme, gloves=self._on_theme)
         self.redraw()
 
     def _on_theme(self, *_: object) -> None:
         self.redraw()
 
+    def _on_opacity(self, *_: object) -> None:
+        _see(self.canvas, self.opacity)
+
     def _draw_now(self, *_: object) -> None:
+        self._on_opacity()
         if self.width > 1 and self.height > 1:
             self.draw()
 

@@ -19,6 +19,7 @@ from kivy.uix.widget import Widget
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
 from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray
 from bridge.msgs.std_msgs import Header, Time
+from widgets.base import age_text
 from widgets.gauge import first_fitting, wide
 from widgets.icons import icon
 from widgets.ink import Drawing, Ink, Word, Words
@@ -40,7 +41,7 @@ class IntruderBadge(Drawing):
 
     accepts: ClassVar = (IntruderArray,)
     veiled: ClassVar = False
-    drawn_from: ClassVar = ("count", "away", "angle", "ago", "to_right")
+    drawn_from: ClassVar = ("count", "away", "angle", "ago", "age", "to_right")
 
     count = NumericProperty(-1)
     """Intruders known; -1 before the robot said so."""
@@ -53,10 +54,10 @@ class IntruderBadge(Drawing):
     to_right = BooleanProperty(False)
 
     def _fresh(self) -> bool:
-        return self.count > 0 and (math.isnan(self.ago) or self.ago < FRESH)
+        return self.state != "stale" and self.count > 0 and (math.isnan(self.ago) or self.ago < FRESH)
 
-    fresh = AliasProperty(_fresh, bind=["count", "ago"], cache=True)
-    """The last one was found just now."""
+    fresh = AliasProperty(_fresh, bind=["state", "count", "ago"], cache=True)
+    """The last one was found just now, as far as is known now."""
 
     def __init__(self, **kwargs: Any) -> None:
         self._ink, self._words = Ink(), Words()
@@ -113,8 +114,10 @@ class IntruderBadge(Drawing):
             return ()
         away = away_text(self.away) if math.isfinite(self.away) else ""
         side, ago = side_text(self.angle), ago_text(self.ago)
+        if self.state == "stale":
+            ago = age_text(self.age)
         parts = [part for part in (away, side, ago) if part]
-        brief = [part for part in (away, ago.removesuffix(" ago")) if part]
+        brief = [part for part in (away, ago.removesuffix(" ago").removesuffix(" old")) if part]
         whole = " · ".join(parts)
         if not parts:
             return ("how far is not known", "not known")
@@ -127,7 +130,8 @@ class IntruderBadge(Drawing):
         self._ink.draw(shapes)
 
     def _quiet(self, shapes: Shapes) -> Iterator[Word]:
-        text, size = self.counted(), sp(12.5)
+        old = age_text(self.age) if self.state == "stale" else ""
+        text, size = " · ".join(part for part in (self.counted(), old) if part), sp(12.5)
         width = wide(text, size) + dp(38)
         left, y = self._ground(shapes, width, dp(30), "glass"), self.top - dp(15)
         yield Word(icon("visibility"), left + dp(16), y, sp(15), theme.muted, font=theme.icons)
@@ -139,7 +143,7 @@ class IntruderBadge(Drawing):
         second = first_fitting(self.details(), small, room)
         width = max(wide(self.counted(), first, bold=True), wide(second, small)) + dp(54)
         left = self._ground(shapes, min(width, self.width), self.height, "danger" if self.fresh else "glass")
-        ink = theme.ink_danger if self.fresh else theme.text
+        ink = theme.ink_danger if self.fresh else theme.muted if self.state == "stale" else theme.text
         if math.isfinite(self.angle):
             shapes.polygon(arrow(left + dp(22), self.center_y, self.angle + AHEAD, dp(24)), ink)
         else:
@@ -156,7 +160,8 @@ class IntruderBadge(Drawing):
         round_ = min(float(dp(11)), height / 2)
         y = self.top - height / 2
         fill = theme.danger if role == "danger" else theme.glass
-        rim = theme.danger if role == "danger" else theme.warn if self.count > 0 else theme.line
+        found = theme.warn if self.count > 0 and self.state != "stale" else theme.line
+        rim = theme.danger if role == "danger" else found
         for inset, colour in ((0.0, rim), (float(dp(1.5)), fill if role == "danger" else theme.surface)):
             self._bar(shapes, (left + inset, y, left + width - inset), height - 2 * inset, round_, colour)
         return left
@@ -213,4 +218,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "lost": made(*two, state="live", known=False),
         "phone": made(*two, state="live", size=(200, 46)),
         "narrow": made(*two, state="live", size=(148, 46)),
+        "stale": made(*two, state="stale", age=8.2),
+        "stale phone": made(*two, state="stale", age=8.2, size=(200, 46)),
+        "stale none": made(state="stale", age=8.2),
     }

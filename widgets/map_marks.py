@@ -151,20 +151,23 @@ def intruder_marks(
     *,
     box: tuple[float, float, float, float],
     taken: Sequence[tuple[float, float]] = (),
+    faded: bool = False,
 ) -> Iterator[Word]:
-    """A red triangle in a dashed circle, with a word on a ground of its own beside it.
+    """A red triangle in a dashed circle, with a word on a ground of its own beside it; grey where it is `faded`.
 
     The word stands on a side where it is inside `box` (x, y, width, height) [px] and off the marks at `taken` [px].
     """
+    colour = theme.muted if faded else theme.danger
     places = [view.to_screen(x, y) for x, y, _ in intruders]
     for (px, py), (_, _, label) in zip(places, intruders, strict=True):
         shapes.disc(px, py, size * 1.3, tint(theme.bg, 0.6))
-        shapes.disc(px, py, size * 1.3, tint(theme.danger, 0.14))
-        shapes.ring(px, py, size * 1.3, dp(2.6), theme.danger, dashes=16)
+        shapes.disc(px, py, size * 1.3, tint(colour, 0.14))
+        shapes.ring(px, py, size * 1.3, dp(2.6), colour, dashes=16)
         half, low, high = size * 0.62, size * 0.6, size * 0.75
-        shapes.polygon([(px, py + high), (px - half, py - low), (px + half, py - low)], theme.danger)
+        shapes.polygon([(px, py + high), (px - half, py - low), (px + half, py - low)], colour)
         others = [*taken, *(place for place in places if place != (px, py))]
         word = _beside((px, py), label, size, box, others)
+        word.colour = colour
         ground(shapes, word, tint(theme.bg, 0.85))
         yield word
 

@@ -356,8 +356,9 @@ class MapOverlay(MapGestures, Drawing):
         marked += [self.robot[:2]] if self.located else []
         taken = [self.view.to_screen(*place[:2]) for place in marked]
         yield from marks.intruder_marks(
-            shapes, self.view, self.intruders, self.mark_radius, box=self.free_box, taken=taken
-        )
+            shapes, self.view, self.intruders, self.mark_radius, box=self.free_box, taken=taken,
+            faded=self.state == "stale",
+        )  # fmt: skip
 
     def _robot_disc(self) -> float:
         return max(self.mark_radius * 1.1, self.robot_radius * self.view.scale)

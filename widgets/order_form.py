@@ -13,7 +13,14 @@ from collections.abc import Callable
 from typing import Any
 
 from kivy.lang import Builder
-from kivy.properties import AliasProperty, ListProperty, NumericProperty, ObjectProperty, StringProperty
+from kivy.properties import (
+    AliasProperty,
+    BooleanProperty,
+    ListProperty,
+    NumericProperty,
+    ObjectProperty,
+    StringProperty,
+)
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
@@ -104,6 +111,8 @@ class OrderForm(Control, BoxLayout):
     """What the robot can do [m/s]."""
     mission = ObjectProperty(Mission())
     """Where a patrol goes when no places are named."""
+    follows = BooleanProperty(True)
+    """The robot can tell whether somebody follows it."""
     picking = StringProperty("")
     """The field that a place is being chosen for; empty for none."""
 
@@ -129,9 +138,9 @@ class OrderForm(Control, BoxLayout):
     """What is asked for so far."""
 
     def _sentence(self) -> str:
-        return will(self.order, self.mission)
+        return will(self.order, self.mission, follows=self.follows)
 
-    sentence = AliasProperty(_sentence, bind=["order", "mission"])
+    sentence = AliasProperty(_sentence, bind=["order", "mission", "follows"])
     """What will happen, or what is still lacking."""
 
     def _complete(self) -> bool:
@@ -381,6 +390,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "deliver": make(TaskOrder(task="deliver", places=["Office 12", "Lab"], message="For Ms. Weber")),
         "deliver empty": make(TaskOrder(task="deliver")),
         "guide": make(TaskOrder(task="guide", places=["Reception", "Lab"])),
+        "guide blind": make(TaskOrder(task="guide", places=["Lab"]), follows=False),
         "heading": make(TaskOrder(task="follow_heading", heading=math.pi / 2, duration=120.0)),
         "hold": make(TaskOrder(task="hold")),
         "dock": make(TaskOrder(task="dock")),

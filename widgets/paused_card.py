@@ -26,12 +26,14 @@ class PausedCard(NoticeCard):
     accepts = (TaskStatus,)
 
     name = StringProperty("")
-    """What the robot calls this handheld in its sentences."""
+    """What the robot calls this handheld in its sentences; empty while that is not known."""
     held = BooleanProperty(False)
     """The stick is pushed: nothing can be resumed under it."""
 
     def __init__(self, **kwargs: Any) -> None:
+        self._why = ""
         super().__init__(icon="pause_fill", role="warn", **kwargs)
+        self.fbind("name", self._tell)
         self.resume = self.add_beside("Resume", "play_arrow")
         self.resume.bind(on_release=lambda _: self.dispatch("on_command", "resume"))
         self.cross = self.add_close()
@@ -45,10 +47,13 @@ class PausedCard(NoticeCard):
         if not self.open:
             return
         self.headline = f"{title(TaskOrder(task=msg.task, places=list(msg.places)))} is paused"
-        why = msg.reason.removeprefix("Paused: ")
-        mine = f"{self.name} took the stick."
-        self.said = "You took the stick." if self.name and why == mine else why
+        self._why = msg.reason.removeprefix("Paused: ")
+        self._tell()
         self.resume.meaning = self.headline
+
+    def _tell(self, *_: object) -> None:
+        mine = bool(self.name) and self._why == f"{self.name} took the stick."
+        self.said = "You took the stick." if mine else self._why
 
     def _block(self, *_: object) -> None:
         self.resume.disabled = self.held or self.blocked

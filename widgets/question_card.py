@@ -170,7 +170,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         task="deliver",
         state="INTERRUPTED",
         places=["Office 12", "Lab"],
-        reason="The robot's computer restarted in the middle of a delivery; resume to go on, cancel to discard it.",
+        reason="The robot's computer restarted in the middle of a delivery; choose Resume to go on, or Discard.",
     )
 
     def make(status: TaskStatus, why: str = "", **kwargs: Any) -> Callable[[], Widget]:

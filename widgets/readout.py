@@ -11,13 +11,14 @@ from collections.abc import Callable
 from typing import Any
 
 from kivy.lang import Builder
+from kivy.metrics import dp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
-from widgets.base import RobotWidget, age_text, text_texture
+from widgets.base import RobotWidget, age_text, fitting_size, text_texture
 from widgets.labels import spaced
 from widgets.theme import theme
 
@@ -39,6 +40,7 @@ Builder.load_string("""
         width: self.texture_size[0] if root.fitted else self.width
         size_hint_x: None if root.fitted else 1
         role: 'danger' if root.state == 'alarm' else 'muted'
+        font_size: root.headed[1]
     BoxLayout:
         id: row
         size_hint: None, None
@@ -50,6 +52,15 @@ Builder.load_string("""
             role: root.role
             font_size: root.font_size
             unit_size: max(sp(13), root.font_size * .56)
+        Label:
+            text: root.aged
+            font_name: theme.font
+            font_size: sp(12)
+            color: theme.muted
+            disabled_color: self.color
+            size_hint: None, None
+            size: (self.texture_size if root.aged else (0, 0))
+            pos_hint: {'center_y': .5}
         Icon:
             name: 'warning'
             role: 'danger'
@@ -125,20 +136,39 @@ class Readout(RobotWidget, BoxLayout):
     unit_after = AliasProperty(_unit_after, bind=["unit"], cache=True)
     """The unit where it stands apart from the figure; a degree sign belongs to it."""
 
-    def _heading(self) -> str:
+    def _headed(self) -> tuple[str, float]:
         old = age_text(self.age) if self.state == "stale" else ""
         if not old:
-            return self.name
+            return self.name, theme.size_label
         whole, brief = f"{self.name} · {old}", f"{self.name} {old.removesuffix(' old')}"
-        if self.fitted:
-            return whole
-        return next((text for text in (whole, brief) if self._fits(text)), old)
+        if self.fitted or self._wide(whole) <= self.width:
+            return whole, theme.size_label
+        size = fitting_size([spaced(brief)], theme.size_label, self.width - dp(2))
+        if self._wide(brief, size) <= self.width:
+            return brief, size
+        return self.name, theme.size_label
 
-    def _fits(self, heading: str) -> bool:
-        return text_texture(spaced(heading), theme.size_label, theme.font).width <= self.width
+    def _wide(self, heading: str, size: float | None = None) -> float:
+        return float(text_texture(spaced(heading), size or theme.size_label, theme.font).width)
 
-    heading = AliasProperty(_heading, bind=["name", "state", "age", "fitted", "width"], cache=True)
-    """The name, and how old the value is where that must be said; the age alone where there is no room for both."""
+    headed = AliasProperty(_headed, bind=["name", "state", "age", "fitted", "width"], cache=True)
+    """The name, and how old the value is where that must be said and there is room for both; and the size of its type [px]."""
+
+    def _heading(self) -> str:
+        return self.headed[0]
+
+    heading = AliasProperty(_heading, bind=["headed"], cache=True)
+    """As in `headed`."""
+
+    def _aged(self) -> str:
+        return (
+            age_text(self.age).removesuffix(" old")
+            if self.state == "stale" and self.heading == self.name
+            else ""
+        )
+
+    aged = AliasProperty(_aged, bind=["state", "age", "heading", "name"], cache=True)
+    """How old the value is where the name leaves no room for that: it stands behind the unit."""
 
     def _role(self) -> str:
         return {"live": "text", "alarm": "danger"}.get(self.state, "muted")

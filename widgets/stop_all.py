@@ -19,6 +19,10 @@ from widgets.base import Control, fitting_size
 
 __all__ = ["StopAll"]
 
+LEAST = 14.0
+"""Smallest type that anything is written in [sp]; a note that would need a smaller one is left out."""
+LINE = 1.25
+"""Height of a line of type in its size."""
 TIGHT = 1.5
 """Narrower than so many heights its word goes on two lines."""
 
@@ -62,11 +66,11 @@ Builder.load_string("""
         Label:
             text: root.note
             font_name: theme.font
-            font_size: root.note_size
+            font_size: sp(14)
             color: theme.roles[root.ink if root.filled else 'text']
             disabled_color: self.color
             size_hint: None, None
-            size: self.texture_size
+            size: self.texture_size if root.note else (0, 0)
             pos_hint: {'center_x': .5}
 """)
 
@@ -112,25 +116,22 @@ class StopAll(Control, AnchorLayout):
     word = AliasProperty(_word, bind=["active", "stopped", "total", "tight"], cache=True)
 
     def _note(self) -> str:
-        if self.active:
-            return "STOPPED"
-        return f"{self.robots} robot{'' if self.robots == 1 else 's'}"
+        note = "STOPPED" if self.active else f"{self.robots} robot{'' if self.robots == 1 else 's'}"
+        across = fitting_size([note], sp(LEAST), self.width - dp(8)) >= sp(LEAST)
+        lines = 2 if self.tight and not self.active else 1
+        below = self.height - lines * self.word_size * LINE >= sp(LEAST) * LINE
+        return note if across and below else ""
 
-    note = AliasProperty(_note, bind=["active", "robots"], cache=True)
+    note = AliasProperty(_note, bind=["active", "robots", "size", "word_size"], cache=True)
+    """Below the word, where there is room for it."""
 
     def _word_size(self) -> float:
         lines = 2 if self.tight and not self.active else 1
-        most = min(self.height * (0.36 if lines == 1 else 0.24), sp(26))
-        return fitting_size(self.word.split("\n"), most, self.width - dp(14), bold=True)
+        most = max(min(self.height * (0.36 if lines == 1 else 0.24), sp(26)), sp(LEAST))
+        return fitting_size(self.word.split("\n"), most, self.width - dp(6), bold=True)
 
     word_size = AliasProperty(_word_size, bind=["size", "word", "tight", "active"], cache=True)
     """Height of the type [px]."""
-
-    def _note_size(self) -> float:
-        return fitting_size([self.note], min(sp(14), self.height * 0.24), self.width - dp(10))
-
-    note_size = AliasProperty(_note_size, bind=["size", "note"], cache=True)
-    """Height of the note's type [px]."""
 
     def on_touch_down(self, touch: Any) -> bool:
         """Command at once."""
@@ -161,7 +162,12 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "waiting": {"robots": 3, "active": True, "stopped": 2, "total": 3},
         "stopped": {"robots": 3, "active": True, "stopped": 3, "total": 3},
     }
-    shapes = {"": ("240dp", "64dp"), " narrow": ("56dp", "106dp"), " flat": ("111dp", "54dp")}
+    shapes = {
+        "": ("240dp", "64dp"),
+        " narrow": ("54dp", "68dp"),
+        " side": ("84dp", "76dp"),
+        " flat": ("111dp", "54dp"),
+    }
     found = {
         f"{state}{shape}": make(*size, **kwargs)
         for state, kwargs in states.items()

@@ -12,7 +12,7 @@ from typing import Any
 from kivy.clock import Clock
 from kivy.lang import Builder
 from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.widget import Widget
 
@@ -28,18 +28,28 @@ LONG_HOLD = 3.0
 
 ROOMY = 130
 """Lower than this it has the icon beside the word while it says a sentence [dp]."""
-LEAST = 12.5
-"""Smallest type that a sentence is written in [sp]."""
+LOW = 72
+"""Lower than this its word is smaller, so that two lines fit below it [dp]."""
+WORDY = 110
+"""Smaller than a square with this side it says only what can be done, and not how long ago something was [dp]."""
+LEAST = 14.0
+"""Smallest type that anything is written in [sp]."""
 
 PHASES = {
     "ready": ("STOP", "", "pan_tool_fill"),
     "sent": ("STOP", "sent, not confirmed", "pan_tool_fill"),
     "stopped": ("STOPPED", "hold to release", "lock"),
+    "moves": ("STOP", "pressed, and it still moves", "warning"),
     "no_answer": ("STOP", "no answer, sending again", "signal_disconnected"),
+    "lost": ("STOP", "no link, was STOPPED", "signal_disconnected"),
 }
 """Phase to its word, its sentence and its icon."""
-LOCAL = {"sent": "zero speed is sent", "no_answer": "not confirmed · hold 3 s to release"}
-"""Sentences of a STOP that this handheld alone holds, where they are others."""
+LOCAL = {
+    "sent": "zero speed is sent",
+    "moves": "still moves · hold 3 s to release",
+    "no_answer": "not confirmed · hold 3 s to release",
+}
+"""Sentences of a STOP that this handheld alone holds, or that is pressed and not obeyed, where they are others."""
 
 Builder.load_string("""
 <StopButton>:
@@ -117,19 +127,26 @@ class StopButton(Control, AnchorLayout):
     __events__ = ("on_release_stop",)
 
     phase = OptionProperty("ready", options=list(PHASES))
-    """`ready`; `sent`, not confirmed; `stopped`, confirmed and latched; `no_answer`, sent and not confirmed in time."""
+    """`ready`; `sent`, not confirmed; `stopped`, confirmed and latched; `moves`, latched and not at rest in time;
+    `no_answer`, sent and not confirmed in time; `lost`, stopped when the link was lost: nobody knows whether it still is."""
     local = BooleanProperty(False)
     """It is latched, or the robot has no STOP of its own: a hold releases it even while it is not confirmed."""
+    ago = StringProperty("")
+    """How long ago the link was lost, as in `8 s`; for `lost`."""
     held = NumericProperty(0.0)
     """How much of the hold that releases is over, 0 to 1."""
     pressed = NumericProperty(0)
     """Fingers on it."""
 
     def _sentence(self) -> str:
-        usual = PHASES[self.phase][1]
-        return LOCAL.get(self.phase, usual) if self.local else usual
+        sentence = PHASES[self.phase][1]
+        if self.local:
+            sentence = LOCAL.get(self.phase, sentence)
+        if self.width * self.height < dp(WORDY) * dp(WORDY):
+            return sentence.rpartition(" · ")[2]
+        return f"{sentence} {self.ago} ago" if self.phase == "lost" and self.ago else sentence
 
-    sentence = AliasProperty(_sentence, bind=["phase", "local"], cache=True)
+    sentence = AliasProperty(_sentence, bind=["phase", "local", "ago", "size"], cache=True)
 
     def _icon(self) -> str:
         return PHASES[self.phase][2]
@@ -157,13 +174,14 @@ class StopButton(Control, AnchorLayout):
     def _word_size(self) -> float:
         width, height = self.size
         across = width / (5.2 if self.upright else 6.4) * (0.78 if self.phase == "stopped" else 1.0)
-        return min(across, height * (0.23 if self.upright else 0.36))
+        low = bool(self.sentence) and height < dp(LOW)
+        return max(min(across, height * (0.23 if self.upright else 0.27 if low else 0.36)), sp(LEAST))
 
-    word_size = AliasProperty(_word_size, bind=["size", "phase", "upright"], cache=True)
+    word_size = AliasProperty(_word_size, bind=["size", "phase", "upright", "sentence"], cache=True)
     """Height of the type [px]."""
 
     def _sentence_size(self) -> float:
-        return max(min(self.word_size * 0.55, self.width / 16), sp(LEAST + 1.5 * self.upright))
+        return max(min(self.word_size * 0.55, self.width / 16), sp(LEAST))
 
     sentence_size = AliasProperty(_sentence_size, bind=["word_size", "size", "upright"], cache=True)
     """Height of the sentence's type [px]; it goes on two lines where it is too long."""
@@ -196,7 +214,7 @@ class StopButton(Control, AnchorLayout):
             return False
         touch.grab(self)
         self.pressed += 1
-        unanswered = self.local and self.phase == "no_answer"
+        unanswered = self.local and self.phase in ("no_answer", "moves")
         if self.phase == "stopped" or unanswered:
             self._holding()
         if self.phase != "stopped":
@@ -220,13 +238,18 @@ def samples() -> dict[str, Callable[[], Widget]]:
     def make(width: str, height: str, **kwargs: Any) -> Callable[[], Widget]:
         return lambda: StopButton(size_hint=(None, None), size=(width, height), **kwargs)
 
-    wide = {phase: make("329dp", "76dp", phase=phase) for phase in PHASES}
-    square = {f"{phase} square": make("210dp", "180dp", phase=phase) for phase in PHASES}
+    wide = {phase: make("329dp", "76dp", phase=phase, ago="8 s") for phase in PHASES}
+    square = {f"{phase} square": make("210dp", "180dp", phase=phase, ago="8 s") for phase in PHASES}
     return {
         **wide,
         **square,
         "phone stopped": make("112dp", "172dp", phase="stopped"),
         "phone no answer": make("112dp", "172dp", phase="no_answer"),
+        "phone lost": make("112dp", "172dp", phase="lost", ago="8 s"),
+        "phone moves": make("177dp", "118dp", phase="moves", local=True),
+        "small lost": make("128dp", "68dp", phase="lost", ago="8 s"),
+        "small latched": make("128dp", "68dp", phase="stopped"),
+        "small local no answer": make("128dp", "68dp", phase="no_answer", local=True),
         "small sent": make("160dp", "64dp", phase="sent"),
         "small": make("160dp", "64dp"),
         "local sent": make("329dp", "76dp", phase="sent", local=True),

@@ -31,11 +31,12 @@ WORDS = {
     "stopped": ("STOPPED", "ok", "lock"),
     "moves": ("MOVES", "danger", "warning"),
     "no_answer": ("NO ANSWER", "danger", "signal_disconnected"),
+    "lost": ("NO ANSWER", "danger", "signal_disconnected"),
     "released": ("RELEASED", "muted", "lock_open"),
 }
 """What became of a robot's STOP to its word, the role of that, and its icon."""
 
-_WORST = ("moves", "no_answer", "sent", "released", "stopped")
+_WORST = ("moves", "no_answer", "lost", "sent", "released", "stopped")
 
 Builder.load_string("""
 <StopRow>:

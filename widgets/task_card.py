@@ -57,7 +57,7 @@ Builder.load_string("""
             text: root.title
             bold: True
             font_size: sp(17)
-            shorten: True
+            shorten: root.brief
             shorten_from: 'right'
             pos_hint: {'center_y': .5}
         Chip:
@@ -155,7 +155,7 @@ class TaskCard(RobotWidget, BoxLayout):
     """What it does just now in one word: the phase, else the state."""
 
     def _reason(self) -> str:
-        return self.status.reason or ("" if self.active else "No task runs.")
+        return self.status.reason or ("" if self.active else "Choose one and start it.")
 
     reason = AliasProperty(_reason, bind=["status"], cache=True)
     progress = NumericProperty(math.nan)
@@ -165,11 +165,12 @@ class TaskCard(RobotWidget, BoxLayout):
     def show(self, msg: Msg) -> None:
         """Take over a status or the progress of its task."""
         if isinstance(msg, TaskStatus):
-            if msg.task_id != self.status.task_id:
-                self.told = None
+            if msg.task_id != self.status.task_id or msg.state == "INTERRUPTED":
+                self.told = None  # what was cut short drives a part of it once more
             self.status = msg
         elif isinstance(msg, TaskProgress):
-            self.told = msg if msg.task_id == self.status.task_id else self.told
+            counts = msg.task_id == self.status.task_id and self.status.state != "INTERRUPTED"
+            self.told = msg if counts else self.told
         else:
             super().show(msg)
         running = self.active and self.told is not None
@@ -193,6 +194,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     patrol = {"task": "patrol", "waypoint": 3, "waypoints": 6, "lap": 1, "laps": 3}
     told = TaskProgress(task_id=4, progress=0.38, distance_to_next=7.4, time_left=190.0, distance_driven=21.0)
     why = "Canceled by tablet-B."
+    cut = "The robot's computer restarted in the middle of a patrol; choose Resume to go on, or Discard."
 
     def make(status: TaskStatus, *progress: TaskProgress, **kwargs: Any) -> Callable[[], Widget]:
         def build() -> Widget:
@@ -208,6 +210,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "patrol": make(TaskStatus(task_id=4, state="RUNNING", reason="Driving to point 3.", **patrol), told),
         "brief": make(runs, told, brief=True),
         "paused": make(TaskStatus(task_id=4, state="PAUSED", reason="Paused by tablet-B.", **patrol), told),
+        "cut short": make(TaskStatus(task_id=4, state="INTERRUPTED", reason=cut, **patrol), told),
         "canceled": make(TaskStatus(task_id=4, task="guide", state="CANCELED", reason=why)),
         "none": make(TaskStatus()),
         "stale": make(runs, told, state="stale", age=8.0),

@@ -133,15 +133,18 @@ def lacking(order: TaskOrder, mission: Mission | None = None) -> str:
     return "" if order.task in TASKS else "Choose a task."
 
 
-def will(order: TaskOrder, mission: Mission | None = None) -> str:
-    """What will happen when the order is given, as a sentence or two; what is lacking when it cannot be given."""
+def will(order: TaskOrder, mission: Mission | None = None, *, follows: bool = True) -> str:
+    """What will happen when the order is given, as a sentence or two; what is lacking when it cannot be given.
+
+    `follows`: the robot can tell whether somebody follows it.
+    """
     missing = lacking(order, mission)
     if missing:
         return missing
     says = {"patrol": lambda: _patrols(order, mission or Mission())}
     says |= {
         "deliver": lambda: _delivers(order),
-        "guide": lambda: _guides(order),
+        "guide": lambda: _guides(order, follows),
         "dock": lambda: _docks(order),
     }
     if order.task in says:
@@ -178,8 +181,11 @@ def _delivers(order: TaskOrder) -> str:
     return f"Fetches at {start}, brings it to {end}; waits at each for {who}.{after}"
 
 
-def _guides(order: TaskOrder) -> str:
+def _guides(order: TaskOrder, follows: bool) -> str:
     names = [place for place in order.places if place]
+    if not follows:
+        blind = "Does not wait: nothing on this robot tells whether somebody follows."
+        return f"Leads a person to {_listed(names)} and tells what is there. {blind}"
     return f"Leads a person to {_listed(names)}, waits when nobody follows, and tells what is there."
 
 

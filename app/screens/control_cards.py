@@ -33,8 +33,9 @@ class ControlCards:
 
     def __init__(self, session: Session, notices: Notices, dashboard: Dashboard, say: Say) -> None:
         self._session, self._notices, self._say = session, notices, say
+        self._unknown = False
         self.handover = HandoverCard(me=session.client_id)
-        self.mode, self.paused, self.cap = ModeCard(), PausedCard(name=session.client_name), SpeedCap()
+        self.mode, self.paused, self.cap = ModeCard(), PausedCard(), SpeedCap()
         self._closed = self._pause_asked = False
         for card in (self.handover, self.mode, self.cap):
             dashboard.bind(card, "/control/status", fresh=False)
@@ -44,10 +45,11 @@ class ControlCards:
         self.paused.bind(on_command=lambda _, name: self._resume(name))
         self.cap.bind(on_command=lambda _, value: session.command("setting", name="follow_link", value=value))
         session.authority.on_news = self._tell
+        session.authority.on_past = lambda: notices.unsay(ABOUT)
 
     def close(self) -> None:
         """Hear of control no longer."""
-        self._session.authority.on_news = lambda *_: None
+        self._session.authority.on_news = self._session.authority.on_past = lambda *_: None
 
     def ask_mode(self) -> None:
         """Open the choice of the mode, or close it."""
@@ -70,10 +72,14 @@ class ControlCards:
     def tick(self, screen: str) -> None:
         """Bring up to date what time and the link change; `screen` is on the glass."""
         session, authority = self._session, self._session.authority
-        other = authority.who == "other"
+        other, unknown = authority.who == "other", authority.who == "unknown"
+        if unknown and not self._unknown:
+            self._notices.unsay(ABOUT)
+        self._unknown = unknown
         self.handover.left = authority.left
         self._tick_mode(other=other)
         self.paused.held = session.link.driving
+        self.paused.name = session.own_name.known
         self.cap.rtt = session.link.rtt
         self.cap.driver = authority.status.driver if other else ""
         self.cap.blocked = other

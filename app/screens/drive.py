@@ -22,7 +22,7 @@ from app.layout import Instrument, Layout, LayoutError
 from app.link import OFFER
 from app.offer import POSE
 from app.screens.check_card import CheckCard
-from app.screens.placing import put
+from app.screens.placing import AWAY, put
 from app.screens.senses import Senses
 from app.screens.sight import Sight
 from app.screens.speed_card import SpeedCard, allowed
@@ -50,6 +50,9 @@ class DriveScreen(FloatLayout):
     def __init__(self, layout: Layout, **kwargs: Any) -> None:
         """`layout` says which instruments sit where; LayoutError when one cannot show its topic."""
         super().__init__(**kwargs)
+        self._arranged: dict[str, Rect] = {}
+        self._cover: Rect | None = None
+        self._strip = Rect(0, 0, 0, 0)
         self.dashboard = Dashboard(self.session.feeds)
         self.video = Video(fit="cover", corner=0)
         self.stick = Joystick()
@@ -68,14 +71,13 @@ class DriveScreen(FloatLayout):
         self.add_widget(self.senses)
         self.low = BoxLayout(orientation="vertical", spacing="8dp", size_hint=(None, None))
         """For cards that hold on until they are dealt with, each with a height of its own; they grow upwards."""
-        self.low.bind(minimum_height=self.low.setter("height"))
+        self.low.bind(minimum_height=self.low.setter("height"), height=self._uncover)
         self.add_widget(self.low)
         self.checks = CheckCard(self.session, self.dashboard, brief=True, pos_hint={"center_x": 0.5})
         self.low.add_widget(self.checks)
         self.dashboard.bind(self.video, "/detections", fresh=False, empty=Detection2DArray())
         self._limited = False
         self._tall = False
-        self._arranged: dict[str, Rect] = {}
 
     def _build_instruments(self, layout: Layout) -> None:
         readouts = [one for one in layout.instruments if one.slot == "readouts"]
@@ -167,7 +169,7 @@ class DriveScreen(FloatLayout):
         self.notice, low = places["notice"], places["notice_low"]
         self.low.pos, self.low.width, self.low.height = (low.x, low.y), low.width, self.low.minimum_height
         self.checks.wide, self.checks.room = min(low.width, 340 * dp), places["top"].y - 8 * dp - low.y
-        self.senses.place(places["senses"], places["senses_open"])
+        self._strip = Rect(0, 0, 0, 0)
         self._uncover()
         self.sight.place(places["badge"], to_right=form != "wide")
         chip = places["badge" if form == "wide" else "top"].y
@@ -175,13 +177,32 @@ class DriveScreen(FloatLayout):
         self.video.insets = [self.notice.x - 8 * dp - body.x, 0, aside, body.top - chip]
         return places["stop"]
 
+    def clear(self, cover: Rect | None) -> None:
+        """Take away what would be seen only in part behind what is said over the screen."""
+        self._cover = cover
+        self._uncover()
+
     def _uncover(self, *_: object) -> None:
-        """What lies under the unfolded sensors is not seen, not even at its corners."""
-        lid = self._arranged.get("senses_open")
-        covers = lid is not None and self.senses.covers
-        for slot in ("top_left", "top_right", "readouts"):
+        """What lies under the unfolded sensors, or under what is said, is not seen, not even at its corners."""
+        if not self._arranged:
+            return
+        lids = [self._cover] if self._cover is not None else []
+        if self.senses.covers:
+            lids.append(self._arranged["senses_open"])
+        for slot in ("top_left", "top_right", "readouts", "top"):
+            hidden = any(lid.overlaps(self._arranged[slot]) for lid in lids)
             for widget in self.places.get(slot, ()):
-                widget.opacity = 0 if covers and lid.overlaps(self._arranged[slot]) else 1
+                widget.opacity = 0 if hidden else 1
+        low, cover = self.low, self._cover
+        under = cover is not None and cover.overlaps(Rect(*low.pos, *low.size))
+        low.opacity, low.disabled = float(not under), under
+        self.sight.covered = cover is not None and cover.overlaps(self._arranged["badge"])
+        strip = self._arranged["senses"]
+        if cover is not None and cover.overlaps(strip) and self.senses.folded:
+            strip = Rect(AWAY, strip.y, strip.width, strip.height)
+        if strip != self._strip:
+            self._strip = strip
+            self.senses.place(strip, self._arranged["senses_open"])
 
     def _trim(self, roomy: bool) -> None:
         """A phone has room for two figures."""
@@ -225,7 +246,7 @@ class DriveScreen(FloatLayout):
         self.checks.tick()
         session = self.session
         self.stick.state = "live" if session.may_drive else "disabled"
-        mine = session.connected and session.control != "other"
+        mine = session.may_ask
         held = session.stop_latched
         self.ids.home.disabled = held or not mine or not session.offers("/task/go_home")
         status = session.feeds.latest("/task/status")

@@ -35,6 +35,9 @@ from widgets.kit import IconButton
 
 __all__ = ["MissionScreen"]
 
+SCALE = 64.0
+"""Height that scale and legend take up at the foot of the map [dp]."""
+
 Builder.load_string("""
 <MissionScreen>:
     FloatLayout:
@@ -92,6 +95,7 @@ class MissionScreen(FloatLayout):
         self.corner = BoxLayout(orientation="vertical", spacing="8dp", size_hint=(None, None))
         """Over the map: what is selected and the check list, one above the other."""
         self._form, self._body, self._dp = "wide", Rect(0, 0, 1, 1), 1.0
+        self._cover: Rect | None = None
         self._settle_soon = Clock.create_trigger(self._settle, -1)
         self._build()
         self._bind_map()
@@ -240,8 +244,18 @@ class MissionScreen(FloatLayout):
         covers = self.checks.unfolded and self.checks.parent is corner
         covers = covers or (self.selection.trouble and self.selection.parent is corner)
         area.foot = 0 if wide or not corner.height else math.nan if covers else max(0, corner.top - low)
+        covered, begins = self._cover, low + (area.foot if math.isfinite(area.foot) else 0)
+        foot = Rect(area.x, begins, area.width, SCALE * self._dp)
+        if covered is not None and covered.overlaps(foot):
+            area.foot = math.nan
         up = bool(self.sheet) and self._form == "tall"
+        up = up or (covered is not None and covered.overlaps(Rect(*corner.pos, *corner.size)))
         corner.opacity, corner.disabled = float(not up), up
+
+    def clear(self, cover: Rect | None) -> None:
+        """Take away what would be seen only in part behind what is said over the map."""
+        self._cover = cover
+        self._settle()
 
     def _place_tasks(self, rect: Rect | None) -> None:
         """On a phone the task's buttons, or what stands for them, are beside STOP; elsewhere in the panel."""

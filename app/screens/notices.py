@@ -11,6 +11,7 @@ from kivy.metrics import Metrics
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
+from app.arrange import Rect
 from widgets.kit import ActionToast, Toast
 
 __all__ = ["BRIEF", "LONG", "Notices"]
@@ -35,14 +36,19 @@ class Notices(BoxLayout):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._said = ""
+        self._cover: tuple[Any, Rect | None] = (None, None)
 
     def place(self, screen: Any) -> None:
-        """Stand in the room that `screen` leaves, and tell its video what is covered."""
+        """Stand in the room that `screen` leaves, and let it clear away what would be seen only in part."""
         room = screen.notice
         self.width = min(WIDEST * Metrics.density, room.width)
         # what is too much for its room goes up, never down over what can be touched
-        low = max(room.y, room.top - self.height)
+        low = max(room.y, min(room.top, screen.top) - self.height)
         self.pos = (room.x + (room.width - self.width) / 2, low)
+        cover = Rect(self.x, low, self.width, self.height) if self.children else None
+        if (screen, cover) != self._cover:
+            self._cover = screen, cover
+            screen.clear(cover)
         if screen.video is not None:
             screen.video.below = low if self.children else math.inf
 

@@ -123,11 +123,12 @@ class NowList(BoxLayout):
         status: TaskStatus = session.feeds.latest("/task/status") or TaskStatus()
         self.may, self.held = may, session.stop_latched
         self.active = status.state in ("RUNNING", "PAUSED", "INTERRUPTED")
-        waiting = bool(session.tasking.queue.orders) and not self.active
+        count = len(session.tasking.queue.orders)
+        waiting = count > 0 and not self.active
         self.main = {"RUNNING": "pause", "PAUSED": "resume", "INTERRUPTED": "resume"}.get(
             status.state, "resume" if waiting else ""
         )
         self.main_words = {"pause": "Pause", "": "Pause"}.get(
-            self.main, "Go on with these" if waiting else "Resume"
+            self.main, ("Go on with this" if count == 1 else "Go on with these") if waiting else "Resume"
         )
         self.queue.state = "live" if may else "disabled"

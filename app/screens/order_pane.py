@@ -10,12 +10,12 @@ from kivy.properties import AliasProperty, BooleanProperty, ObjectProperty, Stri
 from kivy.uix.boxlayout import BoxLayout
 
 from app.session import Session
-from bridge.msgs.pilothouse_msgs import ScheduledTask, TaskOrder
+from bridge.msgs.pilothouse_msgs import ScheduledTask, TaskOrder, TaskStatus
 from widgets import OrderForm, TaskChooser, WhenPicker
 from widgets.kit import IconButton, ListRow, Roll, Segmented
-from widgets.task_words import TASKS, rhythm
+from widgets.task_words import TASKS, rhythm, title
 
-__all__ = ["OrderPane"]
+__all__ = ["OrderPane", "why_not_now"]
 
 EVENING = ScheduledTask(at="22:00")
 """What a new scheduled task begins with."""
@@ -45,8 +45,8 @@ Builder.load_string("""
         height: max(dp(34), said.height + dp(8))
         spacing: dp(10)
         Icon:
-            name: 'block' if root.refused else 'info' if root.complete else 'help'
-            role: 'danger' if root.refused else 'plan' if root.complete else 'muted'
+            name: 'block' if root.refused else 'hourglass_top' if root.held_up else 'info' if root.complete else 'help'
+            role: 'danger' if root.refused else 'warn' if root.held_up else 'plan' if root.complete else 'muted'
             pos_hint: {'center_y': .5}
         Text:
             id: said
@@ -55,6 +55,26 @@ Builder.load_string("""
             role: 'text' if root.complete else 'muted'
             pos_hint: {'center_y': .5}
 """)
+
+
+def why_not_now(session: Session, *, timed: bool = False) -> str:
+    """Why a whole order cannot be given just now, as a sentence; empty when it can, and of a `timed` one sooner."""
+    if not session.connected:
+        return "Not now: there is no link to the robot."
+    if session.control == "other":
+        return f"Not now: {session.authority.status.driver} has control; ask for it first."
+    status: TaskStatus | None = session.feeds.latest("/task/status")
+    if timed:
+        return ""
+    if session.stop_latched:
+        return "Not now: STOP is pressed; hold it to release."
+    if session.running and status is not None:
+        name = title(TaskOrder(task=status.task, places=list(status.places)))
+        stands = "is paused" if status.state == "PAUSED" else "runs"
+        return f"Not now: {name} {stands}; end it first, or add this to the queue."
+    if status is not None and status.state == "INTERRUPTED":
+        return "Start discards the task that was cut short."
+    return ""
 
 
 class OrderPane(BoxLayout):
@@ -75,6 +95,8 @@ class OrderPane(BoxLayout):
     complete = BooleanProperty(False)
     refused = BooleanProperty(False)
     """The sentence says why the robot would not take it; it can be asked all the same."""
+    held_up = BooleanProperty(False)
+    """The sentence says what it has to wait for."""
 
     __events__ = ("on_close",)
 
@@ -171,6 +193,7 @@ class OrderPane(BoxLayout):
 
     def tell(self) -> None:
         """Say what will happen."""
+        self.form.follows = self._session.feeds.latest("/following") is not None
         sentence, complete = self.form.sentence, self.form.complete
         if self.scheduled is not None and complete:
             days = not self.when.task.at or any(self.when.task.days)
@@ -180,8 +203,9 @@ class OrderPane(BoxLayout):
         if complete and self.unsent:
             sentence += UNSENT
         refused = self._session.refusals.order(self.order, self._session.mission.draft) if complete else ""
-        self.refused = bool(refused)
-        self.sentence, self.complete = refused or sentence, complete
+        why = why_not_now(self._session, timed=self.scheduled is not None) if complete else ""
+        self.refused, self.held_up = bool(refused), bool(why)
+        self.sentence, self.complete = f"{refused or sentence} {why}".strip(), complete
 
     def _lay(self, *_: object) -> None:
         head, body = self.ids.head.__self__, self.ids.body

@@ -15,7 +15,7 @@ from app import arrange
 from app.commands import Outcome
 from app.dashboard import Dashboard
 from app.feeds import Post
-from app.link import EVENT, OFFER, OUTCOME
+from app.link import EVENT, LINK, OFFER, OUTCOME
 from app.screens import standing
 from app.screens.control_cards import ControlCards
 from app.screens.notices import BRIEF, LONG, Notices
@@ -23,11 +23,16 @@ from app.screens.placing import put
 from app.screens.rail import Rail
 from app.screens.top_bar import TopBar
 from app.session import Session
+from app.stopping import silence
+from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets import QuestionCard, StopButton
 from widgets.kit import Banner
 from widgets.theme import theme
 
 __all__ = ["Shell"]
+
+STANDING = ("/control/status", "/task/status", "/robot/info", LINK, OFFER)
+"""Channels that tell how the robot stands."""
 
 Builder.load_string("""
 <Shell>:
@@ -54,13 +59,13 @@ class Shell(FloatLayout):
     """Name of the screen on the glass, as in `screens`."""
     recording = BooleanProperty(False)
     shares_stop = BooleanProperty(False)
-    """STOP leaves a part of its room to STOP ALL."""
+    """STOP ALL is in STOP's corner as well."""
 
     def __init__(self, screens: dict[str, Any], **kwargs: Any) -> None:
         """`screens` are the screens by name, each with `arrange`, `enter`, `leave`, `tick` and `rest`."""
         super().__init__(**kwargs)
         self.screens = screens
-        self.stop_room = arrange.Rect(0, 0, 1, 1)
+        self.stop_place = arrange.StopPlace(0, 0, 1, 1)
         """Where STOP is, alone or together with STOP ALL [px]."""
         self._build_frame()
         self._banner = Banner(level="danger")
@@ -70,6 +75,8 @@ class Shell(FloatLayout):
         for widget in (self._banner, self._stop_banner, self.question, self.notices):
             widget.bind(height=self._place_notices)
         self._greeted = ""
+        self._stands: object = None
+        """What was last said of the robot, as of `_look`."""
         self.session.tasking.on_forgotten = self._offer_undo
         self._dashboard = Dashboard(self.session.feeds)
         self._dashboard.bind(self.bar.ids.battery, "/battery_state")
@@ -159,9 +166,11 @@ class Shell(FloatLayout):
         self.nav.arrange(places["nav"], self.form, dp)
         if self.screen:
             screen = self.screens[self.screen]
-            put(screen, places["body"])
-            self.stop_room = screen.arrange(places["body"], self.form, dp)
-            put(self.stop, arrange.shared_stop(self.stop_room, dp)[0] if self.shares_stop else self.stop_room)
+            room = places["body"]
+            put(screen, room)
+            body = arrange.Body(room.x, room.y, room.width, room.height, self.shares_stop)
+            self.stop_place = screen.arrange(body, self.form, dp)
+            put(self.stop, self.stop_place)
         self._place_notices()
 
     def _place_notices(self, *_: object) -> None:
@@ -174,6 +183,8 @@ class Shell(FloatLayout):
         self._dashboard.deliver(channel, post.value)
         for screen in self.screens.values():
             screen.hear(channel, post)
+        if channel in STANDING:
+            self._look()
         if channel in (OUTCOME, "/control/status"):
             self._show_stop()
         if channel == OUTCOME:
@@ -185,6 +196,16 @@ class Shell(FloatLayout):
             news = self.session.logbook.is_news(post.value, self.session.link.robot_time())
             if post.value.level == "alarm" and news:
                 self.app.alarm(post.value)
+
+    def _look(self) -> None:
+        """Say in the same frame what the robot is and who has it, as soon as that is another."""
+        session, status = self.session, self.session.control_status
+        task: TaskStatus | None = session.feeds.latest("/task/status")
+        told = (session.name, session.link_state.phase, session.offer, task and (task.task_id, task.state))
+        held = status and (status.mode, status.stopped, status.driver_id, status.requested_by_id)
+        if (told, held) != self._stands:
+            self._stands = told, held
+            self.tick()
 
     def _greet(self) -> None:
         """Say once what is missing on a robot that is not ours."""
@@ -243,7 +264,10 @@ class Shell(FloatLayout):
         if self.stop.phase == "stopped" != self.session.stop_phase:
             for kind in ("stop", "task"):
                 self.unsay(kind)
-        self.stop.local = self.session.foreign or self.session.stop_latched
+        lost_for = self.session.stop_lost_for
+        self.stop.ago = "" if math.isnan(lost_for) else silence(lost_for)
+        # without a link nothing that the robot holds can be let go
+        self.stop.local = self.session.foreign or (self.session.stop_latched and self.session.connected)
         self.stop.phase = self.session.stop_phase
 
     def _tick_banner(self) -> None:
@@ -272,7 +296,9 @@ class Shell(FloatLayout):
         card = self.question
         card.blocked = not self.session.connected or self.session.control == "other"
         card.held = self.session.stop_latched
-        self.notices.keep(card, shown=card.open)
+        # a phone on its side has room for one card: the one that counts down goes first
+        waits = self.form == "short" and self.cards.handover.parent is not None
+        self.notices.keep(card, shown=card.open and not waits)
 
     # what is asked
 

@@ -7,7 +7,7 @@ import math
 from kivy.properties import BooleanProperty
 
 from app.arrange import Rect
-from app.dashboard import Dashboard
+from app.dashboard import AGE_STEP, Dashboard
 from app.feeds import Feeds
 from app.offer import POSE
 from app.screens.placing import put
@@ -26,6 +26,8 @@ class Sight(IntruderBadge):
 
     told = BooleanProperty(False)
     """The robot has said what it found, be it nothing."""
+    covered = BooleanProperty(False)
+    """Something lies over its place."""
 
     def __init__(self, session: Session, video: Video, dashboard: Dashboard) -> None:
         """Shows what comes by `dashboard`."""
@@ -44,10 +46,25 @@ class Sight(IntruderBadge):
         """Bring up to date whether it is seen, and the mark in the picture."""
         feeds: Feeds = self._session.feeds
         self.told = feeds.latest(FOUND) is not None
-        self.opacity = 1 if self.told else 0
+        self._show()
+        self._grow_old(feeds)
         fov = self._session.info.camera_fov
         self._video.field_of_view = fov if fov > 0 else math.nan
         placed = self.told and self.count > 0 and feeds.state(POSE) == "live" and math.isfinite(self.angle)
         marks = [(f"{self.number} · {away_text(self.away)}", self.angle)] if placed else []
         if marks != self._video.marks:
             self._video.marks = marks
+
+    def _show(self, *_: object) -> None:
+        self.opacity = 1 if self.told and not self.covered else 0
+
+    on_covered = _show
+
+    def _grow_old(self, feeds: Feeds) -> None:
+        """What was found is said once; where it is from here is as old as the robot's own place."""
+        told = [name for name in (FOUND, POSE) if feeds.latest(name) is not None]
+        ages = [feeds.age(name) for name in told if feeds.state(name) == "stale"]
+        old = max(ages, default=math.nan)
+        if ages and not abs(old - self.age) < AGE_STEP:
+            self.age = old
+        self.state = "stale" if ages else "live"

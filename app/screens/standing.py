@@ -11,8 +11,8 @@ from widgets.task_words import TASKS
 
 __all__ = ["control", "control_nav", "fix", "mode"]
 
-LONGEST = 14
-"""Letters of a driver's name in the bar."""
+LONGEST, BRIEFEST = 14, 8
+"""Letters of a driver's name in the bar, and on a button of a phone's navigation."""
 
 MODES = {
     "MANUAL": ("sports_esports", "accent"),
@@ -74,12 +74,17 @@ def control(session: Session, *, brief: bool) -> tuple[str, str, str]:
 
 
 def control_nav(session: Session) -> tuple[str, str, str]:
-    """Words, icon and role of the button for control; without a role it looks as its neighbours."""
+    """Words, icon and role of the button for control; without a role it looks as its neighbours.
+
+    It says who drives: on a phone nothing else does.
+    """
     authority = session.authority
     if authority.status.requested_by and session.control in ("mine", "other"):
         return f"Ask{_countdown(authority.left)}", "hourglass_top", "warn"
-    _, icon, _ = control(session, brief=True)
-    return "Control", icon, "warn" if session.control == "other" else ""
+    who = session.control
+    if who == "other":
+        return _short(authority.status.driver, BRIEFEST), "lock", "warn"
+    return "You" if who == "mine" else "Control", CONTROLS[who][0], ""
 
 
 def _countdown(left: float) -> str:
@@ -87,9 +92,9 @@ def _countdown(left: float) -> str:
     return f" · {math.ceil(left)} s" if math.isfinite(left) else ""
 
 
-def _short(name: str) -> str:
+def _short(name: str, longest: int = LONGEST) -> str:
     """The beginning of a long name."""
-    return name if len(name) <= LONGEST else f"{name[: LONGEST - 1]}…"
+    return name if len(name) <= longest else f"{name[: longest - 1].rstrip()}…"
 
 
 def _accuracy(fix: NavSatFix) -> str:

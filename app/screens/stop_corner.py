@@ -13,7 +13,7 @@ from kivy.metrics import Metrics
 from kivy.uix.floatlayout import FloatLayout
 
 from app import arrange
-from app.arrange import Rect
+from app.arrange import Rect, StopPlace
 from app.discovery import Entry
 from app.fleet import Fleet, known
 from app.screens.placing import put
@@ -99,14 +99,15 @@ class StopCorner:
         shared = self.button.parent is not None
         form = arrange.form(self.layer.width, self.layer.height, dp)
         if shell is None:
-            room = corner = arrange.corner(self.layer.width, dp)
+            corner = arrange.corner(self.layer.width, dp)
+            place = StopPlace(corner.x, corner.y, corner.width, corner.height, corner)
             below, beside = (0.0, corner.width + 18 * dp) if form == "short" else (arrange.CORNER * dp, 0.0)
             self._app.connect.keep_free = (below, beside) if shared else (0.0, 0.0)
             body = Rect(0, 0, self.layer.width, self.layer.height - 56 * dp)
         else:
             shell.shares_stop = shared
-            room = shell.stop_room
+            place = shell.stop_place
             body = arrange.shell(self.layer.width, self.layer.height, dp)["body"]
-            corner = arrange.shared_stop(room, dp)[1]
-        put(self.button, corner)
-        put(self.list, arrange.stop_list(body, room, form, self.list.wanted, dp))
+        if place.other is not None:
+            put(self.button, place.other)
+        put(self.list, arrange.stop_list(body, place, form, self.list.wanted, dp))

@@ -23,7 +23,7 @@ from app.screens.mission_pane import MissionPane
 from app.screens.now_list import NowList
 from app.screens.order_pane import OrderPane
 from app.screens.place_pane import PlacePane
-from app.screens.placing import put
+from app.screens.placing import above, put
 from app.screens.settings_pane import SettingsPane
 from app.screens.task_tabs import TaskTabs
 from app.session import Session
@@ -98,6 +98,8 @@ class TasksScreen(FloatLayout):
         self.mission_pane, self.settings_pane = MissionPane(session), SettingsPane(session)
         self.form = self.place_pane.form
         self._body, self._form, self._dp = Rect(0, 0, 1, 1), "", 1.0
+        self._places: dict[str, Rect] = {}
+        self._cover: Rect | None = None
         self._lacking = Text(text=NO_TASKS, role="muted")
         self._returns = False
         self.notice = Rect(0, 0, 1, 1)
@@ -164,10 +166,9 @@ class TasksScreen(FloatLayout):
     def arrange(self, body: Rect, form: str, dp: float) -> Rect:
         """Put everything into its place; returns where STOP goes."""
         self._body, self._form, self._dp = body, form, dp
-        places = arrange.tasks(body, form, dp)
-        for name in ("detail", "strip"):
-            put(self.ids[name], places[name])
-        put(self.ids.listed, places["list"])
+        places = self._places = arrange.tasks(body, form, dp)
+        put(self.ids.strip, places["strip"])
+        self.clear(self._cover)
         self.notice = places["notice"]
         self.pane.compact = form != "wide"
         self.pane.closable = form == "tall"
@@ -177,6 +178,12 @@ class TasksScreen(FloatLayout):
         self.now.brief = form == "short"
         self._lay()
         return places["stop"]
+
+    def clear(self, cover: Rect | None) -> None:
+        """Make room for what is said over the screen."""
+        self._cover = cover
+        for name, place in (("listed", "list"), ("detail", "detail")):
+            put(self.ids[name], above(self._places[place], cover, self._dp))
 
     def hear(self, channel: str, post: Post) -> None:
         """A message came."""
@@ -242,7 +249,7 @@ class TasksScreen(FloatLayout):
     @property
     def mine(self) -> bool:
         """The robot can be asked for something from here."""
-        return self.session.connected and self.session.control != "other"
+        return self.session.may_ask
 
     # what is where
 
@@ -289,6 +296,8 @@ class TasksScreen(FloatLayout):
         return self.pane
 
     def _lay_buttons(self, shown: str) -> None:
+        if not self._places:
+            return
         tall = self._form == "tall"
         for_list = {
             "now": ["new"] if tall else [],
@@ -309,7 +318,8 @@ class TasksScreen(FloatLayout):
         if shown == "place" and not self.place_pane.there:
             for_detail = []
         names = for_list if tall and not shown else for_detail
-        self.acts.lay(self.ids.strip, names, [] if tall else for_list, form=self._form)
+        below, stop = [] if tall else for_list, self._places["stop"]
+        self.acts.lay(self.ids.strip, names, below, form=self._form, stop=stop)
         self._show_buttons()
 
     def _scheduled_id(self) -> int:

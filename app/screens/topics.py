@@ -18,7 +18,7 @@ from app import arrange
 from app.arrange import Rect
 from app.camera import Picture
 from app.feeds import Post
-from app.screens.placing import put
+from app.screens.placing import above, put
 from app.session import Session
 from app.topics import Line, Topics
 from widgets import FieldView
@@ -334,6 +334,7 @@ class TopicsScreen(FloatLayout):
         self.detail.bind(on_close=lambda _: self.close())
         self.ids.update({"list": self.list, "detail": self.detail, "search": self.list.ids.search})
         self._places: dict[str, Rect] = {}
+        self._cover: Rect | None = None
         self._form, self._ticks, self._rows = "wide", 0, []
 
     # what the shell calls
@@ -344,6 +345,11 @@ class TopicsScreen(FloatLayout):
         self._lay()
         self.notice = self._places["notice"]
         return self._places["stop"]
+
+    def clear(self, cover: Rect | None) -> None:
+        """Make room for what is said over the screen."""
+        self._cover = cover
+        self._lay()
 
     def _lay(self) -> None:
         """On a phone the open topic takes the list's place."""
@@ -358,8 +364,8 @@ class TopicsScreen(FloatLayout):
                 self.add_widget(widget)
             elif not wanted and widget.parent is not None:
                 self.remove_widget(widget)
-        put(self.list, self._places["list"])
-        put(self.detail, self._places["detail"])
+        for widget, place in ((self.list, "list"), (self.detail, "detail")):
+            put(widget, above(self._places[place], self._cover, Metrics.density))
         put(self.ids.strip, self._places["strip"])
 
     def hear(self, channel: str, post: Post) -> None:

@@ -236,6 +236,7 @@ class Script:
 
     def let_go(self) -> dict[str, Any]:
         """Let go of what is left, and make good what happened."""
+        self._until(lambda: self._grip.settled)
         in_ui(self._grip.again)
         return {}
 
@@ -386,7 +387,10 @@ def trust_blindly() -> None:
                 stick.lean(state.forward, state.left)
             stick.gamepad = "ready"
 
-    Inputs.look, Inputs.rest = look, lambda *_: None  # type: ignore[method-assign]
+    def rest(self: Any, *_: object) -> None:
+        """Kivy finds it by its name."""
+
+    Inputs.look, Inputs.rest = look, rest  # type: ignore[method-assign]
     commands.HEARTBEAT = commands.REARM = math.inf
 
 

@@ -37,6 +37,8 @@ class Grip:
         """Holds up the user interface for a while."""
         self.undo: list[Callable[[], object]] = []
         """What makes good again what happened."""
+        self.stops = False
+        """STOP was pressed."""
         self._way, self._frame, self._holds = 1.0, 0, False
 
     @property
@@ -56,6 +58,11 @@ class Grip:
             app.session.take_control()
         plugged = self.pad is None or self.stick.gamepad == "ready"
         return bool(app.session.control == "mine" and self.stick.state == "live" and plugged)
+
+    @property
+    def settled(self) -> bool:
+        """What happened may be made good: a STOP is released once it is known that the robot rests."""
+        return not self.stops or self.app.session.stop_phase == "stopped"
 
     def take(self, kind: str) -> None:
         """Drive by `finger` or by `pad` from now on, each time the other way."""
@@ -92,7 +99,7 @@ class Grip:
 
     def again(self) -> None:
         """Let go, and make good again what happened."""
-        self._holds = False
+        self._holds = self.stops = False
         if self.finger is not None:
             self._hand.up(self.finger)
             self.finger = None
@@ -168,6 +175,7 @@ def _give_up(grip: Grip) -> None:
 def _escape(grip: Grip) -> None:
     Window.dispatch("on_key_down", *ESCAPE, None, [])
     Window.dispatch("on_key_up", *ESCAPE)
+    grip.stops = True
     grip.undo.append(grip.app.session.release_stop)
 
 
@@ -175,6 +183,7 @@ def _press_east(grip: Grip) -> None:
     pad = grip.pad
     if pad is not None:
         pad.button(EAST, down=True)
+        grip.stops = True
         grip.undo += [grip.app.session.release_stop, lambda: pad.button(EAST, down=False)]
 
 

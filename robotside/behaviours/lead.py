@@ -16,7 +16,7 @@ from robotside.behaviours.drive_to import DriveTo
 from robotside.behaviours.patrol import at_place
 from robotside.behaviours.situation import Situation
 from robotside.events import Say
-from robotside.guide import Guide
+from robotside.guide import Goal, Guide
 
 __all__ = ["PATIENCE", "SILENCE", "STAY", "lead"]
 
@@ -34,7 +34,7 @@ class _Lead(DriveTo):
     """Drives to the course's point, no faster than who follows."""
 
     def __init__(self, course: Course, guide: Guide, situation: Situation, say: Say) -> None:
-        super().__init__(course, guide, situation, lambda goal: f"Leading the way to {goal.spoken}.")
+        super().__init__(course, guide, situation, self._doing)
         self._say = say
         self._alone_since = math.nan
         self._waits = self._blind = False
@@ -54,6 +54,10 @@ class _Lead(DriveTo):
             self._say("task", f"Waiting on the way to {goal.spoken}: nobody follows.", "warn", at=at)
         now.tell("waiting", "Waiting: nobody follows.", place=goal.place)
         return Status.RUNNING
+
+    def _doing(self, goal: Goal) -> str:
+        waits = ", without waiting: nothing tells whether somebody follows" if self._blind else ""
+        return f"Leading the way to {goal.spoken}{waits}."
 
     def _alone(self) -> bool:
         """Nobody has followed for a while, as far as a sensor can tell."""

@@ -23,10 +23,14 @@ class Answers:
         return [rows[key] for key in sorted(rows)]
 
     def keep(self, answered: Answered) -> None:
-        """Keep one with what is changed together with it."""
+        """Keep one with what is changed together with it.
+
+        Where that is only facts it is one too: what was done is not refused because its answer could not be kept.
+        """
         ledger = self._ledger
-        with ledger.together():
+        with ledger.together() as job:
             number = ledger.count("last answer")
-            ledger.order("answers", number, answered)
+            change = ledger.order if job.orders else ledger.fact
+            change("answers", number, answered)
             for old in sorted(ledger.rows("answers"))[:-KEPT]:
                 ledger.fact("answers", old, None)

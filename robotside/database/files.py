@@ -51,6 +51,7 @@ class Files:
         """Where its backups are."""
         self._now, self._patience, self._keep = now, patience, backups
         self._lock = -1
+        self._used: os.stat_result | None = None
 
     def take(self) -> None:
         """Have the records to ourselves until `let_go` or the end of the process, whatever ends it.
@@ -97,6 +98,30 @@ class Files:
         except sqlite3.DatabaseError as error:
             return str(error)
         return "" if found and found[0] == "ok" else str(found[0] if found else "nothing found")
+
+    def missing(self) -> str:
+        """Why there is nothing where backups say that there was something; empty when there is, or never was."""
+        if not self.backups():
+            return ""
+        try:
+            return "" if self.path.stat().st_size else "it is empty"
+        except FileNotFoundError:
+            return "it is gone"
+
+    def watch(self) -> None:
+        """Note which file is in use from now on."""
+        self._used = self.path.stat()
+
+    def lost(self) -> str:
+        """What became of the file in use, in which whatever was written is lost; empty while it is there and whole."""
+        try:
+            now, log = self.path.stat(), Path(f"{self.path}-wal").stat()
+        except FileNotFoundError:
+            return "it is gone"
+        before, self._used = self._used, now
+        if before is None or (now.st_ino, now.st_dev) != (before.st_ino, before.st_dev):
+            return "another file is in its place"
+        return "it was cut short" if now.st_size < before.st_size or not log.st_size else ""
 
     def set_aside(self) -> Path:
         """Move the broken database out of the way; returns where it is now."""

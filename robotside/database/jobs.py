@@ -31,6 +31,10 @@ class Job:
     """It was tried."""
     problem: str = ""
     """Why the orders are not on the disk, as one sentence; empty when they are or there were none."""
+    trouble: str = ""
+    """Why nothing of it is on the disk yet, orders or facts, as one sentence; empty when all is."""
+    given_up: bool = False
+    """Whoever waited for it was told that nobody knows: if it is written after all, nothing may move for it."""
     urgent: bool = False
     """Who caused it waits for it, though it has no orders."""
     _waiting: list[asyncio.Future[None]] = field(default_factory=list)
@@ -47,7 +51,7 @@ class Job:
 
     def settle(self, problem: str) -> None:
         """Note what came of it and tell who waits."""
-        self.done, self.problem = True, problem if self.orders else ""
+        self.done, self.trouble, self.problem = True, problem, problem if self.orders else ""
         for future in self._waiting:
             if not future.done():
                 future.set_result(None)
@@ -55,9 +59,9 @@ class Job:
             call()
 
     async def kept(self, patience: float) -> str:
-        """Wait until it was tried; returns why the orders are not on the disk, empty when they are.
+        """Wait until it was tried; returns why the orders are not on the disk, empty when they are or there were none.
 
-        After `patience` [s] the answer is that nobody knows.
+        After `patience` [s] the answer is that nobody knows, and `trouble` says so.
         """
         if not self.done:
             future = asyncio.get_running_loop().create_future()
@@ -66,5 +70,9 @@ class Job:
                 async with asyncio.timeout(patience):
                     await future
             except TimeoutError:
-                return f"The database has not answered for {patience:g} s; it may or may not be stored."
+                self.given_up = True
+                self.trouble = (
+                    f"The database has not answered for {patience:g} s; it may or may not be stored."
+                )
+                return self.trouble if self.orders else ""
         return self.problem

@@ -33,8 +33,9 @@ class Ledger:
         self.on_trouble: Callable[[str], None] = lambda _: None
         """Called when writing begins to fail, and with an empty sentence when it succeeds again."""
         self._writer = writer
+        self.trouble = ""
+        """Why the last write failed, as one sentence; empty when it did not."""
         self._open: Job | None = None
-        self._trouble = ""
 
     @contextmanager
     def together(self) -> Iterator[Job]:
@@ -87,7 +88,7 @@ class Ledger:
 
     def owe(self, facts: list[Put], trouble: str) -> None:
         """Have facts that could not be written just now, for that reason."""
-        self._trouble = trouble
+        self.trouble = trouble
         for put in facts:
             self.memory.see(put)
         self.memory.failed(Job(facts=facts))
@@ -138,8 +139,8 @@ class Ledger:
         job.settle("")
 
     def _trust(self, problem: str) -> None:
-        if bool(problem) != bool(self._trouble):
-            self._trouble = problem
+        if bool(problem) != bool(self.trouble):
+            self.trouble = problem
             self.on_trouble(problem)
 
 

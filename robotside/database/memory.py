@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import Any
 
 from robotside.database.jobs import Job
@@ -28,6 +28,10 @@ class Memory:
     def pending(self) -> int:
         """Jobs that were not tried yet."""
         return len(self._pending)
+
+    def asked(self, tables: Collection[str]) -> bool:
+        """An order about one of the `tables` was not tried yet."""
+        return any(put.table in tables for job in self._pending for put in job.orders)
 
     def put(self, job: Job) -> None:
         """Note that `job` is on its way; its rows were `see`n already."""

@@ -219,7 +219,7 @@ class _Local(Keeper):
         """Everything it has; broken, what its newest backup has."""
         problems, skip = [], 0
         try:
-            fault = self._files.fault()
+            fault = self._files.missing() or self._files.fault()
         except sqlite3.Error as error:
             raise not_written(error) from error
         if fault:
@@ -233,7 +233,18 @@ class _Local(Keeper):
         """Write rows, all or none."""
         if self._storage is None:
             raise NotWritten("The database is damaged: nothing was stored.", damaged=True)
-        self._storage.write(puts)
+        try:
+            self._storage.write(puts)
+        except NotWritten:
+            self._check()
+            raise
+        self._check()
+
+    def _check(self) -> None:
+        """NotWritten when what was written just now is nowhere that a restart would look."""
+        lost = self._files.lost()
+        if lost:
+            raise NotWritten(f"The database is damaged ({lost}).", damaged=True)
 
     def rebuild(self, puts: list[Put]) -> str:
         """Set the broken file aside and write a new one."""
@@ -245,7 +256,8 @@ class _Local(Keeper):
         except OSError as error:
             raise NotWritten(f"The broken database cannot be moved aside: {error.strerror}.") from error
         self._connect().write(puts)
-        return f"The database was damaged and is set aside as {aside.name}; a new one was written, nothing is lost."
+        became = f"damaged and is set aside as {aside.name}" if aside.exists() else "gone"
+        return f"The database was {became}; a new one was written, nothing is lost."
 
     def back_up(self) -> None:
         """Copy it beside itself."""
@@ -269,6 +281,7 @@ class _Local(Keeper):
         engine = engine_of(URL.create("sqlite", database=str(self._files.path)), self._patience)
         self._storage = Storage(engine)
         upgrade(engine, self.back_up)
+        self._files.watch()
         return self._storage
 
     def _mend(self, fault: str) -> str:
@@ -279,7 +292,8 @@ class _Local(Keeper):
             raise CannotOpen(
                 f"The database is damaged ({fault}) and cannot be moved aside: {error}."
             ) from error
-        said = f"The database was damaged ({fault[:80]}) and is set aside as {aside.name}"
+        became = f"and is set aside as {aside.name}" if aside.exists() else "and nothing is left of it"
+        said = f"The database was damaged ({fault[:80]}) {became}"
         if backup is None:
             return f"{said}; there was no backup, so it starts empty."
         return f"{said}; the backup {backup.name} was put in its place, what was stored after it is lost."

@@ -81,19 +81,42 @@ class Records:
         """A setting that an operator changed; `default` when nobody did."""
         return str(self._ledger.rows("settings").get(name, default))
 
-    def set_setting(self, name: str, value: str) -> None:
-        """Keep a setting under a name of at most 64 characters; which there are is the caller's."""
-        self._ledger.order("settings", name, value)
+    def set_setting(self, name: str, value: str, then: Callable[[], object] | None = None) -> None:
+        """Keep a setting under a name of at most 64 characters; which there are is the caller's.
+
+        `then` is called once it is on the disk.
+        """
+        self._ledger.order("settings", name, value, then)
+
+    def note_setting(self, name: str, value: str) -> None:
+        """Have a setting so whatever the disk says; whoever caused it waits until it was tried."""
+        with self._ledger.together() as job:
+            job.urgent = True
+            self._ledger.fact("settings", name, value)
+
+    def undecided(self, *tables: str) -> bool:
+        """Something that was asked for in one of the `tables` is on its way to the disk and may be taken back yet."""
+        return self._ledger.memory.asked(tables)
 
     @property
     def stopped_by(self) -> str:
         """Who had pressed STOP, which is pressed until it is released; empty when it is not."""
         return str(self._ledger.rows("facts").get("stopped by", ""))
 
-    def note_stop(self, by: str) -> None:
-        """Note who pressed STOP, or with an empty name that it was released."""
+    @property
+    def stop_kept(self) -> bool:
+        """That STOP is pressed or released is on the disk as it is."""
+        return bool(self._ledger.stored("facts").get("stopped by")) == bool(self.stopped_by)
+
+    def note_stop(self, by: str, after: Callable[[], object] | None = None) -> None:
+        """Note who pressed STOP, or with an empty name that it was released; `after` is called once it was tried."""
         if by != self.stopped_by:
-            self._ledger.fact("facts", "stopped by", by)
+            self._ledger.fact("facts", "stopped by", by, after)
+
+    @property
+    def trouble(self) -> str:
+        """Why nothing can be written just now, as one sentence; empty when it can, as far as is known."""
+        return self._ledger.trouble
 
     def owe(self, facts: list[Put], trouble: str) -> None:
         """Have `facts` written when the trouble is over, of which the sentence is among the problems."""

@@ -37,6 +37,11 @@ class Strange:
         """Topics that somebody subscribes to."""
         return {name for peer in list(self._server.peers) for name in list(peer.wishes)}
 
+    @property
+    def clients(self) -> int:
+        """How many are connected."""
+        return len(self._server.peers)
+
     def withhold(self, *services: str) -> None:
         """Have no longer these services of rosapi; none at all without names."""
         for name in services or tuple(self._server.rosapi.asked):

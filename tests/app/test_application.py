@@ -14,7 +14,7 @@ from msgspec.structs import replace
 
 from app.feeds import Post
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Twist
-from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskStatus
+from bridge.msgs.pilothouse_msgs import ControlStatus, Event, RobotInfo, TaskStatus
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
@@ -163,6 +163,39 @@ def test_a_second_tap_on_pause_does_not_resume(
     assert asked == ["pause"]
     driving.tap(pause)
     assert asked == ["pause", "resume"]
+
+
+def test_a_robot_comes_onto_the_glass_with_all_that_is_known_of_it(glass: Glass, robot: FakeRobot) -> None:
+    robot.publish("/robot/info", RobotInfo(name="Rover-1"))
+    robot.publish("/control/status", ControlStatus(driver_id="t2", driver="Anna", mode="MANUAL"))
+    app, first = glass.app, []
+    entered = app._enter_robot
+
+    def enter() -> None:
+        glass.until(lambda: app.session.control == "other" and app.session.info.name, "nothing told")
+        entered()
+        mission = app.screens["mission"]
+        first.append((app.shell.bar.robot_name, app.shell.bar.mode_text, mission.panel.tasks.state))
+
+    app._enter_robot = enter
+    app.open(robot.url)
+    glass.until(lambda: first, "no screens")
+    assert first == [("Rover-1", "MANUAL", "disabled")]
+
+
+def test_nothing_can_be_asked_for_before_it_is_known_who_has_control(driving: Glass) -> None:
+    app = driving.app
+    feed = app.feeds["/control/status"]
+    told, feed.message = feed.message, None
+    app.shell.tick()
+    drive, mission = app.screens["drive"], app.screens["mission"]
+    mission.tick()
+    assert (drive.ids.home.disabled, mission.panel.tasks.state) == (True, "disabled")
+    assert not app.screens["tasks"].mine
+    feed.message = told
+    app.session.listeners[0]("/control/status", Post(told, app._now(), 1))
+    assert app.shell.bar.control_text == "you have control", "in the same frame, not at the next tick"
+    assert not drive.ids.home.disabled
 
 
 def test_what_became_of_stop_is_shown_when_it_is_known_and_not_at_the_next_tick(

@@ -50,7 +50,12 @@ class Watch:
         )
         self.authority = self.session.authority
         self.news: list[tuple[str, str]] = []
+        self.past = 0
         self.authority.on_news = lambda text, level: self.news.append((text, level))
+        self.authority.on_past = self._past
+
+    def _past(self) -> None:
+        self.past += 1
 
     def told(self, status: ControlStatus) -> None:
         self.session.deliver("/control/status", Post(status, self.clock.time, 1))
@@ -175,6 +180,37 @@ def test_control_that_lapsed_is_said_and_asked_for_again(watch: Watch) -> None:
     ]
 
 
+def test_control_that_lapsed_and_came_back_is_said_in_its_place(watch: Watch) -> None:
+    watch.session.wants_control = True
+    watch.told(MINE)
+    watch.link_becomes(DROPPED)
+    watch.link_becomes(BACK)
+    watch.told(FREE)
+    watch.told(MINE)
+    assert watch.news[1:] == [
+        ("You have control again; it lapsed: while the link was away.", "info"),
+    ]
+    watch.told(BOBS)
+    watch.told(MINE)
+    assert watch.news[-1][0].startswith("Your control lapsed"), "had again is not said twice"
+
+
+@pytest.mark.parametrize("then", ["FREE", "CAROL", "ASKED"])
+def test_what_was_told_is_past_as_soon_as_control_changes_again(watch: Watch, then: str) -> None:
+    watch.told(BOBS)
+    watch.told(watch.asks(BOBS, "tablet", "me"))
+    watch.told(BOBS)
+    watch.told(BOBS)
+    assert (watch.news, watch.past) == ([("Bob keeps control.", "info")], 2), "heard, and asked for"
+    later = {
+        "FREE": FREE,
+        "CAROL": ControlStatus(driver="Carol", driver_id="c"),
+        "ASKED": watch.asks(BOBS, "tablet", "me"),
+    }
+    watch.told(later[then])
+    assert watch.past == 3
+
+
 def test_control_that_was_given_back_did_not_lapse(watch: Watch) -> None:
     watch.told(MINE)
     watch.session.release_control()
@@ -194,3 +230,16 @@ def test_nobody_claims_control_over_a_link_that_is_silent(watch: Watch) -> None:
 def test_a_long_name_is_cut_in_the_bar(watch: Watch) -> None:
     watch.told(ControlStatus(driver="the tablet of the harbour master", driver_id="b"))
     assert standing.control(watch.session, brief=True)[0] == "the tablet of…"
+
+
+def test_the_button_of_a_phone_says_who_drives_by_name_and_sign(watch: Watch) -> None:
+    watch.told(FREE)
+    assert standing.control_nav(watch.session) == ("Control", "lock_open", "")
+    watch.told(MINE)
+    assert standing.control_nav(watch.session) == ("You", "person", "")
+    watch.told(BOBS)
+    assert standing.control_nav(watch.session) == ("Bob", "lock", "warn")
+    watch.told(ControlStatus(driver="Anna's tablet", driver_id="a"))
+    assert standing.control_nav(watch.session)[0] == "Anna's…"
+    watch.link.silence = 2.1
+    assert standing.control_nav(watch.session) == ("Control", "help", "")

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from app.arrange import Rect
 from app.inputs import covered
-from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
+from bridge.msgs.pilothouse_msgs import Check, Checklist, ControlStatus, TaskStatus
 from bridge.msgs.std_msgs import Time
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
@@ -47,7 +48,7 @@ def anna_asks(glass: Glass, robot: FakeRobot) -> Any:
 def paused(glass: Glass, robot: FakeRobot, reason: str) -> Any:
     robot.publish("/task/status", PATROL)
     glass.until(lambda: glass.app.session.running and not glass.app.shell.cards.paused.open, "not running")
-    tell(robot, mode="PAUSED")
+    tell(robot, mode="PAUSED", driver=f"{glass.app.client_name} (2)")
     robot.publish("/task/status", TaskStatus(task="patrol", state="PAUSED", reason=reason))
     glass.until(lambda: glass.app.shell.cards.paused.open, "not paused")
     glass.stage.run_for(0.4, COARSE)
@@ -67,6 +68,24 @@ def test_the_driver_sees_on_every_screen_who_asks_and_hands_over(driving: Glass,
     driving.until(lambda: driving.banners() == ["Anna has control now."], driving.banners())
     stick = driving.app.screens["drive"].stick
     driving.until(lambda: stick.state == "disabled", "the stick still lives")
+
+
+def test_who_has_control_now_is_not_said_any_more_once_it_is_free_or_the_link_is_gone(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    for end in ("free", "gone"):
+        anna_asks(driving, robot)
+        tell(robot, driver="Anna", driver_id="a", requested_by="", requested_by_id="")
+        driving.until(lambda: driving.banners() == ["Anna has control now."], driving.banners())
+        if end == "free":
+            tell(robot, driver="", driver_id="")
+            driving.until(lambda: not driving.banners(), driving.banners())
+            driving.app.session.authority.take()
+            driving.until(lambda: driving.app.session.control == "mine", "no control")
+    robot.stop()
+    driving.until(lambda: not driving.app.session.connected, "still connected")
+    driving.stage.frames(8)
+    assert not any("Anna" in text for text in driving.banners())
 
 
 def test_the_driver_keeps_control(driving: Glass, robot: FakeRobot) -> None:
@@ -138,7 +157,7 @@ def test_with_stop_pressed_or_another_driving_the_mode_is_not_to_be_changed(
 
 
 def test_taking_the_stick_pauses_the_task_and_offers_to_resume_it(driving: Glass, robot: FakeRobot) -> None:
-    card = paused(driving, robot, f"Paused: {driving.app.client_name} took the stick.")
+    card = paused(driving, robot, f"Paused: {driving.app.client_name} (2) took the stick.")
     assert cards(driving) == ["Patrol is paused"]
     assert card.said == "You took the stick."
     stick = driving.app.screens["drive"].stick
@@ -209,3 +228,58 @@ def test_no_card_lies_over_the_stick_or_over_stop(driving: Glass, robot: FakeRob
         assert not covered(driving.app.screens["drive"].stick), size
         assert not covered(driving.app.shell.stop), size
     driving.app.root.size = before
+
+
+def seen_in_part(glass: Glass, screen: Any) -> list[Any]:
+    """What of the screen sticks out from under the cards, and can be seen."""
+    notices = glass.app.shell.notices
+    cover = Rect(*notices.pos, *notices.size)
+    parts = {
+        "drive": lambda: [
+            screen.checks,
+            screen.sight,
+            *(one for slot in screen.places for one in screen.places[slot]),
+        ],
+        "mission": lambda: [screen.corner],
+        "tasks": lambda: [screen.ids.listed, screen.ids.detail],
+        "topics": lambda: [screen.list, screen.detail],
+    }[glass.app.shell.screen]()
+    controls = (screen.ids.get("stick"), getattr(screen, "video", None))
+    return [
+        one
+        for one in parts
+        if one not in controls
+        and one.opacity
+        and one.parent is not None
+        and one.parent.opacity
+        and cover.overlaps(Rect(*one.to_window(*one.pos), *one.size))
+    ]
+
+
+def test_what_would_be_seen_only_in_part_behind_the_cards_gives_way_and_comes_back(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    app, before = driving.app, tuple(driving.app.root.size)
+    robot.publish("/checklist", Checklist(checks=[Check("battery", "bad", "Empty.")]))
+    task = TaskStatus(task="deliver", state="RUNNING", asks="Has it been picked up?", reason="Waiting.")
+    robot.publish("/task/status", task)
+    driving.until(lambda: app.shell.question.open, "no question")
+    anna_asks(driving, robot)
+    for size in ((412, 892), (892, 412), (1280, 800)):
+        app.root.size = size
+        for name in ("drive", "mission", "tasks", "topics"):
+            app.show(name)
+            driving.stage.run_for(0.4, COARSE)
+            assert not seen_in_part(driving, app.screens[name]), (size, name)
+            assert app.shell.notices.top <= app.screens[name].top, (size, name)
+    app.root.size = before
+    tell(robot, requested_by="", requested_by_id="", handover=Time())
+    robot.publish("/task/status", TaskStatus(task="", state="IDLE"))
+    driving.until(lambda: not app.shell.notices.children, "cards stay")
+    app.show("tasks")
+    driving.stage.run_for(0.4, COARSE)
+    assert tasks_places(driving) == app.screens["tasks"].ids.detail.y
+
+
+def tasks_places(glass: Glass) -> float:
+    return float(glass.app.screens["tasks"]._places["detail"].y)

@@ -177,6 +177,24 @@ def test_a_live_event_that_got_lost_on_its_way_is_asked_for() -> None:
     assert listener.missed == []
 
 
+def test_a_live_event_that_overtook_the_last_answer_is_not_asked_for_again() -> None:
+    listener = Listener()
+    listener.connect(Robot(2))
+    listener.stream.live(event(5))
+    listener.ask(Robot(4))
+    listener.stream.live(event(6))
+    assert not listener.stream.behind
+    assert listener.texts == ["a1", "a2", "a5", "a3", "a4", "a6"]
+
+
+def test_of_a_log_that_counts_lower_than_is_remembered_nothing_was_missed_and_it_goes_on_from_there() -> None:
+    listener = Listener(marks={"a": 50})
+    listener.connect(Robot(9))
+    listener.stream.live(event(10))
+    assert not listener.stream.behind
+    assert (listener.texts, listener.missed) == (numbers(1, 10), [])
+
+
 def test_that_somebody_has_seen_to_an_event_is_told_once_more() -> None:
     listener, robot = Listener(), Robot(3)
     listener.connect(robot)

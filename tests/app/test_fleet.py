@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from app.discovery import Entry
-from app.fleet import Fleet, known
+from app.fleet import HEAD_START, Fleet, known
 from app.stop_lane import Report
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
@@ -65,8 +65,8 @@ class _Lane:
         try:
             await asyncio.Event().wait()
         finally:
-            while not self._lanes.may_end.is_set():
-                await asyncio.sleep(0.005)
+            if not self._lanes.may_end.is_set():
+                await asyncio.to_thread(self._lanes.may_end.wait)
             del self._lanes.open[self._url]
 
 
@@ -76,7 +76,7 @@ class Link:
     def __init__(self, url: str, *, foreign: bool = False) -> None:
         self.url, self.name, self.foreign, self.boot = url, "Linked", foreign, ""
         self.info, self.control_status = RobotInfo(name="Linked", model="patrol"), ControlStatus()
-        self.stop_phase = "ready"
+        self.stop_phase, self.stop_sentence = "ready", ""
         self.stops = 0
 
     def stop(self) -> None:
@@ -142,7 +142,8 @@ def test_the_link_is_told_before_anything_else_happens(fleet: Fleet, lanes: Lane
 def test_what_is_let_go_before_its_turn_is_never_begun(fleet: Fleet, lanes: Lanes) -> None:
     fleet.press([heard(B)], Link(A))
     fleet.let_go()
-    time.sleep(0.05)
+    assert fleet._network is not None
+    fleet._network.start(asyncio.sleep(2 * HEAD_START)).result(PATIENCE)  # its turn was before
     assert lanes.pressed == {}
 
 
@@ -270,6 +271,33 @@ def test_one_robot_that_says_hello_from_two_addresses_is_counted_once(fleet: Fle
     assert fleet.total == 1
 
 
+def test_it_says_of_the_connected_robot_what_its_session_says(fleet: Fleet) -> None:
+    link = Link(A)
+    fleet.press([], link)
+    link.stop_phase, link.stop_sentence = "moves", "STOP is pressed, and it does not come to rest."
+    fleet.look(link)
+    assert (fleet.rows[0].phase, fleet.rows[0].sentence) == (link.stop_phase, link.stop_sentence)
+
+
+def test_a_lane_that_the_network_thread_takes_away_meanwhile_was_there_or_not(fleet: Fleet) -> None:
+    class Robot:
+        """Its lane is gone when it is looked at again."""
+
+        url, name, heard, boot, last = A, "Boat", "", "", None
+
+        def __init__(self) -> None:
+            self.lanes = [_Lane(Lanes(), A)]
+
+        @property
+        def lane(self) -> _Lane | None:
+            return self.lanes.pop() if self.lanes else None
+
+    for look in (lambda: fleet._identify(None), lambda: fleet._row(fleet._robots[A], None)):
+        fleet._robots = {A: Robot()}  # type: ignore[dict-item]
+        look()
+    fleet._robots = {}
+
+
 # while robots are connected and left
 
 
@@ -365,10 +393,7 @@ def test_one_that_is_not_ours_gets_zero_speed_until_it_is_let_go(real: Fleet) ->
         told = [op for op in strange.operations("publish") if op["topic"] == "/cmd_vel"]
         assert all(Twist.planar(0.0, 0.0) == Twist() and op["msg"]["linear"]["x"] == 0 for op in told)  # type: ignore[index]
         real.let_go()
-        until(lambda: not strange.listened(), "it is still listened to")
-        before = strange.robot.heard
-        time.sleep(0.3)
-        assert strange.robot.heard == before
+        until(lambda: not strange.clients, "what says zero speed is still there")
 
 
 @contextmanager

@@ -25,7 +25,8 @@ def dropped() -> weakref.ref[Cycle]:
 
 
 @pytest.fixture
-def collector() -> Iterator[Collector]:
+def collector(monkeypatch: pytest.MonkeyPatch) -> Iterator[Collector]:
+    monkeypatch.setattr(Collector, "_at_work", 0)  # that of the tests is away for a while
     with automatic():
         collector = Collector()
         gc.collect()
@@ -138,3 +139,10 @@ def test_who_had_turned_it_off_finds_it_off() -> None:
         assert not gc.isenabled()
         collector.close()
         assert not gc.isenabled()
+
+
+def test_one_within_another_leaves_it_as_it_was(collector: Collector) -> None:
+    inner = Collector()
+    frozen = gc.get_freeze_count()
+    inner.close()
+    assert gc.get_freeze_count() == frozen

@@ -219,6 +219,7 @@ LOSSES: dict[str, Callable[[Hands, Any], object]] = {
     "lifted": lambda hands, touch: touch.touch_up(),
     "cancelled by the system": lambda hands, touch: touch.touch_up(),  # which is what SDL makes of it
     "end never told": end_unseen,
+    "end held back by Kivy": lambda _, touch: touch.update_time_end(),
     "end dropped in a pause": end_in_sdl,
     "number given to another finger": come_again,
     "number given to another finger, on STOP": come_again_on_stop,
@@ -436,6 +437,19 @@ def press(hands: Hands, keys: tuple[int, int]) -> None:
 def test_a_key_is_stop_once_however_long_it_is_held(hands: Hands, keys: tuple[int, int]) -> None:
     press(hands, keys)
     assert (hands.stops, hands.back_pressed) == (1, 0)
+    press(hands, keys)
+    assert hands.stops == 2
+
+
+@pytest.mark.usefixtures("upright")
+@pytest.mark.parametrize("keys", [ESCAPE, SPACE], ids=["Escape", "Space"])
+def test_a_key_that_went_up_while_the_window_had_no_focus_is_stop_again(
+    hands: Hands, keys: tuple[int, int]
+) -> None:
+    window = hands.stage.window
+    window.dispatch("on_key_down", *keys, None, [])
+    window._focus = False
+    window._focus = True
     press(hands, keys)
     assert hands.stops == 2
 

@@ -82,7 +82,6 @@ class Trial:
         if kind == "pad":
             grip.plug_in()
         self.until(lambda: grip.ready, "control and a live stick")
-        self._glass.settle(grip.stick)
         self.until(off, "the robot to drive off")
 
     def loses(self, way: str) -> None:
@@ -92,6 +91,7 @@ class Trial:
             self.until(
                 lambda: not self.port.moving and self.grip.stick.twist == Twist(), f"rest after: {way}"
             )
+        self.until(lambda: self.grip.settled, "STOPPED")
         self.grip.again()
         EventLoop.idle()
 

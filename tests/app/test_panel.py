@@ -13,6 +13,7 @@ from app.dashboard import Dashboard
 from app.feeds import Feeds, Post
 from app.link import EVENT
 from app.offer import Offer
+from app.own_name import OwnName
 from app.session import Session
 from app.settings import Settings
 from bridge.client import LinkState, Phase
@@ -159,23 +160,23 @@ def test_with_stop_pressed_nothing_that_moves_can_be_asked_for(
 
 
 @pytest.mark.parametrize(
-    ("text", "wants", "namesake", "said"),
+    ("driver", "who", "wants", "said"),
     [
-        ("tablet has control.", True, False, "You have control."),
-        ("Ben has control.", True, False, "Ben has control."),
-        ("tablet has control.", False, False, "tablet has control."),
-        ("tablet has control.", True, True, "tablet has control."),
+        ("tablet", "me", True, "You have control."),
+        ("tablet (2)", "me", True, "You have control."),
+        ("Ben", "other", True, "Ben has control."),
+        ("tablet", "other", False, "tablet has control."),
+        ("tablet", "other", True, "tablet has control."),
     ],
 )
-def test_who_has_control_is_told_so(
-    session: Session, text: str, wants: bool, namesake: bool, said: str
+def test_who_has_control_is_told_so_and_nobody_of_the_same_name(
+    session: Session, driver: str, who: str, wants: bool, said: str
 ) -> None:
-    session.client_name, session.wants_control = "tablet", wants
-    status = ControlStatus(driver="tablet", driver_id="other" if namesake else "me")
-    session.feeds.put("/control/status", Post(status, 100.0, 1))
+    session.own_name, session.wants_control = OwnName("me", "tablet", lambda: 100.0), wants
     heard: list[Any] = []
-    session.listeners.append(lambda _, post: heard.append(post.value.text))
-    tell(session, EVENT, Event(id=1, kind="control", text=text))
+    session.listeners.append(lambda name, post: name == EVENT and heard.append(post.value.text))
+    tell(session, EVENT, Event(id=1, kind="control", text=f"{driver} has control."))
+    tell(session, "/control/status", ControlStatus(driver=driver, driver_id=who))
     assert heard == [said]
 
 

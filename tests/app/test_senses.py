@@ -152,6 +152,11 @@ def test_the_drive_screen_shows_the_readings_and_marks_the_intruder_in_the_pictu
     assert screen.video.marks == [("2 · 4.2 m", pytest.approx(math.pi / 4))]
     assert screen.video.field_of_view == pytest.approx(1.2)
     assert (screen.sight.opacity, screen.sight.count, screen.sight.ago) == (1, 1, 10)
+    robot.publish("/pose", here)
+    driving.until(lambda: screen.sight.state == "live", "old")
+    robot.stop()
+    driving.until(lambda: screen.sight.state == "stale" and screen.sight.age >= 1.0, "not old without a link")
+    assert screen.sight.texts[-1].endswith(" s old")
 
 
 def test_what_the_unfolded_sensors_cover_is_not_seen_until_they_fold(

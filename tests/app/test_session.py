@@ -8,9 +8,10 @@ import pytest
 
 from app.commands import Outcome
 from app.feeds import Feeds, Post
-from app.link import OUTCOME
-from app.session import COMES_TO_REST, Session
+from app.link import LINK, OUTCOME
+from app.session import Session
 from app.settings import Settings
+from app.stopping import COMES_TO_REST
 from bridge.client import LinkState, Phase
 from bridge.msgs.pilothouse_msgs import ControlStatus
 from tests.bridge.wires import Clock
@@ -79,15 +80,34 @@ def test_stop_is_done_when_the_robot_says_that_it_rests(watch: Watch) -> None:
     assert watch.session.stop_phase == "stopped"
 
 
-def test_a_robot_that_does_not_come_to_rest_in_time_has_not_answered(watch: Watch) -> None:
+def test_a_robot_that_does_not_come_to_rest_in_time_is_said_to_move(watch: Watch) -> None:
     watch.told(at_rest=False)
     watch.clock.time += COMES_TO_REST - 0.1
     watch.told(at_rest=False)
     assert watch.session.stop_phase == "sent"
     watch.clock.time += 0.2
-    assert watch.session.stop_phase == "no_answer"
+    assert watch.session.stop_phase == "moves"
+    assert watch.session.stop_sentence == "STOP is pressed, and it does not come to rest."
     watch.told(at_rest=True)
     assert watch.session.stop_phase == "stopped"
+
+
+def test_a_robot_that_was_stopped_when_its_link_was_lost_is_not_said_to_be_stopped(watch: Watch) -> None:
+    watch.told(at_rest=True)
+    watch.session.deliver(LINK, Post(LinkState(Phase.WAITING, "No robot answers.", 1, 1.0), 0.0, 1))
+    watch.clock.time += 4.0
+    assert watch.session.stop_phase == "lost"
+    assert watch.session.stop_lost_for == 4.0
+    assert watch.session.stop_sentence == "STOPPED when it was last heard, 4 s ago. No robot answers."
+
+
+def test_what_somebody_else_releases_is_ready_to_be_pressed_again(watch: Watch) -> None:
+    watch.session.stop()
+    watch.told(at_rest=True)
+    watch.outcome("accepted")
+    watch.told(stopped=False, at_rest=True)
+    watch.clock.time += 60.0
+    assert watch.session.stop_phase == "ready"
 
 
 def test_a_robot_side_that_cannot_reach_its_robot_has_not_stopped_it(watch: Watch) -> None:

@@ -88,8 +88,8 @@ def test_with_one_robot_alone_stop_has_its_room_to_itself(driving: Glass, robot:
     hear(driving, robot)
     assert driving.app.corner.button.parent is None
     assert driving.app.shell.stop.size == [
-        driving.app.shell.stop_room.width,
-        driving.app.shell.stop_room.height,
+        driving.app.shell.stop_place.width,
+        driving.app.shell.stop_place.height,
     ]
 
 
@@ -181,18 +181,42 @@ def test_folded_away_it_ends_by_itself_and_says_so_when_the_last_one_rests(
     assert glass.app.corner.button.word == "STOP ALL"
 
 
+def crowded(size: tuple[int, int]) -> list[tuple[Any, dict[str, Any]]]:
+    """The places of every screen where STOP ALL is there, each with what arranges it."""
+    room, shape = arrange.shell(*size)["body"], arrange.form(*size)
+    body = arrange.Body(room.x, room.y, room.width, room.height, crowded=True)
+    screens = (arrange.mission, arrange.drive, arrange.topics, arrange.tasks)
+    return [(screen, screen(body, shape)) for screen in screens]
+
+
 @pytest.mark.parametrize("size", SIZES)
 def test_neither_hides_the_other_nor_is_too_small_and_stop_is_the_larger(size: tuple[int, int]) -> None:
-    shape = arrange.form(*size)
-    body = arrange.shell(*size)["body"]
-    for screen in (arrange.mission, arrange.drive, arrange.topics, arrange.tasks):
-        room = screen(body, shape)["stop"]
-        stop, all_of_them = arrange.shared_stop(room)
-        assert room.holds(stop)
-        assert room.holds(all_of_them)
+    for _, places in crowded(size):
+        stop, all_of_them = places["stop"], places["stop"].other
+        for name, place in places.items():
+            if name not in ("map", "side", "video", "notice", "senses_open", "stop"):
+                assert not all_of_them.overlaps(place), name
         assert not stop.overlaps(all_of_them)
         assert stop.width * stop.height > 1.5 * all_of_them.width * all_of_them.height
         assert min(all_of_them.width, all_of_them.height, stop.width, stop.height) >= theme.target
+
+
+@pytest.mark.parametrize("size", [(412, 892), (360, 640), (800, 1280)])
+def test_on_an_upright_phone_stop_gives_nothing_of_its_size_away(size: tuple[int, int]) -> None:
+    body, shape = arrange.shell(*size)["body"], arrange.form(*size)
+    for screen, places in crowded(size):
+        alone, stop = screen(body, shape)["stop"], places["stop"]
+        assert stop.width >= alone.width
+        assert stop.height >= alone.height
+        assert screen is arrange.drive or stop.width >= 158
+
+
+@pytest.mark.parametrize("size", [(1280, 800), (1920, 1200)])
+def test_beside_the_lists_of_a_tablet_neither_does_it(size: tuple[int, int]) -> None:
+    body, shape = arrange.shell(*size)["body"], arrange.form(*size)
+    for screen, places in crowded(size):
+        if screen in (arrange.tasks, arrange.topics):
+            assert places["stop"].width == screen(body, shape)["stop"].width
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -200,12 +224,14 @@ def test_neither_hides_the_other_nor_is_too_small_and_stop_is_the_larger(size: t
 def test_the_list_stays_on_the_glass_and_leaves_stop_free(size: tuple[int, int], wanted: float) -> None:
     shape = arrange.form(*size)
     body = arrange.shell(*size)["body"]
-    for screen in (arrange.mission, arrange.drive, arrange.topics, arrange.tasks):
-        room = screen(body, shape)["stop"]
-        listed = arrange.stop_list(body, room, shape, wanted)
+    for _, places in crowded(size):
+        stop = places["stop"]
+        listed = arrange.stop_list(body, stop, shape, wanted)
         assert body.holds(listed)
-        assert not listed.overlaps(room)
+        assert not listed.overlaps(stop)
+        assert not listed.overlaps(stop.other)
         assert min(listed.width, listed.height) >= 170
+        assert shape == "short" or listed.right == stop.right, "it juts out"
 
 
 @pytest.mark.parametrize("size", SIZES)

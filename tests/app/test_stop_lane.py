@@ -262,7 +262,7 @@ async def test_a_stopped_robot_that_is_lost_is_not_counted_as_stopped_any_more(r
         await asyncio.sleep(0.5)
         robot.vanish()
         await asyncio.sleep(12)
-        assert lane.report.phase == "no_answer"
+        assert lane.report.phase == "lost"
         assert lane.report.sentence.startswith("STOPPED when it was last heard, 12 s ago.")
         robot.arrive()
         assert lane.report.phase == "sent", "what it said before is not what it says now"

@@ -9,6 +9,7 @@ import pytest
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
 from bridge.msgs.pilothouse_msgs import (
     ControlStatus,
+    Following,
     Mission,
     Place,
     ScheduledTask,
@@ -78,6 +79,22 @@ def test_nothing_can_be_started_before_it_is_complete(glass: Glass, tasks: Any) 
     glass.stage.run_for(0.2)
     assert tasks.ids["start"].disabled
     assert tasks.pane.sentence == "Choose where to bring it."
+
+
+def test_what_keeps_start_grey_is_said_where_start_is(glass: Glass, robot: FakeRobot, tasks: Any) -> None:
+    tasks.begin("guide", ("Lab",))
+    status = TaskStatus(task_id=3, task="go_to", state="PAUSED", places=["Office 12"])
+    robot.publish("/task/status", status)
+    said = "Not now: Go to Office 12 is paused; end it first, or add this to the queue."
+    glass.until(lambda: tasks.pane.sentence.endswith(said), tasks.pane.sentence)
+    assert tasks.pane.sentence.startswith("Leads a person to Lab and tells what is there. Does not wait:")
+    assert tasks.ids["start"].disabled
+    assert not tasks.ids["queue"].disabled
+    robot.publish("/task/status", TaskStatus(task_id=3, task="go_to", state="CANCELED"))
+    robot.publish("/following", Following(present=True))
+    whole = "Leads a person to Lab, waits when nobody follows, and tells what is there."
+    glass.until(lambda: tasks.pane.sentence == whole, tasks.pane.sentence)
+    assert not tasks.ids["start"].disabled
 
 
 def test_a_refusal_is_said_whole_and_what_was_chosen_stays(
@@ -212,7 +229,7 @@ def test_a_queue_that_changed_meanwhile_is_shown_as_it_is(glass: Glass, robot: F
 def test_a_queue_that_waits_goes_on_when_told(glass: Glass, robot: FakeRobot, tasks: Any) -> None:
     robot.wait_for(GO)
     main = tasks.now.ids.main
-    glass.until(lambda: main.text == "Go on with these" and not main.disabled, main.text)
+    glass.until(lambda: main.text == "Go on with this" and not main.disabled, main.text)
     glass.stage.run_for(0.6)
     glass.tap(main)
     assert robot.until(lambda: "/task/resume" in robot.services())
@@ -417,9 +434,7 @@ def test_no_card_covers_stop_or_leaves_the_glass(
     glass: Glass, robot: FakeRobot, tasks: Any, size: tuple[int, int]
 ) -> None:
     glass.app.shell.size = glass.app.root.size = size
-    reason = (
-        "The robot's computer restarted in the middle of a delivery; resume to go on, cancel to discard it."
-    )
+    reason = "The robot's computer restarted in the middle of a delivery; choose Resume to go on, or Discard."
     cut = TaskStatus(task="deliver", state="INTERRUPTED", places=["Office 12", "Lab"], reason=reason)
     robot.publish("/task/status", cut)
     card, stop = glass.app.shell.question, glass.app.shell.stop

@@ -66,7 +66,10 @@ def begun(scene: Scene) -> list[str]:
 
 
 def test_the_queue_is_done_in_its_order_one_after_the_other(scene: Scene) -> None:
-    assert fill(scene, point(2.0, 0.0), HOLD, point(2.0, 2.0)) == "3 tasks wait in the queue."
+    assert (
+        fill(scene, point(2.0, 0.0), HOLD, point(2.0, 2.0))
+        == "3 tasks wait in the queue; the first one begins now."
+    )
     scene.run(1.0)
     assert scene.task.state == "RUNNING"
     assert [order.task for order in queue(scene).orders] == ["hold", "go_to"]
@@ -154,12 +157,68 @@ def test_the_queue_waits_after_what_an_operator_or_the_battery_ended_and_goes_on
         scene.ask("/task/resume")
         scene.run(60.0)
     else:
-        waits = [said for said in scene.events("task") if said.endswith("resume goes on with them.")]
+        waits = [said for said in scene.events("task") if said.endswith("until you choose Go on with this.")]
         assert len(waits) == 1
         assert scene.ask("/task/resume").message == "The queue goes on."
         scene.run(20.0)
     assert queue(scene).orders == []
     assert math.hypot(scene.robot.pose[0], scene.robot.pose[1] - 2.0) < 0.2
+
+
+@pytest.mark.parametrize("how", ["cancel", "home", "restart", "manual"])
+def test_what_was_parked_stays_so_behind_another_task_until_told(
+    scene: Scene, tmp_path: Path, how: str
+) -> None:
+    scene.set(home=[Waypoint(-1.0, -1.0)])
+    scene.ask("/task/start", StartTaskRequest(order=point(2.0, 0.0)))
+    fill(scene, point(0.0, 2.0), point(2.0, 2.0))
+    scene.run(1.0)
+    if how == "home":
+        scene.ask("/task/go_home")
+        scene.run(2.0)
+    elif how == "manual":
+        mode(scene, "MANUAL")
+    elif how == "restart":
+        scene = Scene(FakeRobot(), tmp_path)
+        scene.run(4.0)
+    scene.ask("/task/cancel")
+    started = scene.ask("/task/start", StartTaskRequest(order=TaskOrder(task="hold", duration=5.0))).message
+    assert started.endswith("2 tasks from before wait in the queue until told to go on."), started
+    scene.run(1.0)
+    scene.ask("/task/pause")
+    scene.ask("/task/resume")
+    scene.run(20.0)
+    assert begun(scene)[-1] == "hold"
+    assert scene.task.state == "SUCCEEDED"
+    assert len(queue(scene).orders) == 2
+    assert scene.ask("/task/resume").message == "The queue goes on."
+    scene.run(60.0)
+    assert queue(scene).orders == []
+
+
+def test_a_task_that_is_taken_up_from_manual_takes_the_queue_behind_it_along(scene: Scene) -> None:
+    scene.ask("/task/start", StartTaskRequest(order=HOLD))
+    fill(scene, point(2.0, 0.0))
+    scene.run(1.0)
+    mode(scene, "MANUAL")
+    scene.ask("/task/resume")
+    scene.run(40.0)
+    assert begun(scene) == ["hold", "go_to"]
+
+
+def test_a_task_that_is_taken_up_after_a_crash_does_not_bring_the_queue_along(
+    scene: Scene, tmp_path: Path
+) -> None:
+    scene.ask("/task/start", StartTaskRequest(order=HOLD))
+    fill(scene, point(2.0, 0.0))
+    scene.run(1.0)
+    again = Scene(FakeRobot(), tmp_path)
+    again.run(4.0)
+    said = "Resumed. 1 task from before waits in the queue until told to go on."
+    assert again.ask("/task/resume").message == said
+    again.run(40.0)
+    assert again.task.state == "SUCCEEDED"
+    assert len(queue(again).orders) == 1
 
 
 def test_the_queue_does_not_start_while_stop_is_pressed_nor_by_its_release(scene: Scene) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from robotside.authority import AGAIN, LAPSE, SILENT, TO_OBJECT, Authority
+from robotside.authority import AGAIN, LAPSE, REMEMBERED, SILENT, TO_OBJECT, Authority
 from tests.fakes import FakeClient
 
 NOW = 10.0
@@ -174,3 +174,60 @@ def test_who_comes_back_over_another_connection_answers_from_there(
     assert authority.object(again, NOW + SILENT + 0.1) == ""
     assert authority.holds(again)
     assert not authority.holds(anna)
+
+
+def test_the_drivers_own_id_over_another_connection_is_refused_and_asks_nobody(
+    authority: Authority, anna: FakeClient
+) -> None:
+    authority.acquire(anna, NOW)
+    twin = FakeClient("7", NOW)
+    authority.introduce(twin, "tablet-anna", "Anna")
+    said = "Anna has control over another connection with the same client_id"
+    assert authority.request(twin, NOW).startswith(said)
+    assert authority.asker is None
+
+
+@pytest.mark.parametrize("empty", ["", " \n"])
+def test_who_introduces_itself_with_empty_words_is_called_as_before(
+    authority: Authority, anna: FakeClient, empty: str
+) -> None:
+    authority.introduce(anna, empty, empty)
+    assert (authority.id(anna), authority.name(anna)) == ("tablet-anna", "Anna")
+    authority.introduce(anna, "", "Anna's phone")
+    assert (authority.id(anna), authority.name(anna)) == ("tablet-anna", "Anna's phone")
+
+
+def test_of_ever_more_objections_the_oldest_is_forgotten(authority: Authority, anna: FakeClient) -> None:
+    authority.acquire(anna, NOW)
+    others = [known(authority, f"other{number}") for number in range(REMEMBERED + 1)]
+    for other in others:
+        assert authority.request(other, NOW) == ""
+        authority.object(anna, NOW)
+    assert "has objected" in authority.request(others[1], NOW)
+    assert authority.request(others[0], NOW) == ""
+
+
+def test_two_of_one_name_can_be_told_apart_and_keep_their_names(authority: Authority) -> None:
+    one, other = FakeClient("c1", NOW), FakeClient("c2", NOW)
+    authority.introduce(one, "id-1", "vm")
+    authority.introduce(other, "id-2", "vm")
+    assert (authority.name(one), authority.name(other)) == ("vm", "vm (2)")
+    authority.gone(one)
+    authority.gone(other)
+    again, back = FakeClient("c3", NOW), FakeClient("c4", NOW)
+    authority.introduce(again, "id-2", "vm")
+    authority.introduce(back, "id-1", "vm")
+    assert (authority.name(again), authority.name(back)) == ("vm (2)", "vm")
+    authority.introduce(again, "id-2", "Bert's phone")
+    assert authority.name(again) == "Bert's phone"
+
+
+def test_a_crowd_of_one_name_is_bounded_and_nobody_s_name_too_long(authority: Authority) -> None:
+    names = set()
+    for number in range(300):
+        client = FakeClient(f"c{number}", NOW)
+        authority.introduce(client, f"id-{number}", "v" * 99)
+        names.add(authority.name(client))
+        authority.gone(client)
+    assert len(names) >= 256
+    assert max(map(len, names)) <= 40

@@ -162,6 +162,23 @@ def test_a_command_from_a_wrong_clock_does_not_lock_its_sender_out(
     assert controls.drive(anna, AHEAD, 10.1, stamp=10.1).twist == AHEAD
 
 
+@pytest.mark.parametrize("ahead", [0.1, 0.9])
+def test_a_clock_that_is_ahead_lengthens_no_command(
+    controls: Controls, anna: FakeClient, ahead: float
+) -> None:
+    assert controls.drive(anna, AHEAD, 10.0, stamp=10.0 + ahead).twist == AHEAD
+    assert controls.expired(10.0 + HELD)
+
+
+def test_what_was_under_way_for_longer_than_the_one_before_is_over_sooner(
+    controls: Controls, anna: FakeClient
+) -> None:
+    controls.drive(anna, AHEAD, 10.0, stamp=10.9)
+    controls.drive(anna, AHEAD, 10.25, stamp=11.0)
+    assert controls.driving
+    assert controls.expired(10.1 + HELD + 0.01)
+
+
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
 @pytest.mark.parametrize("part", range(6))
 def test_a_command_with_a_speed_that_is_no_number_is_dropped(
@@ -318,3 +335,12 @@ def test_only_its_holder_releases_control(controls: Controls, anna: FakeClient, 
     assert "has control" in controls.release(bert)
     assert controls.release(anna) == ""
     assert controls.driver is None
+
+
+def test_stop_is_latched_whoever_pressed_it_even_without_a_name() -> None:
+    controls = Controls(max_speed=1.0, max_yaw_rate=1.0)
+    controls.stop("")
+    assert controls.stopped
+    assert controls.stopped_by == "somebody"
+    controls.release_stop()
+    assert (controls.stopped, controls.stopped_by) == (False, "")

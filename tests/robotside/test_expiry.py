@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from robotside.expiry import HELD, UNSTAMPED, VALID, Expiry
+from robotside.expiry import AHEAD, FORGOTTEN, HELD, UNSTAMPED, VALID, Expiry
 from tests.fakes import FakeClient
 
 NOW = 100.0
@@ -61,3 +61,52 @@ def test_who_went_leaves_no_order_behind(client: FakeClient) -> None:
     assert "a newer one came before it" in expiry.fault(client, NOW, NOW, rest=False)
     expiry.forget(client)
     assert expiry.fault(client, NOW, NOW, rest=False) == ""
+
+
+@pytest.mark.parametrize("ahead", [0.2, 0.9])
+def test_of_a_clock_that_is_ahead_what_waited_is_late_all_the_same(client: FakeClient, ahead: float) -> None:
+    expiry = Expiry()
+    assert expiry.fault(client, NOW, NOW + ahead, rest=False) == ""
+    assert expiry.given(client, NOW, NOW + ahead) == pytest.approx(NOW)
+    assert expiry.fault(client, NOW + 0.3, NOW + 0.1 + ahead, rest=False) == ""
+    assert expiry.given(client, NOW + 0.3, NOW + 0.1 + ahead) == pytest.approx(NOW + 0.1, abs=0.01)
+    said = expiry.fault(client, NOW + 0.5, NOW + 0.15 + ahead, rest=False)
+    assert said == "A drive command was dropped: it came 0.3 s late and has to come within 0.25 s."
+
+
+def test_what_comes_over_a_slow_way_was_given_before_its_clock_says_so(client: FakeClient) -> None:
+    expiry = Expiry()
+    client.rtt = 0.2
+    assert expiry.fault(client, NOW, NOW, rest=False) == ""
+    assert expiry.given(client, NOW, NOW) == pytest.approx(NOW - 0.1)
+    client.rtt = 3.0  # for a moment: the quickest way is what counts
+    assert expiry.fault(client, NOW + 0.05, NOW + 0.05, rest=False) == ""
+    assert expiry.given(client, NOW + 0.05, NOW + 0.05) == pytest.approx(NOW - 0.05)
+
+
+def test_a_right_clock_is_believed_over_a_slow_way(client: FakeClient) -> None:
+    expiry = Expiry()
+    client.rtt = 0.2
+    assert expiry.fault(client, NOW, NOW - 0.1, rest=False) == ""
+    assert expiry.given(client, NOW, NOW - 0.1) == pytest.approx(NOW - 0.1)
+
+
+def test_a_clock_that_was_set_right_is_believed_again_after_a_while_but_not_for_a_silence(
+    client: FakeClient,
+) -> None:
+    expiry = Expiry()
+    expiry.fault(client, NOW, NOW + 0.2, rest=False)
+    assert expiry.given(client, NOW, NOW) == pytest.approx(NOW - 0.2)
+    later = NOW + 60.0
+    expiry.fault(client, later, later, rest=False)
+    assert expiry.given(client, later, later) == pytest.approx(later - 0.2 + FORGOTTEN)
+    for second in range(1, round(0.2 / FORGOTTEN) + 1):
+        expiry.fault(client, later + second, later + second, rest=False)
+    assert expiry.given(client, later, later) == pytest.approx(later)
+
+
+def test_a_clock_too_far_ahead_is_refused_and_teaches_nothing(client: FakeClient) -> None:
+    expiry = Expiry()
+    said = expiry.fault(client, NOW, NOW + AHEAD + 0.2, rest=False)
+    assert said == "A drive command was dropped: its clock is 1.2 s ahead of the robot's."
+    assert expiry.given(client, NOW, NOW) == NOW

@@ -21,7 +21,7 @@ from bridge.msgs.pilothouse_msgs import (
 from tests.fakes import FakeRobot
 from tests.robotside.scene import SQUARE, Scene
 
-OFFER = "The robot's computer restarted in the middle of a patrol; resume to go on, cancel to discard it."
+OFFER = "The robot's computer restarted in the middle of a patrol; choose Resume to go on, or Discard."
 
 
 def cut(scene: Scene, state: Path) -> Scene:
@@ -144,7 +144,7 @@ def test_a_queue_waits_after_a_restart_until_somebody_says_so(scene: Scene, tmp_
     order = TaskOrder(task="go_to", goals=[Waypoint(1.0, 1.0)])
     assert scene.ask("/task/queue/set", SetQueueRequest(orders=[order])).success
     again = cut(scene, tmp_path)
-    said = "1 task waits in the queue, since the robot's computer was restarted; resume goes on with them."
+    said = "1 task waits in the queue, since the robot's computer was restarted, until you choose Go on with this."
     assert said in again.since_start()
     again.ask("/task/cancel")
     again.run(5.0)

@@ -245,3 +245,25 @@ def test_only_who_has_control_may_place_the_robot_while_somebody_has_it(scene: S
     scene.station.hear(scene.client("bert"), "/initialpose", there, None)
     assert scene.station.autonomy.whereabouts.pose == before
     assert scene.events("command")[-1].startswith("Anna has control")
+
+
+@pytest.mark.parametrize("running", [False, True])
+def test_stop_is_latched_though_the_port_fails_and_its_answer_says_that(scene: Scene, running: bool) -> None:
+    scene.set(*SQUARE)
+    scene.start() if running else scene.drive(Twist.planar(0.4, 0.0))
+    scene.run(0.2)
+
+    def fail() -> None:
+        raise OSError("gone")
+
+    obeys, scene.robot.stop = scene.robot.stop, fail  # type: ignore[method-assign]
+    said = scene.refused("/stop", CommandRequest(client_name="Bert"))
+    assert said == "STOP is pressed, but the robot's port failed: OSError('gone')."
+    assert scene.control.stopped_by == "Bert"
+    assert not scene.station.autonomy.engine.running
+    assert "STOP pressed by Bert." in scene.events("stop")
+    scene.robot.stop = obeys  # type: ignore[method-assign]
+    scene.ask("/stop")
+    scene.run(0.2)
+    assert scene.robot.at_rest
+    assert scene.ask("/stop").message == "Stopped."

@@ -21,7 +21,7 @@ def test_a_new_widget_was_never_heard_and_a_new_control_is_live():
 
 @pytest.mark.parametrize(
     ("age", "text"),
-    [(math.nan, ""), (0.4, "under 1 s old"), (3.4, "3 s old"), (65.0, "1 min old"), (7300.0, "2 h old")],
+    [(math.nan, ""), (0.4, "< 1 s old"), (3.4, "3 s old"), (65.0, "1 min old"), (7300.0, "2 h old")],
 )
 def test_an_age_is_said_in_words(age, text):
     assert age_text(age) == text
@@ -72,8 +72,13 @@ def test_a_widget_refuses_a_message_that_it_does_not_know():
         RobotWidget().show(Float64(1.0))
 
 
-def test_the_badge_lies_within_the_widget(stage):
+def test_in_what_is_small_the_badge_lies_on_the_lower_edge_and_not_on_the_figures(stage):
     widget = stage.show(RobotWidget(state="stale", age=12.0), size=(200, 120))
+    assert widget.badge_pos[1] + widget.badge_size[1] / 2 == widget.y
+
+
+def test_in_what_is_big_the_badge_lies_within(stage):
+    widget = stage.show(RobotWidget(state="stale", age=12.0), size=(200, 190))
     x, y = widget.badge_pos
     width, height = widget.badge_size
     assert x >= widget.x

@@ -85,9 +85,12 @@ def test_without_a_clock_no_time_is_claimed(card):
     assert card.headline == "Anna asks for control"
 
 
-def test_on_a_narrow_card_stands_what_must_be_said(stage, card):
+def test_the_driver_of_a_phone_is_told_too_that_silence_gives_control_away(stage, card):
     card.me, card.width = "b", 300
     card.show(ASKS)
-    stage.frames(4)
-    assert card.said == ""
-    assert card.height <= 120
+    stage.frames(2)
+    assert card.tiny
+    assert card.said == "It goes over by itself, unless you keep it."
+    card.me = "a"
+    card.show(ASKS)
+    assert card.said == "", "who asks has the countdown"

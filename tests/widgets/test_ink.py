@@ -137,3 +137,20 @@ def test_a_widget_that_is_dropped_goes(stage):
     del made
     gc.collect()
     assert gone() is None
+
+
+def test_shapes_are_as_see_through_as_their_widget(stage):
+    class Inked(Drawing):
+        def __init__(self, **kwargs):
+            self.ink = Ink()
+            super().__init__(**kwargs)
+            self.canvas.add(self.ink)
+
+        def draw(self):
+            pass
+
+    made = stage.show(Inked(opacity=0), size=(50, 50))
+    stage.frames(2)
+    assert made.ink["seen"] == 0
+    made.opacity = 0.5
+    assert made.ink["seen"] == 0.5

@@ -88,3 +88,15 @@ def test_a_pose_that_changes_nothing_that_is_read_is_not_drawn_anew(stage, badge
     )
     badge.show_pose(pose(101.05, x=0.01))
     assert not changed
+
+
+def test_what_is_old_is_no_news_and_says_how_old_it_is(stage, badge):
+    badge.show(found((0.0, 4.0, 100.0)))
+    badge.show_pose(pose(100.0))
+    badge.state, badge.age = "stale", 8.2
+    stage.frames(2)
+    assert badge.texts == ["1 intruder", "last: 4.0 m · 90° left · 8 s old"]
+    assert not badge.fresh
+    badge.show(found())
+    stage.frames(2)
+    assert badge.texts[1:] == ["No intruders · 8 s old"]

@@ -71,3 +71,12 @@ def test_a_long_name_of_a_place_is_cut():
     place = (0.0, 0.0, "The room behind the second door", "place")
     texts = {word.text for word in marks.place_marks(Shapes(), view, [place], 12.0)}
     assert "The room behind…" in texts
+
+
+@pytest.mark.parametrize(("faded", "role"), [(False, "danger"), (True, "muted")])
+def test_an_intruder_of_which_nobody_tells_any_more_is_grey(faded, role):
+    shapes, colour = Noted(), tuple(theme.roles[role])
+    (word,) = marks.intruder_marks(
+        shapes, View(), [(0.0, 0.0, "Intruder 1")], 20, box=(0, 0, 400, 400), faded=faded
+    )
+    assert (tuple(word.colour), shapes.rings) == (colour, [(colour, 16)])

@@ -97,8 +97,9 @@ def test_its_figures_do_not_dance(stage):
 
 
 @pytest.mark.parametrize(
-    ("width", "said"), [(300, "Speed · 34 s old"), (110, "Speed 34 s"), (76, "34 s old")]
+    ("width", "said", "behind"),
+    [(300, "Speed · 34 s old", ""), (110, "Speed 34 s", ""), (76, "Speed 34 s", ""), (40, "Speed", "34 s")],
 )
-def test_where_name_and_age_have_no_room_the_age_is_said(width: int, said: str) -> None:
+def test_the_name_stays_and_the_age_goes_where_there_is_room(width: int, said: str, behind: str) -> None:
     readout = Readout(name="Speed", fitted=False, state="stale", age=34.0, width=width)
-    assert readout.heading == said
+    assert (readout.heading, readout.aged) == (said, behind)

@@ -51,7 +51,7 @@ def test_it_is_filled_until_all_are_stopped(stop_all):
     assert not stop_all.filled
 
 
-@pytest.mark.parametrize("size", [(54, 106), (66, 68), (111, 54), (240, 64)])
+@pytest.mark.parametrize("size", [(54, 106), (54, 68), (84, 68), (84, 76), (111, 54), (150, 54), (240, 64)])
 @pytest.mark.parametrize("active", [True, False])
 def test_its_words_stay_within_it(stage, stop_all, size, active):
     stop_all.size = size
@@ -59,4 +59,5 @@ def test_its_words_stay_within_it(stage, stop_all, size, active):
     stage.frames(2)
     for label in stop_all.children[0].children:
         assert label.texture_size[0] <= size[0] - 4
+        assert label.font_size >= 14 or not label.text
     assert stop_all.children[0].height <= size[1]

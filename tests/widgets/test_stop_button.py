@@ -114,17 +114,26 @@ def test_every_phase_says_something_else(stop):
 
 
 @pytest.mark.parametrize(
-    ("size", "upright"), [((329, 76), False), ((210, 180), True), ((112, 172), True), ((160, 64), False)]
+    ("size", "upright"),
+    [
+        ((329, 76), False),
+        ((210, 180), True),
+        ((110, 173), True),
+        ((150, 94), False),
+        ((184, 68), False),
+        ((128, 68), False),
+    ],
 )
+@pytest.mark.parametrize("local", [False, True])
 @pytest.mark.parametrize("phase", PHASES)
-def test_its_words_fit_into_it(stage, size, upright, phase):
-    button = stage.show(StopButton(phase=phase), size=size)
+def test_its_words_fit_into_it_and_can_be_read(stage, size, upright, phase, local):
+    button = stage.show(StopButton(phase=phase, local=local, ago="12 min"), size=size)
     stage.frames(3)
     column = button.children[0]
-    assert button.upright is upright
+    assert button.upright is (upright or (phase == "ready" and size[0] < 2 * size[1]))
     assert column.width <= button.width
     assert column.height <= button.height
-    assert button.ids.sentence.font_size >= 12
+    assert min(button.ids.sentence.font_size, button.word_size) >= 14
 
 
 @pytest.mark.parametrize("local", [False, True])
@@ -134,3 +143,19 @@ def test_on_a_phones_corner_its_words_keep_off_its_edges(stage, phase, local):
     stage.frames(3)
     assert button.children[0].height <= button.height - 12
     assert button.upright is (phase == "ready")
+
+
+def test_without_a_link_it_says_what_was_heard_last_and_lets_nothing_go(stage, stop):
+    stop.phase, stop.ago = "lost", "8 s"
+    assert stop.word.replace("\u200a", "") != "STOPPED"
+    assert stop.sentence == "no link, was STOPPED 8 s ago"
+    stage.touch(150, 40).touch_down()
+    stage.run_for(4.0)
+    assert stop.heard == ["stop"], "it can be pressed, and holding it releases nothing"
+
+
+def test_one_that_is_pressed_and_moves_can_be_let_go_by_a_long_hold(stage, stop):
+    stop.local, stop.phase = True, "moves"
+    stage.touch(150, 40).touch_down()
+    stage.run_for(3.2)
+    assert stop.heard == ["stop", "release"]

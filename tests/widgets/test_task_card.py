@@ -61,3 +61,12 @@ def test_the_state_is_a_word_with_an_icon_of_its_own(card, state, words, role):
 def test_no_task_is_said(card):
     card.show(TaskStatus())
     assert (card.title, card.reason) == ("No task", "No task runs.")
+
+
+def test_what_was_cut_short_has_no_figures_of_before(card):
+    card.show(RUNS)
+    card.show(TaskProgress(task_id=RUNS.task_id, progress=1.0, time_left=0.0))
+    card.show(TaskStatus(task_id=RUNS.task_id, task="patrol", state="INTERRUPTED"))
+    card.show(TaskProgress(task_id=RUNS.task_id, progress=1.0, time_left=0.0))
+    assert math.isnan(card.progress)
+    assert "left" not in card.figures and "%" not in card.figures

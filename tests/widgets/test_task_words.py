@@ -102,3 +102,10 @@ def test_lengths_of_time(seconds, words):
 
 def test_a_heading_counts_clockwise_from_north():
     assert [heading_of(math.radians(yaw)) for yaw in (90, 0, -90, 180)] == ["000°", "090°", "180°", "270°"]
+
+
+def test_a_robot_that_cannot_tell_who_follows_does_not_promise_to_wait():
+    order = TaskOrder(task="guide", places=["Lab"])
+    said = will(order, follows=False)
+    assert said.startswith("Leads a person to Lab and tells what is there. Does not wait:")
+    assert "waits when nobody follows" in will(order)

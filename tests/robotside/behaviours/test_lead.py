@@ -72,6 +72,16 @@ def test_without_a_sensor_it_says_so_once_and_goes_on() -> None:
     assert stage.said.count(said) == 1
 
 
+def test_its_sentence_says_for_the_whole_way_that_it_does_not_wait() -> None:
+    stage = Stage()
+    _, tree = lead(TOUR, "", stage.guide, stage.situation, stage.say)
+    go(stage, tree, 0.5, follows=None)
+    said = stage.situation.doing.text
+    assert said == "Leading the way to Reception, without waiting: nothing tells whether somebody follows."
+    go(stage, tree, 0.2, follows=True)
+    assert stage.situation.doing.text == "Leading the way to Reception."
+
+
 def test_a_sensor_that_falls_silent_while_it_waits_does_not_hold_it_for_ever() -> None:
     stage = Stage()
     _, tree = lead(TOUR, "", stage.guide, stage.situation, stage.say)

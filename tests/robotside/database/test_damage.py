@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import shutil
 import sqlite3
 from collections.abc import Callable
 from contextlib import closing
@@ -100,6 +101,51 @@ async def test_without_a_backup_it_starts_empty_and_says_so(tmp_path: Path, cont
     records.close()
     records = await opened(tmp_path)
     assert (records.problems, len(records.places.all())) == ([], 1)
+    records.close()
+
+
+@pytest.mark.parametrize(("left", "why"), [(b"", "it is empty"), (None, "it is gone")])
+async def test_what_a_power_cut_left_empty_or_nothing_of_starts_from_its_backup_and_says_so(
+    tmp_path: Path, left: bytes | None, why: str
+) -> None:
+    await with_backup(tmp_path)
+    path = tmp_path / "records.sqlite3"
+    path.unlink()
+    if left is not None:
+        path.write_bytes(left)
+    records = await opened(tmp_path)
+    (problem,) = records.problems
+    assert problem.startswith(f"The database was damaged ({why}) and ")
+    assert problem.endswith(
+        f"; the backup {Files(path).backups()[-1].name} was put in its place, what was stored after it is lost."
+    )
+    assert records.places.named("Office 12") is not None
+    records.close()
+
+
+@pytest.mark.parametrize("how", ["gone", "cut", "replaced", "log"])
+async def test_a_file_that_is_taken_away_while_it_is_used_is_noticed_before_anything_is_acknowledged(
+    tmp_path: Path, how: str
+) -> None:
+    records = await opened(tmp_path)
+    troubles: list[str] = []
+    records.on_trouble(troubles.append)
+    assert await keep(records, OFFICE) == ""
+    path = tmp_path / "records.sqlite3"
+    if how == "cut":
+        path.write_bytes(path.read_bytes()[:100])
+    elif how == "replaced":
+        path.rename(tmp_path / "elsewhere")
+        path.write_bytes((tmp_path / "elsewhere").read_bytes())
+    else:
+        path.with_name(f"{path.name}{'-wal' if how == 'log' else ''}").unlink()
+    assert await keep(records, LAB) == ""
+    await until(lambda: troubles)
+    assert "a new one was written, nothing is lost." in troubles[0]
+    left = shutil.copytree(tmp_path, tmp_path / "as a kill leaves it")
+    again = await opened(left)
+    assert [place.name for place in again.places.all()] == ["Office 12", "Lab"]
+    again.close()
     records.close()
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
 import math
+import shutil
 import sqlite3
 from contextlib import closing
 from pathlib import Path
@@ -13,12 +15,13 @@ from alembic.autogenerate import compare_metadata
 from alembic.migration import MigrationContext
 from sqlalchemy import create_engine, event, inspect, text
 from sqlalchemy.engine import make_url
+from sqlalchemy.exc import OperationalError
 
 from bridge.codec import to_json
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event, Mission, Place, ScheduledTask, TaskOrder, TaskRun, Waypoint
 from bridge.msgs.std_msgs import Time
-from robotside.database import Job, Records
+from robotside.database import Job, Records, opening
 from robotside.database.opening import AFTER_CRASH, CannotOpen, open_records, upgrade
 from robotside.database.storage import engine_of
 from robotside.database.tables import Base
@@ -252,6 +255,46 @@ async def test_a_server_that_was_away_is_found_again(start: Open, url: str | Non
     again = start()
     assert len(again.places.all()) == 3
     again.close()
+
+
+NEXT = """
+revision, down_revision, branch_labels, depends_on = "0002", "0001", None, None
+
+def upgrade():
+    from alembic import op
+    op.execute("CREATE TABLE later (id INTEGER)")
+"""
+
+
+async def test_before_a_migration_the_database_is_copied_as_it_was(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state, program = tmp_path / "state", tmp_path / "program"
+    records = open_records(state, None, asyncio.get_running_loop().call_soon_threadsafe)
+    await fill(records)
+    records.close()
+    shutil.rmtree(state / "backups", ignore_errors=True)
+    shutil.copytree(Path(opening.__file__).with_name("migrations"), program / "migrations")
+    (program / "migrations" / "versions" / "v0002_next.py").write_text(NEXT)
+    monkeypatch.setattr(opening, "__file__", str(program / "opening.py"))
+    open_records(state, None, print).close()
+    first = min((state / "backups").iterdir())
+    with (
+        closing(sqlite3.connect(first)) as before,
+        closing(sqlite3.connect(state / "records.sqlite3")) as now,
+    ):
+        assert before.execute("SELECT version_num FROM alembic_version").fetchall() == [("0001",)]
+        assert before.execute("SELECT count(*) FROM places").fetchall() == [(2,)]
+        assert now.execute("SELECT version_num FROM alembic_version").fetchall() == [("0002",)]
+
+
+async def test_of_two_who_write_the_second_finds_it_locked_before_it_has_looked_at_anything(
+    tmp_path: Path,
+) -> None:
+    engine = engine_of(make_url(f"sqlite:///{tmp_path / 'x.sqlite3'}"), patience=0.0)
+    with engine.begin(), pytest.raises(OperationalError, match="locked"), engine.begin():
+        pytest.fail("it began")
+    engine.dispose()
 
 
 async def test_a_migration_that_is_cut_leaves_nothing_half_and_is_done_again(

@@ -1,0 +1,86 @@
+"""Whoever changes what the robot will do has control, or takes it; nobody drives it from aside."""
+
+from __future__ import annotations
+
+import pytest
+
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
+from bridge.msgs.pilothouse_msgs import (
+    Mission,
+    ScheduledTask,
+    SetMissionRequest,
+    SetQueueRequest,
+    SetScheduleRequest,
+    TaskOrder,
+    Waypoint,
+)
+from tests.robotside.scene import SQUARE, Scene
+
+STRAIGHT = TaskOrder(task="follow_heading", heading=0.0)
+QUEUE = SetQueueRequest(orders=[STRAIGHT])
+NIGHTLY = SetScheduleRequest(task=ScheduledTask(order=STRAIGHT, every=60.0))
+PLACED = PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(1.0, 1.0))))
+
+
+@pytest.mark.parametrize(("service", "asked"), [("/task/queue/set", QUEUE), ("/schedule/set", NIGHTLY)])
+def test_what_will_move_the_robot_takes_control_and_is_refused_while_another_has_it(
+    scene: Scene, service: str, asked: Msg
+) -> None:
+    bert = scene.client("bert")
+    assert scene.ask(service, asked, bert).success
+    scene.run(0.1)
+    assert scene.control.driver_id == "bert"
+    assert "has control" in scene.refused(service, asked)
+
+
+@pytest.mark.parametrize(
+    ("service", "asked"),
+    [
+        ("/task/queue/set", SetQueueRequest()),
+        ("/schedule/set", SetScheduleRequest(task=ScheduledTask(order=STRAIGHT, every=60.0, enabled=False))),
+        ("/mission/set", SetMissionRequest(mission=Mission(waypoints=SQUARE))),
+    ],
+)
+def test_what_moves_nothing_needs_no_control(scene: Scene, service: str, asked: Msg) -> None:
+    assert scene.ask(service, asked).success
+    scene.run(0.1)
+    assert scene.control.driver_id == ""
+
+
+def test_the_answer_about_a_queue_says_whether_it_begins(scene: Scene) -> None:
+    scene.ask("/stop")
+    said = scene.ask("/task/queue/set", QUEUE).message
+    assert said == "1 task waits in the queue; it waits, since STOP is pressed."
+    scene.run(2.0)
+    assert scene.task.state == "IDLE"
+    scene.ask("/stop/release")
+    scene.ask("/task/queue/set", SetQueueRequest(revision=1))
+    said = scene.ask("/task/queue/set", SetQueueRequest(revision=2, orders=[STRAIGHT])).message
+    assert said == "1 task waits in the queue; it begins now."
+    scene.run(1.1)
+    assert scene.task.state == "RUNNING"
+    said = scene.ask("/task/queue/set", SetQueueRequest(revision=4, orders=[STRAIGHT])).message
+    assert said == "1 task waits in the queue.", "for the one that runs"
+
+
+def test_the_mission_that_is_patrolled_is_changed_only_with_control(scene: Scene) -> None:
+    scene.set(*SQUARE)
+    scene.start()
+    scene.run(1.0)
+    request = SetMissionRequest(mission=Mission(waypoints=[Waypoint(1.0, 1.0)]))
+    bert = scene.client("bert")
+    assert "has control" in scene.refused("/mission/set", request, bert)
+    scene.station.gone(scene.anna)
+    assert scene.ask("/mission/set", request, bert).success
+    scene.run(0.1)
+    assert scene.control.driver_id == "bert"
+
+
+def test_who_says_where_the_robot_is_takes_control(scene: Scene) -> None:
+    bert = scene.client("bert")
+    scene.station.hear(bert, "/initialpose", PLACED, None)
+    assert scene.control.driver_id == "bert"
+    scene.station.hear(scene.anna, "/initialpose", PLACED, None)
+    assert "has control" in scene.events("command")[-1]
+    assert sum("placed the robot" in said for said in scene.events("localisation")) == 1
