@@ -87,7 +87,7 @@ class Autonomy:
         self._bus, self._events, self._demand, self._fit = bus, events, demand, fit
         self._now = 0.0
         self._heard = {"odometry": -math.inf, "laser": -math.inf}
-        self._laser = Laser()
+        self._laser = Laser(Pose2(info.laser_x, 0.0, 0.0))
         self._points: Points = np.empty((0, 2))
         self._swept: Pose2 | None = None
         self._bumped = False

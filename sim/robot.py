@@ -197,6 +197,7 @@ def info_of(vehicle: Vehicle, world: World, *, camera: bool) -> RobotInfo:
         longitude=world.datum.longitude,
         camera_fov=vehicle.cameras[0].field_of_view if vehicle.cameras else math.nan,
         manoeuvres=list(vehicle.MANOEUVRES),
+        laser_x=vehicle.laser_x,
     )
 
 

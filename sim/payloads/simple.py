@@ -85,7 +85,7 @@ class MountedLaser(_Plain):
             noise=figures.noise,
             ahead=at[0],
         )
-        scene = vehicle.scene
+        scene, vehicle.laser_x = vehicle.scene, at[0]
         laser = Laser(parameters, scene.backend, vehicle.body, scene.generator("payload laser"))
         vehicle.suite.add("laser", figures.rate, lambda _, stamp: [("/scan", laser.measure(stamp))])
 

@@ -45,6 +45,8 @@ class Chassis(Generic[P]):
         self.bumper = BumperRing()
         self.suite = Suite()
         self.cameras = list(parameters.cameras)
+        self.laser_x = 0.0
+        """How far its laser is ahead of `base_link` [m]."""
         self.attached: list[Callable[[], tuple[Shape, ...]]] = []
         self.battery: Battery
         self.order = Manoeuvre(kind="rest")

@@ -33,6 +33,8 @@ class Vehicle(Protocol):
     """Feeds it."""
     cameras: list[CameraParameters]
     """Its cameras, the first one is the main one."""
+    laser_x: float
+    """How far its laser is ahead of `base_link` [m]."""
     attached: list[Callable[[], tuple[Shape, ...]]]
     """What is seen of its payloads, in `base_link`."""
     body: int

@@ -185,6 +185,14 @@ def test_told_to_stop_in_the_air_it_hovers_there(drone):
     assert drone.simulation.vehicle.pilot.phase == "flying"
 
 
+def test_told_to_stop_just_over_the_ground_it_sets_down(drone):
+    fly(drone, 0.15)
+    drone.stop()
+    until(drone, 3.0)
+    assert drone.simulation.vehicle.pilot.phase == "landed"
+    assert max(drone.simulation.vehicle.rotors.speeds) < 1.0
+
+
 def test_gusts_move_it_about_and_do_not_take_it_away():
     """With 1 m/s of gusts it stays within a metre and tilts by less than 20 degrees."""
     robot = alone(ARDRONE, plain("[wind]\nspeed = 0.0\ngusts = 1.0\ngust_time = 1.0\n"), seed=2, noise=True)

@@ -81,6 +81,7 @@ class RobotInfo(Msg, frozen=True, gc=False):
         "float64",
         "string[]",
         "string[]",
+        "float64",
     )
     UNITS: ClassVar[dict[str, str]] = {
         "max_speed": "m/s",
@@ -89,6 +90,7 @@ class RobotInfo(Msg, frozen=True, gc=False):
         "latitude": "deg",
         "longitude": "deg",
         "camera_fov": "rad",
+        "laser_x": "m",
     }
     name: str = ""
     """What people call it, as in Patrol-1."""
@@ -118,6 +120,8 @@ class RobotInfo(Msg, frozen=True, gc=False):
     """Which kinds of pilothouse_msgs/Manoeuvre it knows; empty for one that knows twists only."""
     payloads: list[str] = []
     """Names of the payloads that are mounted."""
+    laser_x: float = 0.0
+    """How far its laser is ahead of base_link [m]."""
 
 
 class RudderState(Msg, frozen=True, gc=False):

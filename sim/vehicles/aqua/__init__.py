@@ -105,10 +105,14 @@ class Aqua(Chassis[SwimmerParameters]):
         """Let the fins follow the order, and the water act on the body."""
         body, fins = self.dynamics, self.fins
         body.look(self.scene.weather.current)
-        if self.order.kind == "rest" or self.battery.empty:
+        wanted = None
+        if not self.battery.empty:
+            resting = self.order.kind == "rest"
+            wanted = self._pilot.brakes(body) if resting else self._pilot.wants(body, self.float.wet)
+        if wanted is None:
             fins.rest()
         else:
-            fins.tell(*self._pilot.wants(body, self.float.wet))
+            fins.tell(*wanted)
         (fx, fy, fz), (mx, my, mz) = self.float.forces(body)
         (ahead, up), (roll, pitch, yaw) = fins.step()
         wet = self.float.wet

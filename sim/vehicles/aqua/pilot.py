@@ -21,6 +21,8 @@ SURGE = 16.0
 """Force for a speed that lacks [N s/m]."""
 HEAVE, HEAVE_RATE, HEAVE_SUM, HEAVE_MOST = 55.0, 90.0, 8.0, 6.0
 """Force for a height that is off [N/m], for its rate [N s/m], for what was off so far [N/(m s)], and at most [N]."""
+STILL = 0.04
+"""Slower ahead, and turning slower than this, it lies still [m/s, rad/s]."""
 _NEAR = 0.1
 """Only nearer than this does what was off add up [m]."""
 DIVING = 0.1
@@ -76,6 +78,14 @@ class Pilot:
             YAW[0] * wrap(self._yaw - yaw) - YAW[1] * r,
         )
         return (surge + heave * ux, heave * uz), torque
+
+    def brakes(self, body: SixDof) -> tuple[tuple[float, float], Vec3] | None:
+        """What takes its way off it; None when it hardly makes any."""
+        u = body.through[0]
+        p, q, r = body.turning
+        if abs(u) < STILL and abs(r) < STILL:
+            return None
+        return (-2 * SURGE * u, 0.0), (-ROLL[1] * p, -PITCH[1] * q, -YAW[1] * r)
 
     def _move(self, body: SixDof) -> None:
         """Move what is held by the rates of a twist or a tilt."""

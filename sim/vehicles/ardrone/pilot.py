@@ -29,6 +29,8 @@ LANDING, TOUCHING = 0.4, 0.25
 """Downward far from the ground and near it [m/s]."""
 UP, STILL = 0.05, 0.25
 """A twist upward of this takes off [m/s]; slower than the second it has stopped and holds its place [m/s]."""
+LOW = 0.15
+"""Lower than this above where it started it does not stay in the air to rest [m]."""
 TUMBLED = 0.3
 """Less upright than this it cuts its rotors."""
 _SUM_MOST = 3.0
@@ -68,9 +70,9 @@ class Pilot:
         self._order = order
         if order.kind == "take_off" and self.phase == "landed" and now.upright > TUMBLED:
             self._take_off(now, given(order.height, now.position[2] + TAKE_OFF_TO))
-        elif order.kind == "land" and self.phase != "landed":
+        elif self.phase != "landed" and (order.kind == "land" or self._nearly_down(order, now)):
             self.phase = "landing"
-        elif self.phase == "landing" and order.kind != "land":
+        elif self.phase == "landing" and order.kind not in ("land", "rest"):
             self.phase = "flying"
         if fresh and self.phase not in ("landed", "taking_off"):
             self._place, self._yaw = list(now.position), now.angles[2]
@@ -79,6 +81,10 @@ class Pilot:
             self._yaw = given(order.yaw, self._yaw)
             if not math.isnan(order.height):
                 self._place[2], self._holds[2] = self._allowed(order.height), True
+
+    def _nearly_down(self, order: Manoeuvre, now: Motion) -> bool:
+        """Told to come to rest so low it does not hover, but sets down."""
+        return order.kind == "rest" and now.position[2] - self._floor < LOW
 
     def touched(self, now: Motion) -> None:
         """It stands on something."""

@@ -100,6 +100,7 @@ class Commander(Chassis[CommanderParameters]):
     def _add_sensors(self) -> None:
         parameters, scene, suite = self.parameters, self.scene, self.suite
         start = scene.start
+        self.laser_x = parameters.laser.ahead
         laser = Laser(parameters.laser, scene.backend, self.body, scene.generator("laser"))
         imu = InertialUnit(parameters.imu, scene.generator("imu"))
         gps = Gps(parameters.gps, scene.world.datum, scene.generator("gps"))
