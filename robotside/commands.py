@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from bridge.codec import from_json
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
-from robotside.controls import AHEAD
+from robotside.expiry import AHEAD
 from robotside.words import number, plain
 
 __all__ = ["KEPT", "KEPT_FOR", "Commands", "Refusal"]

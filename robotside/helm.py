@@ -108,8 +108,9 @@ class Helm:
 
     def gone(self, client: Operator, now: float) -> None:
         """A client's socket closed; if it was driving, the robot takes its safe state at once."""
-        held, name = self._controls.holds(client), self._controls.name(client)
-        if self._controls.gone(client) and not self._engine.running:
+        drove, name = self._controls.drives(client), self._controls.name(client)
+        held = self._controls.gone(client)
+        if drove and not self._engine.running:
             self.rest(now)
         if held:
             self._lost(name, now)

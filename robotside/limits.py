@@ -21,6 +21,7 @@ from robotside.fencing import Fencing
 from robotside.grid import Grid
 from robotside.planner import place_sentence
 from robotside.pose2 import Pose2
+from robotside.slower import slower
 from robotside.tracks import HANDLING, REACTION, REST, Handling, Moving
 
 __all__ = ["GOAL_ROOM", "PATH_ROOM", "Clamped", "Keeper", "Measured"]
@@ -131,17 +132,10 @@ class Keeper:
     _last: tuple[Twist, Measured, Clamped] = (Twist(), Measured(), Clamped(Twist()))
 
     def _clamped(self, twist: Twist, measured: Measured) -> Clamped:
-        fitted = self._upright(self._fast(twist), measured)
+        fitted = self._upright(slower(twist, self.info.max_speed, self.info.max_yaw_rate), measured)
         level = self._level(fitted.twist, measured)
         fenced = self._fenced(level.twist, measured)
         return Clamped(fenced.twist, fitted.why or level.why or fenced.why)
-
-    def _fast(self, twist: Twist) -> Twist:
-        v, w, turn = twist.linear, twist.angular, self.info.max_yaw_rate
-        speed = math.hypot(v.x, v.y, v.z)
-        scale = self.info.max_speed / speed if speed > self.info.max_speed else 1.0
-        spin = (max(-turn, min(turn, rate)) for rate in (w.x, w.y, w.z))
-        return Twist(Vector3(v.x * scale, v.y * scale, v.z * scale), Vector3(*spin))
 
     def _upright(self, twist: Twist, measured: Measured) -> Clamped:
         """Slower up and down, so that height and depth are kept when it brakes."""

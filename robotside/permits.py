@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from robotside.assignments import words_for
+from robotside.authority import Operator
 from robotside.autonomy import LOW_BELOW
 from robotside.commands import Refusal
-from robotside.controls import STOP_SENTENCE, Operator
+from robotside.controls import STOP_SENTENCE
 from robotside.station import NO_MAP, Station
 from robotside.tasks import TO_CHARGE, Task
 

@@ -12,8 +12,7 @@ import msgspec
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist
-from robotside.controls import HELD, VALID
-from robotside.expiry import UNSTAMPED
+from robotside.expiry import HELD, UNSTAMPED, VALID
 from tests.fakes import FakeClient, FakeRobot
 from tests.robotside.scene import Scene
 
