@@ -167,10 +167,6 @@ class Autonomy:
             CAMERA: self._image,
         }
 
-    def start(self, order: TaskOrder, now: float, by: str = "") -> None:
-        """Do `order`, whatever is under way; Refusal when it cannot be done."""
-        self.engine.start(self.assignments.task(order, by), now)
-
     @property
     def patrols_mission(self) -> bool:
         """A patrol of the stored mission is under way."""

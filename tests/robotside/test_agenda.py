@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from bridge.msgs.geometry_msgs import Point, Pose, PoseStamped, Twist
+from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
     DeleteScheduleRequest,
@@ -141,7 +141,7 @@ def test_the_queue_waits_after_what_an_operator_or_the_battery_ended_and_goes_on
     elif how == "home":
         scene.ask("/task/go_home")
     elif how == "goal":
-        scene.station.hear(scene.anna, "/goal_pose", PoseStamped(pose=Pose(Point(-1.0, -1.0))), None)
+        scene.go_to(-1.0, -1.0)
     elif how == "stick":
         scene.drive(Twist.planar(-0.1, 0.0))
     else:
