@@ -190,9 +190,12 @@ class DriveScreen(FloatLayout):
         if self.senses.covers:
             lids.append(self._arranged["senses_open"])
         for slot in ("top_left", "top_right", "readouts", "top"):
-            hidden = any(lid.overlaps(self._arranged[slot]) for lid in lids)
+            place = self._arranged[slot]
+            hidden = any(lid.overlaps(place) for lid in lids)
             for widget in self.places.get(slot, ()):
                 widget.opacity = 0 if hidden else 1
+                # what has a shader of its own knows nothing of opacity
+                put(widget, Rect(AWAY, place.y, place.width, place.height) if hidden else place)
         low, cover = self.low, self._cover
         under = cover is not None and cover.overlaps(Rect(*low.pos, *low.size))
         low.opacity, low.disabled = float(not under), under

@@ -31,7 +31,7 @@ Builder.load_string("""
             id: main
             text: root.main_words
             meaning: root.main
-            icon: 'pause' if root.main == 'pause' else 'play_arrow_fill'
+            icon: 'play_arrow_fill' if root.main == 'resume' else 'pause'
             fill: 'accent' if root.main == 'resume' else 'raised'
             border: 'accent' if root.main == 'resume' else 'line'
             ink: 'ink_accent' if root.main == 'resume' else 'text'

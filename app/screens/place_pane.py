@@ -36,10 +36,10 @@ class PlacePane(BoxLayout):
         self._session = session
         self.head, self.form = PaneHead(), PlaceForm()
         self.add_widget(self.head)
-        self.add_widget(self.form)
         self.head.bind(on_close=lambda _: self.dispatch("on_close"))
         self.form.bind(on_command=lambda *_: self.refresh())
         self.bind(open=lambda *_: self.refresh())
+        self.refresh()
 
     @property
     def sentence(self) -> str:
@@ -54,6 +54,7 @@ class PlacePane(BoxLayout):
     def edit(self, place: Place) -> None:
         """Make a place (id 0) or change one."""
         self.form.show(place)
+        self.refresh()
         self.name_places(self._session.feeds.latest("/places") or PlaceArray())
 
     def name_places(self, msg: PlaceArray) -> None:
@@ -68,17 +69,21 @@ class PlacePane(BoxLayout):
         self.head.refused = bool(refused)
         asks = refused or self.form.lacking
         self.head.sentence = asks if there else "Choose a place to change it, or make a new one."
-        self.form.opacity, self.form.disabled = float(there), not there
+        self.form.disabled = not there
+        if there != (self.form.parent is self):
+            (self.add_widget if there else self.remove_widget)(self.form)
 
     def keep(self) -> None:
         """Store it at the robot."""
         self._session.tasking.keep_place(self.form.place)
         self.form.show(Place())
+        self.refresh()
 
     def forget(self) -> None:
         """Delete it; can be undone."""
         self._session.tasking.forget_place(self.form.shown)
         self.form.show(Place())
+        self.refresh()
 
     def rest(self) -> None:
         """Fingers let go of what they hold."""

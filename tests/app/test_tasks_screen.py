@@ -371,6 +371,17 @@ def test_two_places_never_have_the_same_name(glass: Glass, tasks: Any) -> None:
     assert tasks.ids["keep"].disabled
 
 
+def test_with_no_place_chosen_there_is_no_form_to_fill_but_what_to_do(glass: Glass, tasks: Any) -> None:
+    pane = tasks.place_pane
+    tasks.tab = "places"
+    assert pane.form.parent is None
+    assert (pane.head.title, pane.sentence) == ("Places", "Choose a place to change it, or make a new one.")
+    tasks.edit_place(Place(x=1.0, y=2.0))
+    assert (pane.form.parent, pane.head.title) == (pane, "New place")
+    tasks.close()
+    assert pane.form.parent is None
+
+
 def test_where_the_robot_stands_becomes_a_place(glass: Glass, robot: FakeRobot, tasks: Any) -> None:
     tasks.tab = "places"
     assert tasks.ids["here"].disabled
