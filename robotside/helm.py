@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from bridge.liveness import LAPSE
 from bridge.msgs.geometry_msgs import Twist
-from robotside.authority import LAPSE, TO_OBJECT, Operator
+from robotside.authority import TO_OBJECT, Operator
 from robotside.commands import Refusal
 from robotside.config import ControlSettings
 from robotside.controls import Controls

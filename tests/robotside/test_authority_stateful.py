@@ -7,8 +7,9 @@ import itertools
 from hypothesis import HealthCheck, settings, strategies
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
+from bridge.liveness import LAPSE
 from bridge.msgs.geometry_msgs import Twist
-from robotside.authority import LAPSE, TO_OBJECT
+from robotside.authority import TO_OBJECT
 from robotside.controls import Controls
 from robotside.expiry import VALID
 from robotside.guarded import Guarded

@@ -6,8 +6,9 @@ import math
 
 import pytest
 
+from bridge.liveness import LAPSE
 from bridge.msgs.geometry_msgs import Twist, Vector3
-from robotside.authority import LAPSE, SILENT
+from robotside.authority import SILENT
 from robotside.controls import STOP_SENTENCE, Controls, Ruling
 from robotside.expiry import HELD, VALID
 from robotside.sticks import LET_GO
