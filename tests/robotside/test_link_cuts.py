@@ -133,6 +133,21 @@ class Trial:
         return valid
 
 
+@pytest.mark.parametrize("ahead", [0.0, 0.1, 0.9])
+def test_a_clock_that_is_ahead_and_then_silence_is_zero_as_soon(tmp_path: Path, ahead: float) -> None:
+    way, robot = 0.08, Noting("wheels")
+    scene = Scene(robot, tmp_path)
+    scene.run(0.5)
+    scene.anna.rtt = 2 * way
+    for _ in range(6):
+        given = scene.clock
+        scene.run(way)
+        scene.drive(FULL, stamp=given + ahead)
+        assert robot.moving
+    scene.run(given + VALID - SPARE - scene.clock)
+    assert not robot.moving
+
+
 @pytest.mark.parametrize("kind", ["wheels", "ackermann", "boat", "hexapod", "quadrotor"])
 def test_the_commanded_speed_is_zero_300_ms_after_the_last_valid_command(kind: str, tmp_path: Path) -> None:
     rng, trial = random.Random(f"cuts of {kind}"), Trial(kind, tmp_path)
