@@ -69,4 +69,5 @@ def test_what_was_cut_short_has_no_figures_of_before(card):
     card.show(TaskStatus(task_id=RUNS.task_id, task="patrol", state="INTERRUPTED"))
     card.show(TaskProgress(task_id=RUNS.task_id, progress=1.0, time_left=0.0))
     assert math.isnan(card.progress)
-    assert "left" not in card.figures and "%" not in card.figures
+    assert "left" not in card.figures
+    assert "%" not in card.figures
