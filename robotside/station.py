@@ -26,7 +26,6 @@ from bridge.msgs.pilothouse_msgs import (
     IntruderArray,
     Mission,
     TaskOrder,
-    TaskStatus,
 )
 from bridge.msgs.std_msgs import Header, Time
 from robotside.agenda import Agenda
@@ -276,7 +275,7 @@ class Station:
             self.controls.stop(by)
             self.robot.press_stop()
             self.events.say("stop", f"STOP, pressed by {by} before the restart, is still pressed.", "alarm")
-        engine.status = TaskStatus(task_id=self.records.runs.last)
+        engine.recall(self.records.runs.last, self.records.runs.newest)
         history = History(self.records.runs, engine, self.clock)
         for topic in ("/task/status", "/task/progress"):
             self.bus.subscribe(topic, history.hear)
