@@ -70,6 +70,7 @@ Builder.load_string("""
 class Joystick(Control, Drawing):
     """Dispatches `on_command(twist)` at every change. It follows the finger that came down on it and no other."""
 
+    __events__ = ("on_in_vain",)
     sends = (Twist,)
     drawn_from: ClassVar[tuple[str, ...]] = ("forward", "left", "max_speed", "max_yaw_rate")
 
@@ -196,6 +197,8 @@ class Joystick(Control, Drawing):
         if touch is self._finger:
             self.rest()
         inside = math.dist(touch.pos, self.center) <= min(self.size) / 2
+        if self.disabled and inside:
+            self.dispatch("on_in_vain")
         if self.disabled or self._finger is not None or not inside:
             return bool(super().on_touch_down(touch))
         touch.grab(self)
@@ -219,6 +222,9 @@ class Joystick(Control, Drawing):
 
     def _follow(self, touch: Any) -> None:
         self._push((touch.y - self.center_y) / self.reach, (self.center_x - touch.x) / self.reach)
+
+    def on_in_vain(self) -> None:
+        """A finger came down on it while it is disabled."""
 
     def draw(self) -> None:
         """The pad, its arrows, the way from the middle to the knob, the knob."""

@@ -22,6 +22,7 @@ from app.layout import Instrument, Layout, LayoutError
 from app.link import OFFER
 from app.offer import POSE
 from app.screens.check_card import CheckCard
+from app.screens.in_vain import InVain
 from app.screens.placing import AWAY, put
 from app.screens.senses import Senses
 from app.screens.sight import Sight
@@ -60,6 +61,7 @@ class DriveScreen(FloatLayout):
         self.actions = GridLayout(cols=1, spacing="10dp")
         self.senses = Senses(self.session.feeds)
         self.senses.bind(open=self._uncover, opacity=self._uncover)
+        self.in_vain = InVain(self.session, self.app)
         self.sight = Sight(self.session, self.video, self.dashboard)
         self.places: dict[str, list[Widget]] = {}
         self._titled: list[tuple[Any, Instrument]] = []
@@ -128,7 +130,7 @@ class DriveScreen(FloatLayout):
         self.add_widget(widget)
 
     def _build_controls(self) -> None:
-        self.stick.bind(on_command=self._drive)
+        self.stick.bind(on_command=self._drive, on_in_vain=lambda _: self.in_vain.tell())
         self.speed.bind(maximum_speed=self._limit)
         self._place("stick", self.stick)
         self._place("slider", self.speed)
