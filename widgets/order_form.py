@@ -304,7 +304,7 @@ class OrderForm(Control, BoxLayout):
     def _stops(self) -> list[Widget]:
         rows: list[Widget] = []
         for index, name in enumerate(self.places):
-            row = ListRow(icon="flag", role="plan", title=name, aside=f"{index + 1}")
+            row = ListRow(icon="flag", role="plan", title=name, aside=f"{index + 1}", end="4dp")
             gone = IconButton(icon="close", bare=True, pos_hint={"center_y": 0.5})
             gone.bind(on_release=lambda _, index=index: self._drop(index))
             row.add_widget(gone)

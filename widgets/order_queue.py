@@ -95,7 +95,7 @@ class OrderQueue(Control, BoxLayout):
 
     def _row(self, index: int, order: TaskOrder) -> ListRow:
         words = TASKS.get(order.task)
-        row = ListRow(icon=words.icon if words else "help", title=title(order))
+        row = ListRow(icon=words.icon if words else "help", title=title(order), end="4dp")
         row.size_hint = (None, None)
         delete = IconButton(icon="delete", bare=True, pos_hint={"center_y": 0.5})
         delete.bind(on_release=lambda _: self.remove(index))

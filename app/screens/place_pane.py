@@ -7,6 +7,7 @@ from typing import Any
 from kivy.lang import Builder
 from kivy.properties import BooleanProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.widget import Widget
 
 from app.screens.pane_head import PaneHead
 from app.session import Session
@@ -34,7 +35,7 @@ class PlacePane(BoxLayout):
     def __init__(self, session: Session, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._session = session
-        self.head, self.form = PaneHead(), PlaceForm()
+        self.head, self.form, self._rest = PaneHead(), PlaceForm(), Widget()
         self.add_widget(self.head)
         self.head.bind(on_close=lambda _: self.dispatch("on_close"))
         self.form.bind(on_command=lambda *_: self.refresh())
@@ -70,8 +71,9 @@ class PlacePane(BoxLayout):
         asks = refused or self.form.lacking
         self.head.sentence = asks if there else "Choose a place to change it, or make a new one."
         self.form.disabled = not there
-        if there != (self.form.parent is self):
-            (self.add_widget if there else self.remove_widget)(self.form)
+        for widget, shown in ((self.form, there), (self._rest, not there)):
+            if shown != (widget.parent is self):
+                (self.add_widget if shown else self.remove_widget)(widget)
 
     def keep(self) -> None:
         """Store it at the robot."""
