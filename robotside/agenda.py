@@ -298,10 +298,6 @@ def _counted(count: int) -> str:
     return "1 task" if count == 1 else f"{count} tasks"
 
 
-def _counted(count: int) -> str:
-    return "1 task" if count == 1 else f"{count} tasks"
-
-
 def _title(order: TaskOrder) -> str:
     words = words_for(order.task)
     return f"{words[0].upper()}{words[1:]}"

@@ -53,7 +53,10 @@ class Options:
 
 
 class Helm:
-    """Hands the robot from its driver to its safe state and back; tasks drive it by themselves."""
+    """Hands the robot from its driver to its safe state and back; tasks drive it by themselves.
+
+    `now` is always of the robot's clock [s], `stamp` of the operators'.
+    """
 
     def __init__(
         self,
@@ -89,7 +92,10 @@ class Helm:
         self._keep_safe(now)
 
     def drive(self, client: Operator, twist: Twist, stamp: float | None) -> str:
-        """Obey a drive command or say why not; empty when there is nothing to say."""
+        """Obey a drive command or say why not; empty when there is nothing to say.
+
+        `stamp` is when it was given [s, operators' clock], None when nobody said.
+        """
         engine = self._engine
         ruling = self._controls.drive(
             client, twist, self._clock(), stamp=stamp, auto=engine.running, trouble=self._robot.trouble

@@ -97,7 +97,7 @@ class Keeper:
         )
 
     def fault(self, name: str, x: float, y: float) -> str:
-        """Why the robot may not be sent to a place, as one sentence; empty when it may."""
+        """Why the robot may not be sent to a place [m, in `map`], as one sentence that calls it `name`; empty when it may."""
         if not self._fence:
             return ""
         where = place_sentence(name, x, y)
@@ -110,7 +110,7 @@ class Keeper:
         return ""
 
     def room(self, x: float, y: float) -> float:
-        """From a place to the fence [m]; negative outside, infinite without one."""
+        """From a place [m, in `map`] to the fence [m]; negative outside, infinite without one."""
         return float(self._fence.clearance(np.array([[x, y]]))[0])
 
     def outside(self, pose: Pose2 | None) -> str:
