@@ -9,6 +9,7 @@ from kivy.properties import BooleanProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
+from app.commands import Outcome
 from app.screens.pane_head import PaneHead
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import Place, PlaceArray
@@ -24,9 +25,9 @@ Builder.load_string("""
 
 
 class PlacePane(BoxLayout):
-    """The form of a place; dispatches `on_close`."""
+    """The form of a place; dispatches `on_close`, and `on_back(place)` when the robot did not take one that was made here."""
 
-    __events__ = ("on_close",)
+    __events__ = ("on_close", "on_back")
 
     open = BooleanProperty(False)
     """A new place is being made, which has no number yet."""
@@ -35,6 +36,8 @@ class PlacePane(BoxLayout):
     def __init__(self, session: Session, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._session = session
+        self._kept: Place | None = None
+        """What is on its way to the robot."""
         self.head, self.form, self._rest = PaneHead(), PlaceForm(), Widget()
         self.add_widget(self.head)
         self.head.bind(on_close=lambda _: self.dispatch("on_close"))
@@ -77,9 +80,18 @@ class PlacePane(BoxLayout):
 
     def keep(self) -> None:
         """Store it at the robot."""
-        self._session.tasking.keep_place(self.form.place)
+        self._kept = self.form.place
+        self._session.tasking.keep_place(self._kept)
         self.form.show(Place())
         self.refresh()
+
+    def hear(self, outcome: Outcome) -> None:
+        """What became of a command: what was typed for a place that is refused comes back, unless another is made."""
+        if outcome.name != "place" or outcome.phase == "sent" or outcome.fields["place"] != self._kept:
+            return
+        place, self._kept = self._kept, None
+        if outcome.phase != "accepted" and place is not None and not self.there:
+            self.dispatch("on_back", place)
 
     def forget(self) -> None:
         """Delete it; can be undone."""
@@ -93,3 +105,6 @@ class PlacePane(BoxLayout):
 
     def on_close(self) -> None:
         """A finger asked to go back to the lists."""
+
+    def on_back(self, place: Place) -> None:
+        """The robot did not take `place`."""

@@ -371,6 +371,22 @@ def test_two_places_never_have_the_same_name(glass: Glass, tasks: Any) -> None:
     assert tasks.ids["keep"].disabled
 
 
+def test_a_place_that_is_refused_comes_back_with_all_that_was_typed(
+    glass: Glass, robot: FakeRobot, tasks: Any
+) -> None:
+    robot.refusals["/places/set"] = "Shop lies in the keep-out Ramp."
+    tasks.edit_place(Place(name="Shop", x=1.0, y=2.0, note="Ring twice"))
+    press(glass, tasks, "keep")
+    glass.until(lambda: any("keep-out Ramp" in text for text in glass.banners()), glass.banners())
+    place = tasks.form.place
+    assert (tasks.detail, place.name, place.note, place.x) == ("place", "Shop", "Ring twice", 1.0)
+    robot.refusals.clear()
+    press(glass, tasks, "keep")
+    glass.until(lambda: any(one.name == "Shop" for one in robot.places), "not stored")
+    glass.stage.run_for(0.3)
+    assert tasks.detail == ""
+
+
 def test_with_no_place_chosen_there_is_no_form_to_fill_but_what_to_do(glass: Glass, tasks: Any) -> None:
     pane = tasks.place_pane
     tasks.tab = "places"
