@@ -80,6 +80,8 @@ class Keeper:
             max_yaw_rate=min(info.max_yaw_rate, settings.max_yaw_rate or math.inf),
         )
         """Who it is, with the speeds that it is allowed."""
+        self._last: tuple[Twist, Measured, Clamped] = (Twist(), Measured(), Clamped(Twist()))
+        """What was asked for last, and what came of it."""
 
     @property
     def message(self) -> Limits:
@@ -128,8 +130,6 @@ class Keeper:
         if self._last[:2] != (twist, measured):
             self._last = twist, measured, self._clamped(twist, measured)
         return self._last[2]
-
-    _last: tuple[Twist, Measured, Clamped] = (Twist(), Measured(), Clamped(Twist()))
 
     def _clamped(self, twist: Twist, measured: Measured) -> Clamped:
         fitted = self._upright(slower(twist, self.info.max_speed, self.info.max_yaw_rate), measured)

@@ -77,6 +77,8 @@ class Engine:
         """The task that has not ended."""
         self._begun_at = self._odometer = 0.0
         self._next_progress = self._ticked = -math.inf
+        self._halted = False
+        """It did not run at the last tick."""
         self.status = TaskStatus()
         """As last shown."""
         show(self.status)
@@ -216,8 +218,6 @@ class Engine:
             self._end("SUCCEEDED", task.done(), "ok")
         else:
             self._end("FAILED", self._guide.reason or f"{task.title} failed.", "alarm")
-
-    _halted = False
 
     def _end(self, state: str, reason: str, level: str) -> None:
         task, self.task = self.task, None
