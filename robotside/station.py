@@ -102,7 +102,6 @@ class Station:
         self.records = records
         """What it keeps while it is switched off."""
         self.events = Events(records.events, clock, lambda event: self.bus.publish("/events", event))
-        self._latch = Latch(records, self.events.say)
         self.readiness = Readiness(clock, self.bus.publish)
         """What is looked through before the first motion."""
         self._next_remark: dict[str, float] = {}
@@ -270,6 +269,7 @@ class Station:
 
     def _take_up(self) -> Interrupted | None:
         """Go on from how it was left: STOP stays pressed, a task that was cut is offered."""
+        self._latch = Latch(self.records, self.events.say)
         by, cut, engine = self.records.stopped_by, self.records.runs.under_way, self.autonomy.engine
         if by:
             self.controls.stop(by)
