@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
 from bridge.msgs.pilothouse_msgs import (
@@ -230,6 +231,10 @@ def test_a_queue_that_waits_goes_on_when_told(glass: Glass, robot: FakeRobot, ta
     robot.wait_for(GO)
     main = tasks.now.ids.main
     glass.until(lambda: main.text == "Go on with this" and not main.disabled, main.text)
+    assert tasks.now.next_words == "Next"
+    robot.publish("/task/queue", replace(robot.queue, held="the robot's computer was restarted"))
+    glass.until(lambda: tasks.now.next_words == "Next · waits until told", "not said to wait")
+    assert tasks.now.queue.held == "the robot's computer was restarted"
     glass.stage.run_for(0.6)
     glass.tap(main)
     assert robot.until(lambda: "/task/resume" in robot.services())

@@ -191,7 +191,9 @@ def test_what_was_parked_stays_so_behind_another_task_until_told(
     assert begun(scene)[-1] == "hold"
     assert scene.task.state == "SUCCEEDED"
     assert len(queue(scene).orders) == 2
+    assert queue(scene).held, "it is shown for as long as it waits"
     assert scene.ask("/task/resume").message == "The queue goes on."
+    assert queue(scene).held == ""
     scene.run(60.0)
     assert queue(scene).orders == []
 

@@ -201,13 +201,15 @@ class TaskQueue(Msg, frozen=True, gc=False):
     """What comes after the task that runs; latched on /task/queue, sent once per change."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskQueue"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "pilothouse_msgs/TaskOrder[]")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "pilothouse_msgs/TaskOrder[]", "string")
     stamp: Time = Time()
     """When it changed, operators' clock."""
     revision: int32 = 0
     """Counts every change; /task/queue/set names the one that it was made from."""
     orders: list[TaskOrder] = []
     """Waiting, the next one first."""
+    held: str = ""
+    """Why it waits for /task/resume, as the end of a sentence; empty while it goes on by itself."""
 
 
 class TaskStatus(Msg, frozen=True, gc=False):
