@@ -54,7 +54,8 @@ class Notices(BoxLayout):
             low = max(low, min(self.above.top + 8 * Metrics.density, screen.top - self.height))
         self.pos = (x, low)
         said = Rect(self.x, low, self.width, self.height) if self.children else None
-        cover = _round(said, self.above)
+        # what only stands over pictures takes nothing away from lists that can be read beside it
+        cover = _round(said, self.above) if screen.video is not None else said
         if (screen, cover) != self._cover:
             self._cover = screen, cover
             screen.clear(cover)
