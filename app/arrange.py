@@ -458,10 +458,15 @@ def corner(width: float, dp: float = 1.0) -> Rect:
     return Rect(width - 14 * dp - across, 12 * dp, across, 64 * dp)
 
 
-def stop_list(body: Rect, stop: StopPlace, shape: str, wanted: float, dp: float = 1.0) -> Rect:
-    """What became of STOP ALL, `wanted` high [px] where there is room: above STOP, on a phone's side left of it."""
+def stop_list(
+    body: Rect, stop: StopPlace, shape: str, wanted: float, dp: float = 1.0, *, folded: bool = False
+) -> Rect:
+    """What became of STOP ALL, `wanted` high [px] where there is room: above STOP, on a phone's side left of it.
+
+    `folded` is above STOP everywhere: there it covers nothing that can be pressed.
+    """
     gap = 8 * dp
-    if shape == "short":
+    if shape == "short" and not folded:
         width = min(440 * dp, stop.left - body.x - 2 * gap)
         height = min(wanted, body.height - 2 * gap)
         return Rect(stop.left - gap - width, body.y + gap, width, height)

@@ -13,7 +13,7 @@ from typing import Any, Protocol
 
 from kivy.clock import Clock
 from kivy.lang import Builder
-from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
+from kivy.properties import BooleanProperty, NumericProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
@@ -98,14 +98,23 @@ Builder.load_string("""
             id: head
             size_hint_y: None
             height: theme.target
-            Text:
-                text: root.heading
-                shorten: True
-                shorten_from: 'right'
-                bold: True
-                role: 'ok' if root.all_stopped else 'danger'
-                font_size: theme.size_title
+            BoxLayout:
+                orientation: 'vertical'
+                size_hint_y: None
+                height: self.minimum_height
                 pos_hint: {'center_y': .5}
+                Text:
+                    text: root.title
+                    bold: True
+                    role: 'ok' if root.all_stopped else 'danger'
+                    font_size: theme.size_title
+                Text:
+                    text: root.worst
+                    font_size: sp(14)
+                    shorten: True
+                    shorten_from: 'right'
+                    height: self.texture_size[1] if root.folded and root.worst else 0
+                    opacity: 1 if root.folded else 0
             IconButton:
                 id: fold
                 icon: 'expand_less' if root.folded else 'expand_more'
@@ -229,13 +238,7 @@ class StopList(Control, BoxLayout):
     cramped = BooleanProperty(False)
     """Something else needs the room: it can be folded and unfolded."""
     worst = StringProperty("")
-    """Who is not stopped, in few words; empty when all are."""
-
-    def _heading(self) -> str:
-        return f"{self.title} · {self.worst}" if self.folded and self.worst else self.title
-
-    heading = AliasProperty(_heading, bind=["title", "worst", "folded"], cache=True)
-
+    """Who is not stopped, in few words; empty when all are. Said where it is folded."""
     title = StringProperty("")
     all_stopped = BooleanProperty(False)
     footnote = StringProperty("")

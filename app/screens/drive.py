@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from kivy.metrics import Metrics
 from kivy.properties import ObjectProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
@@ -38,6 +39,8 @@ __all__ = ["DriveScreen"]
 
 LONGEST_NAME = 14
 """Letters of a topic's name on an instrument."""
+NARROW = 110
+"""On a narrower button the icon is above the word [dp]."""
 FIRST = 0.6
 """Share of the robot's greatest speed that the slider begins with."""
 
@@ -272,6 +275,10 @@ class DriveScreen(FloatLayout):
             for widget in wanted:
                 self.actions.add_widget(widget)
         self.actions.cols = len(wanted) if self._tall else 1
+        narrow = self._tall and self.actions.width < NARROW * Metrics.density * len(wanted)
+        for button in self._buttons:
+            button.flow = "vertical" if narrow else "horizontal"
+            button.padding = (4 * Metrics.density, 0) if narrow else (10 * Metrics.density, 0)
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
         """A decoded camera frame; `rate` [Hz] and `latency` [s] are said on it, NaN for unknown."""

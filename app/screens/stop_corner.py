@@ -128,7 +128,7 @@ class StopCorner:
             cramped = said.height > 0 and whole.overlaps(said) and (shell.notices.asks or high)
         self._spread = self._spread and cramped
         listed.cramped, listed.folded = cramped, cramped and not self._spread
-        line = arrange.stop_list(body, place, form, listed.line, dp)
+        line = arrange.stop_list(body, place, form, listed.line, dp, folded=True)
         put(listed, line if listed.folded else whole)
         if shell is not None:
             shell.notices.above = (line if listed.folded else whole) if listed.parent is not None else None

@@ -239,6 +239,29 @@ def test_the_list_stays_on_the_glass_and_leaves_stop_free(size: tuple[int, int],
 
 
 @pytest.mark.parametrize("size", SIZES)
+def test_in_one_line_it_covers_nothing_that_drives_starts_or_stops(size: tuple[int, int]) -> None:
+    body, shape = arrange.shell(*size)["body"], arrange.form(*size)
+    for _, places in crowded(size):
+        line = arrange.stop_list(body, places["stop"], shape, 80.0, folded=True)
+        for name in {"stop", "stick", "slider", "actions", "tasks", "strip"} & places.keys():
+            assert not line.overlaps(places[name]), name
+        assert not line.overlaps(places["stop"].other)
+
+
+def test_the_words_of_the_buttons_beside_stop_all_can_be_read(
+    driving: Glass, robot: FakeRobot, other: FakeRobot
+) -> None:
+    driving.app.root.size = (412, 892)
+    hear(driving, robot, other)
+    driving.app.show("drive")
+    driving.stage.frames(3)
+    for name in ("snapshot", "pause", "home"):
+        button = driving.app.screens["drive"].ids[name]
+        assert button.words_size >= 12, name
+        assert button.children[0].width <= button.width, name
+
+
+@pytest.mark.parametrize("size", SIZES)
 def test_on_the_connect_screen_it_covers_nothing_that_can_be_pressed(
     glass: Glass, robot: FakeRobot, size: tuple[int, int]
 ) -> None:

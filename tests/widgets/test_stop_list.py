@@ -109,13 +109,12 @@ def test_folded_it_is_one_line_that_names_the_worst(stage, result):
     result.tell(SOME, 2, 6)
     result.cramped = result.folded = True
     stage.frames(2)
-    assert result.heading == "STOPPED 2 of 6 · Commander: MOVES"
+    assert result.worst == "Commander: MOVES"
     assert result.line < 80 < result.wanted
     assert result.ids.column.get_parent_window() is None
     stage.tap(*result.ids.fold.to_window(*result.ids.fold.center))
     result.folded = False
     stage.frames(2)
-    assert result.heading == "STOPPED 2 of 6"
     assert result.ids.column.get_parent_window() is not None
 
 
