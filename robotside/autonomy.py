@@ -168,6 +168,11 @@ class Autonomy:
         }
 
     @property
+    def low(self) -> bool:
+        """There is charge only for the way to where there is more."""
+        return self.battery < LOW_BELOW
+
+    @property
     def patrols_mission(self) -> bool:
         """A patrol of the stored mission is under way."""
         task = self.engine.task

@@ -60,7 +60,7 @@ class Permits:
 
     def charged(self, task: Task) -> None:
         """There is charge enough for `task`."""
-        battery = self._station.autonomy.battery
-        if task.moves and battery < LOW_BELOW and task.name not in TO_CHARGE:
+        mind = self._station.autonomy
+        if task.moves and mind.low and task.name not in TO_CHARGE:
             words = words_for(task.name)
-            raise Refusal(f"The battery is at {battery:.0%}; {words} needs at least {LOW_BELOW:.0%}.")
+            raise Refusal(f"The battery is at {mind.battery:.0%}; {words} needs at least {LOW_BELOW:.0%}.")

@@ -30,7 +30,7 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.std_msgs import Header, Time
 from robotside.agenda import Agenda
 from robotside.authority import Operator
-from robotside.autonomy import LOW_BELOW, Autonomy
+from robotside.autonomy import Autonomy
 from robotside.bus import Bus
 from robotside.commands import Refusal
 from robotside.config import NOTHING_SET, Config
@@ -303,13 +303,12 @@ class Station:
 
     def _barred(self, drains: bool) -> str:
         """Why no task may start by itself just now, one that needs charge or not; empty when it may."""
-        battery = self.autonomy.battery
         if self.controls.stopped:
             return "STOP is pressed"
         if self.controls.driving:
             return "the robot is driven by hand"
-        if drains and battery < LOW_BELOW:
-            return f"the battery is at {battery:.0%}"
+        if drains and self.autonomy.low:
+            return f"the battery is at {self.autonomy.battery:.0%}"
         return self.unfit or self.lost
 
     def _note(self) -> None:
@@ -452,8 +451,7 @@ class Station:
         return abs(where.speed) < AT_REST[0] * factor and abs(where.turn) < AT_REST[1] * factor
 
     def _diagnostics(self) -> DiagnosticArray:
-        where, battery = self.autonomy.whereabouts, self.autonomy.battery
-        low = battery < LOW_BELOW
+        where, low = self.autonomy.whereabouts, self.autonomy.low
         status = [
             DiagnosticStatus(0 if where.sure else 1, "position", _fit_sentence(where.fit)),
             DiagnosticStatus(1 if low else 0, "battery", "low" if low else "good"),
