@@ -21,7 +21,7 @@ from app import simulator as simulators
 from app.camera import PICTURE, Camera
 from app.commands import Commands
 from app.device import device_name, is_android, own_folder
-from app.discovery import Robots
+from app.discovery import Robots, check_address
 from app.events import Known
 from app.feeds import Feeds, Mailbox, Post
 from app.fleet import Fleet
@@ -117,6 +117,8 @@ class PilothouseApp(App):
         """The frame round the robot's screens; None on the connect screen."""
         self.simulator: simulators.Simulator | None = None
         self._pictures = Pictures(now)
+        self._unproven = ""
+        """The address that was typed last, until something answers there."""
         self._drained, self._looks = -math.inf, 0
 
     # what tests and the demo look at
@@ -338,10 +340,9 @@ class PilothouseApp(App):
         dialog.ids.field.focus = True
 
     def _add_address(self, text: str) -> None:
-        url = self.robots.add(text)
-        self._save_robots()
-        self._list()
+        url = check_address(text)
         self.open(url)
+        self._unproven = url
 
     def forget(self, url: str) -> None:
         """Take a saved address off the list."""
@@ -412,9 +413,17 @@ class PilothouseApp(App):
         self.session.on_rest = self.inputs.rest
         self.connect.say(f"Connecting to {url} …", "info", self.leave)
 
+    def _keep_address(self) -> None:
+        """Save an address that was typed: something has answered there."""
+        if self.session is not None and self._unproven == self.session.url:
+            self.robots.add(self._unproven)
+            self._save_robots()
+        self._unproven = ""
+
     def _enter_robot(self) -> None:
         from app.screens.robot import robot_shell
 
+        self._keep_address()
         self.connect.say("")
         place = {"size": self.root.size, "pos": self.root.pos}
         self.shell = robot_shell(self, self.session, self.layout_file, **place)
@@ -428,6 +437,7 @@ class PilothouseApp(App):
         """Put `mission`, `drive`, `tasks` or `topics` on the glass; KeyError for another."""
         self.shell.go(screen)
         self._first_screen = screen
+        self.corner.tick()  # STOP ALL is never where STOP is, not for a frame
 
     def leave(self) -> None:
         """Back to the connect screen; the robot goes on with what it does."""
@@ -445,6 +455,7 @@ class PilothouseApp(App):
         self.connect.say("")
         self.stop_recording()
         self.root.show_page(self.connect)
+        self.corner.tick()
         self.collector.expect()
         self._list()
 

@@ -145,7 +145,8 @@ def mission(body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False
     gap, wide = 14 * dp, shape == "wide"
     side = min(max(344 * dp, body.width * 0.22), 420 * dp) if wide else 304 * dp
     panel = Rect(body.right - side, body.y, side, body.height)
-    room = Rect(panel.x + gap, body.y + gap, side - 2 * gap, (84 if wide else 68) * dp)
+    high = 84 if wide or _crowded(body) else 68  # narrower beside STOP ALL, and still larger than all else
+    room = Rect(panel.x + gap, body.y + gap, side - 2 * gap, high * dp)
     stop = _stop_place(room, body, dp)
     area = Rect(body.x, body.y, body.width - side, body.height)
     places = {"map": area, "panel": _above(panel, stop, gap), "side": panel, "stop": stop}
@@ -423,10 +424,11 @@ def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
 
 def _stop_of_lists(body: Rect, shape: str, dp: float) -> StopPlace:
     """As on the mission screen; where there is room STOP ALL is beside it and takes nothing away from it."""
-    room = mission(Rect(body.x, body.y, body.width, body.height), shape, dp)["stop"]
-    if shape == "wide" and _crowded(body):
-        room = Rect(room.x - 92 * dp, room.y, room.width + 92 * dp, room.height)
-    return _stop_place(room, body, dp)
+    places = mission(body, shape, dp)
+    stop, right = places["stop"], places["stop"].right
+    width = right - places["panel"].x
+    more = 92 * dp if shape == "wide" and _crowded(body) else 0.0
+    return _stop_place(Rect(right - width - more, stop.y, width + more, stop.height), body, dp)
 
 
 def tasks(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
@@ -456,10 +458,15 @@ def corner(width: float, dp: float = 1.0) -> Rect:
     return Rect(width - 14 * dp - across, 12 * dp, across, 64 * dp)
 
 
-def stop_list(body: Rect, stop: StopPlace, shape: str, wanted: float, dp: float = 1.0) -> Rect:
-    """What became of STOP ALL, `wanted` high [px] where there is room: above STOP, on a phone's side left of it."""
+def stop_list(
+    body: Rect, stop: StopPlace, shape: str, wanted: float, dp: float = 1.0, *, folded: bool = False
+) -> Rect:
+    """What became of STOP ALL, `wanted` high [px] where there is room: above STOP, on a phone's side left of it.
+
+    `folded` is above STOP everywhere: there it covers nothing that can be pressed.
+    """
     gap = 8 * dp
-    if shape == "short":
+    if shape == "short" and not folded:
         width = min(440 * dp, stop.left - body.x - 2 * gap)
         height = min(wanted, body.height - 2 * gap)
         return Rect(stop.left - gap - width, body.y + gap, width, height)

@@ -9,15 +9,13 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from bridge.liveness import LAPSE
 from bridge.msgs.pilothouse_msgs import ControlStatus
 
 if TYPE_CHECKING:
     from app.session import Session
 
-__all__ = ["LAPSE", "Authority"]
-
-LAPSE = 2.0
-"""Who was not heard by the robot for this long has lost control [s]; who hears nothing from it cannot know."""
+__all__ = ["Authority"]
 
 News = Callable[[str, str], None]
 """A sentence for the operator and its level, as of a banner."""

@@ -43,6 +43,13 @@ def check_address(text: str) -> str:
     return f"{parts.scheme}://{host}:{port or PORT}{parts.path.rstrip('/')}"
 
 
+def address(url: str) -> str:
+    """Host of a robot, with the port where it is not the usual one."""
+    parts = urlsplit(url)
+    host = parts.hostname or url
+    return host if parts.port in (None, PORT) else f"{host}:{parts.port}"
+
+
 @dataclass(frozen=True)
 class Entry:
     """One robot on the list."""
@@ -77,10 +84,8 @@ class Entry:
 
     @property
     def address(self) -> str:
-        """Host of the robot, with the port where it is not the usual one."""
-        parts = urlsplit(self.url)
-        host = parts.hostname or self.url
-        return host if parts.port in (None, PORT) else f"{host}:{parts.port}"
+        """As of `address`."""
+        return address(self.url)
 
 
 class Robots:

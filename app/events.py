@@ -43,6 +43,8 @@ class Missed:
     """The last number that was asked for."""
     gone: bool = False
     """The robot does not keep the oldest of them any more."""
+    live: frozenset[int] = frozenset()
+    """Numbers in between that came by themselves all the same."""
 
 
 class EventStream:
@@ -76,6 +78,8 @@ class EventStream:
         self._from: int | None = None
         """What comes after this number was missed; None when nothing was."""
         self._gone = False
+        self._live: set[tuple[str, int]] = set()
+        """What came by itself while something was behind: log and number."""
         self._stored = True
         self.behind = False
         """There are events to ask the robot for."""
@@ -90,6 +94,7 @@ class EventStream:
         self._held, self._stored, self.behind = [], True, True
         if self._boot and self._from is None:
             self._from, self._gone = self._last, False
+            self._live.clear()
 
     def request(self) -> GetEventsRequest:
         """What to ask the robot now."""
@@ -125,6 +130,8 @@ class EventStream:
 
     def live(self, event: Event) -> None:
         """An event came by itself."""
+        if self.behind:
+            self._live.add((event.boot, event.id))
         if self._held is not None:
             self._held.append(event)
         else:
@@ -165,8 +172,12 @@ class EventStream:
     def _catch_up(self) -> None:
         self.behind = False
         if self._from is not None and self._last > self._from:
-            self._missed(Missed(self._boot, self._from, self._last, self._gone))
+            here = {number for boot, number in self._live if boot == self._boot}
+            live = frozenset(number for number in here if self._from < number <= self._last)
+            if len(live) < self._last - self._from:
+                self._missed(Missed(self._boot, self._from, self._last, self._gone, live))
         self._from = None
+        self._live.clear()
         self._last = max(self._last, *self._ahead, 0)
         self._ahead.clear()
         self.no_answer()

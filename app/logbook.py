@@ -47,12 +47,13 @@ class Logbook:
         """What is known is remembered in `settings`; `send` asks the robot."""
         self._settings, self._send = settings, send
         self._events: dict[tuple[str, int], Event] = {}
-        self._away: list[Missed] = []
+        self._away: Missed | None = None
+        """What the last absence missed; None when nothing, or when that was looked at."""
         self._asked: set[tuple[str, int]] = set()
         self._known = Known()
         self._open: list[Event] | None = None
         """None when it must be looked through anew."""
-        self._told = 0
+        self._told = True
         self.listeners: list[Callable[[], object]] = []
         """Called after every change; it comes often."""
 
@@ -84,7 +85,7 @@ class Logbook:
 
     @property
     def missed(self) -> list[Event]:
-        """What happened while this handheld was away, until that was looked at."""
+        """What happened while this handheld was away the last time, until that was looked at; nothing that came live."""
         return [one for one in self._events.values() if self.was_missed(one)]
 
     @property
@@ -95,8 +96,8 @@ class Logbook:
 
     def news(self) -> str:
         """What was missed, in a sentence, where it was not told by this before; else empty."""
-        told, self._told = self._told, len(self._away)
-        if self._told <= told:
+        told, self._told = self._told, True
+        if told:
             return ""
         missed = self.missed
         grave = sum(one.level in GRAVE and not one.acknowledged_by for one in missed)
@@ -108,11 +109,14 @@ class Logbook:
     @property
     def gone(self) -> bool:
         """Of what was missed the robot does not keep the oldest any more."""
-        return any(one.gone for one in self._away)
+        return self._away is not None and self._away.gone
 
     def was_missed(self, event: Event) -> bool:
-        """Whether it happened while this handheld was away."""
-        return any(one.boot == event.boot and one.after < event.id <= one.until for one in self._away)
+        """Whether it happened while this handheld was away the last time."""
+        away = self._away
+        if away is None or event.boot != away.boot:
+            return False
+        return away.after < event.id <= away.until and event.id not in away.live
 
     def is_asked(self, event: Event) -> bool:
         """Whether the robot was asked to note that it has been seen to, and has not answered."""
@@ -142,8 +146,8 @@ class Logbook:
         return True
 
     def miss(self, missed: Missed) -> None:
-        """So much was missed; the events themselves have come."""
-        self._away.append(missed)
+        """So much was missed; the events themselves have come. An earlier absence does not count any more."""
+        self._away, self._told = missed, False
         self._tell()
 
     def know(self, known: Known) -> None:
@@ -180,9 +184,8 @@ class Logbook:
 
     def look(self) -> None:
         """What was missed has been looked at."""
-        if self._away:
-            self._away.clear()
-            self._told = 0
+        if self._away is not None:
+            self._away, self._told = None, True
             self._tell()
 
     def _tell(self) -> None:

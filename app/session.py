@@ -6,11 +6,11 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
-from urllib.parse import urlsplit
 
 from app.checks import Checks
 from app.commands import Outcome
 from app.control import Authority
+from app.discovery import address
 from app.feeds import Feeds, Post
 from app.link import EVENT, KNOWN, LINK, MISSED, OFFER, OUTCOME, Link
 from app.local_stop import LocalStop
@@ -131,7 +131,7 @@ class Session:
     @property
     def name(self) -> str:
         """What to call the robot: its name, else its address."""
-        return self.info.name or urlsplit(self.link.url).hostname or self.link.url
+        return self.info.name or address(self.link.url)
 
     @property
     def foreign(self) -> bool:

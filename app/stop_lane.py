@@ -216,8 +216,7 @@ class StopLane:
         self._status = status
         self._stopping.hear(status)
         if self._stopping.rests:
-            if self._stopping.taken or self._commands.stopping:
-                self._done.set()
+            self._done.set()
             self._commands.confirm_stop()
         self._recognise()
 

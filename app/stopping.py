@@ -174,6 +174,12 @@ class Stopping:
 
     def hear(self, status: ControlStatus) -> None:
         """What the robot says of it."""
+        if not self._reached:  # said before the link was lost, and delivered after
+            rests = status.stopped and status.at_rest
+            self._lost_at = (
+                math.nan if not rests else self._now() if math.isnan(self._lost_at) else self._lost_at
+            )
+            return
         self._status, self._lost_at = status, math.nan
         if status.stopped and not status.at_rest:
             self._moves_since = self._now() if math.isnan(self._moves_since) else self._moves_since

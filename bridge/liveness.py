@@ -11,10 +11,12 @@ import math
 
 from bridge.address import LinkLost
 
-__all__ = ["SILENCE", "Liveness"]
+__all__ = ["LAPSE", "SILENCE", "Liveness"]
 
 SILENCE = 3.0
 """A link on which nothing came for this long is lost [s]."""
+LAPSE = 2.0
+"""Who has control and was not heard by the robot for this long has lost it [s]."""
 ALERT_SILENCE = 1.0
 """As `SILENCE`, after the network changed or the machine slept [s]."""
 LATE = 1.0

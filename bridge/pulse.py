@@ -35,7 +35,7 @@ class Pulse:
         self._took = math.nan
 
     def ping(self, now: float) -> bytes | None:
-        """The content of one that is sent now; None when too many wait for their answer."""
+        """The content of one that is sent at `now` [s]; None when too many wait for their answer."""
         self._look(now)
         if len(self._waiting) >= _MOST:
             return None
@@ -44,7 +44,7 @@ class Pulse:
         return _NUMBER.pack(_MARK, self._count)
 
     def pong(self, content: bytes, now: float) -> bool:
-        """Take an answer in, which answers all before it as well; False when it is none of these."""
+        """Take in an answer that came at `now` [s] and answers all before it as well; False when it is none of these."""
         if len(content) != _NUMBER.size:
             return False
         mark, number = _NUMBER.unpack(content)

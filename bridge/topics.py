@@ -144,7 +144,7 @@ TOPICS: tuple[Topic, ...] = (
         "where the simulated robot really is, in `map`",
         on_demand=True,
     ),
-    Topic("/cmd_vel", geometry_msgs.Twist, 20, "robot", "the operator's drive command, valid for 0.3 s"),
+    Topic("/cmd_vel", geometry_msgs.Twist, 20, "robot", "the operator's drive command; counts for 0.25 s"),
     Topic("/goal_pose", geometry_msgs.PoseStamped, 0, "robot", "go there, once"),
     Topic(
         "/initialpose",

@@ -110,6 +110,7 @@ class Agenda:
             self.held = why
             self._held_under = self._engine.status.task_id if self._engine.active else 0
             self._tell_held()
+            self._show_queue()
 
     def taken_up(self) -> None:
         """The task under way goes on: so does what was parked together with it, and nothing from before it."""
@@ -128,6 +129,8 @@ class Agenda:
         """Have the queue go on; False when it did not wait."""
         was, self.held = bool(self.held), ""
         self._settled = self._engine.status.task_id
+        if was:
+            self._show_queue()
         return was and bool(self._records.queue.current.orders)
 
     def set_queue(self, orders: Sequence[TaskOrder], revision: int) -> tuple[TaskQueue, str]:
@@ -276,8 +279,9 @@ class Agenda:
         self._say("task", said, "warn")
 
     def _show_queue(self) -> None:
-        stamp = Time.at(self._clock())
-        self._publish("/task/queue", msgspec.structs.replace(self._records.queue.stored, stamp=stamp))
+        stored, stamp = self._records.queue.stored, Time.at(self._clock())
+        held = self.held if stored.orders else ""
+        self._publish("/task/queue", msgspec.structs.replace(stored, stamp=stamp, held=held))
 
     def _show_schedule(self) -> None:
         self._publish("/schedule", Schedule(Time.at(self._clock()), self._records.schedule.stored()))
@@ -292,10 +296,6 @@ def _tail(why: str) -> str:
 def _drains(order: TaskOrder) -> bool:
     """It takes the robot elsewhere than to where it can be charged."""
     return order.task != "hold" and order.task not in TO_CHARGE
-
-
-def _counted(count: int) -> str:
-    return "1 task" if count == 1 else f"{count} tasks"
 
 
 def _counted(count: int) -> str:

@@ -10,8 +10,8 @@ from msgspec.structs import replace
 from bridge.codec import to_json
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from bridge.server import Service, Session
+from robotside.authority import Operator
 from robotside.commands import Commands, Refusal
-from robotside.controls import Operator
 from robotside.database import Job, NotRecorded
 from robotside.database.rows import Answered
 from robotside.station import Station

@@ -8,12 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
+from bridge.liveness import LAPSE
 from robotside.words import number, plain
 
-__all__ = ["AGAIN", "LAPSE", "REMEMBERED", "SILENT", "TO_OBJECT", "Asker", "Authority", "Driver", "Operator"]
-
-LAPSE = 2.0
-"""Control is free again when its driver was not heard for this long [s]."""
+__all__ = ["AGAIN", "REMEMBERED", "SILENT", "TO_OBJECT", "Asker", "Authority", "Driver", "Operator"]
 
 SILENT = 1.0
 """A driver who was not heard for this long may come back over another connection [s]; until then that is somebody else."""

@@ -167,9 +167,10 @@ class Autonomy:
             CAMERA: self._image,
         }
 
-    def start(self, order: TaskOrder, now: float, by: str = "") -> None:
-        """Do `order`, whatever is under way; Refusal when it cannot be done."""
-        self.engine.start(self.assignments.task(order, by), now)
+    @property
+    def low(self) -> bool:
+        """There is charge only for the way to where there is more."""
+        return self.battery < LOW_BELOW
 
     @property
     def patrols_mission(self) -> bool:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from bridge.msgs.geometry_msgs import Twist
 from robotside.pose2 import Points
+from robotside.slower import within
 
 __all__ = ["HORIZON", "Avoidance", "Way", "free_lengths"]
 
@@ -110,5 +111,4 @@ class Avoidance:
         return Twist.planar(v, self._rate(v * curvature))
 
     def _rate(self, rate: float) -> float:
-        limit = 0.8 * self._turn
-        return max(-limit, min(limit, rate))
+        return within(rate, 0.8 * self._turn)

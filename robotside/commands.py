@@ -8,13 +8,11 @@ from collections.abc import Callable
 
 from bridge.codec import from_json
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
-from robotside.controls import AHEAD
+from robotside.database.answers import KEPT
+from robotside.expiry import AHEAD
 from robotside.words import number, plain
 
-__all__ = ["KEPT", "KEPT_FOR", "Commands", "Refusal"]
-
-KEPT = 256
-"""Answers kept for commands that are sent again."""
+__all__ = ["KEPT_FOR", "Commands", "Refusal"]
 
 KEPT_FOR = 60.0
 """So long is an answer kept [s]; an id that comes later is one that was counted anew."""

@@ -9,24 +9,14 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from bridge.msgs.geometry_msgs import Twist, Vector3
-from robotside.authority import LAPSE, SILENT, Authority, Driver, Operator
-from robotside.expiry import AHEAD, HELD, VALID, Expiry
+from bridge.msgs.geometry_msgs import Twist
+from robotside.authority import Authority, Operator
+from robotside.expiry import HELD, Expiry
 from robotside.pace import Pace
+from robotside.slower import slower
 from robotside.sticks import LET_GO, Sticks
 
-__all__ = [
-    "AHEAD",
-    "HELD",
-    "LAPSE",
-    "SILENT",
-    "STOP_SENTENCE",
-    "VALID",
-    "Controls",
-    "Driver",
-    "Operator",
-    "Ruling",
-]
+__all__ = ["SOMEBODY", "STOP_SENTENCE", "Controls", "Ruling"]
 
 STOP_SENTENCE = "STOP is pressed; hold Release to drive again."
 
@@ -75,15 +65,17 @@ class Controls(Authority):
         """A drive command is in force."""
         return self._giver is not None
 
+    def drives(self, client: Operator) -> bool:
+        """A drive command of `client` is in force."""
+        return self._giver is not None and self._giver.id == client.id
+
     def gone(self, client: Operator) -> bool:
-        """Forget a client whose socket closed; True when it was driving, so that the robot must stop."""
-        super().gone(client)
+        """Forget a client whose socket closed, and the drive command it `drives` by; True when it had control."""
         self._expiry.forget(client)
         self._sticks.forget(client.id)
-        was_driving = self._giver is not None and self._giver.id == client.id
-        if was_driving:
+        if self.drives(client):
             self._giver = None
-        return was_driving
+        return super().gone(client)
 
     def stop(self, name: str) -> None:
         """Latch STOP; from anyone, any time. A stick that is held meanwhile has to come to rest before it counts."""
@@ -121,7 +113,8 @@ class Controls(Authority):
                 self._sticks.obey(client.id, now)
                 self._giver, self._until = client, self._expiry.given(client, now, stamp) + HELD
                 self.look(now)
-                return Ruling(self._limited(twist))
+                share = self.pace.share  # the robot's own limits are looked at where twists reach its port
+                return Ruling(slower(twist, self._max_speed * share, self._max_yaw_rate * share))
             self._sticks.void(client.id)
         self.dropped += bool(said)
         return Ruling(None, said)
@@ -171,16 +164,6 @@ class Controls(Authority):
             return "A drive command was dropped: its speeds are not all numbers."
         return self._expiry.fault(client, now, stamp, rest=_zero(twist))
 
-    def _limited(self, twist: Twist) -> Twist:
-        v, w = twist.linear, twist.angular
-        most, turn = self._max_speed * self.pace.share, self._max_yaw_rate * self.pace.share
-        speed = math.hypot(v.x, v.y, v.z)
-        scale = most / speed if speed > most else 1.0
-        return Twist(
-            Vector3(v.x * scale, v.y * scale, v.z * scale),
-            Vector3(_clamp(w.x, turn), _clamp(w.y, turn), _clamp(w.z, turn)),
-        )
-
 
 def _numbers(twist: Twist) -> tuple[float, ...]:
     v, w = twist.linear, twist.angular
@@ -193,7 +176,3 @@ def _finite(twist: Twist) -> bool:
 
 def _zero(twist: Twist) -> bool:
     return not any(_numbers(twist))
-
-
-def _clamp(value: float, limit: float) -> float:
-    return max(-limit, min(limit, value))

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from bridge.liveness import LAPSE
 from bridge.msgs.geometry_msgs import Twist
-from robotside.authority import LAPSE, TO_OBJECT, Operator
+from robotside.authority import TO_OBJECT, Operator
 from robotside.commands import Refusal
 from robotside.config import ControlSettings
 from robotside.controls import Controls
@@ -52,7 +53,10 @@ class Options:
 
 
 class Helm:
-    """Hands the robot from its driver to its safe state and back; tasks drive it by themselves."""
+    """Hands the robot from its driver to its safe state and back; tasks drive it by themselves.
+
+    `now` is always of the robot's clock [s], `stamp` of the operators'.
+    """
 
     def __init__(
         self,
@@ -88,7 +92,10 @@ class Helm:
         self._keep_safe(now)
 
     def drive(self, client: Operator, twist: Twist, stamp: float | None) -> str:
-        """Obey a drive command or say why not; empty when there is nothing to say."""
+        """Obey a drive command or say why not; empty when there is nothing to say.
+
+        `stamp` is when it was given [s, operators' clock], None when nobody said.
+        """
         engine = self._engine
         ruling = self._controls.drive(
             client, twist, self._clock(), stamp=stamp, auto=engine.running, trouble=self._robot.trouble
@@ -108,8 +115,9 @@ class Helm:
 
     def gone(self, client: Operator, now: float) -> None:
         """A client's socket closed; if it was driving, the robot takes its safe state at once."""
-        held, name = self._controls.holds(client), self._controls.name(client)
-        if self._controls.gone(client) and not self._engine.running:
+        drove, name = self._controls.drives(client), self._controls.name(client)
+        held = self._controls.gone(client)
+        if drove and not self._engine.running:
             self.rest(now)
         if held:
             self._lost(name, now)

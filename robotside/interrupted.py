@@ -41,7 +41,7 @@ class Interrupted:
         return task
 
     def resume(self, task: Task, now: float) -> None:
-        """Go on with `task`, which is that of `task()`, under its old number."""
+        """Go on with `task`, which is that of `task()`, under its old number, at `now` [s, robot clock]."""
         run = self._cut.run
         self._engine.start(task, now, task_id=run.id, driven=run.distance)
 

@@ -21,11 +21,12 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.std_msgs import Time
 from bridge.server import Service
 from robotside.answering import Answering
+from robotside.authority import Operator
 from robotside.behaviours.dock import before
 from robotside.commands import Refusal
-from robotside.controls import Operator
 from robotside.database.places import LONGEST
 from robotside.database.runs import AT_ONCE
+from robotside.permits import Permits
 from robotside.station import Station
 from robotside.words import plain
 
@@ -56,10 +57,11 @@ class _Kept:
 
     def __init__(self, station: Station) -> None:
         self._station, self._records = station, station.records
+        self._permits = Permits(station)
 
     def set_place(self, client: Operator, asked: SetPlaceRequest) -> SetPlaceResponse:
         """Keep a place, unless somebody else drives, or the robot can never stand there."""
-        self._may_change(client)
+        self._permits.may_change(client)
         place = asked.place
         station, name = self._station, plain(place.name, LONGEST["name"]) or "The place"
         judge = station.fault if station.autonomy.has_map else station.keeper.fault
@@ -76,7 +78,7 @@ class _Kept:
 
     def delete_place(self, client: Operator, asked: DeletePlaceRequest) -> str:
         """Forget a place."""
-        self._may_change(client)
+        self._permits.may_change(client)
         return f"{self._records.places.delete(asked.id).name} is forgotten."
 
     def missions(self, _: Operator, __: CommandRequest) -> GetMissionsResponse:
@@ -102,8 +104,3 @@ class _Kept:
         )
         events = "event" if len(fresh) == 1 else "events"
         return f"{len(fresh)} {events} acknowledged." if fresh else "Somebody has seen to it already."
-
-    def _may_change(self, client: Operator) -> None:
-        problem = self._station.controls.objection(client)
-        if problem:
-            raise Refusal(problem)

@@ -21,6 +21,7 @@ from robotside.fencing import Fencing
 from robotside.grid import Grid
 from robotside.planner import place_sentence
 from robotside.pose2 import Pose2
+from robotside.slower import slower
 from robotside.tracks import HANDLING, REACTION, REST, Handling, Moving
 
 __all__ = ["GOAL_ROOM", "PATH_ROOM", "Clamped", "Keeper", "Measured"]
@@ -79,6 +80,8 @@ class Keeper:
             max_yaw_rate=min(info.max_yaw_rate, settings.max_yaw_rate or math.inf),
         )
         """Who it is, with the speeds that it is allowed."""
+        self._last: tuple[Twist, Measured, Clamped] = (Twist(), Measured(), Clamped(Twist()))
+        """What was asked for last, and what came of it."""
 
     @property
     def message(self) -> Limits:
@@ -96,7 +99,7 @@ class Keeper:
         )
 
     def fault(self, name: str, x: float, y: float) -> str:
-        """Why the robot may not be sent to a place, as one sentence; empty when it may."""
+        """Why the robot may not be sent to a place [m, in `map`], as one sentence that calls it `name`; empty when it may."""
         if not self._fence:
             return ""
         where = place_sentence(name, x, y)
@@ -109,7 +112,7 @@ class Keeper:
         return ""
 
     def room(self, x: float, y: float) -> float:
-        """From a place to the fence [m]; negative outside, infinite without one."""
+        """From a place [m, in `map`] to the fence [m]; negative outside, infinite without one."""
         return float(self._fence.clearance(np.array([[x, y]]))[0])
 
     def outside(self, pose: Pose2 | None) -> str:
@@ -128,20 +131,11 @@ class Keeper:
             self._last = twist, measured, self._clamped(twist, measured)
         return self._last[2]
 
-    _last: tuple[Twist, Measured, Clamped] = (Twist(), Measured(), Clamped(Twist()))
-
     def _clamped(self, twist: Twist, measured: Measured) -> Clamped:
-        fitted = self._upright(self._fast(twist), measured)
+        fitted = self._upright(slower(twist, self.info.max_speed, self.info.max_yaw_rate), measured)
         level = self._level(fitted.twist, measured)
         fenced = self._fenced(level.twist, measured)
         return Clamped(fenced.twist, fitted.why or level.why or fenced.why)
-
-    def _fast(self, twist: Twist) -> Twist:
-        v, w, turn = twist.linear, twist.angular, self.info.max_yaw_rate
-        speed = math.hypot(v.x, v.y, v.z)
-        scale = self.info.max_speed / speed if speed > self.info.max_speed else 1.0
-        spin = (max(-turn, min(turn, rate)) for rate in (w.x, w.y, w.z))
-        return Twist(Vector3(v.x * scale, v.y * scale, v.z * scale), Vector3(*spin))
 
     def _upright(self, twist: Twist, measured: Measured) -> Clamped:
         """Slower up and down, so that height and depth are kept when it brakes."""

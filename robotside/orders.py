@@ -9,6 +9,7 @@ from typing import Any
 import msgspec
 
 from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import PoseStamped
 from bridge.msgs.pilothouse_msgs import (
     LONGEST_DWELL,
     MOST_LAPS,
@@ -24,20 +25,23 @@ from bridge.msgs.pilothouse_msgs import (
     RecallMissionResponse,
     RunTaskGoal,
     SetMissionRequest,
+    Waypoint,
 )
 from bridge.msgs.std_msgs import Time
 from bridge.server import Service, Session
 from robotside.answering import Answering
+from robotside.authority import Operator
 from robotside.commands import Refusal
-from robotside.controls import Operator
+from robotside.database import NotRecorded
 from robotside.keeping import kept_services
 from robotside.permits import Permits
+from robotside.pose2 import Pose2
 from robotside.station import Station
 from robotside.steering import control_services
 from robotside.task_orders import TaskOrders, task_services
 from robotside.words import plain
 
-__all__ = ["runner", "services"]
+__all__ = ["listener", "runner", "services"]
 
 MOST_POINTS = 500
 """Waypoints that one mission may have."""
@@ -66,6 +70,22 @@ def services(station: Station) -> Iterable[Service]:
 def runner(station: Station) -> Callable[[Session, RunTaskGoal], Msg | Awaitable[Msg]]:
     """What begins a task for whoever wants to hear its end: refused while another one has not ended."""
     return Answering(station).service("/task/run", TaskOrders(station).run, request=RunTaskGoal).call
+
+
+def listener(station: Station) -> Callable[[Operator, str, Msg, float | None], None]:
+    """What takes in all that clients publish. A goal is an order as those of the services; what refuses it is told to all."""
+    orders = TaskOrders(station)
+
+    def hear(client: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
+        if isinstance(msg, PoseStamped):
+            pose = Pose2.from_msg(msg.pose)
+            try:
+                orders.go_to(client, Waypoint(pose.x, pose.y, pose.yaw))
+            except (Refusal, NotRecorded) as problem:
+                station.events.say("command", str(problem), "warn")
+        station.hear(client, topic, msg, stamp)
+
+    return hear
 
 
 def _service(

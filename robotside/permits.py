@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from robotside.assignments import words_for
+from robotside.authority import Operator
 from robotside.autonomy import LOW_BELOW
 from robotside.commands import Refusal
-from robotside.controls import STOP_SENTENCE, Operator
+from robotside.controls import STOP_SENTENCE
 from robotside.station import NO_MAP, Station
 from robotside.tasks import TO_CHARGE, Task
 
@@ -59,7 +60,7 @@ class Permits:
 
     def charged(self, task: Task) -> None:
         """There is charge enough for `task`."""
-        battery = self._station.autonomy.battery
-        if task.moves and battery < LOW_BELOW and task.name not in TO_CHARGE:
+        mind = self._station.autonomy
+        if task.moves and mind.low and task.name not in TO_CHARGE:
             words = words_for(task.name)
-            raise Refusal(f"The battery is at {battery:.0%}; {words} needs at least {LOW_BELOW:.0%}.")
+            raise Refusal(f"The battery is at {mind.battery:.0%}; {words} needs at least {LOW_BELOW:.0%}.")

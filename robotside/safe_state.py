@@ -14,6 +14,7 @@ from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.units import wrap
 from robotside.config import SafeStateSettings
 from robotside.limits import Measured
+from robotside.slower import within
 
 __all__ = ["BRAKE", "Act", "SafeState"]
 
@@ -169,17 +170,13 @@ class SafeState:
         """Towards the heading at the beginning; 0 when it is not known."""
         if measured.pose is None or self._held.pose is None:
             return 0.0
-        return _within(TURN_GAIN * wrap(self._held.pose.yaw - measured.pose.yaw), TURN_MOST)
+        return within(TURN_GAIN * wrap(self._held.pose.yaw - measured.pose.yaw), TURN_MOST)
 
     def _rising(self, measured: Measured) -> float:
         """Towards the height at the beginning; 0 when it is not known."""
         off = self._held.height - measured.height
-        return 0.0 if math.isnan(off) else _within(DEPTH_GAIN * off, DEPTH_MOST)
+        return 0.0 if math.isnan(off) else within(DEPTH_GAIN * off, DEPTH_MOST)
 
     def _levelling(self, measured: Measured) -> Vector3:
-        roll, pitch = (_within(-LEVEL_GAIN * tilt, LEVEL_MOST) for tilt in (measured.roll, measured.pitch))
+        roll, pitch = (within(-LEVEL_GAIN * tilt, LEVEL_MOST) for tilt in (measured.roll, measured.pitch))
         return Vector3(roll, pitch, self._turning(measured))
-
-
-def _within(value: float, most: float) -> float:
-    return max(-most, min(most, value))

@@ -24,7 +24,7 @@ from robotside.autonomy import CAMERA
 from robotside.clock import RobotClock
 from robotside.goals import actions
 from robotside.http import site
-from robotside.orders import services
+from robotside.orders import listener, services
 from robotside.pictures import Pictures
 from robotside.reduce import reduce
 from robotside.station import Station
@@ -101,7 +101,7 @@ class Serving:
         offered = list(services(station))
         self.server = BridgeServer(
             services=offered,
-            on_message=station.hear,
+            on_message=listener(station),
             now=station.clock,
             on_gone=station.gone,
             on_demand=lambda topic, wanted: station.demand.set(topic, "clients", wanted),

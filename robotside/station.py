@@ -18,7 +18,7 @@ from msgspec.structs import replace
 
 from bridge.msgs import Msg
 from bridge.msgs.diagnostic_msgs import DiagnosticArray, DiagnosticStatus
-from bridge.msgs.geometry_msgs import PoseStamped, PoseWithCovarianceStamped, Twist
+from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
 from bridge.msgs.nav_msgs import OccupancyGrid
 from bridge.msgs.pilothouse_msgs import (
     ControlStatus,
@@ -26,16 +26,15 @@ from bridge.msgs.pilothouse_msgs import (
     IntruderArray,
     Mission,
     TaskOrder,
-    TaskStatus,
-    Waypoint,
 )
 from bridge.msgs.std_msgs import Header, Time
 from robotside.agenda import Agenda
-from robotside.autonomy import LOW_BELOW, Autonomy
+from robotside.authority import Operator
+from robotside.autonomy import Autonomy
 from robotside.bus import Bus
 from robotside.commands import Refusal
 from robotside.config import NOTHING_SET, Config
-from robotside.controls import STOP_SENTENCE, Controls, Operator
+from robotside.controls import Controls
 from robotside.database import Records
 from robotside.demand import Demand
 from robotside.events import Events
@@ -67,9 +66,6 @@ AT_REST = (0.01, 0.03)
 class Station:
     """One robot, its mind, and who may command it. All calls come from one thread."""
 
-    _turned = -math.inf
-    """When trouble began or ended last [s]: what was measured before says nothing of the time since."""
-
     def __init__(
         self,
         robot: Robot,
@@ -88,6 +84,11 @@ class Station:
         `civil` is what the computer's clock says, by which the schedule goes in `zone` [s]; the operators' when left out.
         """
         self.clock, self.now = clock, now
+        self._control, self._trouble, self._unheard = ControlStatus(), "", ""
+        self._held = self._ending = False
+        self._next_diagnostics = self._next_fault = -math.inf
+        self._turned = -math.inf
+        """When trouble began or ended last [s]: what was measured before says nothing of the time since."""
         self.keeper = Keeper(config.limits, robot.info)
         """Keeps the robot to its limits."""
         self.info = replace(self.keeper.info, name=name or config.robot.name or robot.info.name)
@@ -101,7 +102,6 @@ class Station:
         self.records = records
         """What it keeps while it is switched off."""
         self.events = Events(records.events, clock, lambda event: self.bus.publish("/events", event))
-        self._latch = Latch(records, self.events.say)
         self.readiness = Readiness(clock, self.bus.publish)
         """What is looked through before the first motion."""
         self._next_remark: dict[str, float] = {}
@@ -129,14 +129,6 @@ class Station:
         self._pass_on(first)
         self.show_control()
 
-    _control = ControlStatus()
-    _next_diagnostics = -math.inf
-    _held = False
-    _ending = False
-    _unheard = ""
-    _next_fault = -math.inf
-    _trouble = ""
-
     def step(self, now: float) -> None:
         """Bring everything up to `now` [s, robot clock]; call it often."""
         self.now = now
@@ -153,15 +145,16 @@ class Station:
             self.readiness.look(self.autonomy, self.robot.trouble, now)
 
     def hear(self, client: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
-        """A client published `msg`; `stamp` is when it meant it [s, operators' clock], None when it does not say."""
+        """A client published `msg`, that is not an order: those are `robotside.orders`'.
+
+        `stamp` is when it meant it [s, operators' clock], None when it does not say.
+        """
         if stamp is not None:
             self.readiness.told_time(stamp)
         if isinstance(msg, Twist):
             self._mind(lambda: self._remark(client, self.helm.drive(client, msg, stamp)))
         elif isinstance(msg, PoseWithCovarianceStamped):
             self._place(client, Pose2.from_msg(msg.pose.pose))
-        elif isinstance(msg, PoseStamped):
-            self._go_to(client, Pose2.from_msg(msg.pose))
         self.show_control()
 
     def gone(self, client: Operator) -> None:
@@ -276,12 +269,13 @@ class Station:
 
     def _take_up(self) -> Interrupted | None:
         """Go on from how it was left: STOP stays pressed, a task that was cut is offered."""
+        self._latch = Latch(self.records, self.events.say)
         by, cut, engine = self.records.stopped_by, self.records.runs.under_way, self.autonomy.engine
         if by:
             self.controls.stop(by)
             self.robot.press_stop()
             self.events.say("stop", f"STOP, pressed by {by} before the restart, is still pressed.", "alarm")
-        engine.status = TaskStatus(task_id=self.records.runs.last)
+        engine.recall(self.records.runs.last, self.records.runs.newest)
         history = History(self.records.runs, engine, self.clock)
         for topic in ("/task/status", "/task/progress"):
             self.bus.subscribe(topic, history.hear)
@@ -309,13 +303,12 @@ class Station:
 
     def _barred(self, drains: bool) -> str:
         """Why no task may start by itself just now, one that needs charge or not; empty when it may."""
-        battery = self.autonomy.battery
         if self.controls.stopped:
             return "STOP is pressed"
         if self.controls.driving:
             return "the robot is driven by hand"
-        if drains and battery < LOW_BELOW:
-            return f"the battery is at {battery:.0%}"
+        if drains and self.autonomy.low:
+            return f"the battery is at {self.autonomy.battery:.0%}"
         return self.unfit or self.lost
 
     def _note(self) -> None:
@@ -373,20 +366,6 @@ class Station:
         name = self.controls.name(client)
         text = f"{name} placed the robot at ({pose.x:.1f}, {pose.y:.1f})."
         self.events.say("localisation", text, at=(pose.x, pose.y))
-
-    def _go_to(self, client: Operator, pose: Pose2) -> None:
-        problem = STOP_SENTENCE if self.controls.stopped else self.controls.acquire(client, self.clock())
-        problem = problem or self.unfit
-        problem = problem or self.fault("The goal", pose.x, pose.y)
-        problem = problem or self.lost
-        if problem:
-            self.events.say("command", problem, "warn")
-            return
-        self.controls.hold()
-        self.agenda.allow()
-        self.agenda.hold("the robot was sent elsewhere")
-        order = TaskOrder(task="go_to", goals=[Waypoint(pose.x, pose.y, pose.yaw)])
-        self.autonomy.start(order, self.now, self.controls.name(client))
 
     def _clamp(self, twist: Twist) -> Twist:
         measured = self.readiness.senses.measured(self.autonomy.whereabouts.pose)
@@ -472,8 +451,7 @@ class Station:
         return abs(where.speed) < AT_REST[0] * factor and abs(where.turn) < AT_REST[1] * factor
 
     def _diagnostics(self) -> DiagnosticArray:
-        where, battery = self.autonomy.whereabouts, self.autonomy.battery
-        low = battery < LOW_BELOW
+        where, low = self.autonomy.whereabouts, self.autonomy.low
         status = [
             DiagnosticStatus(0 if where.sure else 1, "position", _fit_sentence(where.fit)),
             DiagnosticStatus(1 if low else 0, "battery", "low" if low else "good"),

@@ -14,9 +14,11 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from bridge.server import Service
 from robotside.answering import Answering
+from robotside.authority import Operator
 from robotside.commands import Refusal
-from robotside.controls import STOP_SENTENCE, Operator
+from robotside.controls import STOP_SENTENCE
 from robotside.helm import FOLLOW_LINK, LOST_LINK_STOPS_TASK
+from robotside.permits import Permits
 from robotside.station import Station
 from robotside.task_orders import TaskOrders
 
@@ -52,13 +54,11 @@ class _Steering:
     """What each service does; a method returns the sentence of success or raises Refusal."""
 
     def __init__(self, station: Station) -> None:
-        self._station, self._tasks = station, TaskOrders(station)
+        self._station, self._tasks, self._permits = station, TaskOrders(station), Permits(station)
 
     def acquire(self, client: Operator, _: CommandRequest) -> str:
         """Take control."""
-        problem = self._station.controls.acquire(client, self._station.clock())
-        if problem:
-            raise Refusal(problem)
+        self._permits.need_control(client)
         return "You have control."
 
     def release(self, client: Operator, _: CommandRequest) -> str:
@@ -95,9 +95,7 @@ class _Steering:
     def set_option(self, client: Operator, asked: SetOptionRequest) -> str:
         """Switch a setting."""
         station = self._station
-        problem = station.controls.objection(client)
-        if problem:
-            raise Refusal(problem)
+        self._permits.may_change(client)
         said, by = _SAID.get((asked.name, asked.value), ""), station.controls.name(client)
         station.options.set(
             asked.name,

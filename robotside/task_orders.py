@@ -15,12 +15,13 @@ from bridge.msgs.pilothouse_msgs import (
     SetScheduleResponse,
     StartTaskRequest,
     TaskOrder,
+    Waypoint,
 )
 from bridge.server import Service
 from robotside.answering import Answering
 from robotside.assignments import words_for
+from robotside.authority import Operator
 from robotside.commands import Refusal
-from robotside.controls import Operator
 from robotside.permits import Permits
 from robotside.station import Station
 from robotside.tasks import Task
@@ -72,6 +73,22 @@ class TaskOrders:
         """Start a task that is the only one."""
         self._permits.idle()
         return self.start(client, asked)
+
+    def go_to(self, client: Operator, goal: Waypoint) -> str:
+        """Go to a point, also instead of another that it is under way to; the queue waits then."""
+        station, permits = self._station, self._permits
+        permits.may_move(client)
+        under_way = self._engine.task if self._engine.active else None
+        if under_way is None or under_way.name != "go_to" or under_way.order.places:
+            permits.idle()
+        order = TaskOrder(task="go_to", goals=[goal])
+        task = station.autonomy.assignments.task(order, station.controls.name(client))
+        permits.charged(task)
+        if under_way is not None:
+            station.agenda.hold("the robot was sent elsewhere")
+        self._begin()
+        self._engine.start(task, station.now)
+        return _started(task)
 
     def go_home(self, client: Operator, _: CommandRequest) -> str:
         """Go to the stored home, whatever it is doing; the queue waits then."""

@@ -10,7 +10,7 @@ import msgspec
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskStatus
+from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskRun, TaskStatus
 from bridge.msgs.std_msgs import Time
 from robotside.behaviours.course import Noted, Outline
 from robotside.behaviours.situation import Situation
@@ -77,6 +77,8 @@ class Engine:
         """The task that has not ended."""
         self._begun_at = self._odometer = 0.0
         self._next_progress = self._ticked = -math.inf
+        self._halted = False
+        """It did not run at the last tick."""
         self.status = TaskStatus()
         """As last shown."""
         show(self.status)
@@ -105,6 +107,21 @@ class Engine:
     def noted(self) -> Noted:
         """How far the task is, for a restart."""
         return self.task.course.noted() if self.task else Noted()
+
+    def recall(self, last: int, run: TaskRun | None) -> None:
+        """Show how the task before a restart ended; `last` is the number it had, `run` None when nothing is known of it."""
+        self.status = TaskStatus(task_id=last)
+        if run is not None and run.id == last and run.ended.seconds > 0:
+            self.status = TaskStatus(
+                task_id=last,
+                task=run.order.task,
+                state=run.state,
+                reason=run.reason,
+                visited=run.visited,
+                places=run.order.places,
+                stamp=run.ended,
+            )
+        self._show(self.status)
 
     def offer(self, status: TaskStatus) -> None:
         """Show a task that a restart cut; nothing is done about it."""
@@ -201,8 +218,6 @@ class Engine:
             self._end("SUCCEEDED", task.done(), "ok")
         else:
             self._end("FAILED", self._guide.reason or f"{task.title} failed.", "alarm")
-
-    _halted = False
 
     def _end(self, state: str, reason: str, level: str) -> None:
         task, self.task = self.task, None

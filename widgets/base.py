@@ -15,7 +15,7 @@ from kivy.core.text import Label as CoreLabel
 from kivy.graphics.texture import Texture
 from kivy.lang import Builder
 from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, NumericProperty, OptionProperty
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs import Msg
@@ -116,6 +116,8 @@ class RobotWidget(Widget):
     """Never heard, live, stale, alarm or disabled: each has its own look."""
     age = NumericProperty(math.nan)
     """Of what is shown [s]; NaN before the first message."""
+    says_age = BooleanProperty(True)
+    """Says how old it is; False where something beside it says so for both."""
     veil_radius = NumericProperty("12dp")
     """Corners of the veil and of the alarm's outline [px]; half the width for a round widget."""
 
@@ -132,9 +134,9 @@ class RobotWidget(Widget):
     """Has the outline of an alarm."""
 
     def _badge(self) -> str:
-        return age_text(self.age) if self.veiled and self.state == "stale" else ""
+        return age_text(self.age) if self.veiled and self.says_age and self.state == "stale" else ""
 
-    badge = AliasProperty(_badge, bind=["state", "age"], cache=True)
+    badge = AliasProperty(_badge, bind=["state", "age", "says_age"], cache=True)
     """How old it is, where that must be said; else empty."""
 
     def _badge_texture(self) -> Texture:

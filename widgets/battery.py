@@ -161,7 +161,7 @@ class Battery(_Charge, BoxLayout):
 
 
 class BatteryChip(_Charge, BoxLayout):
-    """The battery as a chip for a bar. With `brief` it leaves the sign of per cent away."""
+    """The battery as a chip for a bar. With `brief` it is as narrow as can be."""
 
     veiled = False
     brief = BooleanProperty(False)
@@ -175,8 +175,8 @@ class BatteryChip(_Charge, BoxLayout):
         self._write()
 
     def _write(self, *_: object) -> None:
-        self._chip.text = self.text.removesuffix(" %") if self.brief else self.text
-        self._chip.usual, self._chip.edge = ("100", dp(10)) if self.brief else ("100 %", dp(13))
+        self._chip.text = self.text.replace(" %", "%") if self.brief else self.text
+        self._chip.usual, self._chip.edge = ("100%", dp(8)) if self.brief else ("100 %", dp(13))
         self._chip.role = self.role
         alarming = self.role == "danger" and not self.charging
         self._chip.icon = (
@@ -213,6 +213,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "low": make(0.34),
         "charging": make(0.55, status=CHARGING),
         "chip": make(0.87, BatteryChip),
+        "chip brief": make(0.87, BatteryChip, brief=True),
         "chip low": make(0.34, BatteryChip),
         "chip empty": make(0.12, BatteryChip),
         "chip never": make(math.nan, BatteryChip, state="never"),

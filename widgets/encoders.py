@@ -68,21 +68,26 @@ class EncodersView(Gauge):
         if not shown:
             yield Word(DASH, self.center_x, (self.y + edge + top) / 2, sp(14), theme.muted)
             return
+        unit = self._unit([figure(speed, 1) for _, speed, _ in shown]) if self.low else ""
         step = (top - self.y - edge) / len(shown)
         for number, wheel in enumerate(shown):
-            yield from self._row(shapes, wheel, top - (number + 0.5) * step, step)
+            yield from self._row(shapes, wheel, (top - (number + 0.5) * step, step), unit)
+
+    def _unit(self, figures: list[str]) -> str:
+        """Behind each figure where there is no header to say it, or behind none."""
+        room = self.width - 2 * self.edge - dp(16)
+        widest = max(wide(f"{text} rad/s", sp(12), bold=True) for text in figures)
+        return " rad/s" if widest <= room else ""
 
     def _row(
-        self, shapes: Shapes, wheel: tuple[str, float, float], middle: float, high: float
+        self, shapes: Shapes, wheel: tuple[str, float, float], place: tuple[float, float], unit: str
     ) -> Iterator[Word]:
-        name, speed, angle = wheel
+        (name, speed, angle), (middle, high) = wheel, place
         left, right = self.x + self.edge, self.right - self.edge
         roomy = high >= dp(22) and not self.low
         size = sp(12 if high >= dp(18) else 10)
         text_y = middle + (dp(5) if roomy else 0)
-        told = figure(speed, 1)
-        texts = (f"{told} rad/s", told) if self.low and math.isfinite(speed) else (told,)
-        shown = first_fitting(texts, size, (right - left) * 0.62, bold=True)
+        shown = figure(speed, 1) + (unit if math.isfinite(speed) else "")
         yield Word(shown, right, text_y, size, theme.text, bold=True, anchor=(1, 0.5))
         names = (name, name[:1].upper())
         if roomy:

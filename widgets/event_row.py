@@ -22,7 +22,7 @@ from bridge.msgs.pilothouse_msgs import Event
 from widgets.labels import Text
 from widgets.theme import theme
 
-__all__ = ["EventHead", "EventRow", "ago", "is_open", "look", "note", "row_height"]
+__all__ = ["EventHead", "EventRow", "ago", "is_open", "look", "note", "row_height", "when_words"]
 
 KINDS = {
     "waypoint": ("flag", "plan"),
@@ -58,7 +58,7 @@ LEVELS = {"warn": "warn", "alarm": "danger"}
 
 BUTTON = 78
 """Width of the button of a row that somebody has to see to [dp]."""
-BESIDE = 69
+BESIDE = 81
 """Of a row beside its sentence, its icon and its button [dp]."""
 
 Builder.load_string("""
@@ -102,7 +102,7 @@ Builder.load_string("""
         color: theme.muted
         disabled_color: self.color
         size_hint_x: None
-        width: dp(38)
+        width: dp(50)
         text_size: self.size
         halign: 'right'
         valign: 'middle'
@@ -147,15 +147,34 @@ def look(event: Event) -> tuple[str, str]:
 
 
 def ago(seconds: float) -> str:
-    """How long ago: `now` for less than 2 s, minutes and seconds, then hours, then days; empty for NaN."""
+    """How long ago, with its unit: `now` for less than 2 s, then `40 s`, `5 min`, `2 h`, `3 d`; empty for NaN."""
     if not math.isfinite(seconds):
         return ""
     whole = max(0, int(seconds))
     if whole < 2:
         return "now"
+    if whole < 60:
+        return f"{whole} s"
     if whole < 3600:
-        return f"{whole // 60}:{whole % 60:02d}"
+        return f"{whole // 60} min"
     return f"{whole // 3600} h" if whole < 48 * 3600 else f"{whole // 86400} d"
+
+
+def when_words(stamp: float, now: float, *, brief: bool = False) -> str:
+    """When it was: for an hour how long ago, then the time of day and the day before it when that is another one.
+
+    As in `5 min`, `14:05`, `Mon 14:05` or `12 Nov 14:05`; of another day that alone where it is to be `brief`. Both are
+    seconds since 1970; NaN for a `now` that is not known. Empty for a `stamp` of NaN.
+    """
+    if not math.isfinite(stamp):
+        return ""
+    if now - stamp < 3600:
+        return ago(now - stamp)
+    then = datetime.fromtimestamp(stamp, UTC).astimezone()
+    if math.isnan(now) or datetime.fromtimestamp(now, UTC).astimezone().date() == then.date():
+        return f"{then:%H:%M}"
+    day = f"{then:%a}" if now - stamp < 6 * 86400 else f"{then.day} {then:%b}"
+    return day if brief else f"{day} {then:%H:%M}"
 
 
 def note(event: Event, *, asked: bool = False) -> str:
@@ -218,8 +237,8 @@ class EventRow(RecycleDataViewBehavior, BoxLayout):
         self.tell(rv.now)
 
     def tell(self, now: float) -> None:
-        """Say how long ago it was at `now` [s]."""
-        self.when = ago(now - self.stamp)
+        """Say when it was, at `now` [s]; nothing while that is not known."""
+        self.when = when_words(self.stamp, now, brief=True)
 
     def see(self) -> None:
         """A finger says that it has been seen to."""
@@ -238,7 +257,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     """An event that nobody has seen to, one that somebody has, one that was missed."""
 
     def make(**kwargs: Any) -> Callable[[], Widget]:
-        return lambda: EventRow(size_hint_x=None, width="340dp", height="60dp", when="0:12", **kwargs)
+        return lambda: EventRow(size_hint_x=None, width="340dp", height="60dp", when="12 s", **kwargs)
 
     grave = {"icon": "warning", "role": "danger", "text": "Intruder at 12.4 m, bearing 131°"}
     return {

@@ -82,7 +82,7 @@ class HandoverCard(NoticeCard):
             self.said = f"Control is yours then, unless {self.driver} keeps it."
         else:
             self.headline = f"{self.asker} asks for control{self.countdown}"
-            self.said = "It goes over by itself, unless you keep it."
+            self.said = "Without an answer it goes over."
         if self.sent:
             self.said = "Sent …"
         elif self.tiny and self.part == "asking":

@@ -41,10 +41,12 @@ class IntruderBadge(Drawing):
 
     accepts: ClassVar = (IntruderArray,)
     veiled: ClassVar = False
-    drawn_from: ClassVar = ("count", "away", "angle", "ago", "age", "to_right")
+    drawn_from: ClassVar = ("count", "seen", "away", "angle", "ago", "age", "to_right")
 
     count = NumericProperty(-1)
     """Intruders known; -1 before the robot said so."""
+    seen = NumericProperty(0)
+    """Things that are marked in the picture now, which the robot may not count as long as it does not watch."""
     away = NumericProperty(math.nan)
     """To the last one [m]; NaN while the robot does not know where it is."""
     angle = NumericProperty(math.nan)
@@ -106,6 +108,8 @@ class IntruderBadge(Drawing):
         """The first line."""
         if self.count < 0:
             return "Intruders: not told"
+        if self.count == 0 and self.seen > 0 and self.state != "stale":
+            return f"{self.seen} seen, not counted"
         return "No intruders" if self.count == 0 else f"{self.count} intruder{'s' * (self.count > 1)}"
 
     def details(self) -> tuple[str, ...]:
@@ -211,6 +215,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     return {
         "never": made(state="never"),
         "none": made(state="live"),
+        "none counted": made(state="live", seen=1),
         "one": made((3.4, 2.4), state="live"),
         "two": made(*two, state="live"),
         "behind": made((-6.0, 0.2), state="live"),

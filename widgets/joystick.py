@@ -31,29 +31,46 @@ DEAD = 0.07
 SLIGHT = 1e-6
 """A share of the way that is only an error of rounding."""
 
-GAMEPAD = {"none": "", "ready": "muted", "drives": "accent", "silent": "warn"}
-"""What is known of a gamepad to the role that its sign is drawn in."""
+GAMEPAD = {
+    "none": ("", ""),
+    "ready": ("muted", "sports_esports"),
+    "drives": ("accent", "sports_esports_fill"),
+    "silent": ("warn", "link_off"),
+}
+"""What is known of a gamepad, which is also the word beside its sign, to the role and the icon of that."""
 
 Builder.load_string("""
 <Joystick>:
     canvas.after:
         Color:
-            rgba: theme.surface[:3] + [.88 if root.sign_role else 0]
-        Ellipse:
-            pos: root.sign_pos[0] - dp(3), root.sign_pos[1] - dp(3)
-            size: root.sign_size[0] + dp(6), root.sign_size[1] + dp(6)  # kv does not see a texture's size change
+            rgba: theme.roles[root.sign_role] if root.sign_role else (0, 0, 0, 0)
+        RoundedRectangle:
+            pos: root.sign_pos
+            size: root.sign_size
+            radius: [root.sign_size[1] / 2]
+        Color:
+            rgba: theme.surface if root.sign_role else (0, 0, 0, 0)
+        RoundedRectangle:
+            pos: root.sign_pos[0] + theme.outline, root.sign_pos[1] + theme.outline
+            size: root.sign_size[0] - 2 * theme.outline, root.sign_size[1] - 2 * theme.outline
+            radius: [root.sign_size[1] / 2 - theme.outline]
         Color:
             rgba: theme.roles[root.sign_role] if root.sign_role else (0, 0, 0, 0)
         Rectangle:
             texture: root.sign
-            size: root.sign_size
-            pos: root.sign_pos
+            size: root.sign.size
+            pos: root.sign_pos[0] + dp(7), root.sign_pos[1] + (root.sign_size[1] - root.sign.height) / 2
+        Rectangle:
+            texture: root.sign_word
+            size: root.sign_word.size
+            pos: root.sign_pos[0] + root.sign.width + dp(11), root.sign_pos[1] + (root.sign_size[1] - root.sign_word.height) / 2
 """)
 
 
 class Joystick(Control, Drawing):
     """Dispatches `on_command(twist)` at every change. It follows the finger that came down on it and no other."""
 
+    __events__ = ("on_in_vain",)
     sends = (Twist,)
     drawn_from: ClassVar[tuple[str, ...]] = ("forward", "left", "max_speed", "max_yaw_rate")
 
@@ -88,25 +105,31 @@ class Joystick(Control, Drawing):
     """The knob's middle [px]."""
 
     def _sign(self) -> Texture:
-        return text_texture(icon("sports_esports"), min(sp(30), min(self.size) * 0.15), theme.icons)
+        return text_texture(icon(GAMEPAD[self.gamepad][1] or "sports_esports"), sp(20), theme.icons)
 
-    sign = AliasProperty(_sign, bind=["size"], cache=True)
-    """Of a gamepad, in the corner that the round leaves free."""
+    sign = AliasProperty(_sign, bind=["gamepad"], cache=True)
+    """Of a gamepad, with its word in the corner that the round leaves free."""
+
+    def _sign_word(self) -> Texture:
+        return text_texture(self.gamepad, sp(12.5), theme.font, bold=True)
+
+    sign_word = AliasProperty(_sign_word, bind=["gamepad"], cache=True)
+    """What the gamepad does."""
 
     def _sign_size(self) -> tuple[float, float]:
-        return tuple(self.sign.size)
+        return self.sign.width + self.sign_word.width + dp(20), dp(26)
 
-    sign_size = AliasProperty(_sign_size, bind=["sign"], cache=True)
+    sign_size = AliasProperty(_sign_size, bind=["sign", "sign_word"], cache=True)
     """[px]"""
 
     def _sign_pos(self) -> tuple[float, float]:
-        return self.right - self.sign.width - dp(2), self.top - self.sign.height - dp(2)
+        return self.right - self.sign_size[0], self.top - self.sign_size[1]
 
-    sign_pos = AliasProperty(_sign_pos, bind=["sign", "pos", "size"], cache=True)
+    sign_pos = AliasProperty(_sign_pos, bind=["sign_size", "pos", "size"], cache=True)
     """[px]"""
 
     def _sign_role(self) -> str:
-        return GAMEPAD[self.gamepad]
+        return GAMEPAD[self.gamepad][0]
 
     sign_role = AliasProperty(_sign_role, bind=["gamepad"], cache=True)
     """Role of its colour; empty while there is none."""
@@ -174,6 +197,8 @@ class Joystick(Control, Drawing):
         if touch is self._finger:
             self.rest()
         inside = math.dist(touch.pos, self.center) <= min(self.size) / 2
+        if self.disabled and inside:
+            self.dispatch("on_in_vain")
         if self.disabled or self._finger is not None or not inside:
             return bool(super().on_touch_down(touch))
         touch.grab(self)
@@ -197,6 +222,9 @@ class Joystick(Control, Drawing):
 
     def _follow(self, touch: Any) -> None:
         self._push((touch.y - self.center_y) / self.reach, (self.center_x - touch.x) / self.reach)
+
+    def on_in_vain(self) -> None:
+        """A finger came down on it while it is disabled."""
 
     def draw(self) -> None:
         """The pad, its arrows, the way from the middle to the knob, the knob."""

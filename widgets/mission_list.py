@@ -20,9 +20,9 @@ from kivy.uix.widget import Widget
 from bridge.msgs.pilothouse_msgs import GetMissionsResponse, KeptMission
 from bridge.msgs.std_msgs import Time
 from widgets.base import Control
+from widgets.event_row import when_words
 from widgets.labels import Text
 from widgets.rows import ListRow
-from widgets.run_list import when_words
 
 __all__ = ["MissionList", "mission_words"]
 

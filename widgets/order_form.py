@@ -155,7 +155,7 @@ class OrderForm(Control, BoxLayout):
         """Where places are chosen; over the fields while `picking`."""
         self.dial = HeadingDial(pos_hint={"center_x": 0.5})
         hints = {"message": "What to tell the person", "recipient_tag": "Tag of the addressee"}
-        self._texts = {name: TextField(hint_text=hint) for name, hint in hints.items()}
+        self._texts = {name: TextField(hint_text=hint, label=hint) for name, hint in hints.items()}
         super().__init__(**kwargs)
         for field in self._texts.values():
             field.bind(text=self._typed)
@@ -304,7 +304,7 @@ class OrderForm(Control, BoxLayout):
     def _stops(self) -> list[Widget]:
         rows: list[Widget] = []
         for index, name in enumerate(self.places):
-            row = ListRow(icon="flag", role="plan", title=name, aside=f"{index + 1}")
+            row = ListRow(icon="flag", role="plan", title=name, aside=f"{index + 1}", end="4dp")
             gone = IconButton(icon="close", bare=True, pos_hint={"center_y": 0.5})
             gone.bind(on_release=lambda _, index=index: self._drop(index))
             row.add_widget(gone)

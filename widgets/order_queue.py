@@ -46,6 +46,8 @@ class OrderQueue(Control, BoxLayout):
     """Every `TaskOrder` that waits, the next one first."""
     waits = BooleanProperty(False)
     """The robot has not confirmed what is shown."""
+    held = StringProperty("")
+    """Why the next one does not start by itself, as the end of a sentence; empty when it does."""
     nothing = StringProperty("Nothing waits. What you add starts when the task before it is done.")
     """What to say while nothing waits."""
     gap = NumericProperty("6dp")
@@ -65,7 +67,7 @@ class OrderQueue(Control, BoxLayout):
         self._sentence = Text(role="muted", font_size="15sp")
         super().__init__(**kwargs)
         self._sentence.bind(height=self._place)
-        self.bind(orders=self._build, waits=self._mark, nothing=self._build)
+        self.bind(orders=self._build, waits=self._mark, held=self._mark, nothing=self._build)
         for place in ("pos", "size"):
             self.ids.column.fbind(place, self._place)
         self._build()
@@ -73,7 +75,7 @@ class OrderQueue(Control, BoxLayout):
     def show(self, msg: TaskQueue) -> None:
         """Take over what waits, unless a finger is just moving it."""
         if self._dragged is None:
-            self.orders = list(msg.orders)
+            self.orders, self.held = list(msg.orders), msg.held
 
     def rest(self) -> None:
         """What a finger holds goes back to where it was."""
@@ -95,7 +97,7 @@ class OrderQueue(Control, BoxLayout):
 
     def _row(self, index: int, order: TaskOrder) -> ListRow:
         words = TASKS.get(order.task)
-        row = ListRow(icon=words.icon if words else "help", title=title(order))
+        row = ListRow(icon=words.icon if words else "help", title=title(order), end="4dp")
         row.size_hint = (None, None)
         delete = IconButton(icon="delete", bare=True, pos_hint={"center_y": 0.5})
         delete.bind(on_release=lambda _: self.remove(index))
@@ -155,7 +157,7 @@ class OrderQueue(Control, BoxLayout):
     def _mark(self, *_: object) -> None:
         for number, row in enumerate(self._rows):
             row.role = "muted" if self.waits else "plan"
-            row.detail = details(self.orders[number], first=number == 0)
+            row.detail = details(self.orders[number], first=number == 0, held=self.held)
             row.faded = self.waits
 
 
@@ -164,9 +166,10 @@ def dp_below(text: Text) -> float:
     return float(text.height + text.font_size * 0.4)
 
 
-def details(order: TaskOrder, *, first: bool) -> str:
-    """What else is to be said of an order, in one line."""
-    return " · ".join(part for part in ("Next" if first else "", order.message) if part)
+def details(order: TaskOrder, *, first: bool, held: str = "") -> str:
+    """What else is to be said of an order, in one line; of the `first` one also why it is `held`."""
+    place = (f"Waits, since {held}" if held else "Next") if first else ""
+    return " · ".join(part for part in (place, order.message) if part)
 
 
 THREE = [
@@ -180,10 +183,12 @@ THREE = [
 def samples() -> dict[str, Callable[[], Widget]]:
     """Some tasks, on their way to the robot, while one is dragged, none."""
 
-    def make(orders: list[TaskOrder] = THREE, drag: float = 0.0, **kwargs: Any) -> Callable[[], Widget]:
+    def make(
+        orders: list[TaskOrder] = THREE, drag: float = 0.0, held: str = "", **kwargs: Any
+    ) -> Callable[[], Widget]:
         def build() -> Widget:
             queue = OrderQueue(size_hint=(None, None), size=("388dp", "210dp"), **kwargs)
-            queue.show(TaskQueue(orders=orders))
+            queue.show(TaskQueue(orders=orders, held=held))
             if drag:
                 queue.drag(0, drag)
             return queue
@@ -192,6 +197,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
 
     return {
         "three": make(),
+        "held": make(held="the robot's computer was restarted"),
         "on its way": make(waits=True),
         "dragged": make(drag=-80.0),
         "none": make([]),

@@ -43,6 +43,7 @@ Builder.load_string("""
             TextField:
                 id: name
                 hint_text: 'Name, as in Office 12'
+                label: 'Name'
                 on_text: root.type('name', self.text)
             GridLayout:
                 id: kinds
@@ -53,6 +54,7 @@ Builder.load_string("""
             TextField:
                 id: note
                 hint_text: 'What to tell people who are led here'
+                label: 'What to tell people who are led here'
                 on_text: root.type('note', self.text)
             BoxLayout:
                 size_hint_y: None
@@ -72,6 +74,7 @@ Builder.load_string("""
                 TextField:
                     id: tag
                     hint_text: 'Tag of who belongs here'
+                    label: 'Tag of who belongs here'
                     on_text: root.type('tag', self.text)
             Segmented:
                 id: way

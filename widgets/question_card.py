@@ -28,8 +28,8 @@ Builder.load_string("""
     orientation: 'vertical'
     size_hint_y: None
     height: self.minimum_height if root.open else 0
-    padding: dp(16), dp(14)
-    spacing: dp(12)
+    padding: dp(16), dp(8) if root.tight else dp(14)
+    spacing: dp(8) if root.tight else dp(12)
     canvas.before:
         Color:
             rgba: theme.roles[root.role]
@@ -62,7 +62,8 @@ Builder.load_string("""
             Text:
                 text: root.question
                 bold: True
-                font_size: theme.size_title
+                role: 'muted' if root.old else 'text'
+                font_size: sp(18) if root.tight else theme.size_title
             Text:
                 text: root.said
                 role: root.said_role
@@ -70,7 +71,7 @@ Builder.load_string("""
                 height: self.texture_size[1] if root.said else 0
     BoxLayout:
         size_hint_y: None
-        height: max(theme.target * 1.15, dp(60))
+        height: theme.target if root.tight else max(theme.target * 1.15, dp(60))
         spacing: dp(10) if root.cut else 0
         QuietButton:
             id: discard
@@ -112,6 +113,11 @@ class QuestionCard(Control, BoxLayout):
     why = StringProperty("")
     """What became of the answer, where it was not accepted, or why none can be given; empty for nothing."""
 
+    tight = BooleanProperty(False)
+    """There is little room."""
+    old = StringProperty("")
+    """How old it is, as in `8 s old`, where nothing is heard any more; empty while it is what the robot asks now."""
+
     def _open(self) -> bool:
         return bool(self.question)
 
@@ -119,9 +125,9 @@ class QuestionCard(Control, BoxLayout):
     """There is something to answer."""
 
     def _role(self) -> str:
-        return "warn" if self.cut else "accent"
+        return "muted" if self.old else "warn" if self.cut else "accent"
 
-    role = AliasProperty(_role, bind=["cut"], cache=True)
+    role = AliasProperty(_role, bind=["cut", "old"], cache=True)
 
     def _icon(self) -> str:
         return "warning" if self.cut else "help"
@@ -129,14 +135,16 @@ class QuestionCard(Control, BoxLayout):
     icon = AliasProperty(_icon, bind=["cut"], cache=True)
 
     def _said(self) -> str:
+        if self.old:
+            return f"Asked before the link was lost; {self.old}."
         return self.why or self.reason
 
-    said = AliasProperty(_said, bind=["why", "reason"], cache=True)
+    said = AliasProperty(_said, bind=["why", "reason", "old"], cache=True)
 
     def _said_role(self) -> str:
-        return "danger" if self.why else "muted"
+        return "danger" if self.why and not self.old else "muted"
 
-    said_role = AliasProperty(_said_role, bind=["why"], cache=True)
+    said_role = AliasProperty(_said_role, bind=["why", "old"], cache=True)
 
     def show(self, msg: TaskStatus) -> None:
         """Take over what the robot asks or offers; a new question forgets what became of the last answer."""
@@ -188,4 +196,6 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "cut short": make(cut),
         "held": make(cut, held=True),
         "blocked": make(asks, blocked=True),
+        "old": make(asks, blocked=True, old="8 s old"),
+        "tight": make(asks, tight=True),
     }

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from kivy.lang import Builder
-from kivy.properties import BooleanProperty, StringProperty
+from kivy.properties import BooleanProperty, NumericProperty, StringProperty
 from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.scrollview import ScrollView
@@ -22,7 +22,7 @@ Builder.load_string("""
 <ListRow>:
     size_hint_y: None
     height: max(theme.target, words.height + dp(14))
-    padding: dp(12), 0, dp(4), 0
+    padding: dp(12), 0, root.end, 0
     spacing: dp(10)
     canvas.before:
         Color:
@@ -77,7 +77,7 @@ Builder.load_string("""
         color: theme.muted
         disabled_color: self.color
         size_hint: None, None
-        size: self.texture_size[0] + dp(8) if root.aside else 0, self.texture_size[1]
+        size: self.texture_size[0] if root.aside else 0, self.texture_size[1]
         opacity: 1 if root.aside else 0
         pos_hint: {'center_y': .5}
 
@@ -107,6 +107,8 @@ class ListRow(ButtonBehavior, BoxLayout):
     title = StringProperty("")
     detail = StringProperty("")
     """The second line; empty for none."""
+    end = NumericProperty("12dp")
+    """From what stands at its end to the border; less for a button without a ground, which brings its own [px]."""
     aside = StringProperty("")
     """At the end, as a distance or a time; empty for none."""
     chosen = BooleanProperty(False)

@@ -20,6 +20,7 @@ from bridge.msgs.pilothouse_msgs import GetHistoryResponse, TaskOrder, TaskRun
 from bridge.msgs.std_msgs import Time
 from widgets.base import Control
 from widgets.buttons import QuietButton
+from widgets.event_row import when_words
 from widgets.labels import Text
 from widgets.rows import ListRow
 from widgets.task_words import STATES, distance_words, span_words, title
@@ -50,15 +51,6 @@ def run_words(run: TaskRun, now: float = math.nan) -> str:
         parts.append(span_words(max(0.0, over - run.started.seconds)))
     parts.append(run.by or "by itself")
     return " · ".join(parts)
-
-
-def when_words(stamp: float, now: float) -> str:
-    """The time of day, and the day before it when that is another one, as in `Mon 14:05` or `12 Nov 14:05`."""
-    then = datetime.fromtimestamp(stamp, UTC).astimezone()
-    if math.isnan(now) or datetime.fromtimestamp(now, UTC).astimezone().date() == then.date():
-        return then.strftime("%H:%M")
-    week = abs(now - stamp) < 6 * 86400
-    return then.strftime("%a %H:%M") if week else f"{then.day} {then.strftime('%b %H:%M')}"
 
 
 class RunList(Control, BoxLayout):

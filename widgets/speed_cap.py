@@ -42,11 +42,13 @@ class SpeedCap(NoticeCard):
     def _why(self) -> str:
         if self.driver:
             return f"Slow link of {self.driver}"
-        slow = self.rtt >= SLOW  # and not when that is NaN
-        return f"Slow link, {self.rtt * 1000:.0f} ms" if slow else "Slow link"
+        if math.isnan(self.rtt):
+            return "Slow link"
+        figure = f"{self.rtt * 1000:.0f} ms"
+        return f"Slow link, {figure}" if self.rtt >= SLOW else f"The robot measured a slow link; here {figure}"
 
     why = AliasProperty(_why, bind=["rtt", "driver"], cache=True)
-    """As in `Slow link, 320 ms`; without a figure where this handheld does not measure it."""
+    """As in `Slow link, 320 ms`, without a figure before there is one; the robot judges by what it measures itself."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(icon="speed", role="warn", **kwargs)
@@ -97,6 +99,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     slow, off = ControlStatus(speed_cap=0.4), ControlStatus(follows_link=False)
     return {
         "slow": make(slow, rtt=0.32),
+        "slow for the robot": make(slow, rtt=0.063),
         "another's": make(slow, driver="Anna", blocked=True),
         "off": make(off, rtt=0.012),
         "off and slow": make(off, rtt=0.32),

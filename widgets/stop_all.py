@@ -128,7 +128,7 @@ class StopAll(Control, AnchorLayout):
     def _word_size(self) -> float:
         lines = 2 if self.tight and not self.active else 1
         most = max(min(self.height * (0.36 if lines == 1 else 0.24), sp(26)), sp(LEAST))
-        return fitting_size(self.word.split("\n"), most, self.width - dp(6), bold=True)
+        return fitting_size(self.word.split("\n"), most, self.width - dp(8), bold=True)
 
     word_size = AliasProperty(_word_size, bind=["size", "word", "tight", "active"], cache=True)
     """Height of the type [px]."""

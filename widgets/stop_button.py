@@ -23,6 +23,8 @@ __all__ = ["PHASES", "StopButton"]
 
 HOLD = 1.0
 """How long the finger must stay to release a latched STOP [s]."""
+FRAME = 0.1
+"""A frame counts for no more of a hold [s]: a finger that left while it was drawn is only heard of after it."""
 LONG_HOLD = 3.0
 """The same while a STOP held here alone is not confirmed [s]: who presses it again and stays on it wants it to stop."""
 
@@ -196,7 +198,8 @@ class StopButton(Control, AnchorLayout):
         self.held = 0.0
 
     def _hold(self, elapsed: float) -> None:
-        self.held = min(1.0, self.held + elapsed / (HOLD if self.phase == "stopped" else LONG_HOLD))
+        long = HOLD if self.phase == "stopped" else LONG_HOLD
+        self.held = min(1.0, self.held + min(elapsed, FRAME) / long)
         if self.held >= 1.0 - 1e-9:
             self.rest()
             self.dispatch("on_release_stop")

@@ -25,6 +25,8 @@ __all__ = ["WORDS", "StopList", "StopRow"]
 
 HOLD = 1.0
 """How long the finger must stay to let go [s]."""
+FRAME = 0.1
+"""A frame counts for no more of a hold [s], as of STOP."""
 
 WORDS = {
     "sent": ("SENT", "warn", "hourglass_top"),
@@ -96,12 +98,32 @@ Builder.load_string("""
             id: head
             size_hint_y: None
             height: theme.target
-            Text:
-                text: root.title
-                bold: True
-                role: 'ok' if root.all_stopped else 'danger'
-                font_size: theme.size_title
+            BoxLayout:
+                orientation: 'vertical'
+                size_hint_y: None
+                height: self.minimum_height
                 pos_hint: {'center_y': .5}
+                Text:
+                    text: root.title
+                    bold: True
+                    role: 'ok' if root.all_stopped else 'danger'
+                    font_size: theme.size_title
+                Text:
+                    text: root.worst
+                    font_size: sp(14)
+                    shorten: True
+                    shorten_from: 'right'
+                    height: self.texture_size[1] if root.folded and root.worst else 0
+                    opacity: 1 if root.folded else 0
+            IconButton:
+                id: fold
+                icon: 'expand_less' if root.folded else 'expand_more'
+                role: 'muted'
+                bare: True
+                size: (theme.target, theme.target) if root.cramped else (0, 0)
+                opacity: 1 if root.cramped else 0
+                disabled: not root.cramped
+                on_release: root.dispatch('on_fold')
             IconButton:
                 id: close
                 icon: 'close'
@@ -196,7 +218,7 @@ class HoldButton(QuietButton):
         self.held = 0.0
 
     def _hold(self, elapsed: float) -> None:
-        self.held = min(1.0, self.held + elapsed / HOLD)
+        self.held = min(1.0, self.held + min(elapsed, FRAME) / HOLD)
         if self.held >= 1.0 - 1e-9:
             self.rest()
             self.dispatch("on_held_long")
@@ -209,8 +231,14 @@ class StopList(Control, BoxLayout):
     """Dispatches `on_command` after the hold by which the operator lets go, and `on_close` to be folded away."""
 
     veiled = False
-    __events__ = ("on_close",)
+    __events__ = ("on_close", "on_fold")
 
+    folded = BooleanProperty(False)
+    """One line only, because something else needs the room."""
+    cramped = BooleanProperty(False)
+    """Something else needs the room: it can be folded and unfolded."""
+    worst = StringProperty("")
+    """Who is not stopped, in few words; empty when all are. Said where it is folded."""
     title = StringProperty("")
     all_stopped = BooleanProperty(False)
     footnote = StringProperty("")
@@ -219,12 +247,26 @@ class StopList(Control, BoxLayout):
     """Words of the hold; empty when there is nothing to let go."""
     wanted = NumericProperty(0.0)
     """The height at which every row is seen [px]."""
+    line = NumericProperty(0.0)
+    """The height when it is folded [px]."""
 
     def __init__(self, **kwargs: Any) -> None:
         self._rows: list[StopRow] = []
         super().__init__(**kwargs)
         for part in (self.ids.column, self.ids.footnote, self.ids.head, self.ids.release):
             part.bind(height=self._measure)
+        self._measure()
+        self.bind(folded=self._fold)
+
+    def _fold(self, *_: object) -> None:
+        """All but the head away, or back."""
+        card, ids = self.ids.card, self.ids
+        ids.release.rest()
+        for part in (ids.roll, ids.footnote, ids.release):
+            if self.folded:
+                card.remove_widget(part)
+            else:
+                card.add_widget(part)
         self._measure()
 
     def tell(
@@ -240,6 +282,8 @@ class StopList(Control, BoxLayout):
         for row, robot in zip(self._rows, robots, strict=True):
             row.take(robot)
         self.title, self.all_stopped = f"STOPPED {stopped} of {total}", stopped == total
+        worst = robots[0] if robots and robots[0].phase != "stopped" else None
+        self.worst = f"{worst.name}: {WORDS[worst.phase][0]}" if worst is not None else ""
         held = sum(robot.foreign for robot in robots)
         open_ones = sum(robot.phase not in ("stopped", "released") for robot in robots)
         self.footnote = _footnote(open_ones, held, untried, since) or HINT
@@ -248,7 +292,9 @@ class StopList(Control, BoxLayout):
     def _measure(self, *_: object) -> None:
         ids, card = self.ids, self.ids.card
         parts = (ids.head.height, ids.column.height, ids.footnote.height, ids.release.height)
-        self.wanted = sum(parts) + card.spacing * 3 + card.padding[1] + card.padding[3]
+        around = card.padding[1] + card.padding[3]
+        self.line = ids.head.height + around
+        self.wanted = sum(parts) + card.spacing * 3 + around
 
     def rest(self) -> None:
         """Forget a hold that has begun."""
@@ -257,12 +303,15 @@ class StopList(Control, BoxLayout):
     def on_close(self) -> None:
         """To be folded away; what is sent goes on being sent."""
 
+    def on_fold(self) -> None:
+        """To be folded, or unfolded over what needs the room."""
+
     def on_touch_down(self, touch: Any) -> bool:
         """Nothing behind it gets a finger."""
         return bool(super().on_touch_down(touch) or self.collide_point(*touch.pos))
 
 
-HINT = "Each is released by itself: connect, take control, and hold STOP."
+HINT = "Release each one separately: connect to it, take control, and hold STOP."
 
 
 def _footnote(open_ones: int, held: int, untried: int, since: int) -> str:
@@ -313,6 +362,13 @@ def samples() -> dict[str, Callable[[], Widget]]:
     many = [_Sample(f"{n}", f"Robot-{n}", "stopped") for n in range(30)]
     return {
         "some": make(SOME, "530dp"),
+        "folded": _folded,
         "all": make([SOME[0], _Sample("b", "Minnow-2", "stopped")], "220dp"),
         "many": make(many, "320dp", untried=2),
     }
+
+
+def _folded() -> StopList:
+    widget = StopList(size_hint=(None, None), size=("388dp", "69dp"), cramped=True, folded=True)
+    widget.tell(SOME, 2, 6)
+    return widget

@@ -70,6 +70,8 @@ Builder.load_string("""
     Text:
         text: root.reason
         font_size: sp(14.5)
+        height: self.texture_size[1] if root.reason else 0
+        opacity: 1 if root.reason else 0
         shorten: root.brief
         shorten_from: 'right'
     Progress:
@@ -155,7 +157,7 @@ class TaskCard(RobotWidget, BoxLayout):
     """What it does just now in one word: the phase, else the state."""
 
     def _reason(self) -> str:
-        return self.status.reason or ("" if self.active else "Choose one and start it.")
+        return self.status.reason
 
     reason = AliasProperty(_reason, bind=["status"], cache=True)
     progress = NumericProperty(math.nan)

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 from kivy.graphics.texture import Texture
 from kivy.lang import Builder
-from kivy.metrics import sp
-from kivy.properties import AliasProperty, BooleanProperty
+from kivy.metrics import dp, sp
+from kivy.properties import AliasProperty, BooleanProperty, StringProperty
 from kivy.uix.textinput import TextInput
 from kivy.uix.widget import Widget
 
@@ -24,7 +24,7 @@ Builder.load_string("""
     height: theme.target
     font_name: theme.font
     font_size: theme.size_body
-    padding: dp(14), (self.height - self.line_height) / 2, dp(46) if self.wrong else dp(14), (self.height - self.line_height) / 2
+    padding: dp(14), (self.height - self.line_height) / 2 + root.drop, dp(46) if self.wrong else dp(14), (self.height - self.line_height) / 2 - root.drop
     foreground_color: theme.text
     hint_text_color: theme.muted
     cursor_color: theme.accent
@@ -37,6 +37,12 @@ Builder.load_string("""
             texture: root.sign
             size: root.sign.size
             pos: self.right - dp(14) - root.sign.width, self.center_y - root.sign.height / 2
+        Color:
+            rgba: theme.muted if root.drop else (0, 0, 0, 0)
+        Rectangle:
+            texture: root.label_texture
+            size: root.label_texture.size
+            pos: self.x + dp(14), self.top - dp(5) - root.label_texture.height
     canvas.before:
         Color:
             rgba: theme.danger if root.wrong else theme.accent if root.focus else theme.line
@@ -64,6 +70,19 @@ class TextField(TextInput):
     """A line to type into; `wrong` while what it says cannot be used."""
 
     wrong = BooleanProperty(False)
+    label = StringProperty("")
+    """What is typed here, small over what was typed; before that the hint says it. Empty for none."""
+
+    def _drop(self) -> float:
+        return float(dp(8)) if self.label and self.text else 0.0
+
+    drop = AliasProperty(_drop, bind=["label", "text"], cache=True)
+    """How much lower than the middle the line is, to leave room for the label [px]."""
+
+    def _label_texture(self) -> Texture:
+        return text_texture(self.label, sp(12), theme.font)
+
+    label_texture = AliasProperty(_label_texture, bind=["label"], cache=True)
 
     def _sign(self) -> Texture:
         return text_texture(icon("error"), sp(22), theme.icons)
@@ -73,10 +92,11 @@ class TextField(TextInput):
 
 
 def samples() -> dict[str, Callable[[], Widget]]:
-    """Empty, filled, wrong."""
+    """Empty, filled, with a name, wrong."""
     wide = {"size_hint_x": None, "width": "330dp"}
     return {
         "empty": lambda: TextField(hint_text="Address, as in 192.168.1.7", **wide),
         "filled": lambda: TextField(text="192.168.1.7", **wide),
+        "named": lambda: TextField(label="Message", text="For Ms. Weber, 2nd floor", **wide),
         "wrong": lambda: TextField(text="10.0.0.300", wrong=True, **wide),
     }

@@ -120,7 +120,8 @@ class UltrasoundView(Gauge):
         if self.low:
             yield from self._brief(shapes)
             return
-        yield from self.header(())
+        narrow = self.width / 2 - self.edge < dp(NARROW)
+        yield from self.header(("m",) if narrow and self.echoes else (), "muted", told=False)
         top = self.top - self.edge - sp(16)
         x, y = self.center_x, (self.y + self.edge + top) / 2
         across, high = self.width / 2 - self.edge, (top - self.y - self.edge) / 2

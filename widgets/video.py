@@ -259,6 +259,8 @@ class Video(Drawing):
 
     def _sentence(self) -> Iterator[Word]:
         if self._texture is None:
+            if self.below < self.center_y + dp(34):
+                return  # half of it would stick out from under what is said
             yield Word(
                 icon("videocam_off"),
                 self.center_x,

@@ -201,7 +201,8 @@ Builder.load_string("""
 
 
 def _shortened(name: str, most: int) -> str:
-    """`name`, cut to `most` characters with a sign that it was cut."""
+    """`name`, cut to `most` characters with a sign that it was cut; `somebody` where there is nothing to read in it."""
+    name = " ".join(letters for letters in name.split() if letters.isprintable()) or "somebody"
     return name if len(name) <= most else f"{name[: most - 1].rstrip()}…"
 
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from kivy.metrics import Metrics
 from kivy.properties import ObjectProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
@@ -22,6 +23,7 @@ from app.layout import Instrument, Layout, LayoutError
 from app.link import OFFER
 from app.offer import POSE
 from app.screens.check_card import CheckCard
+from app.screens.in_vain import InVain
 from app.screens.placing import AWAY, put
 from app.screens.senses import Senses
 from app.screens.sight import Sight
@@ -37,6 +39,8 @@ __all__ = ["DriveScreen"]
 
 LONGEST_NAME = 14
 """Letters of a topic's name on an instrument."""
+NARROW = 110
+"""On a narrower button the icon is above the word [dp]."""
 FIRST = 0.6
 """Share of the robot's greatest speed that the slider begins with."""
 
@@ -60,6 +64,7 @@ class DriveScreen(FloatLayout):
         self.actions = GridLayout(cols=1, spacing="10dp")
         self.senses = Senses(self.session.feeds)
         self.senses.bind(open=self._uncover, opacity=self._uncover)
+        self.in_vain = InVain(self.session, self.app)
         self.sight = Sight(self.session, self.video, self.dashboard)
         self.places: dict[str, list[Widget]] = {}
         self._titled: list[tuple[Any, Instrument]] = []
@@ -128,7 +133,7 @@ class DriveScreen(FloatLayout):
         self.add_widget(widget)
 
     def _build_controls(self) -> None:
-        self.stick.bind(on_command=self._drive)
+        self.stick.bind(on_command=self._drive, on_in_vain=lambda _: self.in_vain.tell())
         self.speed.bind(maximum_speed=self._limit)
         self._place("stick", self.stick)
         self._place("slider", self.speed)
@@ -190,9 +195,12 @@ class DriveScreen(FloatLayout):
         if self.senses.covers:
             lids.append(self._arranged["senses_open"])
         for slot in ("top_left", "top_right", "readouts", "top"):
-            hidden = any(lid.overlaps(self._arranged[slot]) for lid in lids)
+            place = self._arranged[slot]
+            hidden = any(lid.overlaps(place) for lid in lids)
             for widget in self.places.get(slot, ()):
                 widget.opacity = 0 if hidden else 1
+                # what has a shader of its own knows nothing of opacity
+                put(widget, Rect(AWAY, place.y, place.width, place.height) if hidden else place)
         low, cover = self.low, self._cover
         under = cover is not None and cover.overlaps(Rect(*low.pos, *low.size))
         low.opacity, low.disabled = float(not under), under
@@ -267,6 +275,10 @@ class DriveScreen(FloatLayout):
             for widget in wanted:
                 self.actions.add_widget(widget)
         self.actions.cols = len(wanted) if self._tall else 1
+        narrow = self._tall and self.actions.width < NARROW * Metrics.density * len(wanted)
+        for button in self._buttons:
+            button.flow = "vertical" if narrow else "horizontal"
+            button.padding = (4 * Metrics.density, 0) if narrow else (10 * Metrics.density, 0)
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
         """A decoded camera frame; `rate` [Hz] and `latency` [s] are said on it, NaN for unknown."""

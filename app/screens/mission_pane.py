@@ -39,7 +39,7 @@ class MissionPane(BoxLayout):
         super().__init__(**kwargs)
         self._session = session
         self.head = PaneHead()
-        self.field = TextField(hint_text="Name, as in Night patrol")
+        self.field = TextField(hint_text="Name, as in Night patrol", label="Name")
         self.add_widget(self.head)
         self.add_widget(self.field)
         self.add_widget(Widget())

@@ -12,7 +12,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from app.arrange import Rect
-from widgets.kit import ActionToast, Toast
+from widgets.kit import ActionToast, Banner, Toast
 
 __all__ = ["BRIEF", "LONG", "Notices"]
 
@@ -36,6 +36,10 @@ class Notices(BoxLayout):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._said = ""
+        self.room = Rect(0, 0, 0, 0)
+        """Where it would stand if nothing else were there; without height while nothing is said [px]."""
+        self.above: Rect | None = None
+        """What it keeps above of, where it can [px]."""
         self._cover: tuple[Any, Rect | None] = (None, None)
 
     def place(self, screen: Any) -> None:
@@ -44,8 +48,14 @@ class Notices(BoxLayout):
         self.width = min(WIDEST * Metrics.density, room.width)
         # what is too much for its room goes up, never down over what can be touched
         low = max(room.y, min(room.top, screen.top) - self.height)
-        self.pos = (room.x + (room.width - self.width) / 2, low)
-        cover = Rect(self.x, low, self.width, self.height) if self.children else None
+        x = room.x + (room.width - self.width) / 2
+        self.room = Rect(x, low, self.width, self.height if self.children else 0.0)
+        if self.above is not None and self.above.overlaps(self.room):
+            low = max(low, min(self.above.top + 8 * Metrics.density, screen.top - self.height))
+        self.pos = (x, low)
+        said = Rect(self.x, low, self.width, self.height) if self.children else None
+        # what only stands over pictures takes nothing away from lists that can be read beside it
+        cover = _round(said, self.above) if screen.video is not None else said
         if (screen, cover) != self._cover:
             self._cover = screen, cover
             screen.clear(cover)
@@ -72,6 +82,11 @@ class Notices(BoxLayout):
         toast.bind(on_act=lambda _: act())
         self.add_widget(toast)
 
+    @property
+    def asks(self) -> bool:
+        """Something is there that waits for a finger."""
+        return any(isinstance(child, ActionToast) or not isinstance(child, Banner) for child in self.children)
+
     def keep(self, card: Widget, *, shown: bool, first: bool = False, under: Widget | None = None) -> None:
         """Have a card here for as long as it is `shown`; `first` puts it above all others but the one it is `under`."""
         if shown == (card.parent is self):
@@ -81,3 +96,11 @@ class Notices(BoxLayout):
             return
         top = self.children.index(under) if under in self.children else len(self.children)
         self.add_widget(card, index=top if first else 0)
+
+
+def _round(one: Rect | None, other: Rect | None) -> Rect | None:
+    """What holds both."""
+    if one is None or other is None:
+        return one or other
+    x, y = min(one.x, other.x), min(one.y, other.y)
+    return Rect(x, y, max(one.right, other.right) - x, max(one.top, other.top) - y)

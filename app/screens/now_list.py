@@ -31,7 +31,7 @@ Builder.load_string("""
             id: main
             text: root.main_words
             meaning: root.main
-            icon: 'pause' if root.main == 'pause' else 'play_arrow_fill'
+            icon: 'play_arrow_fill' if root.main == 'resume' else 'pause'
             fill: 'accent' if root.main == 'resume' else 'raised'
             border: 'accent' if root.main == 'resume' else 'line'
             ink: 'ink_accent' if root.main == 'resume' else 'text'
@@ -48,7 +48,7 @@ Builder.load_string("""
         size_hint_y: None
         height: dp(40)
         SectionLabel:
-            title: 'Next'
+            title: root.next_words
             pos_hint: {'center_y': .5}
         IconButton:
             id: undo
@@ -75,6 +75,8 @@ class NowList(BoxLayout):
     main = StringProperty("")
     """`pause`, `resume` or nothing."""
     main_words = StringProperty("Pause")
+    next_words = StringProperty("Next")
+    """Over the queue: what it is, and that it waits to be told to go on."""
     may_undo = BooleanProperty(False)
     brief = BooleanProperty(False)
     """Takes little room."""
@@ -116,6 +118,9 @@ class NowList(BoxLayout):
         editor = self._session.tasking.queue
         self.queue.orders, self.queue.waits = list(editor.orders), editor.waits
         self.may_undo = editor.can_undo
+        parked = editor.told is not None and bool(editor.told.held) and bool(editor.orders)
+        self.next_words = "Next · waits until told" if parked else "Next"
+        self.queue.held = editor.told.held if parked and editor.told is not None else ""
 
     def tick(self, may: bool) -> None:
         """Bring up to date what can be done; `may` when it can be asked for from here."""
@@ -128,7 +133,6 @@ class NowList(BoxLayout):
         self.main = {"RUNNING": "pause", "PAUSED": "resume", "INTERRUPTED": "resume"}.get(
             status.state, "resume" if waiting else ""
         )
-        self.main_words = {"pause": "Pause", "": "Pause"}.get(
-            self.main, ("Go on with this" if count == 1 else "Go on with these") if waiting else "Resume"
-        )
+        these = "Go on" if self.brief else "Go on with this" if count == 1 else "Go on with these"
+        self.main_words = {"pause": "Pause", "": "Pause"}.get(self.main, these if waiting else "Resume")
         self.queue.state = "live" if may else "disabled"

@@ -7,7 +7,9 @@ from typing import Any
 from kivy.lang import Builder
 from kivy.properties import BooleanProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.widget import Widget
 
+from app.commands import Outcome
 from app.screens.pane_head import PaneHead
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import Place, PlaceArray
@@ -23,9 +25,9 @@ Builder.load_string("""
 
 
 class PlacePane(BoxLayout):
-    """The form of a place; dispatches `on_close`."""
+    """The form of a place; dispatches `on_close`, and `on_back(place)` when the robot did not take one that was made here."""
 
-    __events__ = ("on_close",)
+    __events__ = ("on_close", "on_back")
 
     open = BooleanProperty(False)
     """A new place is being made, which has no number yet."""
@@ -34,12 +36,14 @@ class PlacePane(BoxLayout):
     def __init__(self, session: Session, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._session = session
-        self.head, self.form = PaneHead(), PlaceForm()
+        self._kept: Place | None = None
+        """What is on its way to the robot."""
+        self.head, self.form, self._rest = PaneHead(), PlaceForm(), Widget()
         self.add_widget(self.head)
-        self.add_widget(self.form)
         self.head.bind(on_close=lambda _: self.dispatch("on_close"))
         self.form.bind(on_command=lambda *_: self.refresh())
         self.bind(open=lambda *_: self.refresh())
+        self.refresh()
 
     @property
     def sentence(self) -> str:
@@ -54,6 +58,7 @@ class PlacePane(BoxLayout):
     def edit(self, place: Place) -> None:
         """Make a place (id 0) or change one."""
         self.form.show(place)
+        self.refresh()
         self.name_places(self._session.feeds.latest("/places") or PlaceArray())
 
     def name_places(self, msg: PlaceArray) -> None:
@@ -68,17 +73,31 @@ class PlacePane(BoxLayout):
         self.head.refused = bool(refused)
         asks = refused or self.form.lacking
         self.head.sentence = asks if there else "Choose a place to change it, or make a new one."
-        self.form.opacity, self.form.disabled = float(there), not there
+        self.form.disabled = not there
+        for widget, shown in ((self.form, there), (self._rest, not there)):
+            if shown != (widget.parent is self):
+                (self.add_widget if shown else self.remove_widget)(widget)
 
     def keep(self) -> None:
         """Store it at the robot."""
-        self._session.tasking.keep_place(self.form.place)
+        self._kept = self.form.place
+        self._session.tasking.keep_place(self._kept)
         self.form.show(Place())
+        self.refresh()
+
+    def hear(self, outcome: Outcome) -> None:
+        """What became of a command: what was typed for a place that is refused comes back, unless another is made."""
+        if outcome.name != "place" or outcome.phase == "sent" or outcome.fields["place"] != self._kept:
+            return
+        place, self._kept = self._kept, None
+        if outcome.phase != "accepted" and place is not None and not self.there:
+            self.dispatch("on_back", place)
 
     def forget(self) -> None:
         """Delete it; can be undone."""
         self._session.tasking.forget_place(self.form.shown)
         self.form.show(Place())
+        self.refresh()
 
     def rest(self) -> None:
         """Fingers let go of what they hold."""
@@ -86,3 +105,6 @@ class PlacePane(BoxLayout):
 
     def on_close(self) -> None:
         """A finger asked to go back to the lists."""
+
+    def on_back(self, place: Place) -> None:
+        """The robot did not take `place`."""

@@ -10,7 +10,7 @@ __all__ = ["AWAY", "above", "put"]
 
 AWAY = -1e4
 """x of what is off the glass [px]."""
-LEAST = 72.0
+LEAST = 120.0
 """Lower ones show nothing that can be read [dp]."""
 
 

@@ -23,6 +23,8 @@ SECOND = 0.42
 """Share of the height that the upper one of two beside it has."""
 LEAST = 62
 """Width that a sensor needs on the strip; one that is too narrow shows the first ones only [dp]."""
+ALIKE = 1.0
+"""Ages that differ by less are the same [s]."""
 HANDLE = 26
 """Width of the sign that says a strip unfolds [dp]."""
 
@@ -82,6 +84,7 @@ class Senses(Card):
                 self._show(gauge, topic)
             if gauge in present:
                 self._refresh(gauge, [topic for topic in topics if self._heard(topic)])
+        self._say_once()
 
     def _show(self, gauge: Gauge, topic: str) -> None:
         """Show what came since the last look: ten times a second are enough for figures."""
@@ -100,6 +103,16 @@ class Senses(Card):
         age = min((self._feeds.age(topic) for topic in topics), default=math.nan)
         if gauge.state == "stale" and not abs(age - gauge.age) < 0.5:
             gauge.age = age
+
+    def _say_once(self) -> None:
+        """Where all are as old as each other, the first one says so for all."""
+        ages = [gauge.age for gauge in self.shown if gauge.state == "stale"]
+        if len(ages) == len(self.shown) > 1 and max(ages) - min(ages) < ALIKE:
+            for gauge in self.shown[1:]:
+                gauge.says_age = False
+        else:
+            for gauge in self.shown:
+                gauge.says_age = True
 
     def on_open(self, *_: object) -> None:
         """Fold or unfold."""

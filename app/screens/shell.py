@@ -26,6 +26,7 @@ from app.session import Session
 from app.stopping import silence
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets import QuestionCard, StopButton
+from widgets.base import age_text
 from widgets.kit import Banner
 from widgets.theme import theme
 
@@ -296,6 +297,8 @@ class Shell(FloatLayout):
         card = self.question
         card.blocked = not self.session.connected or self.session.control == "other"
         card.held = self.session.stop_latched
+        card.tight = self.form == "short"
+        card.old = "" if self.session.connected else age_text(self.session.feeds.age("/task/status"))
         # a phone on its side has room for one card: the one that counts down goes first
         waits = self.form == "short" and self.cards.handover.parent is not None
         self.notices.keep(card, shown=card.open and not waits)

@@ -47,6 +47,7 @@ class Sight(IntruderBadge):
         feeds: Feeds = self._session.feeds
         self.told = feeds.latest(FOUND) is not None
         self._show()
+        self.seen = len(self._video.boxes)
         self._grow_old(feeds)
         fov = self._session.info.camera_fov
         self._video.field_of_view = fov if fov > 0 else math.nan

@@ -59,11 +59,12 @@ class SpeedCard(Card):
     """Greatest turn rate that it allows [rad/s]; NaN for none."""
 
     def _limits(self) -> str:
-        speed = f"limit {self.speed_limit:.2f}" if math.isfinite(self.speed_limit) else ""
+        word = "limit" if self.width > dp(90) else "≤"
+        speed = f"{word} {self.speed_limit:.2f}\u00a0m/s" if math.isfinite(self.speed_limit) else ""
         turn = f"turn {math.degrees(self.turn_limit):.0f}°/s" if math.isfinite(self.turn_limit) else ""
         return "\n".join(filter(None, (speed, turn)))
 
-    limits = AliasProperty(_limits, bind=["speed_limit", "turn_limit"], cache=True)
+    limits = AliasProperty(_limits, bind=["speed_limit", "turn_limit", "width"], cache=True)
     """Both in words; empty for none."""
 
     def _titled(self) -> bool:

@@ -34,8 +34,13 @@ class StopCorner:
         self.button.bind(on_command=lambda _: self.press())
         self.list = StopList(size_hint=(None, None))
         self.list.bind(
-            on_command=lambda _: self._let_go(), on_close=lambda _: self._fold(), wanted=self._place
+            on_command=lambda _: self._let_go(),
+            on_close=lambda _: self._fold(),
+            on_fold=lambda _: self._turn(),
+            wanted=self._place,
         )
+        self._spread = False
+        """The operator wants to see all of the list, whatever it lies over."""
         self._arranging = Clock.create_trigger(self._place, -1)
         self.layer.bind(size=self._arranging)
 
@@ -110,4 +115,24 @@ class StopCorner:
             body = arrange.shell(self.layer.width, self.layer.height, dp)["body"]
         if place.other is not None:
             put(self.button, place.other)
-        put(self.list, arrange.stop_list(body, place, form, self.list.wanted, dp))
+        self._place_list(body, place, form, dp)
+
+    def _place_list(self, body: Rect, place: StopPlace, form: str, dp: float) -> None:
+        """Above STOP; in one line where a card has to be answered there, and what is only said goes above it."""
+        shell, listed = self._app.shell, self.list
+        whole = arrange.stop_list(body, place, form, listed.wanted, dp)
+        cramped = False
+        if shell is not None and listed.parent is not None:
+            said = shell.notices.room
+            high = whole.top + 8 * dp + said.height > body.top
+            cramped = said.height > 0 and whole.overlaps(said) and (shell.notices.asks or high)
+        self._spread = self._spread and cramped
+        listed.cramped, listed.folded = cramped, cramped and not self._spread
+        line = arrange.stop_list(body, place, form, listed.line, dp, folded=True)
+        put(listed, line if listed.folded else whole)
+        if shell is not None:
+            shell.notices.above = (line if listed.folded else whole) if listed.parent is not None else None
+
+    def _turn(self) -> None:
+        self._spread = not self._spread
+        self._place()

@@ -158,6 +158,7 @@ class TasksScreen(FloatLayout):
         )
         for pane in (self.pane, self.place_pane, self.mission_pane, self.settings_pane):
             pane.bind(on_close=lambda _: self.close())
+        self.place_pane.bind(on_back=lambda _, place: self.edit_place(place))
         self.pane.bind(complete=lambda *_: self._show_buttons())
         self.bind(tab=self._tab_changed, detail=self._lay)
 
@@ -190,6 +191,7 @@ class TasksScreen(FloatLayout):
         self.dashboard.deliver(channel, post.value)
         if channel == OUTCOME:
             self.settings_pane.hear(post.value)
+            self.place_pane.hear(post.value)
 
     def enter(self) -> None:
         """Come onto the glass."""

@@ -58,6 +58,8 @@ class Cut:
     """From that to the robot's rest [s]; infinite when it goes on."""
     way: float
     """Driven meanwhile, as long as it was looked at [m]."""
+    old: int = 0
+    """How often something moved it that was given only after the cut."""
 
     @property
     def missed(self) -> bool:
@@ -117,22 +119,24 @@ async def cut(port: int, told: list[Line], kind: Kind, driver: Driver, rng: rand
             given[code] = time.monotonic()
             await send(Twist.planar(way * kind.speed, code % CODES * CODE))
             await asyncio.sleep(max(0.0, given[1] + code * PERIOD - time.monotonic()))
-        await cutting
+        severed = await cutting
         await asyncio.sleep(kind.speed / kind.braking + LOOK)
         if not hard:
             link.thaw()  # what waited in the line comes now
             await asyncio.sleep(LOOK)
-    found = judge(told[first:], given, hard=hard)
+    found = judge(told[first:], given, hard=hard, severed=severed)
     await _rest(port, driver)
     return found
 
 
-async def _sever(link: Wire, after: float, *, hard: bool) -> None:
+async def _sever(link: Wire, after: float, *, hard: bool) -> float:
+    """Cut it so long from now [s]; returns when it was [s]."""
     await asyncio.sleep(after)
     if hard:
         await link.reset()
     else:
         link.freeze()
+    return time.monotonic()
 
 
 async def _rest(port: int, driver: Driver) -> None:
@@ -143,8 +147,8 @@ async def _rest(port: int, driver: Driver) -> None:
             await asyncio.sleep(LOOK)
 
 
-def judge(told: Sequence[Line], given: dict[int, float], *, hard: bool) -> Cut:
-    """What the port's lines say, with the moment that each command was `given` by its number [s]."""
+def judge(told: Sequence[Line], given: dict[int, float], *, hard: bool, severed: float = math.inf) -> Cut:
+    """What the port's lines say, with the moments that each command was `given` by its number and the link was `severed` [s]."""
     moves = [_moving(line) for line in told if line[0] in ("drive", "stop")]
     longest, last, zero = 0.0, math.nan, math.inf
     for (at, code), (until, _) in zip(moves, [*moves[1:], (math.inf, 0)], strict=True):
@@ -156,7 +160,8 @@ def judge(told: Sequence[Line], given: dict[int, float], *, hard: bool) -> Cut:
     resting = [at for at, speed in speeds if speed < AT_REST]
     driven = sum((after - before) * speed for (before, speed), (after, _) in itertools.pairwise(speeds))
     rest = min(resting, default=math.inf) - last - zero if zero < math.inf else math.inf
-    return Cut(hard, zero, longest, rest, driven)
+    old = sum(given[code] > severed for _, code in moves if code)
+    return Cut(hard, zero, longest, rest, driven, old)
 
 
 def _moving(line: Line) -> tuple[float, int]:

@@ -26,7 +26,7 @@ from robotside.database.legacy import left_behind, put_away
 from robotside.database.records import Records
 from robotside.database.rows import Content, Put
 from robotside.database.storage import NotWritten, Storage, engine_of, not_written
-from robotside.database.writer import CallSoon, Keeper, Threaded
+from robotside.database.writer import CallSoon, Store, Threaded
 
 __all__ = ["CannotOpen", "open_records", "upgrade"]
 
@@ -65,18 +65,18 @@ def open_records(
     does. Of a SQLite file `backups` are kept. `patience` [s] is waited for another program that has the records. Anything
     unusual is in `problems`.
     """
-    keeper = _keeper(directory, url, partial(Files, now=now, patience=patience, backups=backups), patience)
+    store = _store(directory, url, partial(Files, now=now, patience=patience, backups=backups), patience)
     try:
-        opened = keeper.open()
+        opened = store.open()
         puts, said = _first_words(opened, directory)
         trouble = _tried(opened, puts)
     except NotWritten as problem:
-        keeper.close()
+        store.close()
         raise CannotOpen(str(problem)) from problem
     except BaseException:
-        keeper.close()
+        store.close()
         raise
-    writer = Threaded(keeper, call_soon)
+    writer = Threaded(store, call_soon)
     records = Records(opened.content, writer, writer.close)
     records.problems += [*opened.problems, *said]
     if trouble:
@@ -90,7 +90,7 @@ def open_records(
     return records
 
 
-def _keeper(
+def _store(
     directory: Path, url: str | None, files: Callable[[Path], Files], patience: float
 ) -> _Local | _Server:
     if not url:
@@ -195,7 +195,7 @@ def _shown(url: str) -> str:
     return f"{head.partition('://')[0]}://...@{tail}" if head else url
 
 
-class _Local(Keeper):
+class _Local(Store):
     """A SQLite file, that is mended when it is broken and backed up."""
 
     def __init__(self, path: Path, files: Callable[[Path], Files], patience: float) -> None:
@@ -299,7 +299,7 @@ class _Local(Keeper):
         return f"{said}; the backup {backup.name} was put in its place, what was stored after it is lost."
 
 
-class _Server(Keeper):
+class _Server(Store):
     """A database on a server, whose owner mends and backs up."""
 
     def __init__(self, url: URL, patience: float) -> None:

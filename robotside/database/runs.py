@@ -66,6 +66,12 @@ class Runs:
         return int(self._ledger.rows("facts").get("last run", 0))
 
     @property
+    def newest(self) -> TaskRun | None:
+        """The run that began last; None when there was none."""
+        rows = self._ledger.rows("runs")
+        return rows[max(rows)] if rows else None
+
+    @property
     def under_way(self) -> UnderWay | None:
         """The task that has not ended: after a start, the one that was cut by a crash or a power cut."""
         facts = self._ledger.rows("facts")

@@ -15,7 +15,7 @@ from robotside.database.jobs import Job
 from robotside.database.rows import Put
 from robotside.database.storage import NotWritten, Storage
 
-__all__ = ["AtOnce", "CallSoon", "Keeper", "Threaded"]
+__all__ = ["AtOnce", "CallSoon", "Store", "Threaded"]
 
 CallSoon = Callable[..., object]
 """Has a function called with its arguments in the thread of the records; may be called from any thread."""
@@ -34,7 +34,7 @@ FAREWELL = 10.0
 """How long the last jobs may take at the end [s]."""
 
 
-class Keeper:
+class Store:
     """What the thread writes to, and what else it does with it."""
 
     def write(self, puts: list[Put]) -> None:
@@ -75,14 +75,14 @@ _Work: TypeAlias = tuple[Job, Told] | _Rebuild | None
 class Threaded:
     """Writes in a thread of its own, what waits together in one transaction."""
 
-    def __init__(self, keeper: Keeper, call_soon: CallSoon) -> None:
+    def __init__(self, store: Store, call_soon: CallSoon) -> None:
         self.on_idle: Callable[[], None] = lambda: None
         """Called now and then, in the thread of the records."""
         self.on_trouble: Callable[[str], None] = lambda _: None
         """Called with one sentence when a backup could not be made, in the thread of the records."""
         self.on_damage: Callable[[], None] = lambda: None
         """Called when the database turns out to be broken, in the thread of the records."""
-        self._keeper = keeper
+        self._store = store
         self._call_soon = call_soon
         self._waiting: queue.Queue[_Work] = queue.Queue(MOST_WAITING)
         self._thread = threading.Thread(target=self._run, name="records", daemon=True)
@@ -121,10 +121,10 @@ class Threaded:
 
     def _run(self) -> None:
         ended = False
-        self._next_backup = time.monotonic() + BACKUP_PERIOD - self._keeper.backup_age()
+        self._next_backup = time.monotonic() + BACKUP_PERIOD - self._store.backup_age()
         while not ended:
             ended = self._turn()
-        self._keeper.close()
+        self._store.close()
 
     def _turn(self) -> bool:
         """Do what waits; True when it was told to end."""
@@ -163,7 +163,7 @@ class Threaded:
     def _write(self, batch: list[tuple[Job, Told]]) -> None:
         """Write all together; when that fails each alone, so that none suffers for another."""
         try:
-            self._keeper.write([put for job, _ in batch for put in job.puts])
+            self._store.write([put for job, _ in batch for put in job.puts])
         except NotWritten as problem:
             if len(batch) > 1 and not problem.general:
                 for each in batch:
@@ -185,7 +185,7 @@ class Threaded:
             return  # asked for twice
         self._broken = False
         try:
-            said = self._keeper.rebuild(work.puts)
+            said = self._store.rebuild(work.puts)
         except NotWritten as problem:
             self._give_up_held(str(problem))
             self._tell(work.told, "", str(problem))
@@ -209,7 +209,7 @@ class Threaded:
 
     def _back_up(self) -> None:
         try:
-            self._keeper.back_up()
+            self._store.back_up()
         except NotWritten as problem:
             self._tell(self.on_trouble, f"The backup could not be made. {problem}")
         else:

@@ -49,6 +49,19 @@ def test_nobody_at_an_address_is_said_and_can_be_cancelled(glass: Glass, robot: 
     robot.start()
 
 
+def test_an_address_is_kept_once_something_has_answered_there(glass: Glass, robot: FakeRobot) -> None:
+    app = glass.app
+    robot.stop()
+    app._add_address(robot.url)
+    glass.until(lambda: app.connect._banner and "No robot answers" in app.connect._banner.text, "no sentence")
+    assert app.robots.entries() == []
+    assert app.session.name == f"127.0.0.1:{robot.port}", "two robots of one host are told apart"
+    robot.start()
+    app._add_address(robot.url)
+    glass.until(lambda: app.shell is not None, "no screens")
+    assert [entry.url for entry in app.robots.entries()] == [robot.url]
+
+
 def test_a_wrong_address_stays_in_the_field_with_a_sentence(glass: Glass) -> None:
     from app.screens.dialogs import AddressDialog
 

@@ -38,3 +38,10 @@ def test_a_long_name_of_who_drives_is_cut_and_stays_on_its_card(stage: Any) -> N
     stage.frames(2)
     assert card.driver_text == "a client…"
     assert card.driver_icon == "person"
+
+
+@pytest.mark.parametrize("name", ["          and more", " \t\u200b "])
+def test_a_name_of_blanks_does_not_leave_the_card_without_a_driver(stage: Any, name: str) -> None:
+    card = stage.show(RobotCard(), size=(384, 200))
+    card.show_entry(Entry("ws://10.0.0.3:9090", "Patrol-1", driver=name, driver_id="x", silent=0.1), ME)
+    assert card.driver_text == (" ".join(name.split()) if "and" in name else "somebody")

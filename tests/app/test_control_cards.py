@@ -283,3 +283,21 @@ def test_what_would_be_seen_only_in_part_behind_the_cards_gives_way_and_comes_ba
 
 def tasks_places(glass: Glass) -> float:
     return float(glass.app.screens["tasks"]._places["detail"].y)
+
+
+def test_a_stick_that_is_pushed_without_control_says_why_and_offers_to_ask(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    tell(robot, driver="Bob", driver_id="b")
+    stick = driving.app.screens["drive"].stick
+    driving.until(lambda: stick.disabled, "still mine")
+    driving.tap(stick)
+    driving.tap(stick)
+    said = [one for one in driving.app.shell.notices.children if getattr(one, "text", "").startswith("Bob")]
+    assert [one.text for one in said] == ["Bob has control, so the stick does nothing."], "once"
+    said[0].dispatch("on_act")
+    assert robot.until(lambda: "/control/request" in robot.services())
+    tell(robot, driver="", driver_id="", stopped=True, mode="STOPPED")
+    driving.until(lambda: driving.app.session.stop_latched, "no STOP")
+    driving.tap(stick)
+    assert "STOP is pressed; hold it to release." in driving.banners()

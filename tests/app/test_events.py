@@ -77,7 +77,7 @@ def test_an_app_that_was_away_for_600_events_gets_all_of_them_in_several_rounds_
     listener.connect(robot, live=[event(610)])
     assert listener.texts == numbers(1, 610)
     assert robot.asked == 600 // AT_ONCE + 1
-    assert listener.missed == [Missed("a", 10, 610)]
+    assert listener.missed == [Missed("a", 10, 610, live=frozenset({610}))]
 
 
 def test_an_app_that_was_killed_and_started_again_gets_what_it_missed_however_much() -> None:
@@ -145,7 +145,7 @@ def test_without_an_answer_live_events_go_on_and_what_lies_before_them_is_still_
     assert listener.stream.behind
     listener.ask(robot)
     assert listener.texts == ["a1", "a2", "a3", "a4", "a8", "a5", "a6", "a7"]
-    assert listener.missed == [Missed("a", 4, 8)]
+    assert listener.missed == [Missed("a", 4, 8, live=frozenset({8}))]
 
 
 def test_a_link_that_is_cut_in_the_middle_of_the_rounds_leaves_nothing_out() -> None:

@@ -122,6 +122,14 @@ def test_what_was_missed_is_marked_until_it_was_looked_at(book: Logbook) -> None
     assert (book.missed, book.gone) == ([], False)
 
 
+def test_what_came_live_was_not_missed(book: Logbook) -> None:
+    for number in range(1, 6):
+        book.take(event(number))
+    book.miss(Missed("a", 1, 5, live=frozenset({3, 5})))
+    assert [one.id for one in book.missed] == [2, 4]
+    assert book.words == "2 while you were away"
+
+
 def test_what_was_missed_is_said_once_and_what_waits_in_it_is_counted(book: Logbook) -> None:
     assert (book.news(), book.words) == ("", "")
     for number, level in enumerate(("info", "alarm", "info"), 1):
@@ -131,8 +139,8 @@ def test_what_was_missed_is_said_once_and_what_waits_in_it_is_counted(book: Logb
     assert (book.news(), book.words) == ("", "2 while you were away")
     book.take(event(4))
     book.miss(Missed("a", 3, 4, gone=True))
-    assert book.news() == "3 events while you were away, 1 to be seen to; the robot keeps no more of them."
-    assert book.words == "3 and more while you were away"
+    assert book.news() == "1 event while you were away; the robot keeps no more of them.", "of the last absence"
+    assert book.words == "1 and more while you were away"
     book.look()
     assert book.news() == ""
 

@@ -129,6 +129,17 @@ def test_one_ranger_that_still_speaks_keeps_the_picture_live_and_none_makes_it_o
     assert (held.ultrasound.state, held.ultrasound.age) == ("stale", 5.0)
 
 
+def test_what_is_as_old_as_the_rest_does_not_say_so_again(held: Held) -> None:
+    held.hear_all()
+    held.now += 5.0
+    held.card.tick()
+    assert [one.badge for one in held.card.shown] == ["5 s old", "", ""]
+    held.hear("/line", LineSensor())
+    held.now += 4.0
+    held.card.tick()
+    assert [one.badge for one in held.card.shown] == ["9 s old", "4 s old", "9 s old"]
+
+
 def test_the_drive_screen_shows_the_readings_and_marks_the_intruder_in_the_picture(
     driving: Glass, robot: FakeRobot
 ) -> None:

@@ -11,10 +11,14 @@ import pytest
 from app import arrange
 from app.arrange import Rect
 from bridge.beacon import Hello
+from bridge.msgs.pilothouse_msgs import TaskStatus
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
+from widgets import StopAll
+from widgets.buttons import NavButton, PushButton
 from widgets.theme import theme
 
+TABS = ("now", "schedule", "places", "missions", "history", "events")
 SIZES = [(412, 892), (892, 412), (1280, 800), (1920, 1200)]
 
 
@@ -235,6 +239,29 @@ def test_the_list_stays_on_the_glass_and_leaves_stop_free(size: tuple[int, int],
 
 
 @pytest.mark.parametrize("size", SIZES)
+def test_in_one_line_it_covers_nothing_that_drives_starts_or_stops(size: tuple[int, int]) -> None:
+    body, shape = arrange.shell(*size)["body"], arrange.form(*size)
+    for _, places in crowded(size):
+        line = arrange.stop_list(body, places["stop"], shape, 80.0, folded=True)
+        for name in {"stop", "stick", "slider", "actions", "tasks", "strip"} & places.keys():
+            assert not line.overlaps(places[name]), name
+        assert not line.overlaps(places["stop"].other)
+
+
+def test_the_words_of_the_buttons_beside_stop_all_can_be_read(
+    driving: Glass, robot: FakeRobot, other: FakeRobot
+) -> None:
+    driving.app.root.size = (412, 892)
+    hear(driving, robot, other)
+    driving.app.show("drive")
+    driving.stage.frames(3)
+    for name in ("snapshot", "pause", "home"):
+        button = driving.app.screens["drive"].ids[name]
+        assert button.words_size >= 12, name
+        assert button.children[0].width <= button.width, name
+
+
+@pytest.mark.parametrize("size", SIZES)
 def test_on_the_connect_screen_it_covers_nothing_that_can_be_pressed(
     glass: Glass, robot: FakeRobot, size: tuple[int, int]
 ) -> None:
@@ -251,3 +278,95 @@ def test_on_the_connect_screen_it_covers_nothing_that_can_be_pressed(
     for part in (ids.add, ids.simulate, ids.cards.parent):
         x, y = part.to_window(*part.pos)
         assert not taken.overlaps(Rect(x, y, *part.size))
+
+
+def place(widget: Any) -> Rect:
+    """Where it is on the glass."""
+    return Rect(*widget.to_window(*widget.pos), *widget.size)
+
+
+def asking(robot: FakeRobot, question: str = "Has it been picked up?") -> None:
+    robot.publish("/task/status", TaskStatus(task="deliver", task_id=3, state="RUNNING", asks=question))
+
+
+def test_it_is_not_where_stop_is_for_a_single_frame(
+    driving: Glass, robot: FakeRobot, other: FakeRobot
+) -> None:
+    hear(driving, robot, other)
+    app = driving.app
+    for screen in ("drive", "mission", "tasks", "topics"):
+        app.show(screen)
+        assert not place(app.corner.button).overlaps(place(app.shell.stop)), screen
+    app.leave()
+    assert app.corner.button.width == 240, "it stayed where it was beside STOP"
+    app.open(robot.url)
+    while app.shell is None:
+        driving.stage.frames(1)
+    assert not place(app.corner.button).overlaps(place(app.shell.stop))
+
+
+@pytest.mark.parametrize("size", [(412, 892), (1280, 800)])
+def test_a_question_is_not_covered_and_the_list_is_one_line_until_it_is_answered(
+    driving: Glass, robot: FakeRobot, other: FakeRobot, size: tuple[int, int]
+) -> None:
+    app, corner = driving.app, driving.app.corner
+    app.root.size = size
+    hear(driving, robot, other)
+    app.show("tasks")
+    press(driving)
+    driving.until(lambda: app.fleet.stopped == 2, "not stopped")
+    assert not corner.list.folded
+    asking(robot)
+    driving.until(lambda: corner.list.folded, "it takes the room of the question")
+    driving.stage.run_for(0.5, 0.1)
+    assert place(app.shell.question).height > 100
+    assert not place(corner.list).overlaps(place(app.shell.question))
+    driving.tap(corner.list.ids.fold)
+    driving.stage.run_for(0.3, 0.1)
+    assert not corner.list.folded, "it cannot be read while something is asked"
+    asking(robot, "")
+    driving.until(lambda: not corner.list.cramped, "nothing is asked any more")
+    assert not corner.list.folded
+
+
+def test_what_is_only_said_is_said_above_the_list(driving: Glass, robot: FakeRobot, other: FakeRobot) -> None:
+    app, corner = driving.app, driving.app.corner
+    app.root.size = (412, 892)
+    hear(driving, robot, other)
+    app.show("tasks")
+    press(driving)
+    driving.until(lambda: app.fleet.stopped == 2, "not stopped")
+    app.shell.say("The map was sent.", about="map")
+    driving.stage.run_for(0.5, 0.1)
+    assert not corner.list.folded
+    assert not place(corner.list).overlaps(place(app.shell.notices))
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_no_button_is_as_large_as_stop(
+    driving: Glass, robot: FakeRobot, other: FakeRobot, size: tuple[int, int]
+) -> None:
+    app = driving.app
+    app.root.size = size
+    for robots in ((robot,), (robot, other)):
+        hear(driving, *robots)
+        for screen in ("drive", "mission", "topics", "tasks"):
+            app.show(screen)
+            for tab in TABS if screen == "tasks" else ("",):
+                app.screens["tasks"].tab = tab or app.screens["tasks"].tab
+                driving.stage.frames(3)
+                assert_stop_is_largest(app, f"{screen} {tab} {len(robots)}")
+        app.show("tasks")
+        app.screens["tasks"].tab = "now"
+        app.screens["tasks"].begin("deliver", ("Lab",))
+        driving.stage.frames(3)
+        assert_stop_is_largest(app, "order")
+        app.screens["tasks"].close()
+
+
+def assert_stop_is_largest(app: Any, where: str) -> None:
+    stop = app.shell.stop
+    for widget in app.root.walk():
+        if isinstance(widget, PushButton | NavButton | StopAll) and widget.opacity:
+            large = widget.width * widget.height
+            assert large < stop.width * stop.height, f"{where}: {getattr(widget, 'text', widget)}"

@@ -138,6 +138,14 @@ def test_what_was_stopped_is_not_when_the_link_is_gone_nor_before_it_speaks_agai
     assert (watch.phase, math.isnan(watch.stopping.lost_for)) == ("ready", True)
 
 
+def test_a_word_that_is_delivered_after_the_link_was_lost_is_the_last_word_and_no_news(watch: Watch) -> None:
+    watch.stopping.press()
+    watch.stopping.reach(False, WHY)
+    watch.told()
+    watch.clock.time += 3.0
+    assert (watch.phase, watch.stopping.lost_for) == ("lost", 3.0)
+
+
 def test_what_moved_when_the_link_went_is_not_said_to_have_been_stopped(watch: Watch) -> None:
     watch.told(at_rest=False)
     watch.stopping.reach(False, WHY)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped
 from bridge.msgs.pilothouse_msgs import (
@@ -230,6 +231,10 @@ def test_a_queue_that_waits_goes_on_when_told(glass: Glass, robot: FakeRobot, ta
     robot.wait_for(GO)
     main = tasks.now.ids.main
     glass.until(lambda: main.text == "Go on with this" and not main.disabled, main.text)
+    assert tasks.now.next_words == "Next"
+    robot.publish("/task/queue", replace(robot.queue, held="the robot's computer was restarted"))
+    glass.until(lambda: tasks.now.next_words == "Next · waits until told", "not said to wait")
+    assert tasks.now.queue.held == "the robot's computer was restarted"
     glass.stage.run_for(0.6)
     glass.tap(main)
     assert robot.until(lambda: "/task/resume" in robot.services())
@@ -369,6 +374,33 @@ def test_two_places_never_have_the_same_name(glass: Glass, tasks: Any) -> None:
     glass.stage.run_for(0.2)
     assert tasks.place_pane.sentence == "There is a LAB already; two places never have the same name."
     assert tasks.ids["keep"].disabled
+
+
+def test_a_place_that_is_refused_comes_back_with_all_that_was_typed(
+    glass: Glass, robot: FakeRobot, tasks: Any
+) -> None:
+    robot.refusals["/places/set"] = "Shop lies in the keep-out Ramp."
+    tasks.edit_place(Place(name="Shop", x=1.0, y=2.0, note="Ring twice"))
+    press(glass, tasks, "keep")
+    glass.until(lambda: any("keep-out Ramp" in text for text in glass.banners()), glass.banners())
+    place = tasks.form.place
+    assert (tasks.detail, place.name, place.note, place.x) == ("place", "Shop", "Ring twice", 1.0)
+    robot.refusals.clear()
+    press(glass, tasks, "keep")
+    glass.until(lambda: any(one.name == "Shop" for one in robot.places), "not stored")
+    glass.stage.run_for(0.3)
+    assert tasks.detail == ""
+
+
+def test_with_no_place_chosen_there_is_no_form_to_fill_but_what_to_do(glass: Glass, tasks: Any) -> None:
+    pane = tasks.place_pane
+    tasks.tab = "places"
+    assert pane.form.parent is None
+    assert (pane.head.title, pane.sentence) == ("Places", "Choose a place to change it, or make a new one.")
+    tasks.edit_place(Place(x=1.0, y=2.0))
+    assert (pane.form.parent, pane.head.title) == (pane, "New place")
+    tasks.close()
+    assert pane.form.parent is None
 
 
 def test_where_the_robot_stands_becomes_a_place(glass: Glass, robot: FakeRobot, tasks: Any) -> None:

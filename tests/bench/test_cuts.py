@@ -35,6 +35,12 @@ def test_a_robot_that_is_not_told_to_rest_is_a_miss() -> None:
     assert found.missed
 
 
+def test_what_moves_it_and_was_given_after_the_cut_is_counted() -> None:
+    told = drive(10.01, 1), ("stop", 10.3), drive(11.0, 2), ("stop", 11.2)
+    assert judge(told, GIVEN, hard=False, severed=10.02).old == 1
+    assert judge(told, GIVEN, hard=False, severed=10.1).old == 0
+
+
 def test_one_that_is_told_to_rest_too_late_is_a_miss() -> None:
     assert judged(drive(10.07, 2), ("stop", 10.36)).missed
 

@@ -6,9 +6,7 @@ import random
 from pathlib import Path
 
 from bridge.msgs import Msg
-from bridge.msgs.geometry_msgs import (
-    Twist,
-)
+from bridge.msgs.geometry_msgs import Point, Pose, PoseStamped, Quaternion, Twist
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
     CommandResponse,
@@ -23,7 +21,7 @@ from bridge.msgs.pilothouse_msgs import (
 from robotside.config import NOTHING_SET, Config
 from robotside.database import Records
 from robotside.database.rows import Content, empty
-from robotside.orders import services
+from robotside.orders import listener, services
 from robotside.station import Station
 from tests.fakes import FakeClient, FakeRobot
 
@@ -67,6 +65,7 @@ class Scene:
         )
         self.said: list[tuple[str, Msg]] = []
         self.station.bus.subscribe(None, lambda topic, msg: self.said.append((topic, msg)))
+        self.hear = listener(self.station)
         self._services = {service.name: service for service in services(self.station)}
 
     def client(self, name: str) -> FakeClient:
@@ -109,7 +108,11 @@ class Scene:
         assert answer.success, answer.message
 
     def drive(self, twist: Twist, client: FakeClient | None = None, stamp: float | None = None) -> None:
-        self.station.hear(client or self.anna, "/cmd_vel", twist, stamp)
+        self.hear(client or self.anna, "/cmd_vel", twist, stamp)
+
+    def go_to(self, x: float, y: float, yaw: float = 0.0, client: FakeClient | None = None) -> None:
+        goal = PoseStamped(pose=Pose(Point(x, y), Quaternion.from_yaw(yaw)))
+        self.hear(client or self.anna, "/goal_pose", goal, None)
 
     def events(self, kind: str = "") -> list[str]:
         return [msg.text for _, msg in self.said if isinstance(msg, Event) and (not kind or msg.kind == kind)]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from bridge.msgs.geometry_msgs import Point, Pose, PoseStamped, Twist
+from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
     DeleteScheduleRequest,
@@ -141,7 +141,7 @@ def test_the_queue_waits_after_what_an_operator_or_the_battery_ended_and_goes_on
     elif how == "home":
         scene.ask("/task/go_home")
     elif how == "goal":
-        scene.station.hear(scene.anna, "/goal_pose", PoseStamped(pose=Pose(Point(-1.0, -1.0))), None)
+        scene.go_to(-1.0, -1.0)
     elif how == "stick":
         scene.drive(Twist.planar(-0.1, 0.0))
     else:
@@ -191,7 +191,9 @@ def test_what_was_parked_stays_so_behind_another_task_until_told(
     assert begun(scene)[-1] == "hold"
     assert scene.task.state == "SUCCEEDED"
     assert len(queue(scene).orders) == 2
+    assert queue(scene).held, "it is shown for as long as it waits"
     assert scene.ask("/task/resume").message == "The queue goes on."
+    assert queue(scene).held == ""
     scene.run(60.0)
     assert queue(scene).orders == []
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from robotside.authority import AGAIN, LAPSE, REMEMBERED, SILENT, TO_OBJECT, Authority
+from bridge.liveness import LAPSE
+from robotside.authority import AGAIN, REMEMBERED, SILENT, TO_OBJECT, Authority
 from tests.fakes import FakeClient
 
 NOW = 10.0

@@ -7,9 +7,11 @@ import itertools
 from hypothesis import HealthCheck, settings, strategies
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
+from bridge.liveness import LAPSE
 from bridge.msgs.geometry_msgs import Twist
-from robotside.authority import LAPSE, TO_OBJECT
-from robotside.controls import VALID, Controls
+from robotside.authority import TO_OBJECT
+from robotside.controls import Controls
+from robotside.expiry import VALID
 from robotside.guarded import Guarded
 from tests.fakes import FakeClient, FakeRobot
 
@@ -117,7 +119,9 @@ class Operators(RuleBasedStateMachine):
 
     @rule(who=WHO)
     def cut(self, who: str) -> None:
-        if self.controls.gone(self.clients[who]):
+        drove = self.controls.drives(self.clients[who])
+        self.controls.gone(self.clients[who])
+        if drove:
             self.robot.stop()
         self.clients[who] = self._fresh(who)
         self.silent.discard(who)

@@ -7,7 +7,8 @@ import math
 import pytest
 
 from bridge.msgs.pilothouse_msgs import CommandRequest
-from robotside.commands import KEPT, KEPT_FOR, Commands, Refusal
+from robotside.commands import KEPT_FOR, Commands, Refusal
+from robotside.database.answers import KEPT
 
 
 class Counter:

@@ -6,8 +6,11 @@ import math
 
 import pytest
 
+from bridge.liveness import LAPSE
 from bridge.msgs.geometry_msgs import Twist, Vector3
-from robotside.controls import HELD, LAPSE, SILENT, STOP_SENTENCE, VALID, Controls, Ruling
+from robotside.authority import SILENT
+from robotside.controls import STOP_SENTENCE, Controls, Ruling
+from robotside.expiry import HELD, VALID
 from robotside.sticks import LET_GO
 from tests.fakes import FakeClient
 
@@ -118,16 +121,28 @@ def test_closing_the_socket_while_driving_stops_the_robot_and_frees_control(
     controls: Controls, anna: FakeClient
 ) -> None:
     controls.drive(anna, AHEAD, 10.0)
-    assert controls.gone(anna)
+    assert controls.drives(anna)
+    assert controls.gone(anna), "it had control"
+    assert not controls.driving
     assert controls.driver is None
     assert not controls.expired(11.0)
+
+
+def test_a_socket_that_closes_tells_whether_it_had_control_driving_or_not(
+    controls: Controls, anna: FakeClient
+) -> None:
+    controls.acquire(anna, 10.0)
+    assert not controls.drives(anna)
+    assert controls.gone(anna)
 
 
 def test_closing_a_watchers_socket_stops_nothing(
     controls: Controls, anna: FakeClient, bert: FakeClient
 ) -> None:
     controls.drive(anna, AHEAD, 10.0)
+    assert not controls.drives(bert)
     assert not controls.gone(bert)
+    assert controls.drives(anna)
     assert controls.driver is not None
 
 

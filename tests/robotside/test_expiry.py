@@ -63,6 +63,13 @@ def test_who_went_leaves_no_order_behind(client: FakeClient) -> None:
     assert expiry.fault(client, NOW, NOW, rest=False) == ""
 
 
+def test_who_went_leaves_no_clock_behind(client: FakeClient) -> None:
+    expiry = Expiry()
+    expiry.fault(client, NOW, NOW + 0.5, rest=False)
+    expiry.forget(client)
+    assert expiry.given(client, NOW, NOW) == NOW
+
+
 @pytest.mark.parametrize("ahead", [0.2, 0.9])
 def test_of_a_clock_that_is_ahead_what_waited_is_late_all_the_same(client: FakeClient, ahead: float) -> None:
     expiry = Expiry()

@@ -97,13 +97,25 @@ async def test_stop_in_front_is_pressed_behind_as_soon_as_that_is_reached_again(
         await until(lambda: it.behind.station.controls.stopped)
 
 
+async def stop_work(port: ForeignRobot) -> None:
+    """Until the one in front has done what it was told about STOP."""
+    link = port._link
+
+    async def done() -> None:
+        if link._pressing is not None:
+            await asyncio.wait([link._pressing])
+
+    async with asyncio.timeout(8):
+        await asyncio.wrap_future(link._network.start(done()))
+
+
 async def test_what_somebody_else_pressed_behind_is_not_released_from_the_front(tmp_path: Path) -> None:
     async with two(tmp_path) as it:
         await order(it.fred, "/stop")
         await until(lambda: it.port.trouble == STOPPED)
         await order(it.anna, "/stop")
         await order(it.anna, "/stop/release")
-        await asyncio.sleep(0.5)  # long enough for the front to ask for more, which it must not
+        await stop_work(it.port)
         assert it.behind.station.controls.stopped_by == "Fred"
 
 
@@ -158,7 +170,7 @@ def begin_by_itself(far: Station) -> None:
     far.autonomy.place(ORIGIN)
     far.keep(Mission(waypoints=[Waypoint(4.0, 0.0)]))
     far.controls.release(far.controls.driver.client)  # type: ignore[union-attr]
-    far.autonomy.start(TaskOrder(task="patrol"), far.now)
+    far.autonomy.engine.start(far.autonomy.assignments.task(TaskOrder(task="patrol")), far.now)
     far.show_control()
 
 

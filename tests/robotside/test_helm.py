@@ -8,7 +8,7 @@ import msgspec
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import CommandRequest, SetModeRequest, SetOptionRequest, Waypoint
+from bridge.msgs.pilothouse_msgs import CommandRequest, SetModeRequest, SetOptionRequest, TaskOrder, Waypoint
 from robotside.config import NOTHING_SET, Config, ControlSettings, SafeStateSettings
 from robotside.controls import STOP_SENTENCE
 from tests.fakes import FakeClient, FakeRobot
@@ -289,3 +289,32 @@ def test_with_stop_pressed_no_safe_state_moves_the_robot_nor_when_it_is_released
     assert scene.ask("/stop/release", client=bert).success
     scene.run(1.0)
     assert not any(scene.robot.commands[before:])
+
+
+def test_control_that_is_given_back_in_motion_leaves_a_robot_at_rest_at_once(scene: Scene) -> None:
+    scene.drive(AHEAD)
+    assert not scene.robot.at_rest
+    ask(scene, "/control/release", scene.anna)
+    assert scene.robot.at_rest
+
+
+def test_the_cap_rises_again_with_the_link_though_nobody_drives(scene: Scene) -> None:
+    ask(scene, "/control/acquire", scene.anna)
+    scene.anna.rtt = 2.0
+    scene.run(0.1)
+    assert scene.control.speed_cap == pytest.approx(0.15)
+    scene.anna.rtt = 0.05
+    scene.run(3.0)
+    assert scene.control.speed_cap == 1.0
+
+
+def test_who_drove_and_is_gone_leaves_a_robot_that_goes_home_by_itself_alone(scene: Scene) -> None:
+    scene.set(home=[Waypoint(-1.0, 0.0)])
+    scene.drive(AHEAD)
+    home = scene.station.autonomy.assignments.task(TaskOrder(task="go_home"))
+    scene.station.autonomy.engine.start(home, scene.now)
+    before = len(scene.robot.commands)
+    scene.clients.remove(scene.anna)
+    scene.station.gone(scene.anna)
+    assert len(scene.robot.commands) == before
+    assert scene.task.state == "RUNNING"

@@ -62,7 +62,9 @@ def test_resumed_it_goes_on_under_its_number_at_the_point_that_it_headed_for(
     runs = again.ask("/history/get", GetHistoryRequest(limit=5)).runs  # type: ignore[attr-defined]
     assert [(run.id, run.state, run.visited) for run in runs] == [(1, "SUCCEEDED", 3)]
     assert runs[0].distance == pytest.approx(4 + 3 + 6, abs=1.5)
-    assert cut(again, tmp_path).task.state == "IDLE"
+    ended = cut(again, tmp_path).task
+    assert (ended.task_id, ended.state, ended.reason) == (1, "SUCCEEDED", again.task.reason)
+    assert (ended.task, ended.visited, ended.stamp) == ("patrol", 3, again.task.stamp)
 
 
 def test_discarded_it_has_ended_and_is_offered_no_more(scene: Scene, tmp_path: Path) -> None:
@@ -73,7 +75,8 @@ def test_discarded_it_has_ended_and_is_offered_no_more(scene: Scene, tmp_path: P
     assert again.ask("/task/cancel", CommandRequest(client_name="Anna")).message == "Discarded."
     assert (again.task.state, again.task.reason) == ("CANCELED", "Discarded by Anna.")
     assert "No task is paused" in again.refused("/task/resume")
-    assert cut(again, tmp_path).task.state == "IDLE"
+    ended = cut(again, tmp_path).task
+    assert (ended.task_id, ended.state, ended.reason) == (1, "CANCELED", "Discarded by Anna.")
 
 
 def test_undecided_it_is_offered_again_after_the_next_restart_with_all_that_was_noted(

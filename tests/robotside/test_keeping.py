@@ -8,6 +8,7 @@ from typing import Any
 import msgspec
 import pytest
 
+from app import logbook, tasking
 from bridge.msgs.arrays import Int32Array
 from bridge.msgs.pilothouse_msgs import (
     AcknowledgeEventsRequest,
@@ -114,6 +115,14 @@ def test_the_history_has_every_task_with_its_end_over_restarts(scene: Scene, tmp
 def test_a_question_about_history_that_makes_no_sense_is_refused(scene: Scene) -> None:
     said = scene.refused("/history/get", GetHistoryRequest(before=-1, limit=1000))
     assert said == "before must be 0 or more and limit 1 to 200, not -1 and 1000."
+
+
+def test_an_app_asks_for_no_more_at_once_than_the_robot_takes(scene: Scene) -> None:
+    assert scene.ask("/history/get", GetHistoryRequest(limit=tasking.AT_ONCE)).success
+    numbers = Int32Array(list(range(1, logbook.AT_ONCE + 1)))
+    assert not scene.refused("/events/acknowledge", AcknowledgeEventsRequest(ids=numbers)).startswith(
+        "At most "
+    )
 
 
 def test_an_event_is_seen_to_once_by_whoever_says_so_first_and_all_are_told(scene: Scene) -> None:

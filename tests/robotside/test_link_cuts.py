@@ -12,8 +12,7 @@ import msgspec
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist
-from robotside.controls import HELD, VALID
-from robotside.expiry import UNSTAMPED
+from robotside.expiry import HELD, UNSTAMPED, VALID
 from tests.fakes import FakeClient, FakeRobot
 from tests.robotside.scene import Scene
 
@@ -132,6 +131,21 @@ class Trial:
                 self.worst = max(self.worst, scene.clock - valid)
                 assert scene.clock - valid <= VALID, (cut, scene.clock - valid)
         return valid
+
+
+@pytest.mark.parametrize("ahead", [0.0, 0.1, 0.9])
+def test_a_clock_that_is_ahead_and_then_silence_is_zero_as_soon(tmp_path: Path, ahead: float) -> None:
+    way, robot = 0.08, Noting("wheels")
+    scene = Scene(robot, tmp_path)
+    scene.run(0.5)
+    scene.anna.rtt = 2 * way
+    for _ in range(6):
+        given = scene.clock
+        scene.run(way)
+        scene.drive(FULL, stamp=given + ahead)
+        assert robot.moving
+    scene.run(given + VALID - SPARE - scene.clock)
+    assert not robot.moving
 
 
 @pytest.mark.parametrize("kind", ["wheels", "ackermann", "boat", "hexapod", "quadrotor"])

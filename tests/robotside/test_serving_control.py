@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 import math
 from pathlib import Path
@@ -94,7 +93,9 @@ async def test_a_stamp_counts_only_from_who_has_asked_for_the_time(tmp_path: Pat
 async def test_a_program_that_stamps_nothing_and_was_quiet_drives_at_its_first_word(tmp_path: Path) -> None:
     robot = FakeRobot()
     async with serving(tmp_path, robot) as serves, connect(serves.addresses.bridge) as socket:
-        await asyncio.sleep(UNSTAMPED + 0.5)
+        (session,) = serves.server.sessions
+        opened = session.answered
+        await until(lambda: session.answered > opened + UNSTAMPED)  # by pings alone: it has said nothing
         await publish(socket, SPEED)
         await until(lambda: SPEED in robot.commands)
 
@@ -117,7 +118,8 @@ async def test_nothing_that_waited_in_a_stalled_line_moves_the_robot(tmp_path: P
         stale = Twist.planar(0.6, 0.0)
         for _ in range(10):
             await publish(socket, stale, clock() if stamped else None)
-        await asyncio.sleep(UNSTAMPED + 0.3)
+        given = clock()
+        await until(lambda: clock() > given + UNSTAMPED)
         cable.thaw()
         dropped = serves.station.controls.dropped
         await until(lambda: serves.station.controls.dropped >= dropped + 10)

@@ -11,10 +11,8 @@ from bridge.codec import to_json
 from bridge.msgs.geometry_msgs import (
     Point,
     Pose,
-    PoseStamped,
     PoseWithCovariance,
     PoseWithCovarianceStamped,
-    Quaternion,
     Twist,
 )
 from bridge.msgs.pilothouse_msgs import (
@@ -84,8 +82,7 @@ def test_a_late_drive_command_moves_nothing(scene: Scene) -> None:
 
 def test_with_stop_pressed_a_goal_is_refused_and_said(scene: Scene) -> None:
     scene.ask("/stop")
-    goal = PoseStamped(pose=Pose(Point(3.0, -2.0), Quaternion.from_yaw(0.5)))
-    scene.station.hear(scene.anna, "/goal_pose", goal, None)
+    scene.go_to(3.0, -2.0, 0.5)
     assert scene.events("command") == [STOP_SENTENCE]
     assert (scene.task.state, scene.control.mode) == ("IDLE", "STOPPED")
 
@@ -93,7 +90,8 @@ def test_with_stop_pressed_a_goal_is_refused_and_said(scene: Scene) -> None:
 def test_with_stop_pressed_the_robot_brakes_even_if_a_task_runs(scene: Scene) -> None:
     scene.ask("/stop")
     before = len(scene.robot.commands)
-    scene.station.autonomy.start(TaskOrder(task="go_to", goals=[Waypoint(3.0, -2.0)]), scene.now)
+    mind = scene.station.autonomy
+    mind.engine.start(mind.assignments.task(TaskOrder(task="go_to", goals=[Waypoint(3.0, -2.0)])), scene.now)
     scene.run(1.0)
     assert scene.task.state == "RUNNING"
     assert scene.robot.commands[before:]
@@ -118,7 +116,7 @@ def test_everything_that_is_published_is_in_the_table_and_can_be_sent(scene: Sce
 
 
 def test_a_goal_in_a_wall_is_said_and_not_driven_to(scene: Scene) -> None:
-    scene.station.hear(scene.anna, "/goal_pose", PoseStamped(pose=Pose(Point(10.2, 0.0))), None)
+    scene.go_to(10.2, 0.0)
     assert scene.events("command") == ["The goal at (10.2, 0.0) is in a wall or another obstacle."]
     assert not scene.station.autonomy.engine.running
 

@@ -10,7 +10,6 @@ import pytest
 from bridge.msgs.geometry_msgs import (
     Point,
     Pose,
-    PoseStamped,
     PoseWithCovariance,
     PoseWithCovarianceStamped,
     Quaternion,
@@ -128,7 +127,7 @@ def test_a_fault_in_the_limits_is_said_and_the_robot_stands(
 
 
 def test_a_goal_outside_the_fence_is_refused_with_the_reason(scene: Scene) -> None:
-    scene.station.hear(scene.anna, "/goal_pose", PoseStamped(pose=Pose(Point(8.0, 0.0))), None)
+    scene.go_to(8.0, 0.0)
     assert scene.events("command") == ["The goal at (8.0, 0.0) is outside the robot's fence."]
     assert not scene.station.autonomy.engine.running
 

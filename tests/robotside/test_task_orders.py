@@ -271,6 +271,38 @@ def test_a_low_battery_refuses_what_moves(house: Scene) -> None:
     assert said == "The battery is at 14%; a delivery needs at least 15%."
 
 
+@pytest.mark.parametrize("state", ["low", "running", "paused"])
+def test_a_goal_that_is_published_starts_nothing_that_the_service_would_refuse(
+    house: Scene, state: str
+) -> None:
+    if state == "low":
+        house.robot.battery = 0.12
+        house.run(1.0)
+    else:
+        begin(house, "hold")
+    if state == "paused":
+        house.ask("/task/pause")
+    before = house.task
+    order = TaskOrder(task="go_to", goals=[Waypoint(2.0, 0.0)])
+    said = house.refused("/task/start", StartTaskRequest(order=order))
+    house.go_to(2.0, 0.0)
+    assert house.events("command") == [said]
+    assert house.task == before
+    assert house.robot.at_rest
+
+
+def test_a_goal_that_is_published_takes_the_place_of_the_one_before_it(house: Scene) -> None:
+    house.go_to(6.0, 0.0)
+    house.run(0.5)
+    house.go_to(-1.0, 0.0)
+    assert house.events("command") == []
+    assert house.run_task().state == "SUCCEEDED"
+    assert house.robot.pose[0] == pytest.approx(-1.0, abs=0.15)
+    begin(house, "go_to", "Lab")
+    house.go_to(6.0, 0.0)
+    assert house.events("command") == ["A task is running already; stop it first."]
+
+
 @pytest.mark.parametrize("task", ["deliver", "guide", "go_to", "hold", "patrol", "dock"])
 def test_progress_and_time_left_are_told_for_every_task(house: Scene, task: str) -> None:
     names = {"deliver": ["Office 12", "Lab"], "guide": ["Office 12", "Lab"], "go_to": ["Lab"]}

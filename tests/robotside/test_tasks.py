@@ -7,10 +7,6 @@ import math
 import pytest
 
 from bridge.msgs.geometry_msgs import (
-    Point,
-    Pose,
-    PoseStamped,
-    Quaternion,
     Twist,
 )
 from bridge.msgs.pilothouse_msgs import (
@@ -129,7 +125,6 @@ def test_home_is_reached_from_within_a_patrol(scene: Scene) -> None:
 
 
 def test_a_goal_is_driven_to_once(scene: Scene) -> None:
-    goal = PoseStamped(pose=Pose(Point(3.0, -2.0), Quaternion.from_yaw(0.5)))
-    scene.station.hear(scene.anna, "/goal_pose", goal, None)
+    scene.go_to(3.0, -2.0, 0.5)
     assert scene.run_task().state == "SUCCEEDED"
     assert math.hypot(scene.robot.pose[0] - 3.0, scene.robot.pose[1] + 2.0) < 0.15

@@ -14,7 +14,6 @@ from bridge.msgs.arrays import Int8Array
 from bridge.msgs.geometry_msgs import (
     Point,
     Pose,
-    PoseStamped,
     PoseWithCovariance,
     PoseWithCovarianceStamped,
     Twist,
@@ -60,7 +59,7 @@ def test_without_a_map_it_drives_by_hand_and_says_why_it_does_nothing_else(lost_
     mission = SetMissionRequest(mission=msgspec.structs.replace(lost_map.station.mission, waypoints=SQUARE))
     assert lost_map.refused("/mission/set", mission) == NO_MAP
     assert lost_map.refused("/task/start", StartTaskRequest()) == NO_MAP
-    lost_map.station.hear(lost_map.anna, "/goal_pose", PoseStamped(pose=Pose(Point(1.0, 0.0))), None)
+    lost_map.go_to(1.0, 0.0)
     placed = PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(1.0, 0.0))))
     lost_map.station.hear(lost_map.anna, "/initialpose", placed, None)
     assert lost_map.events("command") == [NO_MAP, NO_MAP]

@@ -72,7 +72,7 @@ def test_the_chip_is_as_wide_as_its_words(stage):
     assert chip.width == inner.width > 40
 
 
-def test_a_brief_chip_leaves_the_sign_away():
+def test_a_brief_chip_keeps_its_unit():
     chip = BatteryChip(state="live", brief=True)
     chip.show(BatteryState(percentage=0.87))
-    assert chip.children[0].text == "87"
+    assert chip.children[0].text == "87%"

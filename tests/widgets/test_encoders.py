@@ -57,3 +57,13 @@ def test_that_there_are_more_is_said_on_a_narrow_card_too(stage, view):
     view.show(wheels(*[1.0] * 6))
     stage.frames(2)
     assert view.texts[1] == "2 more"
+
+
+def test_low_it_says_its_unit_behind_each_figure_or_behind_none(stage):
+    view = stage.show(EncodersView(state="live", card=False), size=(120, 48))
+    view.show(wheels(1.0, -12.3))
+    stage.frames(2)
+    assert view.texts[::2] == ["1.0 rad/s", "−12.3 rad/s"]
+    view.width = 72
+    stage.frames(2)
+    assert view.texts[::2] == ["1.0", "−12.3"]

@@ -50,6 +50,16 @@ def test_that_there_is_none_is_said_quietly(stage, badge):
     assert not badge.fresh
 
 
+def test_it_does_not_say_none_beside_one_that_is_marked_in_the_picture(stage, badge):
+    badge.show(found())
+    badge.seen = 1
+    stage.frames(2)
+    assert badge.texts[1:] == ["1 seen, not counted"]
+    badge.show(found((4.0, 0.0, 100.0)))
+    stage.frames(2)
+    assert badge.texts[1] == "1 intruder"
+
+
 def test_a_robot_that_does_not_know_where_it_is_tells_the_count_alone(stage, badge):
     badge.show(found((4.0, 0.0, 100.0)))
     stage.frames(2)

@@ -175,3 +175,12 @@ def test_a_finger_takes_the_stick_from_a_gamepad_and_the_gamepad_does_not_take_i
     assert stick.twists == [(0.5, 0.0), (0.0, 2.0)]
     assert not stick.lean(1.0, 0.0)
     assert stick.twists == [(0.5, 0.0), (0.0, 2.0)]
+
+
+def test_what_a_gamepad_does_is_told_by_sign_and_word_and_not_by_colour_alone(stick):
+    looks = {}
+    for what in ("ready", "drives", "silent"):
+        stick.gamepad = what
+        looks[what] = stick.sign, stick.sign_word
+    assert len({id(sign) for sign, _ in looks.values()}) == len({id(word) for _, word in looks.values()}) == 3
+    assert stick.sign_pos[0] + stick.sign_size[0] <= stick.right

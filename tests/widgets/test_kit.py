@@ -366,3 +366,17 @@ def test_a_long_name_is_broken_between_its_parts_and_shown_whole():
         assert all(line.strip("/") for line in lines), "no stroke stands alone"
     assert wrapped(name, 2000.0, 18) == name
     assert wrapped("", 100.0, 18) == ""
+
+
+def test_a_filled_field_goes_on_saying_what_it_is_for(stage):
+    field = stage.show(
+        TextField(hint_text="Tag of the addressee", label="Tag of the addressee"), size=(330, 54)
+    )
+    assert field.drop == 0
+    field.text = "04 A2"
+    stage.frames(1)
+    label_low = field.top - 5 - field.label_texture.height
+    text_top = field.top - field.padding[1]
+    assert field.drop > 0
+    assert text_top <= label_low + 2
+    assert field.padding[3] >= 4

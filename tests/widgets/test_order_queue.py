@@ -2,9 +2,9 @@ from __future__ import annotations
 
 import pytest
 
-from bridge.msgs.pilothouse_msgs import TaskQueue
+from bridge.msgs.pilothouse_msgs import TaskOrder, TaskQueue
 from widgets.buttons import IconButton
-from widgets.order_queue import THREE, OrderQueue
+from widgets.order_queue import THREE, OrderQueue, details
 from widgets.rows import DragHandle, ListRow
 
 
@@ -82,3 +82,12 @@ def test_rows_and_sentence_follow_a_queue_that_grows(stage, queue):
             stage.frames(4)
             top = max(part.top for part in queue.ids.column.children)
             assert queue.ids.column.top - top < 12
+
+
+def test_a_queue_that_waits_until_told_says_since_when_and_not_next():
+    assert details(TaskOrder(task="hold"), first=True) == "Next"
+    said = details(
+        TaskOrder(task="hold", message="For Ann"), first=True, held="the task before it was canceled"
+    )
+    assert said == "Waits, since the task before it was canceled · For Ann"
+    assert details(TaskOrder(task="hold"), first=False, held="the task before it was canceled") == ""

@@ -4,6 +4,7 @@ import pytest
 
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets.question_card import QuestionCard
+from widgets.theme import theme
 
 ASKS = TaskStatus(
     task="deliver", state="RUNNING", asks="Has it been picked up at Lab?", reason="Waiting at Lab."
@@ -81,3 +82,21 @@ def test_a_refusal_is_said_until_the_next_question(card):
     assert card.said_role == "danger"
     card.show(CUT)
     assert card.said == "The computer restarted."
+
+
+def test_a_question_that_nobody_asks_any_more_for_want_of_a_link_fades_and_says_how_old_it_is(card):
+    card.show(ASKS)
+    card.old = "8 s old"
+    assert (card.role, card.said) == ("muted", "Asked before the link was lost; 8 s old.")
+    card.old = ""
+    assert (card.role, card.said) == ("accent", "Waiting at Lab.")
+
+
+def test_where_there_is_little_room_it_is_lower_and_its_button_as_large_as_a_finger_needs(stage, card):
+    card.show(ASKS)
+    stage.frames(3)
+    usual = card.height
+    card.tight = True
+    stage.frames(3)
+    assert card.height <= usual - 20
+    assert card.ids.answer.height >= theme.target

@@ -55,3 +55,12 @@ def test_nothing_is_said(schedule):
     assert any(
         getattr(part, "text", "") == "Nothing starts by itself." for part in schedule.walk(restrict=True)
     )
+
+
+def test_what_stands_at_the_end_of_a_row_keeps_the_distance_of_what_stands_at_its_beginning(stage):
+    listed = stage.show(ScheduleList(), size=(388, 300))
+    listed.show(Schedule(tasks=SOME))
+    stage.frames(3)
+    row = next(one for one in listed.walk(restrict=True) if isinstance(one, ListRow))
+    toggle = next(one for one in row.children if isinstance(one, Toggle))
+    assert row.right - toggle.right == row.ids.sign.x - row.x == 12

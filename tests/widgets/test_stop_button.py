@@ -159,3 +159,13 @@ def test_one_that_is_pressed_and_moves_can_be_let_go_by_a_long_hold(stage, stop)
     stage.touch(150, 40).touch_down()
     stage.run_for(3.2)
     assert stop.heard == ["stop", "release"]
+
+
+@pytest.mark.parametrize(("local", "phase"), [(False, "stopped"), (True, "no_answer")])
+def test_a_frame_that_takes_long_is_no_hold(stage, stop, local, phase):
+    stop.local, stop.phase = local, phase
+    finger = stage.touch(150, 40)
+    finger.touch_down()
+    stage.run_for(9.9, 3.3)
+    finger.touch_up()
+    assert "release" not in stop.heard

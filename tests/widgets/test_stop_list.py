@@ -66,7 +66,7 @@ def test_it_says_what_goes_on_and_who_was_too_many(result):
 
 def test_when_nothing_is_sent_any_more_it_says_how_to_release(result):
     result.tell(SOME[:1], 1, 1)
-    assert result.footnote == "Each is released by itself: connect, take control, and hold STOP."
+    assert result.footnote == "Release each one separately: connect to it, take control, and hold STOP."
 
 
 def test_letting_go_takes_a_hold_of_a_second(stage, result):
@@ -103,3 +103,26 @@ def test_it_knows_the_height_that_shows_every_row(stage, result):
     result.height = result.wanted
     stage.frames(3)
     assert result.ids.column.height <= result.ids.roll.height + 1
+
+
+def test_folded_it_is_one_line_that_names_the_worst(stage, result):
+    result.tell(SOME, 2, 6)
+    result.cramped = result.folded = True
+    stage.frames(2)
+    assert result.worst == "Commander: MOVES"
+    assert result.line < 80 < result.wanted
+    assert result.ids.column.get_parent_window() is None
+    stage.tap(*result.ids.fold.to_window(*result.ids.fold.center))
+    result.folded = False
+    stage.frames(2)
+    assert result.ids.column.get_parent_window() is not None
+
+
+def test_a_frame_that_takes_long_is_no_hold(stage, result):
+    result.tell(SOME, 2, 6)
+    stage.frames(3)
+    finger = stage.touch(*result.ids.release.to_window(*result.ids.release.center))
+    finger.touch_down()
+    stage.frames(3, 1.3)
+    finger.touch_up()
+    assert result.heard == []

@@ -72,10 +72,9 @@ from bridge.msgs.pilothouse_msgs.part3 import (
     SetScheduleResponse,
     SonarRing,
     StartTaskRequest,
-    StartTaskResponse,
     TaskProgress,
 )
-from bridge.msgs.pilothouse_msgs.part4 import TagRead, TaskQueue, TaskStatus
+from bridge.msgs.pilothouse_msgs.part4 import StartTaskResponse, TagRead, TaskQueue, TaskStatus
 
 __all__ = [
     "AckermannState",

@@ -38,7 +38,6 @@ __all__ = [
     "SetScheduleResponse",
     "SonarRing",
     "StartTaskRequest",
-    "StartTaskResponse",
     "TaskProgress",
 ]
 
@@ -444,10 +443,3 @@ class SonarRing(Msg, frozen=True, gc=False):
     """Longest [m]."""
     ranges: Float32Array = field(default_factory=Float32Array)
     """From each sonar [m]; +inf nothing in range, -inf too close (REP-117)."""
-
-
-class StartTaskResponse(CommandResponse, frozen=True, gc=False):
-    """What `StartTask` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/StartTaskResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")

@@ -6,10 +6,18 @@ from typing import ClassVar
 
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
+from bridge.msgs.pilothouse_msgs.part1 import CommandResponse
 from bridge.msgs.pilothouse_msgs.part2 import TaskOrder
 from bridge.msgs.std_msgs import Header
 
-__all__ = ["TagRead", "TaskQueue", "TaskStatus"]
+__all__ = ["StartTaskResponse", "TagRead", "TaskQueue", "TaskStatus"]
+
+
+class StartTaskResponse(CommandResponse, frozen=True, gc=False):
+    """What `StartTask` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/StartTaskResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
 
 
 class TagRead(Msg, frozen=True, gc=False):
@@ -27,13 +35,15 @@ class TaskQueue(Msg, frozen=True, gc=False):
     """What comes after the task that runs; latched on /task/queue, sent once per change."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskQueue"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "pilothouse_msgs/TaskOrder[]")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "pilothouse_msgs/TaskOrder[]", "string")
     stamp: Time = Time()
     """When it changed, operators' clock."""
     revision: int32 = 0
     """Counts every change; /task/queue/set names the one that it was made from."""
     orders: list[TaskOrder] = []
     """Waiting, the next one first."""
+    held: str = ""
+    """Why it waits for /task/resume, as the end of a sentence; empty while it goes on by itself."""
 
 
 class TaskStatus(Msg, frozen=True, gc=False):

@@ -224,7 +224,7 @@ async def test_a_full_disk_is_a_sentence_and_what_was_kept_stays(tmp_path: Path)
     def limit(connection: sqlite3.Connection) -> None:
         connection.execute(f"PRAGMA max_page_count={pages[0] or 1_000_000}")
 
-    engine = records._close.__self__._keeper._storage.engine  # type: ignore[attr-defined]
+    engine = records._close.__self__._store._storage.engine  # type: ignore[attr-defined]
     event.listen(engine, "begin", lambda connection: limit(connection.connection.driver_connection))
     pages[0] = 1
     said = "The disk is full: nothing was stored. Make room on the robot's computer."

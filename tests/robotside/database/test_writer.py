@@ -12,10 +12,10 @@ import pytest
 from robotside.database.jobs import Job
 from robotside.database.rows import Put
 from robotside.database.storage import NotWritten
-from robotside.database.writer import MOST_WAITING, Keeper, Threaded
+from robotside.database.writer import MOST_WAITING, Store, Threaded
 
 
-class Paper(Keeper):
+class Paper(Store):
     """Keeps what is written; fails as told."""
 
     def __init__(self) -> None:
