@@ -127,7 +127,7 @@ class Localiser:
         if self.pose is None:
             return
         gain = self.covariance[:, :2] @ np.linalg.inv(self.covariance[:2, :2] + np.eye(2) * spread**2)
-        dx, dy, turn = gain @ np.array([x - self.pose.x, y - self.pose.y])
+        dx, dy, turn = (gain @ np.array([x - self.pose.x, y - self.pose.y])).tolist()
         self.pose = Pose2(self.pose.x + dx, self.pose.y + dy, wrap(self.pose.yaw + turn))
         self.covariance = self.covariance - gain @ self.covariance[:2, :]
 

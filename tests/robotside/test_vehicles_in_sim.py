@@ -118,6 +118,8 @@ def test_a_boat_does_not_stray_from_its_satellite_fixes(tmp_path: Path) -> None:
     x, y, yaw = run.robot.simulation.pose()
     run.station.autonomy.whereabouts.told(Pose2(x + 6.0, y, yaw))
     run.wait(30.0)
-    error = run.error
+    error, pose = run.error, run.station.autonomy.whereabouts.pose
     run.robot.close()
     assert error < 3.0
+    assert pose is not None
+    assert [type(part) for part in pose] == [float, float, float]  # numpy's have no form on the wire
