@@ -122,6 +122,15 @@ class Localiser:
         self.covariance = np.diag([spread**2, spread**2, turn**2])
         self._bad = 0
 
+    def hear(self, x: float, y: float, spread: float) -> None:
+        """Something else puts it at (x, y) [m], to `spread` [m] (one standard deviation) along each axis."""
+        if self.pose is None:
+            return
+        gain = self.covariance[:, :2] @ np.linalg.inv(self.covariance[:2, :2] + np.eye(2) * spread**2)
+        dx, dy, turn = (gain @ np.array([x - self.pose.x, y - self.pose.y])).tolist()
+        self.pose = Pose2(self.pose.x + dx, self.pose.y + dy, wrap(self.pose.yaw + turn))
+        self.covariance = self.covariance - gain @ self.covariance[:2, :]
+
     def predict(self, odom: Pose2) -> None:
         """Move on by what the wheels say: `odom` is the pose in the odometry's frame."""
         before, self._odom = self._odom, odom

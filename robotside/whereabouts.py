@@ -42,7 +42,15 @@ TOLD_REACH, TOLD_TURN = 1.0, 0.5
 """How wrong a pose told by an operator's finger may be [m, rad]."""
 
 
+FIX_SPREAD = 2.5
+"""How far a single fix is trusted by a robot that has no laser [m]: its error changes slowly."""
+
+
 _NO_IDEA = "There is no fix or compass: the robot supposes to be near the map's origin. Place it on the map."
+
+_NO_LASER = (
+    "There is no laser: the position is reckoned, and may drift. Place the robot on the map when it is off."
+)
 
 
 class Track:
@@ -84,6 +92,8 @@ class Whereabouts:
         self._search: tuple[Pose2, float, float] | None = None
         self._odom: Pose2 | None = None
         self._was_sure = True
+        self._begun = math.nan
+        self._swept = False
         self.track = Track()
         """Poses in `map` of the last seconds."""
         self.odometer = 0.0
@@ -117,6 +127,8 @@ class Whereabouts:
         """Remember a position by satellite for the first guess."""
         if self._datum and fix.status.status >= 0 and math.isfinite(fix.latitude + fix.longitude):
             self._fixes.append(self._datum.to_local(fix.latitude, fix.longitude))
+            if self._localiser and not self._swept:
+                self._localiser.hear(*self._fixes[-1], FIX_SPREAD)
 
     def take_imu(self, imu: Imu) -> None:
         """Remember the compass for the first guess."""
@@ -140,14 +152,29 @@ class Whereabouts:
         if self._localiser is None:
             return
         self._localiser.predict(odom)
+        self._suppose(odom, stamp.seconds)
         pose = self._localiser.pose
         if pose is not None:
             self.track.add(stamp.seconds, pose)
             self._tell(stamp, pose, odom, self._localiser)
 
+    def _suppose(self, odom: Pose2, stamp: float) -> None:
+        """Without a laser it is where satellite and compass say, else where it has come to by its own reckoning."""
+        if math.isnan(self._begun):
+            self._begun = stamp
+        localiser = self._localiser
+        if localiser is None or localiser.pose is not None or self._swept or stamp - self._begun < PATIENCE:
+            return
+        if len(self._fixes) == FIXES and not math.isnan(self._compass):
+            x, y = (sum(axis) / FIXES for axis in zip(*self._fixes, strict=True))
+            localiser.place(Pose2(x, y, self._compass), spread=1.0, turn=0.1)
+        else:
+            localiser.place(odom, spread=0.3, turn=0.1)
+        self._say("localisation", _NO_LASER)
+
     def take_sweep(self, points: Points, stamp: float) -> None:
         """Correct the pose by what the laser saw at `stamp` [s], in `base_link`."""
-        localiser = self._localiser
+        localiser, self._swept = self._localiser, True
         if localiser is None:
             return
         if self._search is None and localiser.pose is None:

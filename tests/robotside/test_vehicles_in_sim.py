@@ -9,12 +9,13 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import CommandRequest
+from robotside.pose2 import Pose2
 from sim.robot import SimRobot, make
 from tests.robotside.sim_run import Run
 
 WORLDS = {
     "patrol": "parking_lot",
-    "scout": "office",
+    "scout": "parking_lot",
     "commander": "parking_lot",
     "minnow": "lake",
     "aqua": "tank",
@@ -96,3 +97,29 @@ def test_a_swimmer_that_nobody_drives_holds_its_depth(tmp_path: Path) -> None:
     run.robot.close()
     assert depth < -1.4
     assert drifted < 0.1
+
+
+@pytest.mark.parametrize(
+    ("name", "near"), [("scout", 0.15), ("minnow", 2.0), ("aqua", 0.4), ("ardrone", 0.6)]
+)
+def test_one_without_a_laser_tells_where_it_is_by_satellite_or_by_its_own_reckoning(
+    name: str, near: float, tmp_path: Path
+) -> None:
+    run = hand(name, tmp_path)
+    run.push(Twist(Vector3(0.4, 0.0, 0.3 if name == "ardrone" else 0.0), Vector3(0.0, 0.0, -0.1)), 12.0)
+    error, sure = run.error, run.station.autonomy.whereabouts.sure
+    run.robot.close()
+    assert error < near
+    assert sure
+
+
+def test_a_boat_does_not_stray_from_its_satellite_fixes(tmp_path: Path) -> None:
+    run = hand("minnow", tmp_path)
+    x, y, yaw = run.robot.simulation.pose()
+    run.station.autonomy.whereabouts.told(Pose2(x + 6.0, y, yaw))
+    run.wait(30.0)
+    error, pose = run.error, run.station.autonomy.whereabouts.pose
+    run.robot.close()
+    assert error < 3.0
+    assert pose is not None
+    assert [type(part) for part in pose] == [float, float, float]  # numpy's have no form on the wire
