@@ -25,7 +25,7 @@ ROOMY = 840.0
 Builder.load_string("""
 <TopBar>:
     size_hint: None, None
-    padding: (dp(4), 0) if root.form == 'tall' else (dp(6), 0, dp(16), 0)
+    padding: (dp(4), 0, dp(10), 0) if root.form == 'tall' else (dp(6), 0, dp(16), 0)
     spacing: dp(5) if root.form == 'tall' else dp(12)
     canvas.before:
         Color:

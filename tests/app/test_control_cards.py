@@ -275,7 +275,8 @@ def test_what_would_be_seen_only_in_part_behind_the_cards_gives_way_and_comes_ba
     app.root.size = before
     tell(robot, requested_by="", requested_by_id="", handover=Time())
     robot.publish("/task/status", TaskStatus(task="", state="IDLE"))
-    driving.until(lambda: not app.shell.notices.children, "cards stay")
+    driving.until(lambda: not cards(driving) and not app.shell.question.open, "cards stay")
+    app.shell.unsay("authority")
     app.show("tasks")
     driving.stage.run_for(0.4, COARSE)
     assert tasks_places(driving) == app.screens["tasks"].ids.detail.y
@@ -301,3 +302,14 @@ def test_a_stick_that_is_pushed_without_control_says_why_and_offers_to_ask(
     driving.until(lambda: driving.app.session.stop_latched, "no STOP")
     driving.tap(stick)
     assert "STOP is pressed; hold it to release." in driving.banners()
+
+
+def test_a_card_beside_a_picture_takes_no_word_from_it(driving: Glass, robot: FakeRobot) -> None:
+    app, before = driving.app, tuple(driving.app.root.size)
+    anna_asks(driving, robot)
+    app.root.size = (412, 892)
+    for name, over in (("drive", True), ("mission", False)):
+        app.show(name)
+        driving.stage.run_for(0.4, COARSE)
+        assert (app.screens[name].video.below < 892) is over, name
+    app.root.size = before
