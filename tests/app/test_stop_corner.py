@@ -362,6 +362,13 @@ def test_no_button_is_as_large_as_stop(
         driving.stage.frames(3)
         assert_stop_is_largest(app, "order")
         app.screens["tasks"].close()
+        asking(robot)
+        for screen in ("drive", "mission", "topics", "tasks"):
+            app.show(screen)
+            driving.stage.run_for(0.3, 0.1)
+            driving.until(lambda: app.shell.question.height > 80, "nothing is asked")
+            assert_stop_is_largest(app, f"{screen} asks")
+        asking(robot, "")
 
 
 def assert_stop_is_largest(app: Any, where: str) -> None:
