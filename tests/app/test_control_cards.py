@@ -294,12 +294,15 @@ def test_a_stick_that_is_pushed_without_control_says_why_and_offers_to_ask(
     driving.until(lambda: stick.disabled, "still mine")
     driving.tap(stick)
     driving.tap(stick)
-    said = [one for one in driving.app.shell.notices.children if getattr(one, "text", "").startswith("Bob")]
-    assert [one.text for one in said] == ["Bob has control, so the stick does nothing."], "once"
+    said = [
+        one for one in driving.app.shell.notices.children if getattr(one, "text", "").startswith("The stick")
+    ]
+    assert [one.text for one in said] == ["The stick does nothing: Bob has control."], "once"
     said[0].dispatch("on_act")
     assert robot.until(lambda: "/control/request" in robot.services())
     tell(robot, driver="", driver_id="", stopped=True, mode="STOPPED")
     driving.until(lambda: driving.app.session.stop_latched, "no STOP")
+    driving.until(lambda: not any("Bob" in text for text in driving.banners()), "still said of Bob")
     driving.tap(stick)
     assert "STOP is pressed; hold it to release." in driving.banners()
 
