@@ -28,6 +28,9 @@ __all__ = ["Agenda"]
 PERIOD = 1.0
 """Between two looks [s], robot clock."""
 
+APART = 1.0
+"""Two clocks that differ by less are one [s]."""
+
 _BARS = ("PAUSED", "INTERRUPTED")
 
 
@@ -265,7 +268,19 @@ class Agenda:
         self._publish("/task/queue", msgspec.structs.replace(stored, stamp=stamp, held=held))
 
     def _show_schedule(self) -> None:
-        self._publish("/schedule", Schedule(Time.at(self._clock()), self._records.schedule.stored()))
+        now = self._clock()
+        ahead = (
+            now - self._civil()
+        )  # the computer's clock may have been set since the start, the operators' goes on evenly
+        tasks = [_told(task, ahead) for task in self._records.schedule.stored()]
+        self._publish("/schedule", Schedule(Time.at(now), tasks))
+
+
+def _told(task: ScheduledTask, ahead: float) -> ScheduledTask:
+    """With its next start by a clock that is `ahead` [s] of the computer's."""
+    if task.next.seconds <= 0 or abs(ahead) < APART:
+        return task
+    return msgspec.structs.replace(task, next=Time.at(task.next.seconds + ahead))
 
 
 def _tail(why: str) -> str:
