@@ -16,14 +16,16 @@ ABOUT = "stick"
 
 def why_not(session: Session) -> str:
     """Why the robot cannot be driven from here, as a sentence; empty where it can, or where that is said already."""
-    if session.may_drive or not session.connected or session.link.silent:
+    if session.may_drive or not session.connected:
         return ""
     if session.foreign:
         return "" if session.local_stop.latched else "This robot has no topic to drive it by."
     if session.stop_latched:
         return "STOP is pressed; hold it to release."
     if session.control == "other":
-        return f"The stick does nothing: {session.authority.status.driver} has control."
+        return f"{session.authority.status.driver} has control; ask for it."
+    if session.link.silent:
+        return "The link is silent; the stick counts again when the robot is heard."
     if not math.isfinite(session.link.robot_time()):
         return "The robot's clock is not known yet; try again in a moment."
     return ""
@@ -52,7 +54,8 @@ class InVain:
 
     def tick(self) -> None:
         """Take it away when it is true no longer."""
-        if self._said and self._said != why_not(self._session):
+        now = why_not(self._session)
+        if self._said and (self._session.may_drive or (now and now != self._said)):
             for toast in self._toasts():
                 if toast.text == self._said:
                     self._app.shell.notices.remove_widget(toast)

@@ -295,9 +295,9 @@ def test_a_stick_that_is_pushed_without_control_says_why_and_offers_to_ask(
     driving.tap(stick)
     driving.tap(stick)
     said = [
-        one for one in driving.app.shell.notices.children if getattr(one, "text", "").startswith("The stick")
+        one for one in driving.app.shell.notices.children if getattr(one, "text", "").startswith("Bob has")
     ]
-    assert [one.text for one in said] == ["The stick does nothing: Bob has control."], "once"
+    assert [one.text for one in said] == ["Bob has control; ask for it."], "once"
     said[0].dispatch("on_act")
     assert robot.until(lambda: "/control/request" in robot.services())
     tell(robot, driver="", driver_id="", stopped=True, mode="STOPPED")
