@@ -316,3 +316,13 @@ def test_a_card_beside_a_picture_takes_no_word_from_it(driving: Glass, robot: Fa
         driving.stage.run_for(0.4, COARSE)
         assert (app.screens[name].video.below < 892) is over, name
     app.root.size = before
+
+
+def test_the_age_of_the_map_does_not_stick_out_from_under_a_card(driving: Glass, robot: FakeRobot) -> None:
+    driving.app.show("mission")
+    driving.stage.run_for(0.2, COARSE)
+    map_ = driving.app.screens["mission"].map
+    assert map_.says_age
+    x, y = map_.badge_pos
+    driving.app.screens["mission"].clear(Rect(x - 50, y + 5, 200, 90))
+    assert not map_.says_age
