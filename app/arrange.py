@@ -463,7 +463,7 @@ def stop_list(
 ) -> Rect:
     """What became of STOP ALL, `wanted` high [px] where there is room: above STOP, on a phone's side left of it.
 
-    `folded` is above STOP everywhere: there it covers nothing that can be pressed.
+    `folded` is above STOP everywhere: there it covers nothing that is pressed to drive, to start or to stop.
     """
     gap = 8 * dp
     if shape == "short" and not folded:
@@ -471,5 +471,5 @@ def stop_list(
         height = min(wanted, body.height - 2 * gap)
         return Rect(stop.left - gap - width, body.y + gap, width, height)
     low, edge = stop.head + gap, body.right - stop.right
-    width = min(440 * dp, body.width - 2 * edge)
+    width = min((250 if shape == "short" else 440) * dp, body.width - 2 * edge)
     return Rect(stop.right - width, low, width, min(wanted, body.top - gap - low))

@@ -397,10 +397,6 @@ class Session:
         self.link.drive(Twist())
         self.on_rest()
 
-    def release_control(self) -> None:
-        """Rest, give control up, and do not ask for it again."""
-        self.authority.release()
-
     def send_mission(self) -> None:
         """Send the draft to the robot."""
         self.command("mission", mission=self.mission.sending())

@@ -19,6 +19,7 @@ from robotside.commands import Refusal
 from robotside.database import Job, NotRecorded, Records
 from robotside.database.plans import MOST_QUEUED
 from robotside.events import Say
+from robotside.manual import Manual
 from robotside.schedule import Turn, fault, following, turns
 from robotside.tasks import TO_CHARGE, Engine
 
@@ -27,10 +28,10 @@ __all__ = ["Agenda"]
 PERIOD = 1.0
 """Between two looks [s], robot clock."""
 
-_BARS = ("PAUSED", "INTERRUPTED")
+APART = 1.0
+"""Two clocks that differ by less are one [s]."""
 
-_MANUAL = "manual by"
-"""Name of the setting that says who chose MANUAL."""
+_BARS = ("PAUSED", "INTERRUPTED")
 
 
 class Agenda:
@@ -56,7 +57,13 @@ class Agenda:
         self._records, self._engine, self._assignments = records, engine, assignments
         self._publish, self._say, self._clock = publish, say, clock
         self._civil, self._zone, self._barred = civil, zone, barred
+        self.manual = Manual(records, say)
+        """Whether anything may start by itself at all."""
         self._next = -math.inf
+        self._settled = 0
+        """The task that does not hold the queue, however it ended."""
+        self._held_under = 0
+        """The task that was under way when the queue was parked; 0 for none."""
         self.held = "the robot's computer was restarted" if records.queue.current.orders else ""
         """Why the queue does not go on, as the end of a sentence; empty when it does."""
         if self.held:
@@ -65,31 +72,12 @@ class Agenda:
             records.watch(table, show)
             show()
 
-    @property
-    def manual_by(self) -> str:
-        """Who set the mode to MANUAL, so that nothing starts by itself; empty when it may."""
-        return self._records.setting(_MANUAL)
-
     def stay_manual(self, name: str) -> bool:
-        """`name` chose MANUAL: start nothing until `allow`, over restarts too. False when that was so already."""
-        if self.manual_by:
-            return False
-        self._records.note_setting(_MANUAL, name)
-        self._say("control", f"{name} set the mode to MANUAL: nothing starts by itself until it is AUTO.")
-        self.hold(self._by_hand())
-        return True
-
-    def allow(self) -> bool:
-        """Somebody had the robot drive itself; False when nothing kept it from that."""
-        if not self.manual_by:
-            return False
-        self._records.note_setting(_MANUAL, "")  # a fact, as the motion is that follows
-        return True
-
-    _settled = 0
-    """The task that does not hold the queue, however it ended."""
-    _held_under = 0
-    """The task that was under way when the queue was parked; 0 for none."""
+        """`name` chose MANUAL: what waits in the queue goes on waiting. False when that was so already."""
+        fresh = self.manual.choose(name)
+        if fresh:
+            self.hold(self.manual.why)
+        return fresh
 
     def step(self, now: float) -> None:
         """Look what is due at `now` [s, robot clock]; call it often."""
@@ -157,8 +145,8 @@ class Agenda:
             self.hold("it was stored too late")
         elif fresh:
             self.release()
-        if self.manual_by:
-            self.hold(self._by_hand())
+        if self.manual.by:
+            self.hold(self.manual.why)
 
     def set_scheduled(self, task: ScheduledTask) -> ScheduledTask:
         """Keep a scheduled task with the time of its next start. Refusal or NotRecorded says what is wrong with it."""
@@ -194,8 +182,8 @@ class Agenda:
         A `fresh` queue does not wait for what an older one waits for.
         """
         status = self._engine.status
-        if self._by_hand() or (self.held and not fresh):
-            return self._by_hand() or self.held
+        if self.manual.why or (self.held and not fresh):
+            return self.manual.why or self.held
         if self._engine.interrupted:
             return "the task before the restart is neither resumed nor discarded"
         if self._engine.active or not orders:
@@ -222,7 +210,7 @@ class Agenda:
             self._skip(title, f"at {when} is skipped: the robot's computer was off or its clock was changed")
         if not turn.due:
             return
-        barred = self._by_hand() or self._barred(_drains(order)) or self._waiting()
+        barred = self.manual.why or self._barred(_drains(order)) or self._waiting()
         running = self._engine.active or bool(self._records.queue.current.orders)
         if barred:
             self._skip(title, f"now is skipped: {barred}")
@@ -248,10 +236,6 @@ class Agenda:
             return
         until = f"; it waits, since {self.held}" if self.held else ""
         self._say("task", f"{title} now waits in the queue for its turn{until}.", "info")
-
-    def _by_hand(self) -> str:
-        """Who wants that nothing starts by itself, as the end of a sentence; empty when nobody does."""
-        return f"{self.manual_by} set the mode to MANUAL" if self.manual_by else ""
 
     def _waiting(self) -> str:
         """Why nobody knows when a task in the queue would have its turn; empty when it has one."""
@@ -284,7 +268,19 @@ class Agenda:
         self._publish("/task/queue", msgspec.structs.replace(stored, stamp=stamp, held=held))
 
     def _show_schedule(self) -> None:
-        self._publish("/schedule", Schedule(Time.at(self._clock()), self._records.schedule.stored()))
+        now = self._clock()
+        ahead = (
+            now - self._civil()
+        )  # the computer's clock may have been set since the start, the operators' goes on evenly
+        tasks = [_told(task, ahead) for task in self._records.schedule.stored()]
+        self._publish("/schedule", Schedule(Time.at(now), tasks))
+
+
+def _told(task: ScheduledTask, ahead: float) -> ScheduledTask:
+    """With its next start by a clock that is `ahead` [s] of the computer's."""
+    if task.next.seconds <= 0 or abs(ahead) < APART:
+        return task
+    return msgspec.structs.replace(task, next=Time.at(task.next.seconds + ahead))
 
 
 def _tail(why: str) -> str:

@@ -106,18 +106,8 @@ class Station:
         """What is looked through before the first motion."""
         self._next_remark: dict[str, float] = {}
         first = list(robot.read(now))
-        self.autonomy = Autonomy(
-            self.robot,
-            next((msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None),
-            bus=self.bus,
-            events=self.events,
-            demand=self.demand,
-            clock=clock,
-            rng=rng,
-            records=records,
-            fault=self.fault,
-            fit=self.keeper.marked,
-        )
+        self.autonomy = self._autonomy(first, rng)
+        """What it does by itself."""
         self.helm = self._helm(config)
         """Driving by hand, and what happens when nobody does."""
         self._show_beginning()
@@ -407,6 +397,20 @@ class Station:
         follows = partial(self.options.on, FOLLOW_LINK)
         info = self.info
         return Controls(max_speed=info.max_speed, max_yaw_rate=info.max_yaw_rate, follows=follows)
+
+    def _autonomy(self, first: Iterable[tuple[str, Msg]], rng: random.Random) -> Autonomy:
+        return Autonomy(
+            self.robot,
+            next((msg for topic, msg in first if topic == "/map" and isinstance(msg, OccupancyGrid)), None),
+            bus=self.bus,
+            events=self.events,
+            demand=self.demand,
+            clock=self.clock,
+            rng=rng,
+            records=self.records,
+            fault=self.fault,
+            fit=self.keeper.marked,
+        )
 
     def _helm(self, config: Config) -> Helm:
         where, senses = self.autonomy.whereabouts, self.readiness.senses

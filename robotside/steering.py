@@ -83,7 +83,7 @@ class _Steering:
             if engine.active or engine.interrupted or agenda.held:
                 self._tasks.resume(client, asked)
                 return "The robot drives itself."
-            if not agenda.allow():
+            if not agenda.manual.end():
                 raise Refusal("There is no task to go on with; start one.")
             return "The robot may start by itself what is scheduled and queued."
         fresh = agenda.stay_manual(station.controls.name(client))

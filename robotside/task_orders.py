@@ -95,7 +95,7 @@ class TaskOrders:
         station = self._station
         self._permits.may_move(client)
         home = station.autonomy.assignments.task(TaskOrder(task="go_home"), station.controls.name(client))
-        station.agenda.allow()
+        station.agenda.manual.end()
         station.agenda.hold("the robot was sent home")
         station.controls.hold()
         self._engine.start(home, station.now)
@@ -129,7 +129,7 @@ class TaskOrders:
             engine.resume()
             return "Resumed."
         if station.agenda.release():
-            station.agenda.allow()
+            station.agenda.manual.end()
             return "The queue goes on."
         raise Refusal("No task is paused.")
 
@@ -184,7 +184,7 @@ class TaskOrders:
     def _begin(self) -> None:
         """The robot drives itself from now on. A queue that was said to wait until told goes on waiting for that."""
         self._station.controls.hold()
-        self._station.agenda.allow()
+        self._station.agenda.manual.end()
 
 
 def _started(task: Task) -> str:

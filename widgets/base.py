@@ -28,7 +28,7 @@ STATES = ("never", "live", "stale", "alarm", "disabled")
 VEIL = {"never": 0.0, "live": 0.0, "stale": 0.55, "alarm": 0.0, "disabled": 0.62}
 """How much of a widget is hidden in each state, 0 to 1."""
 
-BIG = 150.0
+BIG = 240.0
 """What is higher has room in itself for its age [dp]."""
 SMALLEST = 10.0
 """No type is made smaller than this to fit [sp]."""

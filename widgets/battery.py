@@ -17,7 +17,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from bridge.msgs.sensor_msgs import BatteryState
-from widgets.base import RobotWidget
+from widgets.base import RobotWidget, age_text
 from widgets.labels import Chip
 
 __all__ = ["Battery", "BatteryChip", "charge_role", "time_left_text"]
@@ -171,11 +171,15 @@ class BatteryChip(_Charge, BoxLayout):
         self._chip = Chip()
         self._chip.bind(width=self.setter("width"))
         self.add_widget(self._chip)
-        self.bind(text=self._write, role=self._write, charging=self._write, brief=self._write)
+        for name in ("text", "role", "charging", "brief", "state", "age"):
+            self.fbind(name, self._write)
         self._write()
 
     def _write(self, *_: object) -> None:
-        self._chip.text = self.text.replace(" %", "%") if self.brief else self.text
+        old = age_text(self.age) if self.state == "stale" and not self.brief else ""
+        text = self.text.replace(" %", "%") if self.brief else self.text
+        self._chip.text = f"{text} · {old}" if old else text
+        self._chip.tinted = self.state == "stale"
         self._chip.usual, self._chip.edge = ("100%", dp(8)) if self.brief else ("100 %", dp(13))
         self._chip.role = self.role
         alarming = self.role == "danger" and not self.charging
@@ -216,5 +220,6 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "chip brief": make(0.87, BatteryChip, brief=True),
         "chip low": make(0.34, BatteryChip),
         "chip empty": make(0.12, BatteryChip),
+        "chip stale": make(0.87, BatteryChip, state="stale", age=12.0),
         "chip never": make(math.nan, BatteryChip, state="never"),
     }

@@ -60,18 +60,23 @@ class EncodersView(Gauge):
         """A row for each wheel."""
         edge, shown = self.edge, self.wheels[:MOST]
         top = self.top - edge
+        more = len(self.wheels) - len(shown)
+        figures = (f"rad/s · {more} more", f"{more} more", f"+{more}") if more else ("rad/s",)
         if not self.low:
-            more = len(self.wheels) - len(shown)
-            figures = (f"rad/s · {more} more", f"{more} more", f"+{more}") if more else ("rad/s",)
             yield from self.header(figures, "muted", told=False)
             top -= sp(12) + dp(4)
         if not shown:
             yield Word(DASH, self.center_x, (self.y + edge + top) / 2, sp(14), theme.muted)
             return
-        unit = self._unit([figure(speed, 1) for _, speed, _ in shown]) if self.low else ""
+        said = not self.low and "rad/s" in first_fitting(figures, sp(13), self._beside_name(), bold=True)
+        unit = "" if said else self._unit([figure(speed, 1) for _, speed, _ in shown])
         step = (top - self.y - edge) / len(shown)
         for number, wheel in enumerate(shown):
             yield from self._row(shapes, wheel, (top - (number + 0.5) * step, step), unit)
+
+    def _beside_name(self) -> float:
+        """Width that the header has for figures [px]."""
+        return self.width - 2 * self.edge - wide(self.title.upper(), sp(11.5)) - dp(8)
 
     def _unit(self, figures: list[str]) -> str:
         """Behind each figure where there is no header to say it, or behind none."""

@@ -44,9 +44,8 @@ Builder.load_string("""
             size: root.disc[2] - dp(3), root.disc[2] - dp(3)
         Color:
             rgba: theme.accent if root.located else (0, 0, 0, 0)
-        SmoothLine:
+        SmoothTriangle:
             points: root.own
-            width: dp(2)
         Color:
             rgba: theme.plan if root.pointed else (0, 0, 0, 0)
         SmoothLine:
@@ -74,6 +73,11 @@ Builder.load_string("""
         bold: True
         font_size: theme.size_title
         pos: root.center_x - self.width / 2, root.center_y - self.height / 2
+    DialWord:
+        text: root.robot_words
+        role: 'accent'
+        font_size: sp(13)
+        pos: root.center_x - self.width / 2, root.center_y - dp(14) - self.height
 
 <DialWord>:
     size_hint: None, None
@@ -151,9 +155,27 @@ class HeadingDial(Control, Widget):
     knob = AliasProperty(_knob, bind=["value", "pos", "size"], cache=True)
 
     def _own(self) -> list[float]:
-        return self._ray(self.robot, 0.3, 0.54)
+        if not math.isfinite(self.robot):
+            return [self.center_x, self.center_y] * 3
+        (x, y), ahead, aside = self.center, self.robot, math.pi / 2
+        corners = ((0.72, 0.0, 0.0), (0.58, 0.085, aside), (0.58, 0.085, -aside))
+        return [
+            value
+            for out, off, turn in corners
+            for value in (
+                x + self.reach * (out * math.cos(ahead) + off * math.cos(ahead + turn)),
+                y + self.reach * (out * math.sin(ahead) + off * math.sin(ahead + turn)),
+            )
+        ]
 
     own = AliasProperty(_own, bind=["robot", "pos", "size"], cache=True)
+    """Corners of the arrow that says where the robot points [px]."""
+
+    def _robot_words(self) -> str:
+        return f"robot {heading_of(self.robot)}" if self.located and not self.pointed else ""
+
+    robot_words = AliasProperty(_robot_words, bind=["robot", "value"], cache=True)
+    """What the arrow is, as in `robot 055°`; empty while that is not known, or the needle may lie there."""
 
     def __init__(self, **kwargs: Any) -> None:
         self._finger: int | None = None

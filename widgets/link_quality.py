@@ -62,6 +62,9 @@ class LinkQuality(RobotWidget, BoxLayout):
     brief = BooleanProperty(False)
     """Leaves the lost ones away where there is no room."""
 
+    tight = BooleanProperty(False)
+    """Its words stand close to its ends."""
+
     def _quality(self) -> str:
         if self.state == "never":
             return "unknown"
@@ -89,12 +92,13 @@ class LinkQuality(RobotWidget, BoxLayout):
         self._chip = Chip()
         self._chip.bind(width=self.setter("width"))
         self.add_widget(self._chip)
-        self.bind(quality=self._write, text=self._write, brief=self._write)
+        self.bind(quality=self._write, text=self._write, brief=self._write, tight=self._write)
         self._write()
 
     def _write(self, *_: object) -> None:
         self._chip.icon, self._chip.role = LOOKS[self.quality]
         self._chip.text = self.text
+        self._chip.edge = dp(7) if self.tight else dp(13)
         self._chip.usual = "288 ms" if self.brief else "288 ms · 0 lost"
         self._chip.outlined = self.quality == "lost"
         self.width = self._chip.width

@@ -157,7 +157,7 @@ class OrderQueue(Control, BoxLayout):
     def _mark(self, *_: object) -> None:
         for number, row in enumerate(self._rows):
             row.role = "muted" if self.waits else "plan"
-            row.detail = details(self.orders[number], first=number == 0, held=self.held)
+            row.detail = details(self.orders[number], first=number == 0, held=bool(self.held))
             row.faded = self.waits
 
 
@@ -166,10 +166,10 @@ def dp_below(text: Text) -> float:
     return float(text.height + text.font_size * 0.4)
 
 
-def details(order: TaskOrder, *, first: bool, held: str = "") -> str:
-    """What else is to be said of an order, in one line; of the `first` one also why it is `held`."""
-    place = (f"Waits, since {held}" if held else "Next") if first else ""
-    return " · ".join(part for part in (place, order.message) if part)
+def details(order: TaskOrder, *, first: bool, held: bool = False) -> str:
+    """What else is to be said of an order, in one line; of the `first` one also when it starts."""
+    turn = ("Waits until told" if held else "Next") if first else ""
+    return " · ".join(part for part in (turn, order.message) if part)
 
 
 THREE = [

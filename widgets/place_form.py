@@ -24,7 +24,7 @@ from widgets.base import Control
 from widgets.heading_dial import HeadingDial
 from widgets.place_list import SOME
 from widgets.task_chooser import TaskTile
-from widgets.task_words import KINDS
+from widgets.task_words import KINDS, heading_of
 
 __all__ = ["PlaceForm"]
 
@@ -78,7 +78,7 @@ Builder.load_string("""
                     on_text: root.type('tag', self.text)
             Segmented:
                 id: way
-                options: [('any', 'Stands in any direction'), ('set', 'In this one')]
+                options: [('any', 'Stands in any direction'), ('set', 'Faces ' + root.faces)]
                 value: 'any' if root.yaw != root.yaw else 'set'
                 on_choose: root.face(args[1])
 """)
@@ -109,6 +109,12 @@ class PlaceForm(Control, BoxLayout):
 
     place = AliasProperty(_place, bind=["shown", "name", "kind", "floor", "tag", "note", "yaw"])
     """What it says so far."""
+
+    def _faces(self) -> str:
+        return heading_of(self.yaw) if math.isfinite(self.yaw) else "one way"
+
+    faces = AliasProperty(_faces, bind=["yaw"], cache=True)
+    """The direction to stand in as a heading, `one way` while there is none."""
 
     def _lacking(self) -> str:
         name = self.name.strip()

@@ -70,7 +70,10 @@ Builder.load_string("""
                 font_size: sp(14.5)
                 height: self.texture_size[1] if root.said else 0
     BoxLayout:
-        size_hint_y: None
+        # not across the card: STOP is the largest thing to press
+        size_hint: None, None
+        width: min(root.width - dp(32), dp(180 if root.tight else 260) * (1.4 if root.cut else 1))
+        pos_hint: {'center_x': .5}
         height: theme.target if root.tight else max(theme.target * 1.15, dp(60))
         spacing: dp(10) if root.cut else 0
         QuietButton:

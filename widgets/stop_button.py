@@ -30,6 +30,8 @@ LONG_HOLD = 3.0
 
 ROOMY = 130
 """Lower than this it has the icon beside the word while it says a sentence [dp]."""
+NO_BREAK = "\u00a0"
+"""A space at which no line ends."""
 LOW = 72
 """Lower than this its word is smaller, so that two lines fit below it [dp]."""
 WORDY = 110
@@ -146,7 +148,9 @@ class StopButton(Control, AnchorLayout):
             sentence = LOCAL.get(self.phase, sentence)
         if self.width * self.height < dp(WORDY) * dp(WORDY):
             return sentence.rpartition(" · ")[2]
-        return f"{sentence} {self.ago} ago" if self.phase == "lost" and self.ago else sentence
+        if self.phase == "lost" and self.ago:
+            return f"{sentence} " + f"{self.ago} ago".replace(" ", NO_BREAK)
+        return sentence
 
     sentence = AliasProperty(_sentence, bind=["phase", "local", "ago", "size"], cache=True)
 

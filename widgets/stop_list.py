@@ -13,7 +13,8 @@ from typing import Any, Protocol
 
 from kivy.clock import Clock
 from kivy.lang import Builder
-from kivy.properties import BooleanProperty, NumericProperty, StringProperty
+from kivy.metrics import dp
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
@@ -25,6 +26,8 @@ __all__ = ["WORDS", "StopList", "StopRow"]
 
 HOLD = 1.0
 """How long the finger must stay to let go [s]."""
+SLIM = 320
+"""A narrower line has no cross [dp]."""
 FRAME = 0.1
 """A frame counts for no more of a hold [s], as of STOP."""
 
@@ -129,6 +132,9 @@ Builder.load_string("""
                 icon: 'close'
                 role: 'muted'
                 bare: True
+                size: (0, 0) if root.slim else (theme.target, theme.target)
+                opacity: 0 if root.slim else 1
+                disabled: root.slim
                 on_release: root.dispatch('on_close')
         Roll:
             id: roll
@@ -237,6 +243,12 @@ class StopList(Control, BoxLayout):
     """One line only, because something else needs the room."""
     cramped = BooleanProperty(False)
     """Something else needs the room: it can be folded and unfolded."""
+
+    def _slim(self) -> bool:
+        return self.folded and self.width < dp(SLIM)
+
+    slim = AliasProperty(_slim, bind=["folded", "width"], cache=True)
+    """There is room for one thing to press: it is unfolded before it is closed."""
     worst = StringProperty("")
     """Who is not stopped, in few words; empty when all are. Said where it is folded."""
     title = StringProperty("")

@@ -127,9 +127,12 @@ class TaskCard(RobotWidget, BoxLayout):
     def _title(self) -> str:
         if not self.status.task:
             return "No task"
-        return title(TaskOrder(task=self.status.task, places=list(self.status.places), heading=math.nan))
+        places = list(self.status.places)
+        if self.brief and len(places) > 1:
+            return f"{places[0]} → {places[-1]}"  # the icon says what, the end is the goal
+        return title(TaskOrder(task=self.status.task, places=places, heading=math.nan))
 
-    title = AliasProperty(_title, bind=["status"], cache=True)
+    title = AliasProperty(_title, bind=["status", "brief"], cache=True)
 
     def _icon(self) -> str:
         words = TASKS.get(self.status.task)

@@ -184,7 +184,7 @@ def _delivers(order: TaskOrder) -> str:
 def _guides(order: TaskOrder, follows: bool) -> str:
     names = [place for place in order.places if place]
     if not follows:
-        blind = "Does not wait: nothing on this robot tells whether somebody follows."
+        blind = "Does not wait: nothing tells it who follows."
         return f"Leads a person to {_listed(names)} and tells what is there. {blind}"
     return f"Leads a person to {_listed(names)}, waits when nobody follows, and tells what is there."
 

@@ -41,8 +41,8 @@ Builder.load_string("""
             rgba: theme.muted if root.drop else (0, 0, 0, 0)
         Rectangle:
             texture: root.label_texture
-            size: root.label_texture.size
-            pos: self.x + dp(14), self.top - dp(5) - root.label_texture.height
+            size: root.label_size  # kv does not see a texture's size change
+            pos: self.x + dp(14), self.top - dp(5) - root.label_size[1]
     canvas.before:
         Color:
             rgba: theme.danger if root.wrong else theme.accent if root.focus else theme.line
@@ -83,6 +83,12 @@ class TextField(TextInput):
         return text_texture(self.label, sp(12), theme.font)
 
     label_texture = AliasProperty(_label_texture, bind=["label"], cache=True)
+
+    def _label_size(self) -> tuple[float, float]:
+        return tuple(self.label_texture.size)
+
+    label_size = AliasProperty(_label_size, bind=["label_texture"], cache=True)
+    """[px]"""
 
     def _sign(self) -> Texture:
         return text_texture(icon("error"), sp(22), theme.icons)

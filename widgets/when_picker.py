@@ -38,7 +38,7 @@ Builder.load_string("""
     BoxLayout:
         size_hint_y: None
         height: max(dp(44), theme.target)
-        spacing: dp(6)
+        spacing: dp(16)
         Stepper:
             id: hours
             value: root.hour
@@ -47,7 +47,6 @@ Builder.load_string("""
             maximum: 24 if root.way == 'at' else 167
             pos_hint: {'center_y': .5}
             on_change: root.choose(hour=int(args[1]))
-        Widget:
         Stepper:
             id: minutes
             value: root.minute
@@ -57,6 +56,7 @@ Builder.load_string("""
             maximum: 60
             pos_hint: {'center_y': .5}
             on_change: root.choose(minute=int(args[1]))
+        Widget:
     BoxLayout:
         id: week
         size_hint_y: None

@@ -251,6 +251,7 @@ class DriveScreen(FloatLayout):
         self.dashboard.tick()
         self.senses.tick()
         self.sight.tick()
+        self.in_vain.tick()
         self.checks.tick()
         session = self.session
         self.stick.state = "live" if session.may_drive else "disabled"

@@ -248,6 +248,8 @@ class MissionScreen(FloatLayout):
         foot = Rect(area.x, begins, area.width, SCALE * self._dp)
         if covered is not None and covered.overlaps(foot):
             area.foot = math.nan
+        age = Rect(*area.badge_pos, *area.badge_size)
+        area.says_age = covered is None or not covered.overlaps(age)
         up = bool(self.sheet) and self._form == "tall"
         up = up or (covered is not None and covered.overlaps(Rect(*corner.pos, *corner.size)))
         corner.opacity, corner.disabled = float(not up), up

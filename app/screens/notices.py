@@ -60,7 +60,8 @@ class Notices(BoxLayout):
             self._cover = screen, cover
             screen.clear(cover)
         if screen.video is not None:
-            screen.video.below = low if self.children else math.inf
+            seen = Rect(*screen.video.pos, *screen.video.size)
+            screen.video.below = low if cover is not None and seen.overlaps(cover) else math.inf
 
     def say(self, text: str, level: str, about: str, stay: float) -> None:
         """One sentence for `stay` [s], in the place of the last one; `about` is what it tells of."""

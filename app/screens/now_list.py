@@ -48,7 +48,7 @@ Builder.load_string("""
         size_hint_y: None
         height: dp(40)
         SectionLabel:
-            title: root.next_words
+            title: 'Next'
             pos_hint: {'center_y': .5}
         IconButton:
             id: undo
@@ -75,8 +75,6 @@ class NowList(BoxLayout):
     main = StringProperty("")
     """`pause`, `resume` or nothing."""
     main_words = StringProperty("Pause")
-    next_words = StringProperty("Next")
-    """Over the queue: what it is, and that it waits to be told to go on."""
     may_undo = BooleanProperty(False)
     brief = BooleanProperty(False)
     """Takes little room."""
@@ -118,9 +116,7 @@ class NowList(BoxLayout):
         editor = self._session.tasking.queue
         self.queue.orders, self.queue.waits = list(editor.orders), editor.waits
         self.may_undo = editor.can_undo
-        parked = editor.told is not None and bool(editor.told.held) and bool(editor.orders)
-        self.next_words = "Next · waits until told" if parked else "Next"
-        self.queue.held = editor.told.held if parked and editor.told is not None else ""
+        self.queue.held = editor.told.held if editor.told is not None else ""
 
     def tick(self, may: bool) -> None:
         """Bring up to date what can be done; `may` when it can be asked for from here."""

@@ -71,7 +71,7 @@ def why_not_now(session: Session, *, timed: bool = False) -> str:
     if session.running and status is not None:
         name = title(TaskOrder(task=status.task, places=list(status.places)))
         stands = "is paused" if status.state == "PAUSED" else "runs"
-        return f"Not now: {name} {stands}; end it first, or add this to the queue."
+        return f"Not now: {name} {stands}; end it, or queue this."
     if status is not None and status.state == "INTERRUPTED":
         return "Start discards the task that was cut short."
     return ""

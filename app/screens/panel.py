@@ -349,7 +349,9 @@ class MissionPanel(BoxLayout):
         """Bring up to date what time changes."""
         session = self._session
         self._reorder()
-        mine = session.connected and session.control != "other"
+        if not session.connected:
+            self._progress.where = "What runs is not known without a link."
+        mine = session.may_ask
         tasks, missions = session.offers("/task/start"), session.offers("/mission/set")
         self.tasks.state = "live" if mine and tasks else "disabled"
         if not tasks:

@@ -21,6 +21,9 @@ from widgets import StopAll, StopList
 
 __all__ = ["StopCorner"]
 
+READABLE = 280
+"""So high must be what is left of a screen above the list and what is said, else the list is folded [dp]."""
+
 
 class StopCorner:
     """The button, the list, and where they are. `tick` brings them up to date, ten times a second."""
@@ -124,8 +127,9 @@ class StopCorner:
         cramped = False
         if shell is not None and listed.parent is not None:
             said = shell.notices.room
-            high = whole.top + 8 * dp + said.height > body.top
-            cramped = said.height > 0 and whole.overlaps(said) and (shell.notices.asks or high)
+            left = body.top - whole.top - 8 * dp - said.height
+            alone = not shell.notices.asks and left >= READABLE * dp
+            cramped = said.height > 0 and whole.overlaps(said) and not alone
         self._spread = self._spread and cramped
         listed.cramped, listed.folded = cramped, cramped and not self._spread
         line = arrange.stop_list(body, place, form, listed.line, dp, folded=True)

@@ -141,7 +141,7 @@ class TasksScreen(FloatLayout):
         for widget in (self.places, self.form, self.pane.form):
             bind(widget, "/pose", fresh=False)
         bind(self.pane.form, "/places", fresh=False)
-        bind(self.runs, "/task/status", self._task_changed, fresh=False)
+        bind(self.runs, "/task/status", self._task_changed)
         self.places.bind(on_command=lambda _, place: self.edit_place(place))
         self.missions.bind(on_command=lambda _, mission: self._look_at(mission))
         self.form.bind(on_command=lambda *_: self._show_buttons())

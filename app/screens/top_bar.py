@@ -10,6 +10,7 @@ from kivy.properties import BooleanProperty, OptionProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
 import widgets.battery
+import widgets.kit
 import widgets.link_quality  # noqa: F401 - their rules draw what is used here
 from app.screens import standing
 from app.session import Session
@@ -25,8 +26,8 @@ ROOMY = 840.0
 Builder.load_string("""
 <TopBar>:
     size_hint: None, None
-    padding: (dp(4), 0) if root.form == 'tall' else (dp(6), 0, dp(16), 0)
-    spacing: dp(5) if root.form == 'tall' else dp(12)
+    padding: (dp(2), 0, dp(8), 0) if root.form == 'tall' else (dp(6), 0, dp(16), 0)
+    spacing: dp(4) if root.form == 'tall' else dp(12)
     canvas.before:
         Color:
             rgba: theme.surface
@@ -43,14 +44,14 @@ Builder.load_string("""
         icon: 'arrow_back'
         role: 'muted'
         bare: True
-        width: dp(46) if root.form != 'tall' else dp(38)
+        width: dp(46) if root.form != 'tall' else dp(34)
         pos_hint: {'center_y': .5}
         on_release: root.dispatch('on_back')
     Text:
         id: name
         text: root.robot_name
         bold: True
-        font_size: theme.size_title if root.form != 'tall' else sp(17)
+        font_size: theme.size_title if root.form != 'tall' else sp(16)
         shorten: root.form == 'tall'
         shorten_from: 'right'
         pos_hint: {'center_y': .5}
@@ -64,7 +65,7 @@ Builder.load_string("""
         text: root.mode_text
         usual: 'STOPPED' if root.form == 'tall' else 'PAUSED · patrol'
         spacing: dp(8) if self.icon else 0
-        edge: dp(13) if root.form != 'tall' else dp(10)
+        edge: dp(13) if root.form != 'tall' else dp(7)
         outlined: True
         pressable: root.mode_offered
         pos_hint: {'center_y': .5}
@@ -76,6 +77,7 @@ Builder.load_string("""
     LinkQuality:
         id: link
         brief: root.form != 'wide'
+        tight: root.form == 'tall'
         pos_hint: {'center_y': .5}
     Chip:
         id: satellites

@@ -168,7 +168,7 @@ def _pause(grip: Grip) -> None:
 
 
 def _give_up(grip: Grip) -> None:
-    grip.app.session.release_control()
+    grip.app.session.authority.release()
     grip.undo.append(grip.app.session.take_control)
 
 

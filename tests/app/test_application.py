@@ -89,7 +89,7 @@ LOSSES: dict[str, Callable[[Glass], object]] = {
     "minimised": lambda glass: glass.stage.window.dispatch("on_minimize"),
     "out of focus": lambda glass: setattr(glass.stage.window, "_focus", False),
     "another screen": lambda glass: glass.app.show("mission"),
-    "control given up": lambda glass: glass.app.session.release_control(),
+    "control given up": lambda glass: glass.app.session.authority.release(),
 }
 
 

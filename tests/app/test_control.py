@@ -90,7 +90,7 @@ def test_what_a_tap_on_control_asks_for(watch: Watch, status: ControlStatus, ask
 def test_whoever_has_control_given_up_the_robot_rests_first_and_the_stick_lets_go(watch: Watch) -> None:
     watch.session.on_rest = lambda: watch.asked.append("let go")
     watch.told(MINE)
-    watch.session.release_control()
+    watch.session.authority.release()
     assert watch.asked == ["drive 0", "let go", "release"]
 
 
@@ -213,7 +213,7 @@ def test_what_was_told_is_past_as_soon_as_control_changes_again(watch: Watch, th
 
 def test_control_that_was_given_back_did_not_lapse(watch: Watch) -> None:
     watch.told(MINE)
-    watch.session.release_control()
+    watch.session.authority.release()
     watch.told(MINE)
     watch.told(FREE)
     assert watch.news == []

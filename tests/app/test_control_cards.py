@@ -275,7 +275,8 @@ def test_what_would_be_seen_only_in_part_behind_the_cards_gives_way_and_comes_ba
     app.root.size = before
     tell(robot, requested_by="", requested_by_id="", handover=Time())
     robot.publish("/task/status", TaskStatus(task="", state="IDLE"))
-    driving.until(lambda: not app.shell.notices.children, "cards stay")
+    driving.until(lambda: not cards(driving) and not app.shell.question.open, "cards stay")
+    app.shell.unsay("authority")
     app.show("tasks")
     driving.stage.run_for(0.4, COARSE)
     assert tasks_places(driving) == app.screens["tasks"].ids.detail.y
@@ -293,11 +294,35 @@ def test_a_stick_that_is_pushed_without_control_says_why_and_offers_to_ask(
     driving.until(lambda: stick.disabled, "still mine")
     driving.tap(stick)
     driving.tap(stick)
-    said = [one for one in driving.app.shell.notices.children if getattr(one, "text", "").startswith("Bob")]
-    assert [one.text for one in said] == ["Bob has control, so the stick does nothing."], "once"
+    said = [
+        one for one in driving.app.shell.notices.children if getattr(one, "text", "").startswith("Bob has")
+    ]
+    assert [one.text for one in said] == ["Bob has control; ask for it."], "once"
     said[0].dispatch("on_act")
     assert robot.until(lambda: "/control/request" in robot.services())
     tell(robot, driver="", driver_id="", stopped=True, mode="STOPPED")
     driving.until(lambda: driving.app.session.stop_latched, "no STOP")
+    driving.until(lambda: not any("Bob" in text for text in driving.banners()), "still said of Bob")
     driving.tap(stick)
     assert "STOP is pressed; hold it to release." in driving.banners()
+
+
+def test_a_card_beside_a_picture_takes_no_word_from_it(driving: Glass, robot: FakeRobot) -> None:
+    app, before = driving.app, tuple(driving.app.root.size)
+    anna_asks(driving, robot)
+    app.root.size = (412, 892)
+    for name, over in (("drive", True), ("mission", False)):
+        app.show(name)
+        driving.stage.run_for(0.4, COARSE)
+        assert (app.screens[name].video.below < 892) is over, name
+    app.root.size = before
+
+
+def test_the_age_of_the_map_does_not_stick_out_from_under_a_card(driving: Glass, robot: FakeRobot) -> None:
+    driving.app.show("mission")
+    driving.stage.run_for(0.2, COARSE)
+    map_ = driving.app.screens["mission"].map
+    assert map_.says_age
+    x, y = map_.badge_pos
+    driving.app.screens["mission"].clear(Rect(x - 50, y + 5, 200, 90))
+    assert not map_.says_age

@@ -106,7 +106,7 @@ def test_on_the_map_a_finger_on_an_unfolded_list_adds_no_point(fenced):
 def test_the_slider_ends_at_the_limit_and_says_so(fenced):
     drive = fenced.app.screens["drive"]
     fenced.until(lambda: drive.speed.ids.fader.maximum == pytest.approx(0.4), "not limited")
-    assert drive.speed.limits == "limit 0.40\nturn 29°/s"
+    assert drive.speed.limits == "limit 0.40\u00a0m/s\nturn 29°/s"
     drive.speed.maximum_speed = 0.4
     assert drive.stick.max_speed == pytest.approx(0.4)
     assert drive.stick.max_yaw_rate == pytest.approx(0.5)

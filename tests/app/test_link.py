@@ -353,7 +353,7 @@ def test_control_that_is_given_up_under_a_pushed_stick_leaves_a_robot_told_to_re
             before.append(robot.twists()[-1])
 
     robot.objection = note
-    operator.session.release_control()
+    operator.session.authority.release()
     operator.until(lambda: "/control/release" in robot.services())
     assert before == [Twist()]
 

@@ -305,7 +305,7 @@ def test_it_is_not_where_stop_is_for_a_single_frame(
     assert not place(app.corner.button).overlaps(place(app.shell.stop))
 
 
-@pytest.mark.parametrize("size", [(412, 892), (1280, 800)])
+@pytest.mark.parametrize("size", [(412, 892), (892, 412), (1280, 800)])
 def test_a_question_is_not_covered_and_the_list_is_one_line_until_it_is_answered(
     driving: Glass, robot: FakeRobot, other: FakeRobot, size: tuple[int, int]
 ) -> None:
@@ -317,10 +317,12 @@ def test_a_question_is_not_covered_and_the_list_is_one_line_until_it_is_answered
     driving.until(lambda: app.fleet.stopped == 2, "not stopped")
     assert not corner.list.folded
     asking(robot)
-    driving.until(lambda: corner.list.folded, "it takes the room of the question")
-    driving.stage.run_for(0.5, 0.1)
-    assert place(app.shell.question).height > 100
-    assert not place(corner.list).overlaps(place(app.shell.question))
+    for screen in ("drive", "mission", "topics", "tasks"):
+        app.show(screen)
+        driving.until(lambda: app.shell.question.height > 100, "nothing is asked")
+        driving.stage.run_for(0.5, 0.1)
+        assert not place(corner.list).overlaps(place(app.shell.question)), screen
+    assert corner.list.folded, "it takes the room of the question"
     driving.tap(corner.list.ids.fold)
     driving.stage.run_for(0.3, 0.1)
     assert not corner.list.folded, "it cannot be read while something is asked"
@@ -340,6 +342,9 @@ def test_what_is_only_said_is_said_above_the_list(driving: Glass, robot: FakeRob
     driving.stage.run_for(0.5, 0.1)
     assert not corner.list.folded
     assert not place(corner.list).overlaps(place(app.shell.notices))
+    app.shell.say("The map was sent. " * 12, about="map")
+    driving.stage.run_for(0.5, 0.1)
+    assert corner.list.folded, "too little of the lists is left"
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -362,6 +367,13 @@ def test_no_button_is_as_large_as_stop(
         driving.stage.frames(3)
         assert_stop_is_largest(app, "order")
         app.screens["tasks"].close()
+        asking(robot)
+        for screen in ("drive", "mission", "topics", "tasks"):
+            app.show(screen)
+            driving.stage.run_for(0.3, 0.1)
+            driving.until(lambda: app.shell.question.height > 80, "nothing is asked")
+            assert_stop_is_largest(app, f"{screen} asks")
+        asking(robot, "")
 
 
 def assert_stop_is_largest(app: Any, where: str) -> None:

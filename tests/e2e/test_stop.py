@@ -42,7 +42,7 @@ def test_a_watcher_stops_a_robot_that_somebody_else_drives(
 ) -> None:
     with handheld(tmp_path, url=robot.url, discover=False) as glass:
         glass.until(lambda: glass.app.session.control == "mine", "control")
-        glass.app.session.release_control()
+        glass.app.session.authority.release()
         glass.until(lambda: glass.app.session.control == "free", "free control")
         with somebody_drives(robot.url):
             glass.until(lambda: witness.speed() > 0.2, "the other client to drive")

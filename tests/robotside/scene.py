@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
 from pathlib import Path
 
 from bridge.msgs import Msg
@@ -46,7 +47,13 @@ class Scene:
     """
 
     def __init__(
-        self, robot: FakeRobot, state: Path, speed: float = 1.0, config: Config = NOTHING_SET
+        self,
+        robot: FakeRobot,
+        state: Path,
+        speed: float = 1.0,
+        config: Config = NOTHING_SET,
+        *,
+        civil: Callable[[], float] | None = None,
     ) -> None:
         self.now = self.clock = 1000.0
         self._speed = speed
@@ -62,6 +69,7 @@ class Scene:
             clock=lambda: self.clock,
             rng=random.Random(1),
             config=config,
+            civil=civil,
         )
         self.said: list[tuple[str, Msg]] = []
         self.station.bus.subscribe(None, lambda topic, msg: self.said.append((topic, msg)))

@@ -408,3 +408,13 @@ def test_what_brings_it_to_the_charger_starts_with_a_low_battery(scene: Scene) -
     scene.robot.battery = 0.09
     scene.run(18.0)
     assert begun(scene) == ["go_home"]
+
+
+def test_the_next_start_is_told_by_the_operators_clock_though_the_computers_was_set(tmp_path: Path) -> None:
+    set_forward = 0.0
+    scene = Scene(FakeRobot(), tmp_path, civil=lambda: 1000.0 + set_forward)
+    set_forward = 3600.0
+    number = plan(scene, HOLD, every=60.0)
+    assert scene.station.records.schedule.all()[0].next.seconds == 4660.0, "by the computer's, as it starts"
+    assert schedule(scene).tasks[0].id == number
+    assert schedule(scene).tasks[0].next.seconds == pytest.approx(1060.0)

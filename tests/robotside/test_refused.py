@@ -88,7 +88,7 @@ async def test_on_a_full_disk_a_task_begins_and_its_answer_says_what_is_not_kept
     answer = await done(slow, orders[how](), FULL)
     assert answer.success
     assert moves(slow)
-    assert slow.station.agenda.manual_by == ""
+    assert slow.station.agenda.manual.by == ""
     if how not in ("resume", "auto") or manual:
         assert answer.message.endswith(f"A restart would not know of it. {FULL}")
 
@@ -115,7 +115,7 @@ async def test_manual_is_so_whatever_the_disk_says(slow: Slow) -> None:
     answer = await ask(slow, "/mode/set", sent(SetModeRequest, mode="MANUAL"), FULL)
     assert answer.success
     assert answer.message.endswith(FULL)
-    assert slow.station.agenda.manual_by == "a client at 192.0.2.1:5000"
+    assert slow.station.agenda.manual.by == "a client at 192.0.2.1:5000"
 
 
 async def test_a_queue_sets_nothing_off_before_it_is_kept_and_never_when_it_is_refused(slow: Slow) -> None:
@@ -146,7 +146,7 @@ async def test_a_queue_whose_clearing_was_refused_goes_on_waiting(slow: Slow) ->
     await ask(slow, "/mode/set", SetModeRequest(mode="MANUAL"))
     await ask(slow, "/task/queue/set", SetQueueRequest(orders=[STRAIGHT]))
     revision = slow.last("/task/queue").revision
-    slow.station.agenda.allow()
+    slow.station.agenda.manual.end()
     held = slow.station.agenda.held
     assert held
     assert not (await ask(slow, "/task/queue/set", SetQueueRequest(revision=revision), FULL)).success

@@ -78,7 +78,7 @@ def test_in_what_is_small_the_badge_lies_on_the_lower_edge_and_not_on_the_figure
 
 
 def test_in_what_is_big_the_badge_lies_within(stage):
-    widget = stage.show(RobotWidget(state="stale", age=12.0), size=(200, 190))
+    widget = stage.show(RobotWidget(state="stale", age=12.0), size=(200, 260))
     x, y = widget.badge_pos
     width, height = widget.badge_size
     assert x >= widget.x

@@ -76,3 +76,14 @@ def test_a_brief_chip_keeps_its_unit():
     chip = BatteryChip(state="live", brief=True)
     chip.show(BatteryState(percentage=0.87))
     assert chip.children[0].text == "87%"
+
+
+@pytest.mark.parametrize(("brief", "text"), [(False, "87 % · 12 s old"), (True, "87%")])
+def test_an_old_charge_fades_in_the_bar_and_says_how_old_it_is_where_there_is_room(stage, brief, text):
+    chip = stage.show(BatteryChip(state="live", brief=brief))
+    chip.show(BatteryState(percentage=0.87))
+    chip.state, chip.age = "stale", 12.0
+    inner = chip.children[0]
+    assert (inner.text, inner.role, inner.tinted) == (text, "muted", True)
+    chip.state = "live"
+    assert (inner.text[:2], inner.tinted) == ("87", False)

@@ -67,3 +67,11 @@ def test_low_it_says_its_unit_behind_each_figure_or_behind_none(stage):
     view.width = 72
     stage.frames(2)
     assert view.texts[::2] == ["1.0", "−12.3"]
+
+
+def test_a_unit_for_which_its_header_has_no_room_stands_behind_each_figure(stage):
+    view = stage.show(EncodersView(state="live", card=False), size=(98, 76))
+    view.show(wheels(1.0, -12.3))
+    stage.frames(2)
+    assert "rad/s" not in view.texts
+    assert [text for text in view.texts if "rad/s" in text] == ["1.0 rad/s", "−12.3 rad/s"]

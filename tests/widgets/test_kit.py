@@ -374,8 +374,10 @@ def test_a_filled_field_goes_on_saying_what_it_is_for(stage):
     )
     assert field.drop == 0
     field.text = "04 A2"
+    field.label = "Tag of who belongs here and of nobody else"
     stage.frames(1)
-    label_low = field.top - 5 - field.label_texture.height
+    assert field.label_size == tuple(field.label_texture.size)
+    label_low = field.top - 5 - field.label_size[1]
     text_top = field.top - field.padding[1]
     assert field.drop > 0
     assert text_top <= label_low + 2

@@ -84,10 +84,10 @@ def test_rows_and_sentence_follow_a_queue_that_grows(stage, queue):
             assert queue.ids.column.top - top < 12
 
 
-def test_a_queue_that_waits_until_told_says_since_when_and_not_next():
-    assert details(TaskOrder(task="hold"), first=True) == "Next"
-    said = details(
-        TaskOrder(task="hold", message="For Ann"), first=True, held="the task before it was canceled"
-    )
-    assert said == "Waits, since the task before it was canceled · For Ann"
-    assert details(TaskOrder(task="hold"), first=False, held="the task before it was canceled") == ""
+def test_a_queue_that_is_held_does_not_say_next(stage):
+    queue = stage.show(OrderQueue())
+    queue.show(TaskQueue(orders=[TaskOrder(task="hold", message="For Ann"), TaskOrder(task="dock")]))
+    assert [row.detail for row in queue._rows] == ["Next · For Ann", ""]
+    queue.show(TaskQueue(orders=queue.orders, held="the task before it was canceled"))
+    assert [row.detail for row in queue._rows] == ["Waits until told · For Ann", ""]
+    assert details(TaskOrder(task="hold"), first=False, held=True) == ""

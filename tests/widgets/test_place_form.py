@@ -63,7 +63,8 @@ def test_a_dock_needs_a_direction_which_begins_with_the_robots(stage, form):
     assert form.lacking == "A dock needs the direction to stand in."
     pose = PoseWithCovariance(pose=Pose(orientation=Quaternion.from_yaw(math.pi / 2)))
     form.show(PoseWithCovarianceStamped(pose=pose))
-    tap(stage, form, Segment, "In this one")
+    tap(stage, form, Segment, "Faces one way")
+    assert form.faces == "000°"
     assert form.place.yaw == pytest.approx(math.pi / 2)
     assert form.lacking == ""
     tap(stage, form, Segment, "Stands in any direction")

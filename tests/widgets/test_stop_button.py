@@ -148,7 +148,7 @@ def test_on_a_phones_corner_its_words_keep_off_its_edges(stage, phase, local):
 def test_without_a_link_it_says_what_was_heard_last_and_lets_nothing_go(stage, stop):
     stop.phase, stop.ago = "lost", "8 s"
     assert stop.word.replace("\u200a", "") != "STOPPED"
-    assert stop.sentence == "no link, was STOPPED 8 s ago"
+    assert stop.sentence == "no link, was STOPPED 8\u00a0s\u00a0ago"
     stage.touch(150, 40).touch_down()
     stage.run_for(4.0)
     assert stop.heard == ["stop"], "it can be pressed, and holding it releases nothing"

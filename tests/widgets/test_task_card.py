@@ -71,3 +71,11 @@ def test_what_was_cut_short_has_no_figures_of_before(card):
     assert math.isnan(card.progress)
     assert "left" not in card.figures
     assert "%" not in card.figures
+
+
+def test_where_there_is_little_room_the_title_is_from_where_to_where():
+    card = TaskCard(brief=True, state="live")
+    card.show(TaskStatus(task="deliver", state="RUNNING", places=["Office 12", "Charging bay"]))
+    assert card.title == "Office 12 → Charging bay"
+    card.brief = False
+    assert card.title == "Deliver: Office 12 → Charging bay"

@@ -1,0 +1,28 @@
+"""The bar on top of a robot's screens, in the shapes of a window."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from app.screens.top_bar import TopBar
+from bridge.msgs.sensor_msgs import BatteryState
+
+
+@pytest.mark.parametrize("mode", ["AUTO", "STOPPED", "no link"])
+def test_a_phone_has_room_for_the_name_and_keeps_clear_of_its_edge(stage: Any, mode: str) -> None:
+    bar = TopBar()
+    stage.show(bar, size=(412, 56))
+    bar.arrange("tall")
+    bar.robot_name, bar.mode_text = "Patrol-1", mode
+    bar.ids.battery.state = bar.ids.link.state = "live"
+    bar.ids.battery.show(BatteryState(percentage=0.62))
+    bar.ids.link.rtt = 0.288
+    stage.frames(4)
+    name = bar.ids.name
+    name.shorten = False
+    name.text_size = None, None
+    name.texture_update()
+    assert name.texture_size[0] <= name.width
+    assert bar.right - bar.ids.link.right >= 8
