@@ -400,4 +400,4 @@ def test_without_a_link_stop_says_what_was_heard_last_and_a_hold_lets_nothing_go
     finger = driving.hold(stop)
     driving.stage.run_for(4.0, 0.1)
     finger.touch_up()
-    assert session.outcomes["stop"].phase == "no_reply", "it was let go and is sent no longer"
+    driving.until(lambda: session.outcomes["stop"].phase == "no_reply", "it was let go and is sent no longer")
