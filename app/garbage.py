@@ -32,7 +32,7 @@ class Collector:
 
     It holds for the whole process, other threads included; what those leave behind goes with the next frame. What is
     there from the start stays for good and is never looked at. One may be made while another is at work, as by an app that
-    is tested; the last one that is closed gives back what was left out.
+    is tested: then what was there before the first one stays, until the last one is closed.
     """
 
     _at_work = 0
@@ -42,7 +42,8 @@ class Collector:
         self._due = False
         self._blocks = sys.getallocatedblocks()
         Collector._at_work += 1
-        gc.freeze()
+        if Collector._at_work == 1:
+            gc.freeze()
         self.resume()
 
     def close(self) -> None:

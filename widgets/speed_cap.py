@@ -45,7 +45,9 @@ class SpeedCap(NoticeCard):
         if math.isnan(self.rtt):
             return "Slow link"
         figure = f"{self.rtt * 1000:.0f} ms"
-        return f"Slow link, {figure}" if self.rtt >= SLOW else f"The robot measured a slow link; here {figure}"
+        return (
+            f"Slow link, {figure}" if self.rtt >= SLOW else f"The robot measured a slow link; here {figure}"
+        )
 
     why = AliasProperty(_why, bind=["rtt", "driver"], cache=True)
     """As in `Slow link, 320 ms`, without a figure before there is one; the robot judges by what it measures itself."""

@@ -265,16 +265,20 @@ class StopList(Control, BoxLayout):
     def __init__(self, **kwargs: Any) -> None:
         self._rows: list[StopRow] = []
         super().__init__(**kwargs)
+        self._unfolded = [self.ids[name].__self__ for name in ("roll", "footnote", "release")]
+        """What is away while it is folded: kv holds ids weakly."""
         for part in (self.ids.column, self.ids.footnote, self.ids.head, self.ids.release):
             part.bind(height=self._measure)
         self._measure()
         self.bind(folded=self._fold)
+        if self.folded:
+            self._fold()
 
     def _fold(self, *_: object) -> None:
         """All but the head away, or back."""
-        card, ids = self.ids.card, self.ids
-        ids.release.rest()
-        for part in (ids.roll, ids.footnote, ids.release):
+        card = self.ids.card
+        self.ids.release.rest()
+        for part in self._unfolded:
             if self.folded:
                 card.remove_widget(part)
             else:

@@ -267,8 +267,8 @@ class Shell(FloatLayout):
                 self.unsay(kind)
         lost_for = self.session.stop_lost_for
         self.stop.ago = "" if math.isnan(lost_for) else silence(lost_for)
-        # without a link nothing that the robot holds can be let go
-        self.stop.local = self.session.foreign or (self.session.stop_latched and self.session.connected)
+        # without a link nothing can be let go, and nothing is offered to be held
+        self.stop.local = self.session.connected and (self.session.foreign or self.session.stop_latched)
         self.stop.phase = self.session.stop_phase
 
     def _tick_banner(self) -> None:
@@ -295,7 +295,7 @@ class Shell(FloatLayout):
     def _tick_question(self) -> None:
         """What the task asks is over every screen until it is answered."""
         card = self.question
-        card.blocked = not self.session.connected or self.session.control == "other"
+        card.blocked = not self.session.may_ask
         card.held = self.session.stop_latched
         card.tight = self.form == "short"
         card.old = "" if self.session.connected else age_text(self.session.feeds.age("/task/status"))

@@ -143,7 +143,8 @@ def plan_ahead(scene: Scene) -> Wait:
 
 
 def _choose(scene: Scene, name: str) -> Wait:
-    """Take a place for the highest field that has none yet."""
+    """Take a place for the highest field that has none yet, when the form has come to rest."""
+    yield from scene.glass.pause(0.5)
     empty = yield from scene.glass.until(
         lambda: scene.glass.labelled("Choose a place"), 5, "a field for a place"
     )

@@ -200,6 +200,7 @@ def test_nothing_can_be_asked_for_before_it_is_known_who_has_control(driving: Gl
     app = driving.app
     feed = app.feeds["/control/status"]
     told, feed.message = feed.message, None
+    app.session.listeners[0]("/robot/info", Post(app.session.info, app._now(), 1))
     app.shell.tick()
     drive, mission = app.screens["drive"], app.screens["mission"]
     mission.tick()

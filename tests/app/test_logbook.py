@@ -139,7 +139,9 @@ def test_what_was_missed_is_said_once_and_what_waits_in_it_is_counted(book: Logb
     assert (book.news(), book.words) == ("", "2 while you were away")
     book.take(event(4))
     book.miss(Missed("a", 3, 4, gone=True))
-    assert book.news() == "1 event while you were away; the robot keeps no more of them.", "of the last absence"
+    assert book.news() == "1 event while you were away; the robot keeps no more of them.", (
+        "of the last absence"
+    )
     assert book.words == "1 and more while you were away"
     book.look()
     assert book.news() == ""

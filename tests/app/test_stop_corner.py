@@ -382,3 +382,22 @@ def assert_stop_is_largest(app: Any, where: str) -> None:
         if isinstance(widget, PushButton | NavButton | StopAll) and widget.opacity:
             large = widget.width * widget.height
             assert large < stop.width * stop.height, f"{where}: {getattr(widget, 'text', widget)}"
+
+
+def test_without_a_link_stop_says_what_was_heard_last_and_a_hold_lets_nothing_go(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    stop, session = driving.app.shell.stop, driving.app.session
+    driving.tap(stop)
+    driving.until(lambda: stop.phase == "stopped", "not stopped")
+    robot.stop()
+    driving.until(lambda: not session.connected, "the link stands")
+    driving.until(lambda: stop.phase == "lost", "it says more than is known")
+    assert stop.sentence.startswith("no link, was STOPPED ")
+    driving.tap(stop)
+    driving.until(lambda: stop.phase == "no_answer", "it claims to be sent")
+    assert stop.sentence == "no answer, sending again", "a hold is offered that lets nothing go"
+    finger = driving.hold(stop)
+    driving.stage.run_for(4.0, 0.1)
+    finger.touch_up()
+    driving.until(lambda: session.outcomes["stop"].phase == "no_reply", "it was let go and is sent no longer")

@@ -79,7 +79,7 @@ def test_every_bench_declares_its_figures_and_says_how_it_measures():
     for name in names():
         source = (command.ROOT / "bench" / f"{name}.py").read_text()
         assert source.startswith('"""')
-        assert "\nFIGURES = (" in source
+        assert "\nFIGURES = " in source
         assert "\nREPEATS = " in source
         assert "\ndef prepare(" in source
 

@@ -57,7 +57,7 @@ def test_a_watcher_stops_a_robot_that_somebody_else_drives(
         glass.app.session.take_control()
         glass.until(lambda: glass.app.session.control == "mine", "control")
         finger = glass.hand.down(stop.to_window(*stop.center))
-        glass.until(lambda: stop.phase == "ready", "the release after a hold", 4.0)
+        glass.until(lambda: stop.phase == "ready", "the release after a hold")
         glass.hand.up(finger)
         glass.run(0.1)
 

@@ -28,7 +28,7 @@ def glass(strange: Strange, tmp_path: Path) -> Iterator[Handheld]:
 
 def press_and_hold(glass: Handheld, stop: Any) -> None:
     finger = glass.hand.down(stop.to_window(*stop.center))
-    glass.until(lambda: stop.phase == "ready", "the release after a hold", 5.0)
+    glass.until(lambda: stop.phase == "ready", "the release after a hold")
     glass.hand.up(finger)
 
 

@@ -156,9 +156,14 @@ async def test_one_that_is_driven_elsewhere_now_rests_by_the_old_topic_and_that_
             await until(lambda: robot.trouble)
             drive_by(server, "/cmd_vel", "geometry_msgs/TwistStamped")
             await until(lambda: not robot.trouble)
-            said = said_to(server)
-            asked = said.index(("call_service", "/rosapi/topics"))
-            assert [each for each in said[asked:] if each[1].endswith("cmd_vel")][:4] == [
+
+            def told() -> list[tuple[str, str]]:
+                said = said_to(server)
+                asked = said.index(("call_service", "/rosapi/topics"))
+                return [each for each in said[asked:] if each[1].endswith("cmd_vel")][:4]
+
+            await until(lambda: len(told()) == 4)
+            assert told() == [
                 ("publish", "/base/cmd_vel"),
                 ("unadvertise", "/base/cmd_vel"),
                 ("advertise", "/cmd_vel"),

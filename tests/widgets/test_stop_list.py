@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import gc
+
 import pytest
 
 from widgets.stop_list import SOME, StopList
@@ -126,3 +128,11 @@ def test_a_frame_that_takes_long_is_no_hold(stage, result):
     stage.frames(3, 1.3)
     finger.touch_up()
     assert result.heard == []
+
+
+def test_what_was_folded_comes_back_whole_after_the_collector_came(stage) -> None:
+    folded = StopList(folded=True)
+    gc.collect()
+    folded.folded = False
+    stage.frames(1)
+    assert {child.__class__.__name__ for child in folded.ids.card.children} >= {"Roll", "HoldButton"}
