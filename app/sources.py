@@ -24,7 +24,7 @@ UNUSED = ("/tf", "/diagnostics", "/bumper")
 """Topics that no screen shows."""
 FASTEST = 50
 """No stream is asked for more often than this [ms]: the eye sees no more."""
-SLOW = {"/line": 100, "/joint_states": 100}
+SLOW = {"/line_sensor": 100, "/joint_states": 100}
 """Streams that are shown as figures, with the time between two that can be read [ms]."""
 BULKY = (
     "sensor_msgs/LaserScan",

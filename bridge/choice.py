@@ -43,7 +43,7 @@ _FAVOURED = ("front", "rgb", "color", "filtered")
 _AVOIDED = ("ground_truth", "rear", "back", "raw")
 """Words that speak for one of several topics of a type, and against one."""
 
-_SIDES = ("/ultrasound/left", "/ultrasound/right", "/ultrasound/rear")
+_SIDES = ("/range/left", "/range/right", "/range/rear")
 """Where nothing but the name says what is measured: a sensor that looks ahead is no other one's."""
 
 _EXACT = frozenset({*(entry.name for entry in TOPICS if entry.on_demand and entry.name != CAMERA), *_SIDES})

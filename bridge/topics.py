@@ -43,6 +43,9 @@ class Topic:
         return self.rate == 0 and not self.once
 
 
+SONARS = 16
+"""Of a ring that have a topic of their own."""
+
 TOPICS: tuple[Topic, ...] = (
     Topic("/robot/info", pilothouse_msgs.RobotInfo, 0, "handheld", "who the robot is and what it can do"),
     Topic(
@@ -54,18 +57,22 @@ TOPICS: tuple[Topic, ...] = (
     Topic("/scan", sensor_msgs.LaserScan, 10, "handheld", "the laser's last sweep"),
     Topic("/bumper", pilothouse_msgs.Bumper, 10, "handheld", "the bumper ring"),
     Topic(
-        "/line", pilothouse_msgs.LineSensor, 20, "handheld", "how bright the ground is under it, cell by cell"
+        "/line_sensor",
+        pilothouse_msgs.LineSensor,
+        20,
+        "handheld",
+        "how bright the ground is under it, cell by cell",
     ),
     Topic(
-        "/ultrasound/front",
+        "/range/front",
         sensor_msgs.Range,
         10,
         "handheld",
         "how far the nearest thing ahead is, by its echo",
     ),
-    Topic("/ultrasound/left", sensor_msgs.Range, 10, "handheld", "the same to the left"),
-    Topic("/ultrasound/right", sensor_msgs.Range, 10, "handheld", "the same to the right"),
-    Topic("/ultrasound/rear", sensor_msgs.Range, 10, "handheld", "the same behind it"),
+    Topic("/range/left", sensor_msgs.Range, 10, "handheld", "the same to the left"),
+    Topic("/range/right", sensor_msgs.Range, 10, "handheld", "the same to the right"),
+    Topic("/range/rear", sensor_msgs.Range, 10, "handheld", "the same behind it"),
     Topic("/battery_state", sensor_msgs.BatteryState, 1, "handheld", "the battery"),
     Topic(
         "/joint_states", sensor_msgs.JointState, 20, "handheld", "angles and speeds of wheels, legs or rotors"
@@ -75,6 +82,17 @@ TOPICS: tuple[Topic, ...] = (
     ),
     Topic("/manoeuvre", pilothouse_msgs.Manoeuvre, 10, "handheld", "the order that it moves by"),
     Topic("/sonar", pilothouse_msgs.SonarRing, 10, "handheld", "distances all round by ultrasound"),
+    *(
+        Topic(
+            f"/sonar/{number}",
+            sensor_msgs.Range,
+            10,
+            "handheld",
+            f"sonar {number} of the ring",
+            on_demand=True,
+        )
+        for number in range(SONARS)
+    ),
     Topic("/ackermann", pilothouse_msgs.AckermannState, 20, "handheld", "steering, wheels, turning radius"),
     Topic("/rudder", pilothouse_msgs.RudderState, 10, "handheld", "rudder and propeller"),
     Topic("/compass", pilothouse_msgs.Compass, 10, "handheld", "heading, roll and pitch by compass"),
@@ -145,6 +163,13 @@ TOPICS: tuple[Topic, ...] = (
         on_demand=True,
     ),
     Topic("/cmd_vel", geometry_msgs.Twist, 20, "robot", "the operator's drive command; counts for 0.25 s"),
+    Topic(
+        "/cmd_manoeuvre",
+        pilothouse_msgs.Manoeuvre,
+        20,
+        "robot",
+        "the same where a twist does not say it: steer or tilt; counts for 0.25 s",
+    ),
     Topic("/goal_pose", geometry_msgs.PoseStamped, 0, "robot", "go there, once"),
     Topic(
         "/initialpose",

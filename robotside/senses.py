@@ -19,11 +19,11 @@ _MORE = {
     "/imu/data": "IMU",
     "/bumper": "bumper",
     "/joint_states": "encoders",
-    "/line": "line sensor",
-    "/ultrasound/front": "front ultrasound",
-    "/ultrasound/left": "left ultrasound",
-    "/ultrasound/right": "right ultrasound",
-    "/ultrasound/rear": "rear ultrasound",
+    "/line_sensor": "line sensor",
+    "/range/front": "front ultrasound",
+    "/range/left": "left ultrasound",
+    "/range/right": "right ultrasound",
+    "/range/rear": "rear ultrasound",
 }
 """Sensors that a robot may have; they count once they were heard."""
 

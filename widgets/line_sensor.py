@@ -1,7 +1,7 @@
 """The cells of a line sensor as bright as the ground under them, and where the line is.
 
 line = LineSensorView(title="Line")
-robot.on("/line", line.show)
+robot.on("/line_sensor", line.show)
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Ultrasonic rangers seen from above: how far it is clear on each side.
 
 echoes = UltrasoundView(title="Ultrasound")
-robot.on("/ultrasound/front", echoes.show)
+robot.on("/range/front", echoes.show)
 """
 
 from __future__ import annotations

@@ -38,6 +38,10 @@ EXTENDS = {
     "pilothouse_msgs/SetModeResponse": "pilothouse_msgs/CommandResponse",
     "pilothouse_msgs/SetOptionRequest": "pilothouse_msgs/CommandRequest",
     "pilothouse_msgs/SetOptionResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/SetLightsRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/SetLightsResponse": "pilothouse_msgs/CommandResponse",
+    "pilothouse_msgs/MoveArmRequest": "pilothouse_msgs/CommandRequest",
+    "pilothouse_msgs/MoveArmResponse": "pilothouse_msgs/CommandResponse",
     "pilothouse_msgs/GetMissionsRequest": "pilothouse_msgs/CommandRequest",
     "pilothouse_msgs/GetMissionsResponse": "pilothouse_msgs/CommandResponse",
     "pilothouse_msgs/RecallMissionRequest": "pilothouse_msgs/CommandRequest",
@@ -72,7 +76,9 @@ DEFAULTS = {
     "pilothouse_msgs/StartTaskRequest": {"stamp": "math.nan"},
     "pilothouse_msgs/SetMissionRequest": {"stamp": "math.nan"},
     "pilothouse_msgs/Place": {"yaw": "math.nan"},
-    "pilothouse_msgs/TaskOrder": dict.fromkeys(("heading", "speed", "duration"), "math.nan"),
+    "pilothouse_msgs/TaskOrder": dict.fromkeys(
+        ("heading", "speed", "throttle", "height", "duration"), "math.nan"
+    ),
     "pilothouse_msgs/Limits": dict.fromkeys(
         ("max_speed", "max_yaw_rate", "min_depth", "max_depth", "max_height", "max_slope"), "math.nan"
     ),

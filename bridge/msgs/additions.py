@@ -37,7 +37,19 @@ PLACE_KINDS = ("place", "office", "home", "dock", "reception", "lab", "hall")
 """What a named place may be."""
 REACTIONS = ("stop", "report", "circle")
 """What a patrol may do about an intruder: halt, only tell of it, or go once round it looking at it, and then on."""
-TASKS = ("patrol", "deliver", "guide", "go_to", "go_home", "hold", "follow_heading", "dock")
+TASKS = (
+    "patrol",
+    "deliver",
+    "guide",
+    "go_to",
+    "go_home",
+    "hold",
+    "follow_heading",
+    "dock",
+    "take_off",
+    "land",
+    "surface",
+)
 """What a robot may be asked to do."""
 
 

@@ -116,7 +116,7 @@ class MountedSonar(_Plain):
 
 
 class MountedUltrasound(_Plain):
-    """Four rangers under `/ultrasound/SIDE`."""
+    """Four rangers under `/range/SIDE`."""
 
     def __init__(self, vehicle: Vehicle, figures: UltrasoundMount) -> None:
         """At the edge of the deck of `vehicle`."""
@@ -141,12 +141,12 @@ class MountedUltrasound(_Plain):
         vehicle.suite.add(
             "ultrasound",
             figures.rate,
-            lambda _, stamp: ((f"/ultrasound/{side}", echo) for side, echo in rangers.measure(stamp)),
+            lambda _, stamp: ((f"/range/{side}", echo) for side, echo in rangers.measure(stamp)),
         )
 
 
 class MountedLine(_Plain):
-    """Cells that look at the ground, under `/line`."""
+    """Cells that look at the ground, under `/line_sensor`."""
 
     def __init__(self, vehicle: Vehicle, figures: LineMount) -> None:
         """Under the bow of `vehicle`; ValueError for one that does not drive on the ground."""
@@ -168,7 +168,7 @@ class MountedLine(_Plain):
         scene = vehicle.scene
         cells = LineCells(parameters, Paint(scene.world), scene.generator("payload line"))
         vehicle.suite.add(
-            "line_sensor", figures.rate, lambda state, stamp: [("/line", cells.measure(state, stamp))]
+            "line_sensor", figures.rate, lambda state, stamp: [("/line_sensor", cells.measure(state, stamp))]
         )
 
 

@@ -21,7 +21,7 @@ from tests.app.glass import Glass
 from widgets import EncodersView, LineSensorView, UltrasoundView
 
 STRIP, ROOM = Rect(10, 400, 380, 54), Rect(10, 200, 380, 190)
-SIDES = ("/ultrasound/front", "/ultrasound/left")
+SIDES = ("/range/front", "/range/left")
 
 
 class Held:
@@ -34,7 +34,7 @@ class Held:
         self.card = Senses(self.feeds)
         self.ultrasound, self.line, self.encoders = UltrasoundView(), LineSensorView(), EncodersView()
         self.card.add(self.ultrasound, SIDES)
-        self.card.add(self.line, ("/line",))
+        self.card.add(self.line, ("/line_sensor",))
         self.card.add(self.encoders, ("/joint_states",))
         stage.window.add_widget(self.card)
         self.card.place(STRIP, ROOM)
@@ -46,8 +46,8 @@ class Held:
         self.stage.frames(2)
 
     def hear_all(self) -> None:
-        self.hear("/ultrasound/front", Range(range=1.0))
-        self.hear("/line", LineSensor(values=Float32Array([0.1, 0.8])))
+        self.hear("/range/front", Range(range=1.0))
+        self.hear("/line_sensor", LineSensor(values=Float32Array([0.1, 0.8])))
         self.hear("/joint_states", JointState(name=["wheel_left_joint"], velocity=Float64Array([1.0])))
 
 
@@ -64,7 +64,7 @@ def test_of_a_robot_without_small_sensors_nothing_is_on_the_glass(held: Held) ->
 
 
 def test_only_what_the_robot_has_told_of_has_a_place(held: Held) -> None:
-    held.hear("/line", LineSensor())
+    held.hear("/line_sensor", LineSensor())
     assert held.card.shown == (held.line,)
     assert held.encoders.parent is None
     held.hear_all()
@@ -134,7 +134,7 @@ def test_what_is_as_old_as_the_rest_does_not_say_so_again(held: Held) -> None:
     held.now += 5.0
     held.card.tick()
     assert [one.badge for one in held.card.shown] == ["5 s old", "", ""]
-    held.hear("/line", LineSensor())
+    held.hear("/line_sensor", LineSensor())
     held.now += 4.0
     held.card.tick()
     assert [one.badge for one in held.card.shown] == ["9 s old", "4 s old", "9 s old"]
@@ -149,8 +149,8 @@ def test_the_drive_screen_shows_the_readings_and_marks_the_intruder_in_the_pictu
     robot.publish("/robot/info", RobotInfo(name="Fake-1", kind="wheels", max_speed=0.8, camera_fov=1.2))
     for side, away in (("front", 0.4), ("left", math.inf)):
         message = Range(Header(Time.at(5.0), f"ultrasound_{side}"), max_range=4.0, range=away)
-        robot.publish(f"/ultrasound/{side}", message)
-    robot.publish("/line", LineSensor(values=Float32Array([0.1, 0.8, 0.1]), spacing=0.02))
+        robot.publish(f"/range/{side}", message)
+    robot.publish("/line_sensor", LineSensor(values=Float32Array([0.1, 0.8, 0.1]), spacing=0.02))
     found = Intruder(2, "cone", Point(3.0, 3.0), Time.at(90.0))
     robot.publish("/intruders", IntruderArray(intruders=[found]))
     driving.until(lambda: len(screen.senses.shown) == 2, "no readings")
@@ -174,7 +174,7 @@ def test_what_the_unfolded_sensors_cover_is_not_seen_until_they_fold(
     driving: Glass, robot: FakeRobot
 ) -> None:
     screen = driving.app.screens["drive"]
-    robot.publish("/line", LineSensor(values=Float32Array([0.1])))
+    robot.publish("/line_sensor", LineSensor(values=Float32Array([0.1])))
     driving.until(lambda: screen.senses.shown, "no line sensor")
     screen.arrange(Rect(0, 60, 412, 776), "tall", 1.0)
     laser = screen.places["top_left"][0]

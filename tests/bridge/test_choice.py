@@ -36,8 +36,8 @@ def among(ours: str, kind: str, *names: str) -> str:
         ("/plan", "nav_msgs/Path", ("/move_base/local_plan",), ""),
         ("/pose", "geometry_msgs/PoseWithCovarianceStamped", ("/initialpose",), ""),
         ("/robot/info", "pilothouse_msgs/RobotInfo", ("/rex/robot/info",), ""),
-        ("/ultrasound/front", "sensor_msgs/Range", ("/sonar",), "/sonar"),
-        ("/ultrasound/left", "sensor_msgs/Range", ("/sonar",), ""),
+        ("/range/front", "sensor_msgs/Range", ("/sonar",), "/sonar"),
+        ("/range/left", "sensor_msgs/Range", ("/sonar",), ""),
     ],
 )
 def test_the_usual_name_then_the_type_and_what_the_name_says(

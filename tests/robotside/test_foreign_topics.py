@@ -26,11 +26,11 @@ def test_usual_names_need_no_word() -> None:
 
 
 def test_small_sensors_are_passed_on_where_a_robot_has_them() -> None:
-    found = match(TURTLEBOT | {"/line": "pilothouse_msgs/LineSensor", "/sonar": "sensor_msgs/Range"})
-    assert found.topics["/line"] == ("/line", LineSensor)
-    assert found.topics["/ultrasound/front"] == ("/sonar", Range)
-    assert "/ultrasound/left" not in found.topics
-    assert "/line" not in match(TURTLEBOT).topics
+    found = match(TURTLEBOT | {"/line_sensor": "pilothouse_msgs/LineSensor", "/sonar": "sensor_msgs/Range"})
+    assert found.topics["/line_sensor"] == ("/line_sensor", LineSensor)
+    assert found.topics["/range/front"] == ("/sonar", Range)
+    assert "/range/left" not in found.topics
+    assert "/line_sensor" not in match(TURTLEBOT).topics
 
 
 def test_a_bare_robot_says_what_it_has_not() -> None:

@@ -22,15 +22,15 @@ ACROSS = "[[lines]]\nfrom = [1.0, -3.0]\nto = [1.0, 3.0]\nwidth = 0.12\n"
 def test_who_drives_over_a_line_towards_a_wall_sees_it_pass_and_the_wall_come_near(tmp_path: Path) -> None:
     world = parse(ROOM.format(length=8.0, width=6.0, x=0.0, y=0.0, yaw=0.0) + ACROSS, "room.toml")
     run = Run(SimRobot(Simulation(world, PATROL, noise=False), camera=False), tmp_path)
-    heard: dict[str, list[Msg]] = {"/line": [], "/ultrasound/front": [], "/joint_states": []}
+    heard: dict[str, list[Msg]] = {"/line_sensor": [], "/range/front": [], "/joint_states": []}
     for topic in heard:
         run.station.bus.subscribe(topic, lambda name, message: heard[name].append(message))
     for _ in range(80):
         run.station.hear(run.anna, "/cmd_vel", Twist.planar(0.6, 0.0), run.now)
         run.wait(0.05)
     run.station.close()
-    bright = [message.values[3] > 0.5 for message in heard["/line"] if isinstance(message, LineSensor)]
-    away = [message.range for message in heard["/ultrasound/front"] if isinstance(message, Range)]
+    bright = [message.values[3] > 0.5 for message in heard["/line_sensor"] if isinstance(message, LineSensor)]
+    away = [message.range for message in heard["/range/front"] if isinstance(message, Range)]
     wheels = [message.velocity[0] for message in heard["/joint_states"] if isinstance(message, JointState)]
     assert (bright[0], any(bright), bright[-1]) == (False, True, False)
     assert away[0] > 3.7

@@ -65,9 +65,9 @@ def test_what_it_drives_with_is_missed_from_the_start_and_the_rest_once_it_was_t
 
 def test_small_sensors_that_fell_silent_are_named() -> None:
     senses = Senses()
-    for topic, message in (("/odom", ODOM), ("/scan", LaserScan()), ("/line", LineSensor())):
+    for topic, message in (("/odom", ODOM), ("/scan", LaserScan()), ("/line_sensor", LineSensor())):
         senses.take(topic, message, 0.0)
-    senses.take("/ultrasound/rear", Range(), 0.0)
+    senses.take("/range/rear", Range(), 0.0)
     for topic, message in (("/odom", ODOM), ("/scan", LaserScan())):
         senses.take(topic, message, 2.0)
     assert senses.silent(2.0) == ["line sensor", "rear ultrasound"]

@@ -36,31 +36,31 @@ def share(world: World, x: float, y: float) -> float:
 
 
 def test_a_line_ahead_is_bright_under_the_middle_cells_and_asphalt_is_dark() -> None:
-    told = first(painted(ALONG.format(0.0)), "/line")
+    told = first(painted(ALONG.format(0.0)), "/line_sensor")
     assert list(told.values[3:5]) == pytest.approx([0.8, 0.8])
     assert [told.values[0], told.values[7]] == pytest.approx([0.12, 0.12])
     assert (told.header.frame_id, told.spacing) == ("line_sensor", 0.020)
 
 
 def test_the_cells_are_told_from_left_to_right() -> None:
-    left = first(painted(ALONG.format(0.06)), "/line").values
-    right = first(painted(ALONG.format(-0.06)), "/line").values
+    left = first(painted(ALONG.format(0.06)), "/line_sensor").values
+    right = first(painted(ALONG.format(-0.06)), "/line_sensor").values
     assert left[1] > 0.7 > 0.2 > left[6]
     assert right[6] > 0.7 > 0.2 > right[1]
 
 
 def test_the_cells_turn_with_the_robot() -> None:
-    told = first(painted(ALONG.format(0.06), yaw=180), "/line").values
+    told = first(painted(ALONG.format(0.06), yaw=180), "/line_sensor").values
     assert told[6] > 0.7 > 0.2 > told[1]
 
 
 def test_bare_ground_is_dark_everywhere() -> None:
-    assert list(first(room(), "/line").values) == pytest.approx([0.12] * 8)
+    assert list(first(room(), "/line_sensor").values) == pytest.approx([0.12] * 8)
 
 
 def test_the_noise_of_the_cells_is_as_large_as_their_parameters_say() -> None:
     robot = robot_in(room(), noise=True, seed=2)
-    values = np.array([m.values for name, m in robot.read(5.0) if name == "/line"])
+    values = np.array([m.values for name, m in robot.read(5.0) if name == "/line_sensor"])
     robot.close()
     assert len(values) == 100
     assert float(values.std(axis=0).mean()) == pytest.approx(0.015, rel=0.2)
@@ -89,7 +89,7 @@ def test_the_car_park_is_painted_where_its_pictures_are(x: float, y: float, pain
 
 def echoes(world: World, **more: Any) -> dict[str, float]:
     robot = robot_in(world, **more)
-    told = {name: message.range for name, message in robot.read(0.11) if name.startswith("/ultrasound/")}
+    told = {name: message.range for name, message in robot.read(0.11) if name.startswith("/range/")}
     robot.close()
     return {name.rpartition("/")[2]: measured for name, measured in told.items()}
 
@@ -113,7 +113,7 @@ def test_what_stands_beside_the_axis_but_in_the_cone_is_heard() -> None:
 
 
 def test_a_ranger_says_what_it_is() -> None:
-    told = first(room(), "/ultrasound/left")
+    told = first(room(), "/range/left")
     assert (told.header.frame_id, told.radiation_type) == ("ultrasound_left", told.ULTRASOUND)
     assert (told.min_range, told.max_range) == (0.02, 4.0)
     assert told.field_of_view == pytest.approx(math.radians(15), abs=1e-3)
@@ -121,7 +121,7 @@ def test_a_ranger_says_what_it_is() -> None:
 
 def test_the_noise_of_a_ranger_is_as_large_as_its_data_sheet_says() -> None:
     robot = robot_in(room(6.0, 4.0), noise=True, seed=5)
-    told = [message.range for name, message in robot.read(8.0) if name == "/ultrasound/rear"]
+    told = [message.range for name, message in robot.read(8.0) if name == "/range/rear"]
     robot.close()
     assert len(told) == 80
     assert statistics.stdev(told) == pytest.approx(0.003, rel=0.3)

@@ -122,9 +122,9 @@ def test_mounted_rangers_and_a_line_sensor_measure_what_is_round_and_under_it():
     robot = carrying("ultrasound", "line_sensor", world=room(6.0, 5.0, extra=line))
     messages = until(robot, 0.2)
     robot.close()
-    assert said(messages, "/ultrasound/front")[0].range == pytest.approx(3.0 - 0.205, abs=0.02)
-    assert said(messages, "/ultrasound/left")[0].range == pytest.approx(2.5 - 0.205, abs=0.02)
-    assert all(value > 0.8 for value in said(messages, "/line")[0].values)
+    assert said(messages, "/range/front")[0].range == pytest.approx(3.0 - 0.205, abs=0.02)
+    assert said(messages, "/range/left")[0].range == pytest.approx(2.5 - 0.205, abs=0.02)
+    assert all(value > 0.8 for value in said(messages, "/line_sensor")[0].values)
 
 
 def test_what_does_not_drive_takes_no_line_sensor():

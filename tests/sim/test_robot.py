@@ -23,11 +23,11 @@ STREAMS = (
     "/bumper",
     "/battery_state",
     "/joint_states",
-    "/line",
-    "/ultrasound/front",
-    "/ultrasound/left",
-    "/ultrasound/right",
-    "/ultrasound/rear",
+    "/line_sensor",
+    "/range/front",
+    "/range/left",
+    "/range/right",
+    "/range/rear",
 )
 
 

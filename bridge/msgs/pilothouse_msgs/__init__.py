@@ -42,13 +42,15 @@ from bridge.msgs.pilothouse_msgs.part2 import (
     Manoeuvre,
     Mission,
     MotorArray,
-    Place,
-    PlaceArray,
+    MoveArmRequest,
+    MoveArmResponse,
     TaskOrder,
     TaskRun,
     Waypoint,
 )
 from bridge.msgs.pilothouse_msgs.part3 import (
+    Place,
+    PlaceArray,
     RecallMissionRequest,
     RecallMissionResponse,
     RobotInfo,
@@ -58,6 +60,8 @@ from bridge.msgs.pilothouse_msgs.part3 import (
     RunTaskResult,
     Schedule,
     ScheduledTask,
+    SetLightsRequest,
+    SetLightsResponse,
     SetMissionRequest,
     SetMissionResponse,
     SetModeRequest,
@@ -66,15 +70,20 @@ from bridge.msgs.pilothouse_msgs.part3 import (
     SetOptionResponse,
     SetPlaceRequest,
     SetPlaceResponse,
+    StartTaskRequest,
+    TaskProgress,
+)
+from bridge.msgs.pilothouse_msgs.part4 import (
     SetQueueRequest,
     SetQueueResponse,
     SetScheduleRequest,
     SetScheduleResponse,
     SonarRing,
-    StartTaskRequest,
-    TaskProgress,
+    StartTaskResponse,
+    TagRead,
+    TaskQueue,
+    TaskStatus,
 )
-from bridge.msgs.pilothouse_msgs.part4 import StartTaskResponse, TagRead, TaskQueue, TaskStatus
 
 __all__ = [
     "AckermannState",
@@ -117,6 +126,8 @@ __all__ = [
     "Manoeuvre",
     "Mission",
     "MotorArray",
+    "MoveArmRequest",
+    "MoveArmResponse",
     "PLACE_KINDS",
     "Place",
     "PlaceArray",
@@ -130,6 +141,8 @@ __all__ = [
     "RunTaskResult",
     "Schedule",
     "ScheduledTask",
+    "SetLightsRequest",
+    "SetLightsResponse",
     "SetMissionRequest",
     "SetMissionResponse",
     "SetModeRequest",

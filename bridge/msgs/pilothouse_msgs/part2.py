@@ -11,7 +11,7 @@ from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.geometry_msgs import Point, Polygon, Twist
-from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse
+from bridge.msgs.pilothouse_msgs.part1 import ArmOrder, CommandRequest, CommandResponse
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
@@ -29,8 +29,8 @@ __all__ = [
     "Manoeuvre",
     "Mission",
     "MotorArray",
-    "Place",
-    "PlaceArray",
+    "MoveArmRequest",
+    "MoveArmResponse",
     "TaskOrder",
     "TaskRun",
     "Waypoint",
@@ -69,12 +69,16 @@ class TaskOrder(Msg, frozen=True, gc=False):
         "float64",
         "float64",
         "float64",
+        "float64",
+        "float64",
     )
-    UNITS: ClassVar[dict[str, str]] = {"heading": "rad", "speed": "m/s", "duration": "s"}
+    UNITS: ClassVar[dict[str, str]] = {"heading": "rad", "speed": "m/s", "height": "m", "duration": "s"}
     id: int32 = 0
     """Given by the robot; 0 for a new one."""
     task: str = ""
-    """patrol, deliver, guide, go_to, go_home, hold, follow_heading or dock."""
+    """patrol, deliver, guide, go_to, go_home, hold, follow_heading, dock, take_off, land or surface; which
+    ones a robot knows is in its RobotInfo.
+    """
     places: list[str] = []
     """Names. Patrol: none takes the stored mission. Deliver: from, to and, if it shall go on to one then,
     a third. Guide: in this order. Go_to and dock: one.
@@ -88,7 +92,15 @@ class TaskOrder(Msg, frozen=True, gc=False):
     heading: float = math.nan
     """Where follow_heading goes [rad], 0 east, anticlockwise; NaN for where it points."""
     speed: float = math.nan
-    """How fast [m/s]; NaN for the robot's cruising speed."""
+    """How fast [m/s]; NaN for the robot's cruising speed, or what the throttle says."""
+    throttle: float = math.nan
+    """For follow_heading in place of a speed: share of the full power, -1 to 1; NaN where the speed says
+    it.
+    """
+    height: float = math.nan
+    """For take_off, hold and follow_heading: to hold above the map's origin [m], below water negative; NaN
+    the usual or the present one.
+    """
     duration: float = math.nan
     """How long to hold or to follow the heading [s]; NaN until stopped."""
 
@@ -401,48 +413,25 @@ class MotorArray(Msg, frozen=True, gc=False):
     """Of the winding [degC]."""
 
 
-class Place(Msg, frozen=True, gc=False):
-    """A named pose, so that people say Office 12 and never coordinates."""
+class MoveArmRequest(CommandRequest, frozen=True, gc=False):
+    """Where a mounted arm is to go."""
 
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Place"
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/MoveArmRequest"
     ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "int32",
-        "string",
-        "string",
         "string",
         "float64",
         "float64",
-        "float64",
         "string",
         "string",
+        "pilothouse_msgs/ArmOrder",
     )
-    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "yaw": "rad"}
-    id: int32 = 0
-    """Given by the robot and never used again; 0 asks for a new place."""
-    name: str = ""
-    """What people call it; two places never have the same."""
-    kind: str = "place"
-    """place, office, home, dock, reception, lab or hall."""
-    floor: str = "0"
-    """The floor that it is on, as people call it."""
-    x: float = 0.0
-    """East of the map's origin [m]."""
-    y: float = 0.0
-    """North of the map's origin [m]."""
-    yaw: float = math.nan
-    """Direction to stand in [rad], 0 east, anticlockwise; NaN when any will do."""
-    tag: str = ""
-    """What the robot's reader reads of the card of who belongs here; empty when nobody has one."""
-    note: str = ""
-    """What to tell people who are led here; empty when there is nothing to tell."""
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    order: ArmOrder = field(default_factory=ArmOrder)
+    """By a pose's name, a point for the tip, or angles."""
 
 
-class PlaceArray(Msg, frozen=True, gc=False):
-    """All places known; latched on /places, sent once per change."""
+class MoveArmResponse(CommandResponse, frozen=True, gc=False):
+    """What `MoveArm` answers."""
 
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/PlaceArray"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "pilothouse_msgs/Place[]")
-    stamp: Time = Time()
-    """When it changed, operators' clock."""
-    places: list[Place] = []
-    """In the order of their ids."""
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/MoveArmResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")

@@ -7,14 +7,15 @@ from typing import Annotated, ClassVar, TypeAlias
 
 from msgspec import Meta, field
 
-from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse
-from bridge.msgs.pilothouse_msgs.part2 import Mission, Place, TaskOrder
+from bridge.msgs.pilothouse_msgs.part2 import Mission, TaskOrder
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "Place",
+    "PlaceArray",
     "RecallMissionRequest",
     "RecallMissionResponse",
     "RobotInfo",
@@ -24,6 +25,8 @@ __all__ = [
     "RunTaskResult",
     "Schedule",
     "ScheduledTask",
+    "SetLightsRequest",
+    "SetLightsResponse",
     "SetMissionRequest",
     "SetMissionResponse",
     "SetModeRequest",
@@ -32,16 +35,58 @@ __all__ = [
     "SetOptionResponse",
     "SetPlaceRequest",
     "SetPlaceResponse",
-    "SetQueueRequest",
-    "SetQueueResponse",
-    "SetScheduleRequest",
-    "SetScheduleResponse",
-    "SonarRing",
     "StartTaskRequest",
     "TaskProgress",
 ]
 
 _Boolx7: TypeAlias = Annotated[list[bool], Meta(min_length=7, max_length=7)]
+
+
+class Place(Msg, frozen=True, gc=False):
+    """A named pose, so that people say Office 12 and never coordinates."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Place"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "int32",
+        "string",
+        "string",
+        "string",
+        "float64",
+        "float64",
+        "float64",
+        "string",
+        "string",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "yaw": "rad"}
+    id: int32 = 0
+    """Given by the robot and never used again; 0 asks for a new place."""
+    name: str = ""
+    """What people call it; two places never have the same."""
+    kind: str = "place"
+    """place, office, home, dock, reception, lab or hall."""
+    floor: str = "0"
+    """The floor that it is on, as people call it."""
+    x: float = 0.0
+    """East of the map's origin [m]."""
+    y: float = 0.0
+    """North of the map's origin [m]."""
+    yaw: float = math.nan
+    """Direction to stand in [rad], 0 east, anticlockwise; NaN when any will do."""
+    tag: str = ""
+    """What the robot's reader reads of the card of who belongs here; empty when nobody has one."""
+    note: str = ""
+    """What to tell people who are led here; empty when there is nothing to tell."""
+
+
+class PlaceArray(Msg, frozen=True, gc=False):
+    """All places known; latched on /places, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/PlaceArray"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "pilothouse_msgs/Place[]")
+    stamp: Time = Time()
+    """When it changed, operators' clock."""
+    places: list[Place] = []
+    """In the order of their ids."""
 
 
 class RecallMissionRequest(CommandRequest, frozen=True, gc=False):
@@ -81,6 +126,11 @@ class RobotInfo(Msg, frozen=True, gc=False):
         "string[]",
         "string[]",
         "float64",
+        "string[]",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
     )
     UNITS: ClassVar[dict[str, str]] = {
         "max_speed": "m/s",
@@ -90,6 +140,10 @@ class RobotInfo(Msg, frozen=True, gc=False):
         "longitude": "deg",
         "camera_fov": "rad",
         "laser_x": "m",
+        "max_climb": "m/s",
+        "max_tilt": "rad",
+        "max_steering": "rad",
+        "min_radius": "m",
     }
     name: str = ""
     """What people call it, as in Patrol-1."""
@@ -121,6 +175,16 @@ class RobotInfo(Msg, frozen=True, gc=False):
     """Names of the payloads that are mounted."""
     laser_x: float = 0.0
     """How far its laser is ahead of base_link [m]."""
+    tasks: list[str] = []
+    """Which tasks of pilothouse_msgs/TaskOrder it knows; empty for one that does not say."""
+    max_climb: float = 0.0
+    """Greatest speed up and down [m/s]; 0 for one that stays on the ground or the water."""
+    max_tilt: float = 0.0
+    """Greatest roll and pitch that it holds by order [rad]; 0 for one that takes no such order."""
+    max_steering: float = 0.0
+    """Greatest angle of its front wheels or its rudder [rad]; 0 for one that has none."""
+    min_radius: float = 0.0
+    """Of the tightest turn that it drives [m]; 0 for one that turns where it stands."""
 
 
 class RudderState(Msg, frozen=True, gc=False):
@@ -261,6 +325,23 @@ class Schedule(Msg, frozen=True, gc=False):
     """In the order of their ids."""
 
 
+class SetLightsRequest(CommandRequest, frozen=True, gc=False):
+    """How bright the robot's lights shall be."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetLightsRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    brightness: float = 0.0
+    """0 off to 1 full."""
+
+
+class SetLightsResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetLights` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetLightsResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+
+
 class SetMissionRequest(CommandRequest, frozen=True, gc=False):
     """Store a mission on the robot."""
 
@@ -353,93 +434,3 @@ class SetPlaceResponse(CommandResponse, frozen=True, gc=False):
     ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "int32")
     id: int32 = 0
     """Of the place; 0 when it was not accepted."""
-
-
-class SetQueueRequest(CommandRequest, frozen=True, gc=False):
-    """Replace what comes after the task that runs."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetQueueRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "string",
-        "float64",
-        "float64",
-        "string",
-        "string",
-        "int32",
-        "pilothouse_msgs/TaskOrder[]",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
-    revision: int32 = 0
-    """That of the TaskQueue it was made from; refused when the queue has changed since."""
-    orders: list[TaskOrder] = []
-    """Waiting, the next one first; those with an id stay what they were."""
-
-
-class SetQueueResponse(CommandResponse, frozen=True, gc=False):
-    """What `SetQueue` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetQueueResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
-
-
-class SetScheduleRequest(CommandRequest, frozen=True, gc=False):
-    """Store a scheduled task, or change the one with its id."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetScheduleRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "string",
-        "float64",
-        "float64",
-        "string",
-        "string",
-        "pilothouse_msgs/ScheduledTask",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
-    task: ScheduledTask = field(default_factory=ScheduledTask)
-    """Replaces what was stored under its id; 0 makes a new one."""
-
-
-class SetScheduleResponse(CommandResponse, frozen=True, gc=False):
-    """What `SetSchedule` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetScheduleResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "int32")
-    id: int32 = 0
-    """Of the scheduled task; 0 when it was not accepted."""
-
-
-class SonarRing(Msg, frozen=True, gc=False):
-    """Distances all round by ultrasound, each the nearest thing in a cone."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SonarRing"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "std_msgs/Header",
-        "float64[]",
-        "float64",
-        "float64",
-        "float64",
-        "float64",
-        "float32[]",
-    )
-    UNITS: ClassVar[dict[str, str]] = {
-        "bearings": "rad",
-        "field_of_view": "rad",
-        "radius": "m",
-        "range_min": "m",
-        "range_max": "m",
-        "ranges": "m",
-    }
-    header: Header = Header()
-    """Frame base_link."""
-    bearings: Float64Array = field(default_factory=Float64Array)
-    """Of each cone's middle in base_link [rad], 0 ahead, positive to the left."""
-    field_of_view: float = 0.0
-    """Width of a cone [rad]."""
-    radius: float = 0.0
-    """From the middle of the robot to each sonar [m]."""
-    range_min: float = 0.0
-    """Shortest that can be measured [m]."""
-    range_max: float = 0.0
-    """Longest [m]."""
-    ranges: Float32Array = field(default_factory=Float32Array)
-    """From each sonar [m]; +inf nothing in range, -inf too close (REP-117)."""

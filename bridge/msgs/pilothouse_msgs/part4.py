@@ -4,13 +4,117 @@ from __future__ import annotations
 
 from typing import ClassVar
 
+from msgspec import field
+
+from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
-from bridge.msgs.pilothouse_msgs.part1 import CommandResponse
+from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse
 from bridge.msgs.pilothouse_msgs.part2 import TaskOrder
+from bridge.msgs.pilothouse_msgs.part3 import ScheduledTask
 from bridge.msgs.std_msgs import Header
 
-__all__ = ["StartTaskResponse", "TagRead", "TaskQueue", "TaskStatus"]
+__all__ = [
+    "SetQueueRequest",
+    "SetQueueResponse",
+    "SetScheduleRequest",
+    "SetScheduleResponse",
+    "SonarRing",
+    "StartTaskResponse",
+    "TagRead",
+    "TaskQueue",
+    "TaskStatus",
+]
+
+
+class SetQueueRequest(CommandRequest, frozen=True, gc=False):
+    """Replace what comes after the task that runs."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetQueueRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "int32",
+        "pilothouse_msgs/TaskOrder[]",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    revision: int32 = 0
+    """That of the TaskQueue it was made from; refused when the queue has changed since."""
+    orders: list[TaskOrder] = []
+    """Waiting, the next one first; those with an id stay what they were."""
+
+
+class SetQueueResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetQueue` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetQueueResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+
+
+class SetScheduleRequest(CommandRequest, frozen=True, gc=False):
+    """Store a scheduled task, or change the one with its id."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetScheduleRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "pilothouse_msgs/ScheduledTask",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    task: ScheduledTask = field(default_factory=ScheduledTask)
+    """Replaces what was stored under its id; 0 makes a new one."""
+
+
+class SetScheduleResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetSchedule` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetScheduleResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "int32")
+    id: int32 = 0
+    """Of the scheduled task; 0 when it was not accepted."""
+
+
+class SonarRing(Msg, frozen=True, gc=False):
+    """Distances all round by ultrasound, each the nearest thing in a cone."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SonarRing"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "std_msgs/Header",
+        "float64[]",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "float32[]",
+    )
+    UNITS: ClassVar[dict[str, str]] = {
+        "bearings": "rad",
+        "field_of_view": "rad",
+        "radius": "m",
+        "range_min": "m",
+        "range_max": "m",
+        "ranges": "m",
+    }
+    header: Header = Header()
+    """Frame base_link."""
+    bearings: Float64Array = field(default_factory=Float64Array)
+    """Of each cone's middle in base_link [rad], 0 ahead, positive to the left."""
+    field_of_view: float = 0.0
+    """Width of a cone [rad]."""
+    radius: float = 0.0
+    """From the middle of the robot to each sonar [m]."""
+    range_min: float = 0.0
+    """Shortest that can be measured [m]."""
+    range_max: float = 0.0
+    """Longest [m]."""
+    ranges: Float32Array = field(default_factory=Float32Array)
+    """From each sonar [m]; +inf nothing in range, -inf too close (REP-117)."""
 
 
 class StartTaskResponse(CommandResponse, frozen=True, gc=False):

@@ -79,7 +79,9 @@ class Patrol(Chassis[PatrolParameters]):
         self._ultrasounds = Ultrasounds(
             parameters.ultrasound, scene.backend, self.body, scene.generator("ultrasound")
         )
-        suite.add("line_sensor", parameters.line.rate, lambda state, at: [("/line", line.measure(state, at))])
+        suite.add(
+            "line_sensor", parameters.line.rate, lambda state, at: [("/line_sensor", line.measure(state, at))]
+        )
         suite.add("ultrasound", parameters.ultrasound.rate, self._measure_echoes)
         suite.add(
             "battery", parameters.battery.rate, lambda _, at: [("/battery_state", self.battery.message(at))]
@@ -105,7 +107,7 @@ class Patrol(Chassis[PatrolParameters]):
 
     def _measure_echoes(self, _: State, stamp: float) -> Iterator[Measurement]:
         for side, echo in self._ultrasounds.measure(stamp):
-            yield f"/ultrasound/{side}", echo
+            yield f"/range/{side}", echo
 
     def _measure_wheels(self, _: State, stamp: float) -> Iterator[Measurement]:
         left, right = self.scene.backend.joints(self.body, 2)
