@@ -11,66 +11,22 @@ from collections.abc import Callable
 from typing import Any, ClassVar
 
 import numpy as np
-from kivy.graphics.texture import Texture
-from kivy.lang import Builder
-from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, NumericProperty, OptionProperty
+from kivy.metrics import dp
+from kivy.properties import AliasProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import Twist
-from widgets.base import Control, text_texture
-from widgets.icons import icon
-from widgets.ink import Drawing, Ink, tint
+from widgets.ink import tint
 from widgets.shapes import Shapes
+from widgets.stick import DEAD, Stick
 from widgets.theme import theme
 
-__all__ = ["Joystick"]
-
-DEAD = 0.07
-"""Of the way to the rim, round the middle: a resting thumb commands nothing."""
-SLIGHT = 1e-6
-"""A share of the way that is only an error of rounding."""
-
-GAMEPAD = {
-    "none": ("", ""),
-    "ready": ("muted", "sports_esports"),
-    "drives": ("accent", "sports_esports_fill"),
-    "silent": ("warn", "link_off"),
-}
-"""What is known of a gamepad, which is also the word beside its sign, to the role and the icon of that."""
-
-Builder.load_string("""
-<Joystick>:
-    canvas.after:
-        Color:
-            rgba: theme.roles[root.sign_role] if root.sign_role else (0, 0, 0, 0)
-        RoundedRectangle:
-            pos: root.sign_pos
-            size: root.sign_size
-            radius: [root.sign_size[1] / 2]
-        Color:
-            rgba: theme.surface if root.sign_role else (0, 0, 0, 0)
-        RoundedRectangle:
-            pos: root.sign_pos[0] + theme.outline, root.sign_pos[1] + theme.outline
-            size: root.sign_size[0] - 2 * theme.outline, root.sign_size[1] - 2 * theme.outline
-            radius: [root.sign_size[1] / 2 - theme.outline]
-        Color:
-            rgba: theme.roles[root.sign_role] if root.sign_role else (0, 0, 0, 0)
-        Rectangle:
-            texture: root.sign
-            size: root.sign.size
-            pos: root.sign_pos[0] + dp(7), root.sign_pos[1] + (root.sign_size[1] - root.sign.height) / 2
-        Rectangle:
-            texture: root.sign_word
-            size: root.sign_word.size
-            pos: root.sign_pos[0] + root.sign.width + dp(11), root.sign_pos[1] + (root.sign_size[1] - root.sign_word.height) / 2
-""")
+__all__ = ["DEAD", "Joystick"]
 
 
-class Joystick(Control, Drawing):
+class Joystick(Stick):
     """Dispatches `on_command(twist)` at every change. It follows the finger that came down on it and no other."""
 
-    __events__ = ("on_in_vain",)
     sends = (Twist,)
     drawn_from: ClassVar[tuple[str, ...]] = ("forward", "left", "max_speed", "max_yaw_rate")
 
@@ -78,14 +34,6 @@ class Joystick(Control, Drawing):
     """Forward speed at the rim [m/s], 0 or more."""
     max_yaw_rate = NumericProperty(1.0)
     """Yaw rate at the rim [rad/s], 0 or more."""
-
-    forward = NumericProperty(0.0)
-    """How far the stick is pushed away from the operator, -1 to 1."""
-    left = NumericProperty(0.0)
-    """How far it is pushed to the left, -1 to 1."""
-
-    gamepad = OptionProperty("none", options=list(GAMEPAD))
-    """A gamepad drives the stick too: `none`, `ready`, `drives`, or `silent`, which commands nothing."""
 
     def _reach(self) -> float:
         return max(1.0, min(self.size) / 2 - self.knob_radius - dp(6))
@@ -104,44 +52,9 @@ class Joystick(Control, Drawing):
     knob_pos = AliasProperty(_knob_pos, bind=["left", "forward", "reach", "pos"], cache=True)
     """The knob's middle [px]."""
 
-    def _sign(self) -> Texture:
-        return text_texture(icon(GAMEPAD[self.gamepad][1] or "sports_esports"), sp(20), theme.icons)
-
-    sign = AliasProperty(_sign, bind=["gamepad"], cache=True)
-    """Of a gamepad, with its word in the corner that the round leaves free."""
-
-    def _sign_word(self) -> Texture:
-        return text_texture(self.gamepad, sp(12.5), theme.font, bold=True)
-
-    sign_word = AliasProperty(_sign_word, bind=["gamepad"], cache=True)
-    """What the gamepad does."""
-
-    def _sign_size(self) -> tuple[float, float]:
-        return self.sign.width + self.sign_word.width + dp(20), dp(26)
-
-    sign_size = AliasProperty(_sign_size, bind=["sign", "sign_word"], cache=True)
-    """[px]"""
-
-    def _sign_pos(self) -> tuple[float, float]:
-        return self.right - self.sign_size[0], self.top - self.sign_size[1]
-
-    sign_pos = AliasProperty(_sign_pos, bind=["sign_size", "pos", "size"], cache=True)
-    """[px]"""
-
-    def _sign_role(self) -> str:
-        return GAMEPAD[self.gamepad][0]
-
-    sign_role = AliasProperty(_sign_role, bind=["gamepad"], cache=True)
-    """Role of its colour; empty while there is none."""
-
     def __init__(self, **kwargs: Any) -> None:
-        self._finger: Any = None
         super().__init__(**kwargs)
-        self._ink = Ink()
-        self.canvas.add(self._ink)
         self.fbind("size", self._round_veil)
-        self.fbind("size", self._rest_under_finger)
-        self.fbind("pos", self._rest_under_finger)
         self._round_veil()
 
     def _round_veil(self, *_: object) -> None:
@@ -155,76 +68,24 @@ class Joystick(Control, Drawing):
     """What the stick commands now."""
 
     @property
-    def finger(self) -> Any:
-        """The touch that it follows; None without one."""
-        return self._finger
+    def order(self) -> Twist:
+        """The same."""
+        return self._twist()
 
-    def lean(self, forward: float, left: float) -> bool:
-        """Push the stick to `forward` and `left`, each -1 to 1, and command what that means; for gamepads.
+    @property
+    def travel(self) -> tuple[float, float]:
+        """The same to all sides."""
+        return self.reach, self.reach
 
-        False, and nothing is commanded, while a finger has it. ValueError for what is not finite.
-        """
-        length = math.hypot(forward, left)
-        if not math.isfinite(length):
-            raise ValueError(f"A stick leans from -1 to 1, not to {forward}, {left}.")
-        if self._finger is not None:
-            return False
-        self._push(forward, left)
-        return True
-
-    def _push(self, forward: float, left: float) -> None:
+    def shaped(self, forward: float, left: float) -> tuple[float, float]:
+        """Nothing near the middle, never beyond the rim."""
         length = math.hypot(forward, left)
         scale = 0.0 if length < DEAD else 1.0 / max(1.0, length)
-        forward, left = (0.0 if abs(share) < SLIGHT else share * scale for share in (forward, left))
-        if (forward, left) != (self.forward, self.left):
-            self.forward, self.left = forward, left
-            self.dispatch("on_command", self.twist)
+        return forward * scale, left * scale
 
-    def rest(self) -> None:
-        """Spring back and let the finger go; commands zero if it was not at rest already."""
-        if self._finger is not None:
-            self._finger.ungrab(self)
-            self._finger = None
-        self._push(0.0, 0.0)
-
-    def _rest_under_finger(self, *_: object) -> None:
-        """It was moved: where the finger is now says nothing of where it was to be pushed."""
-        if self._finger is not None:
-            self.rest()
-
-    def on_touch_down(self, touch: Any) -> bool:
-        """Take the first finger that comes down on the round; one that comes down again has been away, unseen."""
-        if touch is self._finger:
-            self.rest()
-        inside = math.dist(touch.pos, self.center) <= min(self.size) / 2
-        if self.disabled and inside:
-            self.dispatch("on_in_vain")
-        if self.disabled or self._finger is not None or not inside:
-            return bool(super().on_touch_down(touch))
-        touch.grab(self)
-        self._finger = touch
-        self._follow(touch)
-        return True
-
-    def on_touch_move(self, touch: Any) -> bool:
-        """Follow it, over the rim as well."""
-        if touch.grab_current is not self:
-            return bool(super().on_touch_move(touch))
-        self._follow(touch)
-        return True
-
-    def on_touch_up(self, touch: Any) -> bool:
-        """Spring back."""
-        if touch.grab_current is not self:
-            return bool(super().on_touch_up(touch))
-        self.rest()
-        return True
-
-    def _follow(self, touch: Any) -> None:
-        self._push((touch.y - self.center_y) / self.reach, (self.center_x - touch.x) / self.reach)
-
-    def on_in_vain(self) -> None:
-        """A finger came down on it while it is disabled."""
+    def holds(self, x: float, y: float) -> bool:
+        """On the round."""
+        return math.dist((x, y), self.center) <= min(self.size) / 2
 
     def draw(self) -> None:
         """The pad, its arrows, the way from the middle to the knob, the knob."""
