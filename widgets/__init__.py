@@ -10,6 +10,7 @@ from importlib import import_module
 from typing import Any
 
 CATALOGUE: dict[str, str] = {
+    "ActionColumn": "widgets.action_column",
     "ArtificialHorizon": "widgets.horizon",
     "Battery": "widgets.battery",
     "CheckList": "widgets.check_list",
@@ -39,6 +40,7 @@ CATALOGUE: dict[str, str] = {
     "PlaceList": "widgets.place_list",
     "QuestionCard": "widgets.question_card",
     "Readout": "widgets.readout",
+    "RudderThrottle": "widgets.rudder_throttle",
     "RunList": "widgets.run_list",
     "ScheduleList": "widgets.schedule_list",
     "SpeedCap": "widgets.speed_cap",

@@ -1,0 +1,309 @@
+"""What can be done with a robot at once, as a column of large buttons; two switches are enough to work it.
+
+column = ActionColumn(actions=[Action("task.surface", "Surface", "water"), Action("lights", "Lights", "lightbulb")])
+column.bind(on_action=lambda _, name: commands.ask(name))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from kivy.clock import Clock
+from kivy.graphics.texture import Texture
+from kivy.lang import Builder
+from kivy.metrics import dp, sp
+from kivy.properties import (
+    AliasProperty,
+    BooleanProperty,
+    ListProperty,
+    NumericProperty,
+    StringProperty,
+)
+from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.widget import Widget
+
+import widgets.rows  # noqa: F401 - its rules draw what is used here
+from widgets.base import Control, text_texture
+from widgets.buttons import PushButton
+from widgets.theme import theme
+
+__all__ = ["Action", "ActionColumn"]
+
+TALLEST = 78.0
+"""Higher ones say nothing more [dp]."""
+NARROW = 176.0
+"""A narrower button has its icon above its words, which say all [dp]."""
+
+Builder.load_string("""
+#:import spaced widgets.labels.spaced
+
+<ActionColumn>:
+    orientation: 'vertical'
+    padding: root.inset, root.inset, root.inset, root.inset + root.foot
+    spacing: dp(8)
+    canvas.before:
+        Color:
+            rgba: theme.line if root.framed else (0, 0, 0, 0)
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.radius]
+        Color:
+            rgba: theme.surface if root.framed else (0, 0, 0, 0)
+        SmoothRoundedRectangle:
+            pos: self.x + theme.outline, self.y + theme.outline
+            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
+            radius: [theme.radius - theme.outline]
+    BoxLayout:
+        id: head
+        size_hint_y: None
+        height: dp(18) if root.titled else 0
+        opacity: 1 if root.titled else 0
+        Text:
+            text: spaced('Actions') if root.titled else ''
+            role: 'muted'
+            font_size: sp(12)
+            pos_hint: {'center_y': .5}
+        Text:
+            text: spaced(root.hint) if root.titled else ''
+            role: 'muted'
+            font_size: sp(12)
+            halign: 'right'
+            pos_hint: {'center_y': .5}
+    Roll:
+        id: roll
+        GridLayout:
+            id: grid
+            cols: root.across
+            size_hint_y: None
+            height: self.minimum_height
+            spacing: dp(9)
+            padding: dp(2)
+
+<ActionKey>:
+    size_hint_y: None
+    height: root.high
+    anchor_x: 'left' if root.flow == 'horizontal' else 'center'
+    padding: (dp(14), 0, dp(14) + root.taken, 0) if root.flow == 'horizontal' else (dp(4), 0, dp(4), 0)
+    canvas.after:
+        Color:
+            rgba: theme.warn if root.current else (0, 0, 0, 0)
+        SmoothLine:
+            rounded_rectangle: self.x, self.y, self.width, self.height, theme.corner
+            width: dp(2.2)
+        Color:
+            rgba: theme.warn if root.current and not root.disabled else theme.muted
+        Rectangle:
+            pos: self.right - dp(14) - root.taken, self.center_y - root.end_texture.height / 2
+            size: (root.end_texture.width, root.end_texture.height) if root.taken else (0, 0)
+            texture: root.end_texture
+""")
+
+
+@dataclass(frozen=True, slots=True)
+class Action:
+    """One button."""
+
+    name: str
+    """What `on_action` says."""
+    text: str
+    icon: str = ""
+    able: bool = True
+    """It can be asked for now."""
+    said: str = ""
+    """How it stands, in a word at the button's end, as in `on`; empty for nothing."""
+    meaning: str = ""
+    """What a press does, where that changes; half a second after a change no finger is taken."""
+
+
+class ActionKey(PushButton):
+    """One of them."""
+
+    high = NumericProperty("52dp")
+    current = BooleanProperty(False)
+    """The second switch does this one."""
+    end = StringProperty("")
+    """At its end; empty for nothing."""
+    name = StringProperty("")
+    """What it stands for, in words."""
+    said = StringProperty("")
+    """How that stands: at its end, or behind its words where it is narrow."""
+
+    @property
+    def settling(self) -> bool:
+        """It has just begun to mean something else, and takes nothing for a moment."""
+        return bool(self._settling.is_triggered)
+
+    def _end_texture(self) -> Texture:
+        return text_texture(self.end, sp(13), theme.font, bold=True)
+
+    end_texture = AliasProperty(_end_texture, bind=["end"], cache=True)
+
+    def _taken(self) -> float:
+        return float(self.end_texture.width) if self.end and self.flow == "horizontal" else 0.0
+
+    taken = AliasProperty(_taken, bind=["end_texture", "flow"], cache=True)
+    """Width of what is at its end [px]."""
+
+
+class ActionColumn(Control, BoxLayout):
+    """Dispatches `on_action(name)`, and `on_command` with the same.
+
+    With two switches `next` goes on to the one below, past those that cannot be asked for, and `act` does it.
+    """
+
+    __events__ = ("on_action",)
+
+    veiled = False
+
+    actions = ListProperty()
+    """`Action` after `Action`, from the top."""
+    switches = ListProperty()
+    """Names of the two switches, as in `["A", "B"]`; empty for none, and then no button is the current one."""
+    current = StringProperty("")
+    """Name of the one that `act` does; empty without switches, or while none can be asked for."""
+    across = NumericProperty(1)
+    """How many buttons stand side by side."""
+    titled = BooleanProperty(True)
+    """Says over the buttons what they are, and what the switches do."""
+    framed = BooleanProperty(True)
+    """Is a card of its own."""
+    inset = NumericProperty("12dp")
+    """From its edge to the buttons [px]."""
+    foot = NumericProperty(0)
+    """Kept free at its lower end for something else [px]."""
+
+    def _hint(self) -> str:
+        if not self.switches:
+            return ""
+        first, second = self.switches
+        return f"{first} next · {second} do it"
+
+    hint = AliasProperty(_hint, bind=["switches"], cache=True)
+    """What the switches do, as in `A next · B do it`; empty without any."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        self._buttons: dict[str, ActionKey] = {}
+        super().__init__(**kwargs)
+        self._fitting = Clock.create_trigger(self._fit, -1)
+        self.roll, self.grid = self.ids.roll.__self__, self.ids.grid.__self__  # kv holds ids weakly
+        for name in ("actions", "switches", "state"):
+            self.fbind(name, self._write)
+        for name in ("across", "titled", "foot", "inset", "size"):
+            self.fbind(name, self._fitting)
+        self.roll.bind(size=self._fitting)
+        self.fbind("current", self._mark)
+        self._write()
+
+    # what the switches do
+
+    def next(self) -> None:
+        """Go on to the next one that can be asked for, after the last to the first; nothing where none can."""
+        able = self._able()
+        if not able:
+            self.current = ""
+            return
+        names = [action.name for action in self.actions]
+        at = names.index(self.current) if self.current in names else -1
+        self.current = next(name for name in [*names[at + 1 :], *names[: at + 1]] if name in able)
+        self.roll.scroll_to(self._buttons[self.current], padding=dp(6), animate=False)
+
+    def act(self) -> None:
+        """Do the current one; nothing while it cannot be asked for, or has just begun to mean something else."""
+        button = self._buttons.get(self.current)
+        if button is not None and self.current in self._able() and not button.settling:
+            self._ask(self.current)
+
+    def _able(self) -> frozenset[str]:
+        if self.state == "disabled":
+            return frozenset()
+        return frozenset(action.name for action in self.actions if action.able)
+
+    def _ask(self, name: str) -> None:
+        self.dispatch("on_action", name)
+        self.dispatch("on_command", name)
+
+    def on_action(self, name: str) -> None:
+        """A finger or a switch asked for the action of that name."""
+
+    # what is where
+
+    def _write(self, *_: object) -> None:
+        names = [action.name for action in self.actions]
+        if list(self._buttons) != names:
+            self.grid.clear_widgets()
+            self._buttons = {name: self._make(name) for name in names}
+            self._fitting()
+        for action in self.actions:
+            button = self._buttons[action.name]
+            button.name, button.icon, button.said = action.text, action.icon, action.said
+            button.meaning = action.meaning or action.text
+            button.disabled = not action.able or self.state == "disabled"
+        if not self.switches or self.current not in names:
+            self.current = ""
+        if self.switches and not self.current:
+            self.current = next((name for name in names if name in self._able()), "")
+        self._mark()
+
+    def _make(self, name: str) -> ActionKey:
+        button = ActionKey()
+        button.bind(on_release=lambda _: self._ask(name))
+        self.grid.add_widget(button)
+        return button
+
+    def _mark(self, *_: object) -> None:
+        for name, button in self._buttons.items():
+            button.current = name == self.current and bool(self.switches)
+            press = f"press {self.switches[1]}" if button.current and not button.disabled else ""
+            button.end = press or button.said
+            beside = button.flow == "horizontal" or not button.said
+            button.text = button.name if beside else f"{button.name} · {button.said}"
+
+    def _fit(self, *_: object) -> None:
+        """Share the height out, within what a finger needs and what looks like a button."""
+        count = len(self._buttons)
+        if not count or not self.roll.height:
+            return
+        across = max(1, round(self.across))
+        rows, between = -(-count // across), self.grid.spacing[1]
+        room = self.roll.height - self.grid.padding[1] - self.grid.padding[3] - between * (rows - 1)
+        high = max(theme.target, min(room / rows, dp(TALLEST)))
+        wide = (self.roll.width - (across - 1) * between) / across
+        for button in self._buttons.values():
+            button.high, button.flow = high, "vertical" if wide < dp(NARROW) else "horizontal"
+        self._mark()
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """With fingers and with switches, some that cannot be asked for, side by side, none of them, disabled."""
+    some = [
+        Action("task.surface", "Surface", "water"),
+        Action("task.hold", "Hold depth", "pause_circle", said="4.5 m"),
+        Action("record", "Start recording", "fiber_manual_record_fill"),
+        Action("task.follow_heading", "Follow heading", "explore", able=False),
+        Action("lights", "Lights", "lightbulb_fill", said="on"),
+        Action("task.go_home", "Go home", "home"),
+    ]
+
+    def make(**kwargs: Any) -> Callable[[], Widget]:
+        def build() -> Widget:
+            column = ActionColumn(
+                **{"actions": some, "size_hint": (None, None), "size": (dp(292), dp(470)), **kwargs}
+            )
+            if column.switches:
+                column.next()
+                column.next()
+            return column
+
+        return build
+
+    return {
+        "fingers": make(),
+        "switches": make(switches=["A", "B"]),
+        "current not able": make(actions=[Action("a", "Surface", "water", able=False)], switches=["A", "B"]),
+        "two across": make(across=2, titled=False, size=(dp(300), dp(220))),
+        "narrow": make(titled=False, size=(dp(150), dp(300))),
+        "disabled": make(state="disabled", switches=["A", "B"]),
+    }
