@@ -6,8 +6,8 @@ through. All kinds are driven at the same time. What counts is what the robot's 
 command which it obeyed was given to the command to rest. Missed is a cut after which anything moved the robot later than
 300 ms after it was given. Rest is by odometry, and what its brakes need from full speed is taken off.
 
-Wheels are the simulated patrol robot. Of the other kinds no simulation exists yet: they are bodies that speed up and
-brake as their kind does (`bench/support/kinds.py`) behind the same robot side. The other way is a server that hands every
+The robots are the simulated ones, on open ground and in calm water: the patrol robot, the truck, the boat, the swimmer and
+the drone, which is in the air, each at its full speed (`bench/support/kinds.py`). The other way is a server that hands every
 twist on to the same robots and minds neither its age nor who is gone; what these drive on is looked at for no longer than ours.
 """
 
@@ -90,7 +90,9 @@ def theirs() -> dict[str, float]:
 def robot(kind: str, *flags: str) -> Iterator[tuple[int, list[Line]]]:
     """A robot side of that kind: its port on this machine, and what the robot's own port tells, which grows."""
     told: list[Line] = []
-    with serving("bench.support.port", "--robot", f"sim:{KINDS[kind].model}", *flags) as serves:
+    driven = KINDS[kind]
+    options = ("--robot", f"sim:{driven.model}", "--world", driven.world)
+    with serving("bench.support.port", *options, *flags) as serves:
         reader = threading.Thread(target=_listen, args=(serves.child, told), daemon=True)
         reader.start()
         yield int(serves.url.rsplit(":", 1)[1]), told

@@ -34,8 +34,6 @@ GOES_ON = 0.4
 """How long the driver goes on after the cut without knowing [s]."""
 LOOK = 0.6
 """How long the port is looked at once the robot must stand, or the link has healed [s]."""
-AT_REST = 0.02
-"""Slower than this it stands [m/s]."""
 PATIENCE = 10.0
 
 Line = Sequence[Any]
@@ -124,7 +122,7 @@ async def cut(port: int, told: list[Line], kind: Kind, driver: Driver, rng: rand
         if not hard:
             link.thaw()  # what waited in the line comes now
             await asyncio.sleep(LOOK)
-    found = judge(told[first:], given, hard=hard, severed=severed)
+    found = judge(told[first:], given, hard=hard, severed=severed, still=kind.rest)
     await _rest(port, driver)
     return found
 
@@ -147,8 +145,18 @@ async def _rest(port: int, driver: Driver) -> None:
             await asyncio.sleep(LOOK)
 
 
-def judge(told: Sequence[Line], given: dict[int, float], *, hard: bool, severed: float = math.inf) -> Cut:
-    """What the port's lines say, with the moments that each command was `given` by its number and the link was `severed` [s]."""
+def judge(
+    told: Sequence[Line],
+    given: dict[int, float],
+    *,
+    hard: bool,
+    severed: float = math.inf,
+    still: float = 0.02,
+) -> Cut:
+    """What the port's lines say, with the moments that each command was `given` by its number and the link was `severed` [s].
+
+    Slower than `still` it is at rest [m/s].
+    """
     moves = [_moving(line) for line in told if line[0] in ("drive", "stop")]
     longest, last, zero = 0.0, math.nan, math.inf
     for (at, code), (until, _) in zip(moves, [*moves[1:], (math.inf, 0)], strict=True):
@@ -157,7 +165,7 @@ def judge(told: Sequence[Line], given: dict[int, float], *, hard: bool, severed:
             longest = max(longest, at - last, until - last)
             zero = until - last
     speeds = [(line[1], line[2]) for line in told if line[0] == "speed" and line[1] >= last]
-    resting = [at for at, speed in speeds if speed < AT_REST]
+    resting = [at for at, speed in speeds if speed < still]
     driven = sum((after - before) * speed for (before, speed), (after, _) in itertools.pairwise(speeds))
     rest = min(resting, default=math.inf) - last - zero if zero < math.inf else math.inf
     old = sum(given[code] > severed for _, code in moves if code)

@@ -1,4 +1,4 @@
-"""`python -m bench.support.port serve --robot sim:MODEL …`: the robot side, with a robot of that model or kind whose port tells.
+"""`python -m bench.support.port serve --robot sim:MODEL …`: the robot side, with a robot whose port tells.
 
 With `--relay` it is no robot side but what is written in an afternoon: a server that hands every twist on to the robot, as
 rosbridge_server and a simple drive do, and minds neither its age nor who is gone.
@@ -16,12 +16,13 @@ import math
 import sys
 import time
 from collections.abc import Iterable
+from typing import Any
 
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
 import sim.robot
-from bench.support.kinds import Body
+from bench.support.kinds import Aloft
 from bench.support.probe import Probe, tell
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
@@ -50,10 +51,10 @@ class Port(Probe):
             yield topic, msg
 
 
-def make(model: str, world: str, *, seed: int) -> Robot:
-    """The simulated robot of that name, else a body of that kind, behind a port that tells."""
-    robot = simulated(model, world, seed=seed) if model in sim.robot.ROBOTS else Body(model)
-    return Port(robot)
+def make(model: str, world: str, **options: Any) -> Robot:
+    """The simulated robot of that name behind a port that tells; one that flies is in the air."""
+    robot = simulated(model, world, **options)
+    return Port(Aloft(robot) if "take_off" in robot.info.manoeuvres else robot)
 
 
 async def relay(robot: Robot) -> None:
@@ -79,7 +80,7 @@ async def relay(robot: Robot) -> None:
 if __name__ == "__main__":
     simulated = sim.robot.make
     if "--relay" in sys.argv:
-        named = sys.argv[sys.argv.index("--robot") + 1]
-        asyncio.run(relay(make(named.removeprefix("sim:"), "parking_lot", seed=0)))
+        named, world = (sys.argv[sys.argv.index(option) + 1] for option in ("--robot", "--world"))
+        asyncio.run(relay(make(named.removeprefix("sim:"), world)))
     sim.robot.make = make  # type: ignore[assignment]
     sys.exit(main())
