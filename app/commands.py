@@ -1,20 +1,18 @@
-"""A command's way to the robot: the drive slot, one-shot commands with an answer, and STOP's own lane.
+"""A command's way to the robot: one-shot commands with an answer, and STOP's own lane.
 
-Nothing here knows a socket: the link gives a `call` and asks `DriveSlot.due` what to send.
+Nothing here knows a socket: the link gives a `call`.
 """
 
 from __future__ import annotations
 
 import asyncio
 import math
-import threading
 from collections.abc import Awaitable, Callable, Hashable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from bridge.errors import BridgeError, NoReply, NotConnected, Refused
 from bridge.msgs import Msg
-from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
     AcknowledgeEventsRequest,
     AcknowledgeEventsResponse,
@@ -45,18 +43,8 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from widgets.task_words import title
 
-__all__ = ["COMMANDS", "Commands", "DriveSlot", "Kind", "Outcome"]
+__all__ = ["COMMANDS", "Commands", "Kind", "Outcome"]
 
-PERIOD = 0.05
-"""Between two drive commands while the stick is held [s]."""
-HEARTBEAT = 0.15
-"""A user interface silent for longer steers nothing [s]."""
-REARM = 1.0
-"""After a longer silence of the user interface the stick must be pushed anew [s]."""
-LATCHED = 0.1
-"""Between two commands to rest while the slot is latched [s]."""
-ZEROS = 3
-"""How often the command to rest is said after the stick is let go."""
 VALID_FOR = 5.0
 """A one-shot command is void when it reaches the robot later than this [s]."""
 NEVER_VOID = 1e9
@@ -71,105 +59,6 @@ STOP_DOUBT = 1.0
 """STOP without an answer for longer is said to be unanswered; it goes on being sent [s]."""
 STILL_SENDING = "Still sending it."
 """Stands for the reason of a STOP that has no answer at all."""
-
-_ZERO = Twist()
-_INSTANT = 0.001
-"""Later than the last moment of a heartbeat it is over, whatever the clock rounds [s]."""
-
-
-def _is_finite(twist: Twist) -> bool:
-    parts = (twist.linear, twist.angular)
-    return all(math.isfinite(value) for part in parts for value in (part.x, part.y, part.z))
-
-
-class DriveSlot:
-    """The one wanted twist: newest wins, and silence of anybody involved means rest."""
-
-    def __init__(self, now: Callable[[], float]) -> None:
-        """`now` is our monotonic clock [s]."""
-        self._now = now
-        self._lock = threading.Lock()
-        self._wanted = _ZERO
-        self._beat = -math.inf
-        self._last_sent = _ZERO
-        self._sent_at = -math.inf
-        self._zeros = 0
-        self._latched = False
-
-    @property
-    def latched(self) -> bool:
-        """Nothing but rest is sent, again and again."""
-        return self._latched
-
-    def latch(self, on: bool) -> None:
-        """Send rest at once and ten times a second whatever anybody wants, or end that; from any thread.
-
-        It is how a robot without a STOP of its own is stopped. Afterwards the stick must be pushed anew.
-        """
-        with self._lock:
-            self._latched, self._wanted = on, _ZERO
-            if on:
-                self._sent_at = -math.inf
-
-    def want(self, twist: Twist) -> None:
-        """Set the twist to drive with, from any thread; one that is not finite means rest."""
-        with self._lock:
-            self._wanted = twist if _is_finite(twist) else _ZERO
-
-    def beat(self) -> None:
-        """Say that the user interface is alive, from any thread."""
-        with self._lock:
-            self._beat = self._now()
-
-    def drop(self) -> None:
-        """Forget everything unsent, as when the link is lost: nothing old may leave later."""
-        with self._lock:
-            self._wanted, self._last_sent, self._zeros = _ZERO, _ZERO, 0
-
-    def rest(self) -> None:
-        """Say rest a few times, whatever was said before; the stick must be pushed anew."""
-        with self._lock:
-            self._wanted, self._last_sent, self._zeros = _ZERO, _ZERO, ZEROS
-
-    @property
-    def driving(self) -> bool:
-        """The robot was last told to move."""
-        return self._last_sent != _ZERO
-
-    def patience(self, longest: float) -> float:
-        """How long `due` need not be asked unless something changes [s]: until the heartbeat is too old, at most `longest`."""
-        with self._lock:
-            if self._last_sent == _ZERO:
-                return longest
-            left = self._beat + HEARTBEAT + _INSTANT - self._now()
-            return min(longest, left) if left > 0 else longest
-
-    def due(self, *, allowed: bool = True) -> Twist | None:
-        """What has to be sent now, at once on a change and each `PERIOD` while held; None when nothing.
-
-        Not `allowed` means rest, and that the stick must be pushed anew.
-        """
-        with self._lock:
-            if not allowed or self._latched:
-                self._wanted = _ZERO
-            now = self._now()
-            twist = self._effective(now)
-            changed = twist != self._last_sent
-            if changed and twist == _ZERO:
-                self._zeros = ZEROS
-            waited = now - self._sent_at >= (LATCHED if self._latched else PERIOD) - 1e-9
-            silent = twist == _ZERO and self._zeros == 0 and not self._latched
-            if not changed and (not waited or silent):
-                return None
-            self._zeros = max(0, self._zeros - 1) if twist == _ZERO else 0
-            self._last_sent, self._sent_at = twist, now
-            return twist
-
-    def _effective(self, now: float) -> Twist:
-        silence = now - self._beat
-        if silence > REARM:
-            self._wanted = _ZERO
-        return self._wanted if silence <= HEARTBEAT else _ZERO
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,10 +11,11 @@ import uuid
 from collections.abc import Callable, Coroutine, Mapping
 from typing import Any
 
-from app.commands import Commands, DriveSlot, Outcome
+from app.commands import Commands, Outcome
+from app.drive_slot import Drive, DriveSlot, stamped_at
 from app.events import EventStream, Known
 from app.feeds import Mailbox
-from app.offer import DRIVE, Offer, ask
+from app.offer import DRIVE, MANOEUVRE, Offer, ask
 from app.sources import Peek, Seen, Sources
 from bridge.choice import drive_message
 from bridge.client import BridgeClient, CameraStream, LinkState, Phase
@@ -22,7 +23,7 @@ from bridge.errors import BridgeError, NoReply, NotConnected
 from bridge.frames import Frame
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist, TwistStamped
-from bridge.msgs.pilothouse_msgs import ControlStatus, Event, GetEventsResponse
+from bridge.msgs.pilothouse_msgs import ControlStatus, Event, GetEventsResponse, Manoeuvre
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.network import NetworkThread
 
@@ -160,9 +161,17 @@ class Link:
         self._running.cancel()
         self._running = None
 
-    def drive(self, twist: Twist) -> None:
-        """Drive so until told otherwise; leaves at once."""
-        self._slot.want(twist)
+    @property
+    def steers(self) -> bool:
+        """The robot has a topic for manoeuvres; without one it is driven by twists alone."""
+        return self.offer is not None and self.offer.steers
+
+    def drive(self, order: Drive) -> None:
+        """Drive so until told otherwise; leaves at once. A manoeuvre goes only to a robot that `steers`.
+
+        ValueError for a manoeuvre that is no drive command.
+        """
+        self._slot.want(order)
         self._network.call(self._wake.set)
 
     @property
@@ -242,20 +251,25 @@ class Link:
             self._measure()
             stamp = self._client.robot_time()
             forbidden = self.commands.stopping or self.silent or (math.isnan(stamp) and not self.foreign)
-            twist = self._slot.due(allowed=not forbidden)
-            topic = self.drive_topic
-            if twist is not None and topic is not None:
-                # rest goes out whatever is known of the clock; what moves a robot of ours does not without one
-                void = twist == Twist() and (self._slot.latched or math.isnan(stamp))
-                self._moved = self._moved or twist != Twist()
-                self._client.publish(
-                    topic, self._said(twist), stamp=None if void else stamp, even_late=twist == Twist()
-                )
+            self._publish(self._slot.due(allowed=not forbidden), stamp)
 
-    def _said(self, twist: Twist) -> Msg:
+    def _publish(self, order: Drive | None, stamp: float) -> None:
+        """Send a drive command by the topic of its type; `stamp` is the robot's clock [s], NaN while it is not known."""
+        rest = order == Twist()
+        topic = MANOEUVRE if isinstance(order, Manoeuvre) and self.steers else self.drive_topic
+        if order is None or topic is None or (isinstance(order, Manoeuvre) and not self.steers):
+            return
+        # rest goes out whatever is known of the clock; what moves a robot of ours does not without one
+        void = rest and (self._slot.latched or math.isnan(stamp))
+        self._moved = self._moved or not rest
+        self._client.publish(topic, self._said(order), stamp=None if void else stamp, even_late=rest)
+
+    def _said(self, order: Drive) -> Msg:
         """A drive command as the robot takes it."""
+        if isinstance(order, Manoeuvre):
+            return stamped_at(order, self._client.robot_time())
         stamped = self.offer is not None and self.offer.stamped
-        return drive_message(twist, self._client.robot_time(), stamped=stamped)
+        return drive_message(order, self._client.robot_time(), stamped=stamped)
 
     def _measure(self) -> None:
         """Copy what the client knows for other threads; an answered ping is a sign of life as well."""
@@ -312,6 +326,9 @@ class Link:
         if offer.drive is not None and offer.drive not in self._advertised:
             self._advertised.add(offer.drive)
             self._client.advertise(offer.drive, TwistStamped if offer.stamped else Twist)
+        if offer.steers and MANOEUVRE not in self._advertised:
+            self._advertised.add(MANOEUVRE)
+            self._client.advertise(MANOEUVRE, Manoeuvre)
         if "/initialpose" not in self._advertised and (offer.ours or "/initialpose" in offer.topics):
             self._advertised.add("/initialpose")
             self._client.advertise("/initialpose", PoseWithCovarianceStamped)

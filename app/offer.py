@@ -15,11 +15,14 @@ from bridge.choice import CAMERA, DRIVE, OURS, command, source
 from bridge.errors import BridgeError, NoReply, NotConnected
 from bridge.msgs import Msg, ros1_name
 from bridge.msgs.geometry_msgs import TwistStamped
+from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.msgs.rosapi_msgs import ServicesResponse, TopicsResponse
 from bridge.topics import TOPICS
 
-__all__ = ["CAMERA", "DRIVE", "POSE", "Offer", "ask"]
+__all__ = ["CAMERA", "DRIVE", "MANOEUVRE", "POSE", "Offer", "ask"]
 
+MANOEUVRE = "/cmd_manoeuvre"
+"""Where a robot of ours is driven by what a twist does not say."""
 POSE = "/pose"
 """Our name of where the robot is."""
 PATIENCE = 3.0
@@ -73,6 +76,11 @@ class Offer:
     def stamped(self) -> bool:
         """It is driven by TwistStamped instead of Twist."""
         return self.topics.get(self.drive or "") == TwistStamped.MSGTYPE
+
+    @property
+    def steers(self) -> bool:
+        """It takes manoeuvres, for what a twist does not say."""
+        return self.ours and self.topics.get(MANOEUVRE) == Manoeuvre.MSGTYPE
 
     def serves(self, service: str) -> bool:
         """Whether it has that service."""

@@ -377,7 +377,7 @@ def grip(app: Any) -> Any:
 
 def trust_blindly() -> None:
     """Forward what the stick says as it comes."""
-    from app import commands
+    from app import drive_slot
     from app.inputs import Inputs
 
     def look(self: Any) -> None:
@@ -391,7 +391,7 @@ def trust_blindly() -> None:
         """Kivy finds it by its name."""
 
     Inputs.look, Inputs.rest = look, rest  # type: ignore[method-assign]
-    commands.HEARTBEAT = commands.REARM = math.inf
+    drive_slot.HEARTBEAT = drive_slot.REARM = math.inf
 
 
 def watch_by_topic() -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from app.commands import DriveSlot
+from app.drive_slot import DriveSlot
 from app.sdl import PadState
 from bridge.msgs.geometry_msgs import Twist
 from tests.headless import Stage

@@ -1,0 +1,155 @@
+"""The one drive command that is wanted now, a twist or a manoeuvre: newest wins, and silence of anybody means rest.
+
+Nothing here knows a socket: the link asks `DriveSlot.due` what to send.
+"""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections.abc import Callable
+
+import msgspec
+
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import Manoeuvre
+from bridge.msgs.std_msgs import Header, Time
+
+__all__ = ["Drive", "DriveSlot", "stamped_at"]
+
+Drive = Twist | Manoeuvre
+"""What a robot is driven by: a manoeuvre of the kind `steer`, `tilt` or `twist` where a twist does not say it."""
+
+PERIOD = 0.05
+"""Between two drive commands while the stick is held [s]."""
+HEARTBEAT = 0.15
+"""A user interface silent for longer steers nothing [s]."""
+REARM = 1.0
+"""After a longer silence of the user interface the stick must be pushed anew [s]."""
+LATCHED = 0.1
+"""Between two commands to rest while the slot is latched [s]."""
+ZEROS = 3
+"""How often the command to rest is said after the stick is let go."""
+KINDS = ("twist", "steer", "tilt")
+"""Of manoeuvres that are streams; whatever lasts is a task."""
+
+_ZERO = Twist()
+_INSTANT = 0.001
+"""Later than the last moment of a heartbeat it is over, whatever the clock rounds [s]."""
+
+
+def _is_finite(order: Drive) -> bool:
+    """Every number is one; speed and throttle of a manoeuvre may be NaN, which leaves them open."""
+    twist = order if isinstance(order, Twist) else order.twist
+    values = [value for part in (twist.linear, twist.angular) for value in (part.x, part.y, part.z)]
+    if isinstance(order, Manoeuvre):
+        values += [order.steering, order.roll, order.pitch]
+        if math.isinf(order.speed) or math.isinf(order.throttle):
+            return False
+    return all(map(math.isfinite, values))
+
+
+def _alike(one: Drive, other: Drive) -> bool:
+    """Command the same; NaN is like NaN."""
+    return one == other or (type(one) is type(other) and repr(one) == repr(other))
+
+
+def stamped_at(order: Manoeuvre, now: float) -> Manoeuvre:
+    """A manoeuvre as it goes to the robot; `now` is its clock [s], NaN while that is not known."""
+    stamp = Time.at(now) if math.isfinite(now) else Time()
+    return msgspec.structs.replace(order, header=Header(stamp, "map"))
+
+
+class DriveSlot:
+    """The one wanted command. Rest is a twist of nothing but zeros, whatever was wanted before."""
+
+    def __init__(self, now: Callable[[], float]) -> None:
+        """`now` is our monotonic clock [s]."""
+        self._now = now
+        self._lock = threading.Lock()
+        self._wanted: Drive = _ZERO
+        self._beat = -math.inf
+        self._last_sent: Drive = _ZERO
+        self._sent_at = -math.inf
+        self._zeros = 0
+        self._latched = False
+
+    @property
+    def latched(self) -> bool:
+        """Nothing but rest is sent, again and again."""
+        return self._latched
+
+    def latch(self, on: bool) -> None:
+        """Send rest at once and ten times a second whatever anybody wants, or end that; from any thread.
+
+        It is how a robot without a STOP of its own is stopped. Afterwards the stick must be pushed anew.
+        """
+        with self._lock:
+            self._latched, self._wanted = on, _ZERO
+            if on:
+                self._sent_at = -math.inf
+
+    def want(self, order: Drive) -> None:
+        """Set the command to drive by, from any thread; one that is not finite means rest.
+
+        ValueError for a manoeuvre that is no drive command.
+        """
+        if isinstance(order, Manoeuvre) and order.kind not in KINDS:
+            raise ValueError(f"A robot is driven by {', '.join(KINDS)}, not by the manoeuvre {order.kind!r}.")
+        with self._lock:
+            self._wanted = order if _is_finite(order) else _ZERO
+
+    def beat(self) -> None:
+        """Say that the user interface is alive, from any thread."""
+        with self._lock:
+            self._beat = self._now()
+
+    def drop(self) -> None:
+        """Forget everything unsent, as when the link is lost: nothing old may leave later."""
+        with self._lock:
+            self._wanted, self._last_sent, self._zeros = _ZERO, _ZERO, 0
+
+    def rest(self) -> None:
+        """Say rest a few times, whatever was said before; the stick must be pushed anew."""
+        with self._lock:
+            self._wanted, self._last_sent, self._zeros = _ZERO, _ZERO, ZEROS
+
+    @property
+    def driving(self) -> bool:
+        """The robot was last told to move."""
+        return self._last_sent != _ZERO
+
+    def patience(self, longest: float) -> float:
+        """How long `due` need not be asked unless something changes [s]: until the heartbeat is too old, at most `longest`."""
+        with self._lock:
+            if self._last_sent == _ZERO:
+                return longest
+            left = self._beat + HEARTBEAT + _INSTANT - self._now()
+            return min(longest, left) if left > 0 else longest
+
+    def due(self, *, allowed: bool = True) -> Drive | None:
+        """What has to be sent now, at once on a change and each `PERIOD` while held; None when nothing.
+
+        Not `allowed` means rest, and that the stick must be pushed anew.
+        """
+        with self._lock:
+            if not allowed or self._latched:
+                self._wanted = _ZERO
+            now = self._now()
+            order = self._effective(now)
+            changed = not _alike(order, self._last_sent)
+            if changed and order == _ZERO:
+                self._zeros = ZEROS
+            waited = now - self._sent_at >= (LATCHED if self._latched else PERIOD) - 1e-9
+            silent = order == _ZERO and self._zeros == 0 and not self._latched
+            if not changed and (not waited or silent):
+                return None
+            self._zeros = max(0, self._zeros - 1) if order == _ZERO else 0
+            self._last_sent, self._sent_at = order, now
+            return order
+
+    def _effective(self, now: float) -> Drive:
+        silence = now - self._beat
+        if silence > REARM:
+            self._wanted = _ZERO
+        return self._wanted if silence <= HEARTBEAT else _ZERO
