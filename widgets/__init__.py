@@ -50,6 +50,7 @@ CATALOGUE: dict[str, str] = {
     "TaskButtons": "widgets.task_buttons",
     "TaskCard": "widgets.task_card",
     "TaskChooser": "widgets.task_chooser",
+    "TiltCircle": "widgets.tilt_circle",
     "UltrasoundView": "widgets.ultrasound",
     "Video": "widgets.video",
     "WhenPicker": "widgets.when_picker",

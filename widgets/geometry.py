@@ -35,6 +35,7 @@ __all__ = [
     "nearest",
     "nice_floor",
     "occupancy_pixels",
+    "rounded",
     "scan_points",
     "scan_reach",
     "screen_angle",
@@ -237,6 +238,18 @@ def length_text(metres: float) -> str:
     if metres < 1.0:
         return f"{metres * 100:g} cm"
     return f"{metres:g} m" if metres < 1000.0 else f"{metres / 1000:g} km"
+
+
+def rounded(left: float, low: float, width: float, height: float, radius: float) -> Points:
+    """Corners of a rectangle with round corners of `radius`, anticlockwise, shape (n, 2); the same lengths as given."""
+    radius = min(radius, width / 2, height / 2)
+    quarter = np.linspace(0.0, math.pi / 2, 6)
+    arcs = []
+    for number, (x, y) in enumerate(((1, 1), (0, 1), (0, 0), (1, 0))):
+        middle = left + radius + x * (width - 2 * radius), low + radius + y * (height - 2 * radius)
+        angles = quarter + number * math.pi / 2
+        arcs.append(np.stack([np.cos(angles), np.sin(angles)], axis=1) * radius + middle)
+    return np.concatenate(arcs)
 
 
 def cover(width: float, height: float, wide: float, high: float) -> tuple[float, float]:
