@@ -18,7 +18,7 @@ from bridge.msgs import (
     vision_msgs,
 )
 
-__all__ = ["TOPICS", "Topic", "topic"]
+__all__ = ["SONARS", "TOPICS", "Topic", "topic"]
 
 
 @dataclass(frozen=True, slots=True)

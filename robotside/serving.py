@@ -1,15 +1,11 @@
-"""The station behind its sockets: bridge, web site, beacon, and the tick that drives all of it."""
+"""The station behind its sockets: bridge, web site, beacon."""
 
 from __future__ import annotations
 
-import asyncio
-import errno
-import logging
-import math
 import socket
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from typing import Any
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import asynccontextmanager, contextmanager
+from functools import partial
 
 import uvicorn
 
@@ -20,6 +16,7 @@ from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.server import BridgeServer
 from bridge.topics import TOPICS
+from robotside.apart import Apart
 from robotside.autonomy import CAMERA
 from robotside.clock import RobotClock
 from robotside.goals import actions
@@ -29,31 +26,15 @@ from robotside.pictures import Pictures
 from robotside.reduce import reduce
 from robotside.station import Station
 from robotside.streams import Streams
+from robotside.together import Served, Together
 from robotside.visit import Visit
 from robotside.watch import jpeg_size
 
 __all__ = ["Addresses", "Serving"]
 
-log = logging.getLogger(__name__)
-
 _EVERYWHERE = ("0.0.0.0", "::", "")  # noqa: S104 - compared with, not bound to
 
-_SHORT = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
-"""How the system says that it has no more of something."""
-
 _TABLE = frozenset(entry.name for entry in TOPICS)
-
-TICK = 1 / 60
-"""Real time between two ticks [s]."""
-LOOK = 1.0
-"""Real time between two questions whether it is still wanted [s]."""
-
-
-SHORTAGE = 60.0
-"""That no connection can be taken is said at most this often [s]."""
-
-BRAKING = 2.0
-"""How long the robot may take to come to rest at the end [s]."""
 
 
 class Addresses:
@@ -81,7 +62,7 @@ class Addresses:
 
 
 class Serving:
-    """Serves one station until told to end."""
+    """Serves one station until told to end: alone by `run`, or with others as part of a `Together`."""
 
     def __init__(
         self,
@@ -96,15 +77,19 @@ class Serving:
         self.addresses = addresses
         self.station = station
         """What is served."""
-        self._clock, self._wall, self._wanted = clock, wall, wanted
+        self._clock = clock
+        self._alone = Together([self], clock, wall, wanted=wanted)
         self._pictures = Pictures()
+        self._apart = Apart(station.bus)
+        self._told = _TABLE | {topic.name for topic in self._apart.topics}
         offered = list(services(station))
         self.server = BridgeServer(
             services=offered,
             on_message=listener(station),
+            topics=(*TOPICS, *self._apart.topics),
             now=station.clock,
             on_gone=station.gone,
-            on_demand=lambda topic, wanted: station.demand.set(topic, "clients", wanted),
+            on_demand=self._want,
             cameras=station.info.cameras,
             shrink=self._pictures.shrink,
             reduce=reduce,
@@ -114,61 +99,43 @@ class Serving:
         streams = Streams(station.bus, station.demand, self._pictures)
         self._site = site(station, lambda: addresses.bridge, kinds, streams)
         self._frames = 0
-        self._patience = math.inf
 
     async def run(self, ready: Callable[[Addresses], None]) -> None:
         """Serve until `end`; `ready` is called once everything listens. BridgeError when a port is taken."""
+        await self._alone.run(lambda _: ready(self.addresses))
+
+    def end(self) -> None:
+        """Have `run` come to its end."""
+        self._alone.end()
+
+    @asynccontextmanager
+    async def listening(self) -> AsyncIterator[Served]:
+        """Hold its ports for as long as this is open. BridgeError when one is taken."""
         where = self.addresses
         web_socket = _listen(where.host, where.http_port)
-        where.http_port = web_socket.getsockname()[1]
-        web = _Web(
-            uvicorn.Config(self._site, http=Visit, log_level="warning", lifespan="off", access_log=False)
-        )
-        beacon = Beacon(self._hello)
-        loop = asyncio.get_running_loop()
-        before = loop.get_exception_handler()
-        loop.set_exception_handler(_Faults())
         try:
+            where.http_port = web_socket.getsockname()[1]
             await self.server.start(where.host, where.port)
             where.port = self.server.port
+            web = _Web(
+                uvicorn.Config(self._site, http=Visit, log_level="warning", lifespan="off", access_log=False)
+            )
+            beacon = Beacon(self._hello)
             leave = self.station.bus.subscribe(None, self._publish)
-            async with asyncio.TaskGroup() as group:
-                group.create_task(web.serve([web_socket]))
-                group.create_task(beacon.run())
-                ready(where)
-                await self._tick()
-                leave()
-                web.should_exit = True
-                await beacon.close()
+            yield Served((lambda: web.serve([web_socket]), beacon.run), partial(_leave, leave, web, beacon))
         finally:
             self.station.robot.stop()
             await self.server.close()
             await self._pictures.close()
+            self._apart.close()
             web_socket.close()
-            loop.set_exception_handler(before)
 
-    def end(self) -> None:
-        """Have `run` come to its end."""
-        self.station.end()
-        self._patience = self._wall() + BRAKING
-
-    async def _tick(self) -> None:
-        """Drive the station until it was told to end and stands still."""
-        loop = asyncio.get_running_loop()
-        due = look = loop.time()
-        while self._wall() < self._patience and not (self._patience < math.inf and self.station.at_rest):
-            for now in self._clock.steps(self._wall()):
-                self.station.step(now)
-                await asyncio.sleep(0)
-            if self._patience == math.inf and loop.time() >= look:
-                look = loop.time() + LOOK
-                if not self._wanted():
-                    self.end()
-            due = max(due + TICK, loop.time() - TICK)
-            await asyncio.sleep(max(0.0, due - loop.time()))
+    def _want(self, topic: str, wanted: bool) -> None:
+        self._apart.want(topic, wanted)
+        self.station.demand.set(topic, "clients", wanted)
 
     def _publish(self, topic: str, msg: Msg) -> None:
-        if topic in _TABLE:
+        if topic in self._told:
             self.server.publish(topic, msg)
         if topic == CAMERA and isinstance(msg, CompressedImage) and self.station.info.cameras:
             width, height = jpeg_size(msg.data)
@@ -203,21 +170,11 @@ class _Web(uvicorn.Server):
         yield
 
 
-class _Faults:
-    """What goes wrong in the loop itself, in the log: that connections cannot be taken, seldom; all else as ever."""
-
-    def __init__(self) -> None:
-        self._next = -math.inf
-
-    def __call__(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
-        """Log one of them."""
-        fault = context.get("exception")
-        # a listening socket tells a hundred times a second that there are no more file descriptors
-        if "socket" not in context or not isinstance(fault, OSError) or fault.errno not in _SHORT:
-            loop.default_exception_handler(context)
-        elif loop.time() >= self._next:
-            self._next = loop.time() + SHORTAGE
-            log.error("No further connection can be taken at the moment: %s.", fault.strerror)
+async def _leave(leave: Callable[[], None], web: uvicorn.Server, beacon: Beacon) -> None:
+    """Take leave of everybody."""
+    leave()
+    web.should_exit = True
+    await beacon.close()
 
 
 def _listen(host: str, port: int) -> socket.socket:
