@@ -17,6 +17,7 @@ from bridge.msgs.pilothouse_msgs import (
     Following,
     Intruder,
     Mission,
+    SonarRing,
     TagRead,
     TaskOrder,
     TaskStatus,
@@ -37,6 +38,8 @@ from robotside.guide import CRUISE, Guide
 from robotside.laser import Laser
 from robotside.pose2 import Points, Pose2
 from robotside.robot import Robot
+from robotside.senses import needed
+from robotside.sonars import Sonars
 from robotside.tasks import TO_CHARGE, Engine
 from robotside.watch import Watch
 from robotside.whereabouts import Whereabouts
@@ -86,8 +89,10 @@ class Autonomy:
         info = robot.info
         self._bus, self._events, self._demand, self._fit = bus, events, demand, fit
         self._now = 0.0
-        self._heard = {"odometry": -math.inf, "laser": -math.inf}
+        self._kind = info.kind
+        self._heard: dict[str, float] = {}
         self._laser = Laser(Pose2(info.laser_x, 0.0, 0.0))
+        self._sonars = Sonars()
         self._points: Points = np.empty((0, 2))
         self._swept: Pose2 | None = None
         self._bumped = False
@@ -129,17 +134,18 @@ class Autonomy:
 
     def silence(self, now: float) -> str:
         """Which of the senses that it needs is silent, as `the laser has been silent for 0.6 s`; empty when none is."""
-        for sense, heard in self._heard.items():
+        for topic, sense in needed(self._kind, self._heard).items():
+            heard = self._heard.get(topic, -math.inf)
             if not now - heard <= SILENCE:
                 since = (
                     f"has been silent for {SILENCE} s" if heard > -math.inf else "has not said anything yet"
                 )
-                return f"the {sense} {since}"
+                return f"the {sense} {since if sense != 'sonars' else since.replace('has', 'have', 1)}"
         return ""
 
     def measured(self, now: float, since: float = -math.inf) -> bool:
         """How fast it goes is known: its odometry came lately, and after `since` [s]."""
-        heard = self._heard["odometry"]
+        heard = self._heard.get("/odom", -math.inf)
         return now - heard <= UNMEASURED and heard > since
 
     def check(self, now: float) -> None:
@@ -158,6 +164,7 @@ class Autonomy:
             "/map": self._map,
             "/odom": self._odom,
             "/scan": self._scan,
+            "/sonar": self._sonar,
             "/fix": self.whereabouts.take_fix,
             "/imu/data": self.whereabouts.take_imu,
             "/battery_state": self._battery,
@@ -217,7 +224,7 @@ class Autonomy:
     def _odom(self, msg: Odometry) -> None:
         if not math.isfinite(sum(Pose2.from_msg(msg.pose.pose))):
             return  # as good as none: one pose that is no number would spoil all later ones
-        self._heard["odometry"] = self._now
+        self._heard["/odom"] = self._now
         self.whereabouts.take_odom(msg)
         pose = self.whereabouts.pose
         if pose is None:
@@ -229,16 +236,30 @@ class Autonomy:
         self.engine.tick(pose, points, self.whereabouts.odometer, self._now)
 
     def _scan(self, scan: LaserScan) -> None:
-        self._heard["laser"] = self._now
+        self._heard["/scan"] = self._now
         stamp = scan.header.stamp.seconds
-        self._points = self._laser.points(scan)
-        self.whereabouts.take_sweep(self._points, stamp)
-        self._swept = self.whereabouts.track.at(stamp)
-        if self._swept is not None and self.whereabouts.sure:
-            placed = self._swept.apply(self._points)
+        points = self._laser.points(scan)
+        self.whereabouts.take_sweep(points, stamp)
+        placed = self._see(points, stamp)
+        if placed is not None:
             self.watch.take_sweep(placed, stamp)
-            if self.engine.active:
-                self.guide.obstacles.see(placed, self._now)
+
+    def _sonar(self, ring: SonarRing) -> None:
+        """Sonars keep off what is near, in place of a laser; they are too coarse to say where it is by them."""
+        self._heard["/sonar"] = self._now
+        if "/scan" not in self._heard:
+            self._see(self._sonars.points(ring), ring.header.stamp.seconds)
+
+    def _see(self, points: Points, stamp: float) -> Points | None:
+        """Take in what stands round it, in `base_link`; where that is in `map`, None while nobody knows for sure."""
+        self._points = points
+        self._swept = self.whereabouts.track.at(stamp)
+        if self._swept is None or not self.whereabouts.sure:
+            return None
+        placed = self._swept.apply(points)
+        if self.engine.active:
+            self.guide.obstacles.see(placed, self._now)
+        return placed
 
     def _image(self, image: CompressedImage) -> None:
         """Pictures come while a task runs and while somebody looks: who drives by hand is told what is in them."""

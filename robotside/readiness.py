@@ -18,9 +18,10 @@ __all__ = ["Readiness"]
 class Readiness:
     """What is known of one robot before it moves; times are of the operators' clock [s] unless said otherwise."""
 
-    def __init__(self, clock: Callable[[], float], publish: Publish) -> None:
+    def __init__(self, clock: Callable[[], float], publish: Publish, kind: str = "wheels") -> None:
+        """Of a robot of a `kind`, as its information calls it."""
         self._clock, self._publish = clock, publish
-        self.senses = Senses()
+        self.senses = Senses(kind)
         """What the robot measures of itself."""
         self.stop_tested = Time()
         """When STOP, pressed since the start, last brought the robot to rest; 0 when never."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Container
 from dataclasses import replace
 
 from bridge.msgs import Msg
@@ -12,12 +13,19 @@ from robotside.limits import Measured
 from robotside.pose2 import Pose2
 from robotside.tracks import Moving
 
-__all__ = ["PATIENCE", "Senses"]
+__all__ = ["PATIENCE", "Senses", "needed"]
 
-_NEEDED = {"/odom": "odometry", "/scan": "laser"}
+_NAMES = {"/odom": "odometry", "/scan": "laser", "/sonar": "sonars"}
+
+_ON_THE_GROUND = ("wheels", "ackermann")
+"""Kinds that drive by themselves only while they see what is in the way."""
+
 _MORE = {
     "/imu/data": "IMU",
     "/bumper": "bumper",
+    "/compass": "compass",
+    "/depth": "depth gauge",
+    "/range/down": "height ultrasound",
     "/joint_states": "encoders",
     "/line_sensor": "line sensor",
     "/range/front": "front ultrasound",
@@ -27,6 +35,19 @@ _MORE = {
 }
 """Sensors that a robot may have; they count once they were heard."""
 
+
+
+def needed(kind: str, heard: Container[str]) -> dict[str, str]:
+    """Topic and name of the sensors that a robot of a `kind` needs to move by itself, of which it has `heard` some.
+
+    What measures distances all round counts where it was heard, and has to be there on the ground: a laser, or else sonars.
+    """
+    ranging = next((topic for topic in ("/scan", "/sonar") if topic in heard), "")
+    if not ranging and kind in _ON_THE_GROUND:
+        ranging = "/scan"
+    return {topic: _NAMES[topic] for topic in ("/odom", ranging) if topic}
+
+
 PATIENCE = 1.0
 """A sensor that was silent for longer than this is not alive [s]."""
 
@@ -34,13 +55,15 @@ PATIENCE = 1.0
 class Senses:
     """Takes the robot's messages; times are of the robot's clock [s]."""
 
-    def __init__(self) -> None:
+    def __init__(self, kind: str = "wheels") -> None:
+        """Of a robot of a `kind`, as its information calls it."""
+        self._kind = kind
         self._measured = Measured()
-        self._heard = dict.fromkeys(_NEEDED, -math.inf)
+        self._heard: dict[str, float] = {}
 
     def take(self, topic: str, msg: Msg, now: float) -> None:
         """Take in one message of the robot."""
-        if topic in _NEEDED or topic in _MORE:
+        if topic in _NAMES or topic in _MORE:
             self._heard[topic] = now
         if isinstance(msg, Odometry):
             v, height = msg.twist.twist.linear, msg.pose.pose.position.z
@@ -57,5 +80,6 @@ class Senses:
 
     def silent(self, now: float) -> list[str]:
         """What people call the sensors that are not alive."""
-        names = _NEEDED | _MORE
-        return [names[topic] for topic, heard in self._heard.items() if now - heard > PATIENCE]
+        names = _NAMES | _MORE
+        known = dict.fromkeys(needed(self._kind, self._heard), -math.inf) | self._heard
+        return [names[topic] for topic, heard in known.items() if now - heard > PATIENCE]

@@ -102,7 +102,7 @@ class Station:
         self.records = records
         """What it keeps while it is switched off."""
         self.events = Events(records.events, clock, lambda event: self.bus.publish("/events", event))
-        self.readiness = Readiness(clock, self.bus.publish)
+        self.readiness = Readiness(clock, self.bus.publish, robot.info.kind)
         """What is looked through before the first motion."""
         self._next_remark: dict[str, float] = {}
         first = list(robot.read(now))
