@@ -39,6 +39,8 @@ __all__ = ["Session"]
 
 UNDECIDED = 20
 """So many events may wait for the robot's word of control."""
+PECULIAR = ("take_off", "land", "surface")
+"""Tasks of robots that fly or dive."""
 PLACED_WITHIN = (0.25, 0.25, 0.07)
 """Variance of a place pointed at by finger: x, y [m2] and yaw [rad2]."""
 
@@ -93,6 +95,8 @@ class Session:
         self._stopping = Stopping(now)
         self._stopping.reach(self.connected)
         self._asked_control = False
+        self._chosen = ""
+        """The camera that the operator chose; empty for the robot's first."""
         self._known = False
         self._told_mission: Mission | None = None
 
@@ -151,10 +155,21 @@ class Session:
         """Which camera to show, as `Link.watch` takes it; `watched` while the robot has not said what there is."""
         info: RobotInfo | None = self.feeds.latest("/robot/info")
         if info is not None:
-            return info.cameras[0] if info.cameras else None
+            return self._chosen if self._chosen in info.cameras else next(iter(info.cameras), None)
         if self.foreign and self.offer is not None:
             return "" if self.offer.source(CAMERA) else None
         return watched
+
+    def next_camera(self) -> None:
+        """Show the next one of the robot's cameras, after the last the first; nothing where it has one or none."""
+        cameras = self.info.cameras
+        shown = self.camera(None)
+        if shown in cameras:
+            self._chosen = cameras[(cameras.index(shown) + 1) % len(cameras)]
+
+    def knows(self, task: str) -> bool:
+        """Whether the robot knows that task; one that does not say knows those that every robot does that drives."""
+        return task in self.info.tasks if self.info.tasks else task not in PECULIAR
 
     @property
     def control(self) -> str:

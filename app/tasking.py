@@ -49,6 +49,7 @@ class Tasking:
         self.on_history: Callable[[GetHistoryResponse], object] = nobody
         """Called with each part of the history that comes."""
         self._waits_for_mission: TaskOrder | None = None
+        self._waits_for_end: TaskOrder | None = None
         self._deleted: dict[tuple[str, int], Callable[[], None]] = {}
         self._words: dict[tuple[str, int], str] = {}
 
@@ -61,6 +62,11 @@ class Tasking:
             self._robot.send_mission()
         else:
             self._robot.command("start", order=order)
+
+    def start_instead(self, order: TaskOrder) -> None:
+        """End the task that is under way and start this one; where its end is not accepted nothing starts."""
+        self._waits_for_end = order
+        self._robot.command("cancel")
 
     def keep_place(self, place: Place) -> None:
         """Store a place; one with the id 0 is new."""
@@ -99,6 +105,10 @@ class Tasking:
             self.queue.answered(accepted)
         elif outcome.name == "mission":
             self._go_on(accepted)
+        elif outcome.name == "cancel":
+            order, self._waits_for_end = self._waits_for_end, None
+            if accepted and order is not None:
+                self._robot.command("start", order=order)
         elif outcome.name in ("place_delete", "schedule_delete"):
             key = outcome.name, outcome.fields["id"]
             undo, words = self._deleted.pop(key, None), self._words.pop(key, "")
@@ -113,7 +123,7 @@ class Tasking:
 
     def dropped(self) -> None:
         """The link is another one now: what was under way has no answer."""
-        self._waits_for_mission = None
+        self._waits_for_mission = self._waits_for_end = None
         self._deleted.clear()
         self._words.clear()
         self.queue.answered(False)

@@ -55,11 +55,18 @@ TASKS: dict[str, TaskWords] = {
     "guide": TaskWords("Guide", "group", "guiding", ("stops", "message"), "Lead a person along places"),
     "go_to": TaskWords("Go to", "near_me", "going", ("to",), "Drive to a place and stay"),
     "go_home": TaskWords("Go home", "home", "going home", (), "Return to where it lives"),
-    "hold": TaskWords("Hold", "pause_circle", "holding", ("duration",), "Stand still where it is"),
+    "hold": TaskWords("Hold", "pause_circle", "holding", ("height", "duration"), "Stay where it is"),
     "follow_heading": TaskWords(
-        "Heading", "explore", "heading", ("heading", "speed", "duration"), "Drive straight in one direction"
+        "Heading",
+        "explore",
+        "heading",
+        ("heading", "speed", "throttle", "height", "duration"),
+        "Straight in one direction",
     ),
     "dock": TaskWords("Dock", "battery_charging_full", "docking", ("dock",), "Onto the charger"),
+    "take_off": TaskWords("Take off", "arrow_upward", "taking off", ("height",), "Up into the air"),
+    "land": TaskWords("Land", "arrow_downward", "landing", (), "Down to the ground"),
+    "surface": TaskWords("Surface", "water", "surfacing", (), "Up out of the water"),
 }
 """Every task in the order of the chooser."""
 

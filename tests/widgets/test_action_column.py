@@ -110,4 +110,5 @@ def test_the_current_one_is_scrolled_to(stage: Stage, column: Any) -> None:
     stage.frames(4)
     key = keys(column)[11]
     low, top = key.to_window(0, key.y)[1], key.to_window(0, key.top)[1]
-    assert column.roll.y - 1 <= low and top <= column.roll.top + 1
+    assert column.roll.y - 1 <= low
+    assert top <= column.roll.top + 1
