@@ -1,0 +1,280 @@
+"""The red circle: where a finger holds it, or how the tablet is tilted, so the robot is to tilt. In the green ring it is level.
+
+tilt = TiltCircle(max_tilt=0.35)
+tilt.bind(on_command=lambda _, manoeuvre: drive.command(manoeuvre))
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any, ClassVar
+
+import numpy as np
+from kivy.metrics import dp, sp
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
+from kivy.uix.widget import Widget
+
+from bridge.msgs.pilothouse_msgs import Manoeuvre
+from widgets.gauge import Gauge, first_fitting
+from widgets.grip import Grip
+from widgets.ink import Word, ground, tint
+from widgets.labels import spaced
+from widgets.shapes import Shapes
+from widgets.theme import theme
+
+__all__ = ["TiltCircle", "samples"]
+
+NEUTRAL = 0.1
+"""Of the way to the rim, round the middle: a hand that is not quite still commands nothing."""
+SLIGHT = 1e-6
+"""A share of the way that is only an error of rounding."""
+WIDE = 1.3
+"""From this share of its height on it is wide enough for figures beside the round."""
+
+
+class TiltCircle(Grip, Gauge):
+    """Dispatches `on_command(manoeuvre)` of the kind `tilt` at every change. Up is nose down, which is ahead for what flies."""
+
+    sends: ClassVar = (Manoeuvre,)
+    drawn_from: ClassVar = ("aside", "ahead", "max_tilt", "needs_hold", "badge")
+
+    max_tilt = NumericProperty(math.radians(20.0))
+    """Roll and pitch together at the rim [rad], above 0."""
+    aside = NumericProperty(0.0)
+    """How far the circle is to the right, -1 to 1 at the rim."""
+    ahead = NumericProperty(0.0)
+    """How far it is up, -1 to 1 at the rim."""
+    needs_hold = BooleanProperty(False)
+    """What leans it commands only while a finger is on it: the finger then says when, and not where to."""
+
+    def _neutral(self) -> bool:
+        unheld = self.needs_hold and self._finger is None
+        return unheld or math.hypot(self.aside, self.ahead) < NEUTRAL
+
+    def _roll(self) -> float:
+        return 0.0 if self._neutral() else self.aside * self.max_tilt
+
+    def _pitch(self) -> float:
+        return 0.0 if self._neutral() else self.ahead * self.max_tilt
+
+    roll = AliasProperty(_roll, bind=["aside", "ahead", "max_tilt", "needs_hold"])
+    """That it commands [rad], positive right side down."""
+    pitch = AliasProperty(_pitch, bind=["aside", "ahead", "max_tilt", "needs_hold"])
+    """That it commands [rad], positive nose down."""
+
+    def _forward(self) -> float:
+        return self.pitch / self.max_tilt
+
+    def _left(self) -> float:
+        return -self.roll / self.max_tilt + 0.0
+
+    forward = AliasProperty(_forward, bind=["pitch"])
+    """What it commands as a stick would say it: away from the operator, -1 to 1."""
+    left = AliasProperty(_left, bind=["roll"])
+    """The same to the left, -1 to 1."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        self._commanded = (0.0, 0.0)
+        super().__init__(**{"title": "Tilt", "card": False, **kwargs})
+        self.fbind("size", self._round_veil)
+        self.fbind("card", self._round_veil)
+        self._round_veil()
+
+    def _round_veil(self, *_: object) -> None:
+        self.veil_radius = theme.radius if self.card else min(self.size) / 2
+
+    @property
+    def manoeuvre(self) -> Manoeuvre:
+        """What it commands now; climb and turn are others' to add."""
+        return Manoeuvre(kind="tilt", roll=self.roll, pitch=self.pitch)
+
+    @property
+    def wide(self) -> bool:
+        """Figures stand beside the round, and not below it."""
+        return bool(self.width >= WIDE * self.height)
+
+    @property
+    def round(self) -> tuple[float, float, float]:
+        """Middle and radius of the round [px]."""
+        x, y, right, top = (
+            self.x + self.edge,
+            self.y + self.edge,
+            self.right - self.edge,
+            self.top - self.edge,
+        )
+        if self.wide:
+            radius = (top - y) / 2
+            return right - radius, self.center_y, radius
+        y += sp(20) if self.title else 0.0
+        return (x + right) / 2, (y + top) / 2, max(min(right - x, top - y) / 2, 1.0)
+
+    @property
+    def knob_radius(self) -> float:
+        """Of the red circle [px]."""
+        return min(self.round[2] * 0.22, theme.target / 2)
+
+    @property
+    def reach(self) -> float:
+        """From the middle to where the circle's middle is at most [px]."""
+        return max(1.0, self.round[2] - self.knob_radius - dp(3))
+
+    @property
+    def knob_pos(self) -> tuple[float, float]:
+        """The circle's middle [px]."""
+        x, y, _ = self.round
+        return x + self.aside * self.reach, y + self.ahead * self.reach
+
+    def lean(self, roll: float, pitch: float) -> bool:
+        """Put the circle to `roll` and `pitch` [rad], no farther than the rim, and command that; for sensors and gamepads.
+
+        False, and nothing is commanded, while a finger has it, or, where it `needs_hold`, has it not. ValueError for what
+        is not finite.
+        """
+        if not (math.isfinite(roll) and math.isfinite(pitch)):
+            raise ValueError(f"A tilt is a finite number of radians, not {roll}, {pitch}.")
+        held = self._finger is not None
+        if held and not self.needs_hold:
+            return False
+        if self.disabled:
+            return False
+        self._put(roll / self.max_tilt, pitch / self.max_tilt)
+        return held or not self.needs_hold
+
+    def grips(self, x: float, y: float) -> bool:
+        """Within the round."""
+        at_x, at_y, radius = self.round
+        return math.dist((x, y), (at_x, at_y)) <= radius
+
+    def follow(self, touch: Any) -> None:
+        """Go to where the finger is, unless it only says when."""
+        x, y, _ = self.round
+        if self.needs_hold:
+            self._put(self.aside, self.ahead)
+        else:
+            self._put((touch.x - x) / self.reach, (touch.y - y) / self.reach)
+
+    def spring(self) -> None:
+        """Back to the middle; where a sensor leans it, it stays where that is, and commands level."""
+        if self.needs_hold and not self.disabled:
+            self._put(self.aside, self.ahead)
+        else:
+            self._put(0.0, 0.0)
+
+    def _put(self, aside: float, ahead: float) -> None:
+        scale = max(1.0, math.hypot(aside, ahead))
+        self.aside, self.ahead = (0.0 if abs(share) < SLIGHT else share / scale for share in (aside, ahead))
+        now = self.roll, self.pitch
+        if now != self._commanded:
+            self._commanded = now
+            self.property("roll").dispatch(self)
+            self.property("pitch").dispatch(self)
+            self.dispatch("on_command", self.manoeuvre)
+        self.redraw()
+
+    def marks(self, shapes: Shapes) -> Iterator[Word]:
+        """The pad, the neutral ring, the circle, and what it commands in words."""
+        x, y, radius = self.round
+        shapes.disc(x, y, radius, tint(theme.raised, 0.92))
+        shapes.ring(x, y, radius - dp(0.75), dp(1.5), theme.line)
+        shapes.ring(x, y, radius * 0.5, dp(1.2), theme.line, dashes=40)
+        cross = np.array([[x - radius, y], [x, y - radius]]), np.array([[x + radius, y], [x, y + radius]])
+        shapes.segments(*cross, dp(1), tint(theme.muted, 0.35))
+        level = not (self.roll or self.pitch)
+        idle = self.needs_hold and self._finger is None
+        knob = self.knob_pos
+        if idle:
+            shapes.ring(*knob, self.knob_radius - dp(1.5), dp(3), theme.danger)
+        else:
+            shapes.disc(*knob, self.knob_radius, theme.danger)
+        ring = self.knob_radius + NEUTRAL * self.reach
+        shapes.ring(x, y, ring, dp(3 if level else 2), theme.ok)
+        if self.wide:
+            yield from self._beside(x - radius)
+        elif self.title and not self.badge:
+            yield from self._below(shapes, x, y - radius - sp(13))
+
+    def _below(self, shapes: Shapes, x: float, y: float) -> Iterator[Word]:
+        """What it commands in a line, or its name."""
+        room = self.width - 2 * self.edge - dp(6)
+        tilted = self.roll or self.pitch
+        parts = [_lean_text(self.pitch, "ahead", "back"), _lean_text(self.roll, "right", "left")]
+        told = " · ".join(part for part in parts if part) if tilted else ""
+        words = (told,) if told else self._idle_words()
+        size = sp(13)
+        word = Word(first_fitting(words, size, room), x, y, size, theme.text if told else theme.muted)
+        if not self.card and word.text:
+            ground(shapes, word, tint(theme.surface, 0.88))
+        yield word
+
+    def _idle_words(self) -> tuple[str, ...]:
+        name = spaced(self.title.upper())
+        if self.needs_hold and self._finger is None:
+            return (f"{name} · hold it to tilt", "hold to tilt", self.title)
+        return (name, self.title.upper())
+
+    def _beside(self, end: float) -> Iterator[Word]:
+        """Name, pitch and roll one under the other, to the left of the round that begins at `end` [px]."""
+        left, high = self.x + self.edge, self.height - 2 * self.edge
+        room = end - left - dp(8)
+        top = self.top - self.edge - sp(7)
+        yield Word(
+            first_fitting(self._idle_words(), sp(11.5), room),
+            left,
+            top,
+            sp(11.5),
+            theme.muted,
+            anchor=(0, 0.5),
+        )
+        size = min(sp(26), room / 3.2)
+        step = min(high * 0.36, sp(62))
+        middle = self.center_y - sp(6)
+        rows = (
+            ("pitch", self.pitch, "ahead", "back", middle + step / 2),
+            ("roll", self.roll, "right", "left", middle - step / 2),
+        )
+        for name, angle, plus, minus, y in rows:
+            figure = _figure(angle)
+            side = "level" if not angle else plus if angle > 0 else minus
+            yield Word(name.upper(), left, y + size * 0.55 + sp(6), sp(11.5), theme.muted, anchor=(0, 0.5))
+            yield Word(figure, left, y, size, theme.text, bold=True, anchor=(0, 0.5))
+            yield Word(side, left, y - size * 0.55 - sp(6), sp(13), theme.muted, anchor=(0, 0.5))
+
+
+def _figure(angle: float) -> str:
+    return f"{abs(math.degrees(angle)):.0f}°"
+
+
+def _lean_text(angle: float, plus: str, minus: str) -> str:
+    """As in `12° ahead`; empty for less than half a degree."""
+    return "" if abs(angle) < math.radians(0.5) else f"{_figure(angle)} {plus if angle > 0 else minus}"
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """Level, leaned each way, at the rim, only while held, on a card, disabled; small and large."""
+
+    def make(
+        roll: float = 0.0, pitch: float = 0.0, size: tuple[float, float] = (176, 176), **more: Any
+    ) -> Callable[[], Widget]:
+        def build() -> Widget:
+            circle = TiltCircle(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
+            circle.lean(math.radians(roll), math.radians(pitch))
+            return circle
+
+        return build
+
+    return {
+        "level": make(),
+        "ahead to the right": make(5, 12),
+        "back": make(0, -8),
+        "at the rim": make(-40, 15),
+        "not held": make(6, 4, needs_hold=True, title="Tablet tilt"),
+        "card": make(5, 12, card=True, title="Tablet tilt"),
+        "large": make(5, 12, size=(326, 228), card=True, title="Tablet tilt"),
+        "large level": make(size=(326, 228), card=True, title="Tablet tilt"),
+        "tall": make(5, 12, size=(228, 326), card=True, title="Tablet tilt"),
+        "bare": make(5, 12, title=""),
+        "stale": make(5, 12, state="stale", age=2.0),
+        "alarm": make(5, 12, state="alarm", card=True),
+        "disabled": make(state="disabled"),
+    }
