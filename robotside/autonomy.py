@@ -245,12 +245,13 @@ class Autonomy:
             self.watch.take_sweep(placed, stamp)
 
     def _sonar(self, ring: SonarRing) -> None:
-        """Sonars keep off what is near, in place of a laser; they are too coarse to say where it is by them."""
+        """Where there is no laser, sonars keep off what is near and help to say where it is."""
         self._heard["/sonar"] = self._now
         if "/scan" not in self._heard:
-            self._see(self._sonars.points(ring), ring.header.stamp.seconds)
+            self.whereabouts.take_echoes(self._sonars.arcs(ring))
+            self._see(self._sonars.points(ring), ring.header.stamp.seconds, vague=True)
 
-    def _see(self, points: Points, stamp: float) -> Points | None:
+    def _see(self, points: Points, stamp: float, *, vague: bool = False) -> Points | None:
         """Take in what stands round it, in `base_link`; where that is in `map`, None while nobody knows for sure."""
         self._points = points
         self._swept = self.whereabouts.track.at(stamp)
@@ -258,7 +259,7 @@ class Autonomy:
             return None
         placed = self._swept.apply(points)
         if self.engine.active:
-            self.guide.obstacles.see(placed, self._now)
+            self.guide.obstacles.see(placed, self._now, vague=vague)
         return placed
 
     def _image(self, image: CompressedImage) -> None:

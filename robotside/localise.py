@@ -41,6 +41,9 @@ SWERVE = (0.03, 0.03)
 LOSS = 0.25
 """End points count less the farther they are from a surface; at this distance a quarter [m]."""
 
+ECHO, ECHOES = 0.5, 12
+"""An echo counts within this of a surface [m], and so many of them are laid on the map."""
+
 SURE = 0.5
 """Part of the end points that must lie on surfaces for the position to be trusted."""
 
@@ -130,6 +133,32 @@ class Localiser:
         dx, dy, turn = (gain @ np.array([x - self.pose.x, y - self.pose.y])).tolist()
         self.pose = Pose2(self.pose.x + dx, self.pose.y + dy, wrap(self.pose.yaw + turn))
         self.covariance = self.covariance - gain @ self.covariance[:2, :]
+
+    def face(self, yaw: float, spread: float) -> None:
+        """Something else lets it look to `yaw` [rad], to `spread` [rad] (one standard deviation)."""
+        if self.pose is None:
+            return
+        gain = self.covariance[:, 2] / (self.covariance[2, 2] + spread**2)
+        dx, dy, turn = (gain * wrap(yaw - self.pose.yaw)).tolist()
+        self.pose = Pose2(self.pose.x + dx, self.pose.y + dy, wrap(self.pose.yaw + turn))
+        self.covariance = self.covariance - np.outer(gain, self.covariance[2, :])
+
+    def echo(self, ends: NDArray[np.float64]) -> None:
+        """Lay echoes on the map, each by the place on its arc that is nearest to a surface; `ends` are arcs in `base_link`.
+
+        Shape (echoes, places, 2) [m]. Too few of them, and echoes of what the map does not know, change nothing.
+        """
+        if self.pose is None or not len(ends):
+            return
+        off = np.abs(self._field.read(self.pose.apply(ends.reshape(-1, 2)))[:, 0]).reshape(ends.shape[:2])
+        nearest = off.argmin(axis=1)
+        points = ends[np.arange(len(ends)), nearest][off.min(axis=1) < ECHO]
+        if len(points) < ECHOES:
+            return
+        match = self._fit(self.pose, points)
+        if match.fit >= SURE:
+            self.pose = match.pose
+            self.covariance = np.asarray(np.linalg.inv(match.information), dtype=np.float64)
 
     def predict(self, odom: Pose2) -> None:
         """Move on by what the wheels say: `odom` is the pose in the odometry's frame."""

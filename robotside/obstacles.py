@@ -18,28 +18,32 @@ UNKNOWN = 0.35
 FADES = 30.0
 """How long something is remembered without being seen again [s]."""
 
+VAGUE = (0.6, 8.0)
+"""The same two for what is seen vaguely, as by sonars [m, s]."""
+
 
 class Obstacles:
     """Places in `map` where something stands that is not on the map."""
 
     def __init__(self, grid: Grid) -> None:
         self._grid = grid
-        self._seen: dict[tuple[int, int], float] = {}
+        self._until: dict[tuple[int, int], float] = {}
 
-    def see(self, points: Points, now: float) -> None:
-        """Take in one sweep's end points, in `map`."""
-        fresh = points[self._grid.clearance(points) > UNKNOWN]
+    def see(self, points: Points, now: float, *, vague: bool = False) -> None:
+        """Take in one sweep's end points, in `map`; `vague` when they may as well be somewhat aside."""
+        apart, lasts = VAGUE if vague else (UNKNOWN, FADES)
+        fresh = points[self._grid.clearance(points) > apart]
         for x, y in set(map(tuple, np.round(fresh / CELL).astype(int).tolist())):
-            self._seen[x, y] = now
+            self._until[x, y] = max(now + lasts, self._until.get((x, y), now))
 
     def points(self, now: float) -> Points:
         """What is remembered, shape (n, 2) [m]."""
-        self._seen = {cell: seen for cell, seen in self._seen.items() if now - seen < FADES}
-        return np.array(list(self._seen), dtype=np.float64).reshape(-1, 2) * CELL
+        self._until = {cell: until for cell, until in self._until.items() if now < until}
+        return np.array(list(self._until), dtype=np.float64).reshape(-1, 2) * CELL
 
     def forget(self) -> None:
         """Start with nothing: the position was wrong, and so is all that was seen from it."""
-        self._seen.clear()
+        self._until.clear()
 
     def near(self, path: Points, reach: float, now: float) -> Points:
         """The remembered places within `reach` [m] of the points of `path`."""

@@ -36,7 +36,6 @@ _MORE = {
 """Sensors that a robot may have; they count once they were heard."""
 
 
-
 def needed(kind: str, heard: Container[str]) -> dict[str, str]:
     """Topic and name of the sensors that a robot of a `kind` needs to move by itself, of which it has `heard` some.
 

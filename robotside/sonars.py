@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bridge.msgs.pilothouse_msgs import SonarRing
 from robotside.pose2 import Points
@@ -12,8 +13,14 @@ __all__ = ["NEAR", "Sonars"]
 NEAR = 1.5
 """Beyond this a cone is too wide to say where something stands [m]."""
 
+FAR = 4.0
+"""Beyond this an echo says nothing of where the robot is [m]."""
+
 EDGES = np.array([-0.35, 0.0, 0.35])
 """Places across a cone that are taken for its end, in widths; not its very edges, or no door were wide enough."""
+
+ARC = np.linspace(-0.5, 0.5, 7)
+"""Places on the end of a cone that may have given the echo, in widths."""
 
 
 class Sonars:
@@ -24,12 +31,19 @@ class Sonars:
 
         What is too close to be measured stands right before its sonar.
         """
-        ranges = np.asarray(ring.ranges, dtype=np.float64)
-        bearings = np.asarray(ring.bearings, dtype=np.float64)[: len(ranges)]
-        ranges = ranges[: len(bearings)]
-        met = ranges < min(ring.range_max, NEAR)  # not NaN
-        reach = ring.radius + np.maximum(ranges[met], ring.range_min)
-        angles = bearings[met][:, None] + ring.field_of_view * EDGES
-        return np.column_stack(
-            [(reach[:, None] * np.cos(angles)).ravel(), (reach[:, None] * np.sin(angles)).ravel()]
-        )
+        return _ends(ring, -np.inf, NEAR, EDGES).reshape(-1, 2)
+
+    def arcs(self, ring: SonarRing) -> NDArray[np.float64]:
+        """The ends of all cones that measured something not too far away, shape (echoes, places, 2) in `base_link` [m]."""
+        return _ends(ring, 0.0, FAR, ARC)
+
+
+def _ends(ring: SonarRing, least: float, most: float, across: Points) -> NDArray[np.float64]:
+    """Places across the ends of the cones whose ranges are in between, shape (cones, places, 2)."""
+    ranges = np.asarray(ring.ranges, dtype=np.float64)
+    bearings = np.asarray(ring.bearings, dtype=np.float64)[: len(ranges)]
+    ranges = ranges[: len(bearings)]
+    met = (ranges >= least) & (ranges < min(ring.range_max, most))  # not NaN
+    reach = (ring.radius + np.maximum(ranges[met], ring.range_min))[:, None]
+    angles = bearings[met][:, None] + ring.field_of_view * across
+    return np.stack([reach * np.cos(angles), reach * np.sin(angles)], axis=-1)

@@ -6,6 +6,9 @@ import bisect
 import math
 from collections import deque
 
+import numpy as np
+from numpy.typing import NDArray
+
 from bridge.geo import Datum
 from bridge.msgs.geometry_msgs import (
     PoseWithCovariance,
@@ -44,6 +47,13 @@ TOLD_REACH, TOLD_TURN = 1.0, 0.5
 
 FIX_SPREAD = 2.5
 """How far a single fix is trusted by a robot that has no laser [m]: its error changes slowly."""
+
+
+FACING, COMPASS_SPREAD = 0.5, 0.2
+"""So often such a robot believes its compass [s], and how far each time [rad]: its error changes slowly."""
+
+RINGS = 4
+"""Of sonars that are laid on the map together."""
 
 
 _NO_IDEA = "There is no fix or compass: the robot supposes to be near the map's origin. Place it on the map."
@@ -94,6 +104,8 @@ class Whereabouts:
         self._was_sure = True
         self._begun = math.nan
         self._swept = False
+        self._faced = -math.inf
+        self._rings: list[NDArray[np.float64]] = []
         self.track = Track()
         """Poses in `map` of the last seconds."""
         self.odometer = 0.0
@@ -131,9 +143,30 @@ class Whereabouts:
                 self._localiser.hear(*self._fixes[-1], FIX_SPREAD)
 
     def take_imu(self, imu: Imu) -> None:
-        """Remember the compass for the first guess."""
-        if imu.orientation_covariance[0] >= 0:
-            self._compass = imu.orientation.yaw
+        """Remember the compass for the first guess; a robot that has no laser goes on by it."""
+        if not imu.orientation_covariance[0] >= 0:
+            return
+        self._compass = imu.orientation.yaw
+        stamp = imu.header.stamp.seconds
+        if (
+            self._localiser
+            and not self._swept
+            and stamp >= self._faced + FACING
+            and math.isfinite(self._compass)
+        ):
+            self._faced = stamp
+            self._localiser.face(self._compass, COMPASS_SPREAD)
+
+    def take_echoes(self, arcs: NDArray[np.float64]) -> None:
+        """Without a laser, correct the pose by sonars, a few rings at a time; `arcs` are ends of cones in `base_link`."""
+        localiser, odom = self._localiser, self._odom
+        if localiser is None or odom is None or self._swept:
+            return
+        self._rings.append(odom.apply(arcs.reshape(-1, 2)).reshape(arcs.shape))
+        if len(self._rings) == RINGS:
+            ends = np.concatenate(self._rings)
+            self._rings.clear()
+            localiser.echo(odom.inverse().apply(ends.reshape(-1, 2)).reshape(ends.shape))
 
     def told(self, pose: Pose2) -> None:
         """The operator says that the robot is at `pose`; the next sweep corrects the finger's error."""
