@@ -57,7 +57,7 @@ class Run:
         assert answer.success, answer.message  # type: ignore[union-attr]
 
     def patrol(self, points: list[Waypoint], **words: object) -> None:
-        mission = Mission(waypoints=points, home=[HOME], **{"laps": 1, **words})  # type: ignore[arg-type]
+        mission = Mission(waypoints=points, **{"laps": 1, "home": [HOME], **words})  # type: ignore[arg-type]
         self.ask("/mission/set", SetMissionRequest(mission=mission))
         self.ask("/task/start", StartTaskRequest())
 
