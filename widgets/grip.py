@@ -1,7 +1,7 @@
 """A control that one finger holds: it follows the finger that came down on it and no other, and knows when that is lost.
 
 class Slider(Grip, Drawing):
-    def grips(self, x, y): return True
+    def holds(self, x, y): return True
     def follow(self, touch): self.share = …
     def spring(self): self.share = 0.0
 """
@@ -34,7 +34,7 @@ class Grip(Control):
         """The touch that it follows; None without one."""
         return self._finger
 
-    def grips(self, x: float, y: float) -> bool:
+    def holds(self, x: float, y: float) -> bool:
         """Whether a finger that comes down at (x, y) [px] takes hold of it."""
         return bool(self.collide_point(x, y))
 
@@ -59,10 +59,10 @@ class Grip(Control):
             self.rest()
 
     def on_touch_down(self, touch: Any) -> bool:
-        """Take the first finger that grips it; one that comes down again has been away, unseen."""
+        """Take the first finger on it; one that comes down again has been away, unseen."""
         if touch is self._finger:
             self.rest()
-        gripped = self.grips(*touch.pos)
+        gripped = self.holds(*touch.pos)
         if self.disabled and gripped:
             self.dispatch("on_in_vain")
         if self.disabled or self._finger is not None or not gripped:

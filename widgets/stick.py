@@ -15,7 +15,8 @@ from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, NumericProperty, OptionProperty
 
 from bridge.msgs import Msg
-from widgets.base import Control, text_texture
+from widgets.base import text_texture
+from widgets.grip import Grip
 from widgets.icons import icon
 from widgets.ink import Drawing, Ink
 from widgets.theme import theme
@@ -63,13 +64,12 @@ Builder.load_string("""
 """)
 
 
-class Stick(Control, Drawing):
+class Stick(Grip, Drawing):
     """Dispatches `on_command(order)` at every change. It follows the finger that came down on it and no other.
 
     A subclass says how a push is `shaped`, where its middle and its `travel` are, which `order` that is, and draws it.
     """
 
-    __events__ = ("on_in_vain",)
     drawn_from: ClassVar[tuple[str, ...]] = ("forward", "left")
 
     forward = NumericProperty(0.0)
@@ -111,22 +111,15 @@ class Stick(Control, Drawing):
     """Role of its colour; empty while there is none."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self._finger: Any = None
         super().__init__(**kwargs)
-        self._ink = Ink()
-        self.canvas.add(self._ink)
-        self.fbind("size", self._rest_under_finger)
-        self.fbind("pos", self._rest_under_finger)
+        if not hasattr(self, "_ink"):  # a gauge has its own, below its words
+            self._ink = Ink()
+            self.canvas.add(self._ink)
 
     @property
     def order(self) -> Msg:
         """What the stick commands now."""
         raise NotImplementedError(f"{type(self).__name__} does not say what it commands")
-
-    @property
-    def finger(self) -> Any:
-        """The touch that it follows; None without one."""
-        return self._finger
 
     @property
     def middle(self) -> tuple[float, float]:
@@ -141,10 +134,6 @@ class Stick(Control, Drawing):
     def shaped(self, forward: float, left: float) -> tuple[float, float]:
         """What a push to `forward` and `left`, of any length, comes to: each -1 to 1."""
         raise NotImplementedError(f"{type(self).__name__} does not say what a push comes to")
-
-    def holds(self, x: float, y: float) -> bool:
-        """A finger that comes down at (x, y) [px] is the stick's."""
-        return bool(self.collide_point(x, y))
 
     def sign_place(self) -> tuple[float, float]:
         """Lower left corner of the gamepad's sign [px]."""
@@ -169,49 +158,11 @@ class Stick(Control, Drawing):
             self.forward, self.left = forward, left
             self.dispatch("on_command", self.order)
 
-    def rest(self) -> None:
-        """Spring back and let the finger go; commands zero if it was not at rest already."""
-        if self._finger is not None:
-            self._finger.ungrab(self)
-            self._finger = None
-        self._push(0.0, 0.0)
-
-    def _rest_under_finger(self, *_: object) -> None:
-        """It was moved: where the finger is now says nothing of where it was to be pushed."""
-        if self._finger is not None:
-            self.rest()
-
-    def on_touch_down(self, touch: Any) -> bool:
-        """Take the first finger that comes down on it; one that comes down again has been away, unseen."""
-        if touch is self._finger:
-            self.rest()
-        inside = self.holds(*touch.pos)
-        if self.disabled and inside:
-            self.dispatch("on_in_vain")
-        if self.disabled or self._finger is not None or not inside:
-            return bool(super().on_touch_down(touch))
-        touch.grab(self)
-        self._finger = touch
-        self._follow(touch)
-        return True
-
-    def on_touch_move(self, touch: Any) -> bool:
-        """Follow it, over the rim as well."""
-        if touch.grab_current is not self:
-            return bool(super().on_touch_move(touch))
-        self._follow(touch)
-        return True
-
-    def on_touch_up(self, touch: Any) -> bool:
-        """Spring back."""
-        if touch.grab_current is not self:
-            return bool(super().on_touch_up(touch))
-        self.rest()
-        return True
-
-    def _follow(self, touch: Any) -> None:
+    def follow(self, touch: Any) -> None:
+        """Lean towards the finger."""
         (x, y), (across, up) = self.middle, self.travel
         self._push((touch.y - y) / up, (x - touch.x) / across)
 
-    def on_in_vain(self) -> None:
-        """A finger came down on it while it is disabled."""
+    def spring(self) -> None:
+        """Back to the middle; commands zero if it was not there already."""
+        self._push(0.0, 0.0)

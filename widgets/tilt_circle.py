@@ -17,65 +17,56 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from widgets.gauge import Gauge, first_fitting
-from widgets.grip import Grip
 from widgets.ink import Word, ground, tint
 from widgets.labels import spaced
 from widgets.shapes import Shapes
+from widgets.stick import Stick
 from widgets.theme import theme
 
 __all__ = ["TiltCircle", "samples"]
 
 NEUTRAL = 0.1
 """Of the way to the rim, round the middle: a hand that is not quite still commands nothing."""
-SLIGHT = 1e-6
-"""A share of the way that is only an error of rounding."""
 WIDE = 1.3
 """From this share of its height on it is wide enough for figures beside the round."""
 
 
-class TiltCircle(Grip, Gauge):
+class TiltCircle(Stick, Gauge):
     """Dispatches `on_command(manoeuvre)` of the kind `tilt` at every change. Up is nose down, which is ahead for what flies."""
 
-    sends: ClassVar = (Manoeuvre,)
-    drawn_from: ClassVar = ("aside", "ahead", "max_tilt", "needs_hold", "badge")
+    sends = (Manoeuvre,)
+    drawn_from: ClassVar[tuple[str, ...]] = (
+        "forward",
+        "left",
+        "aside",
+        "ahead",
+        "max_tilt",
+        "needs_hold",
+        "badge",
+    )
 
     max_tilt = NumericProperty(math.radians(20.0))
     """Roll and pitch together at the rim [rad], above 0."""
     aside = NumericProperty(0.0)
-    """How far the circle is to the right, -1 to 1 at the rim."""
+    """How far the circle is to the right, -1 to 1 at the rim; in the ring it commands nothing of that."""
     ahead = NumericProperty(0.0)
     """How far it is up, -1 to 1 at the rim."""
     needs_hold = BooleanProperty(False)
-    """What leans it commands only while a finger is on it: the finger then says when, and not where to."""
-
-    def _neutral(self) -> bool:
-        unheld = self.needs_hold and self._finger is None
-        return unheld or math.hypot(self.aside, self.ahead) < NEUTRAL
+    """The tablet tilts it only while a finger is on it: the finger then says when, and not where to."""
 
     def _roll(self) -> float:
-        return 0.0 if self._neutral() else self.aside * self.max_tilt
+        # + 0.0 turns the minus zero of a circle at rest into zero
+        return -self.left * self.max_tilt + 0.0
 
     def _pitch(self) -> float:
-        return 0.0 if self._neutral() else self.ahead * self.max_tilt
+        return self.forward * self.max_tilt
 
-    roll = AliasProperty(_roll, bind=["aside", "ahead", "max_tilt", "needs_hold"])
+    roll = AliasProperty(_roll, bind=["left", "max_tilt"])
     """That it commands [rad], positive right side down."""
-    pitch = AliasProperty(_pitch, bind=["aside", "ahead", "max_tilt", "needs_hold"])
+    pitch = AliasProperty(_pitch, bind=["forward", "max_tilt"])
     """That it commands [rad], positive nose down."""
 
-    def _forward(self) -> float:
-        return self.pitch / self.max_tilt
-
-    def _left(self) -> float:
-        return -self.roll / self.max_tilt + 0.0
-
-    forward = AliasProperty(_forward, bind=["pitch"])
-    """What it commands as a stick would say it: away from the operator, -1 to 1."""
-    left = AliasProperty(_left, bind=["roll"])
-    """The same to the left, -1 to 1."""
-
     def __init__(self, **kwargs: Any) -> None:
-        self._commanded = (0.0, 0.0)
         super().__init__(**{"title": "Tilt", "card": False, **kwargs})
         self.fbind("size", self._round_veil)
         self.fbind("card", self._round_veil)
@@ -85,9 +76,9 @@ class TiltCircle(Grip, Gauge):
         self.veil_radius = theme.radius if self.card else min(self.size) / 2
 
     @property
-    def manoeuvre(self) -> Manoeuvre:
+    def order(self) -> Manoeuvre:
         """What it commands now; climb and turn are others' to add."""
-        return Manoeuvre(kind="tilt", roll=self.roll, pitch=self.pitch)
+        return Manoeuvre(kind="tilt", roll=self._roll(), pitch=self._pitch())
 
     @property
     def wide(self) -> bool:
@@ -115,62 +106,74 @@ class TiltCircle(Grip, Gauge):
         return min(self.round[2] * 0.22, theme.target / 2)
 
     @property
-    def reach(self) -> float:
-        """From the middle to where the circle's middle is at most [px]."""
-        return max(1.0, self.round[2] - self.knob_radius - dp(3))
+    def middle(self) -> tuple[float, float]:
+        """Of the round."""
+        return self.round[:2]
+
+    @property
+    def travel(self) -> tuple[float, float]:
+        """The same to all sides."""
+        reach = max(1.0, self.round[2] - self.knob_radius - dp(3))
+        return reach, reach
 
     @property
     def knob_pos(self) -> tuple[float, float]:
         """The circle's middle [px]."""
-        x, y, _ = self.round
-        return x + self.aside * self.reach, y + self.ahead * self.reach
+        (x, y), (across, up) = self.middle, self.travel
+        return x + self.aside * across, y + self.ahead * up
 
-    def lean(self, roll: float, pitch: float) -> bool:
-        """Put the circle to `roll` and `pitch` [rad], no farther than the rim, and command that; for sensors and gamepads.
+    def shaped(self, forward: float, left: float) -> tuple[float, float]:
+        """Nothing in the ring, never beyond the rim."""
+        length = math.hypot(forward, left)
+        scale = 0.0 if length < NEUTRAL else 1.0 / max(1.0, length)
+        return forward * scale, left * scale
 
-        False, and nothing is commanded, while a finger has it, or, where it `needs_hold`, has it not. ValueError for what
-        is not finite.
+    def holds(self, x: float, y: float) -> bool:
+        """On the round."""
+        return math.dist((x, y), self.middle) <= self.round[2]
+
+    def tilt(self, roll: float, pitch: float) -> bool:
+        """Show that the tablet is tilted by `roll` and `pitch` [rad] from level, and command the same, no farther than the rim.
+
+        False, and nothing is commanded, while it is disabled, while a finger leads it, and, where it `needs_hold`, while none
+        holds it. ValueError for what is not finite.
         """
-        if not (math.isfinite(roll) and math.isfinite(pitch)):
+        if not math.isfinite(roll + pitch):
             raise ValueError(f"A tilt is a finite number of radians, not {roll}, {pitch}.")
-        held = self._finger is not None
-        if held and not self.needs_hold:
+        held = self.finger is not None
+        if self.disabled or (held and not self.needs_hold):
             return False
-        if self.disabled:
+        self._at(pitch / self.max_tilt, -roll / self.max_tilt)
+        if self.needs_hold and not held:
             return False
-        self._put(roll / self.max_tilt, pitch / self.max_tilt)
-        return held or not self.needs_hold
-
-    def grips(self, x: float, y: float) -> bool:
-        """Within the round."""
-        at_x, at_y, radius = self.round
-        return math.dist((x, y), (at_x, at_y)) <= radius
+        super()._push(pitch / self.max_tilt, -roll / self.max_tilt)
+        return True
 
     def follow(self, touch: Any) -> None:
-        """Go to where the finger is, unless it only says when."""
-        x, y, _ = self.round
+        """Go to where the finger is; where that only says when, command how the tablet is tilted."""
         if self.needs_hold:
-            self._put(self.aside, self.ahead)
+            super()._push(self.ahead, -self.aside)
         else:
-            self._put((touch.x - x) / self.reach, (touch.y - y) / self.reach)
+            super().follow(touch)
 
     def spring(self) -> None:
-        """Back to the middle; where a sensor leans it, it stays where that is, and commands level."""
+        """Command level; where the tablet tilts it the circle stays where that is."""
         if self.needs_hold and not self.disabled:
-            self._put(self.aside, self.ahead)
+            super()._push(0.0, 0.0)
         else:
-            self._put(0.0, 0.0)
+            super().spring()
 
-    def _put(self, aside: float, ahead: float) -> None:
-        scale = max(1.0, math.hypot(aside, ahead))
-        self.aside, self.ahead = (0.0 if abs(share) < SLIGHT else share / scale for share in (aside, ahead))
-        now = self.roll, self.pitch
-        if now != self._commanded:
-            self._commanded = now
-            self.property("roll").dispatch(self)
-            self.property("pitch").dispatch(self)
-            self.dispatch("on_command", self.manoeuvre)
-        self.redraw()
+    def _push(self, forward: float, left: float) -> None:
+        self._at(forward, left)
+        super()._push(forward, left)
+
+    def _at(self, forward: float, left: float) -> None:
+        scale = max(1.0, math.hypot(forward, left))
+        self.ahead, self.aside = forward / scale, -left / scale + 0.0
+
+    def draw(self) -> None:
+        """In the gauge's way."""
+        Gauge.draw(self)
 
     def marks(self, shapes: Shapes) -> Iterator[Word]:
         """The pad, the neutral ring, the circle, and what it commands in words."""
@@ -181,13 +184,13 @@ class TiltCircle(Grip, Gauge):
         cross = np.array([[x - radius, y], [x, y - radius]]), np.array([[x + radius, y], [x, y + radius]])
         shapes.segments(*cross, dp(1), tint(theme.muted, 0.35))
         level = not (self.roll or self.pitch)
-        idle = self.needs_hold and self._finger is None
+        idle = self.needs_hold and self.finger is None
         knob = self.knob_pos
         if idle:
             shapes.ring(*knob, self.knob_radius - dp(1.5), dp(3), theme.danger)
         else:
             shapes.disc(*knob, self.knob_radius, theme.danger)
-        ring = self.knob_radius + NEUTRAL * self.reach
+        ring = self.knob_radius + NEUTRAL * self.travel[0]
         shapes.ring(x, y, ring, dp(3 if level else 2), theme.ok)
         if self.wide:
             yield from self._beside(x - radius)
@@ -209,7 +212,7 @@ class TiltCircle(Grip, Gauge):
 
     def _idle_words(self) -> tuple[str, ...]:
         name = spaced(self.title.upper())
-        if self.needs_hold and self._finger is None:
+        if self.needs_hold and self.finger is None:
             return (f"{name} · hold it to tilt", "hold to tilt", self.title)
         return (name, self.title.upper())
 
@@ -258,7 +261,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     ) -> Callable[[], Widget]:
         def build() -> Widget:
             circle = TiltCircle(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
-            circle.lean(math.radians(roll), math.radians(pitch))
+            circle.tilt(math.radians(roll), math.radians(pitch))
             return circle
 
         return build
@@ -272,6 +275,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "card": make(5, 12, card=True, title="Tablet tilt"),
         "large": make(5, 12, size=(326, 228), card=True, title="Tablet tilt"),
         "large level": make(size=(326, 228), card=True, title="Tablet tilt"),
+        "gamepad": make(5, 12, gamepad="drives"),
         "tall": make(5, 12, size=(228, 326), card=True, title="Tablet tilt"),
         "bare": make(5, 12, title=""),
         "stale": make(5, 12, state="stale", age=2.0),

@@ -24,7 +24,7 @@ def watched(circle):
 
 def hold(stage, circle, aside, ahead):
     x, y, _ = circle.round
-    finger = stage.touch(x + aside * circle.reach, y + ahead * circle.reach)
+    finger = stage.touch(x + aside * circle.travel[0], y + ahead * circle.travel[1])
     finger.touch_down()
     return finger
 
@@ -50,42 +50,48 @@ def test_let_go_it_commands_level_once(stage, circle):
 
 
 def test_inside_the_green_ring_it_is_level(stage, circle):
-    circle.lean(0.0, NEUTRAL * LIMIT * 0.9)
-    assert (circle.orders, circle.manoeuvre.pitch) == ([], 0.0)
+    circle.tilt(0.0, NEUTRAL * LIMIT * 0.9)
+    assert (circle.orders, circle.order.pitch) == ([], 0.0)
     assert circle.knob_pos[1] > circle.round[1]
-    circle.lean(0.0, NEUTRAL * LIMIT * 1.1)
+    circle.tilt(0.0, NEUTRAL * LIMIT * 1.1)
     assert circle.orders == [("tilt", 0.0, pytest.approx(NEUTRAL * LIMIT * 1.1))]
 
 
 @given(st.floats(-9, 9), st.floats(-9, 9))
-def test_no_lean_tilts_farther_than_the_rim_nor_the_other_way(roll, pitch):
+def test_no_tablet_tilts_farther_than_the_rim_nor_the_other_way(roll, pitch):
     circle = TiltCircle(max_tilt=LIMIT)
-    circle.lean(roll, pitch)
+    circle.tilt(roll, pitch)
     assert math.hypot(circle.roll, circle.pitch) <= LIMIT + 1e-9
     assert circle.roll * roll >= 0.0
     assert circle.pitch * pitch >= 0.0
 
 
 @pytest.mark.parametrize("roll", [math.nan, math.inf])
-def test_a_lean_that_is_no_number_is_refused(circle, roll):
+def test_a_tilt_that_is_no_number_is_refused(circle, roll):
     with pytest.raises(ValueError, match="finite number"):
-        circle.lean(roll, 0.0)
+        circle.tilt(roll, 0.0)
     assert circle.orders == []
+
+
+def test_a_gamepad_leans_it_by_shares(circle):
+    assert circle.lean(1.0, 0.0)
+    assert circle.orders == [("tilt", 0.0, pytest.approx(LIMIT))]
+    assert circle.ahead == 1.0
 
 
 def test_a_sensor_does_not_take_it_from_a_finger(stage, circle):
     hold(stage, circle, 0.0, 1.0)
-    assert not circle.lean(0.2, 0.0)
+    assert not circle.tilt(0.2, 0.0)
     assert len(circle.orders) == 1
 
 
 def test_where_it_needs_a_hold_the_tablet_tilts_only_while_a_finger_is_on_it(stage, circle):
     circle.needs_hold = True
-    assert not circle.lean(0.2, 0.0)
+    assert not circle.tilt(0.2, 0.0)
     assert circle.orders == []
     finger = hold(stage, circle, -0.9, 0.0)
     assert circle.orders == [("tilt", pytest.approx(0.2), 0.0)]
-    assert circle.lean(0.0, 0.1)
+    assert circle.tilt(0.0, 0.1)
     assert circle.orders[-1] == ("tilt", 0.0, pytest.approx(0.1))
     finger.touch_up()
     assert circle.orders[-1] == ("tilt", 0.0, 0.0)
@@ -95,7 +101,7 @@ def test_where_it_needs_a_hold_the_tablet_tilts_only_while_a_finger_is_on_it(sta
 def test_disabled_it_lets_go_and_nothing_leans_it(stage, circle):
     hold(stage, circle, 0.0, 1.0)
     circle.state = "disabled"
-    assert not circle.lean(0.2, 0.0)
+    assert not circle.tilt(0.2, 0.0)
     assert circle.orders[1:] == [("tilt", 0.0, 0.0)]
 
 
@@ -111,20 +117,20 @@ def test_the_circle_stays_within_the_round_and_that_within_the_widget(stage, siz
     assert radius > 50
     assert min(x - radius - circle.x, circle.right - x - radius) >= 0
     assert min(y - radius - circle.y, circle.top - y - radius) >= 0
-    circle.lean(1.0, -1.0)
+    circle.tilt(1.0, -1.0)
     assert math.dist(circle.knob_pos, (x, y)) + circle.knob_radius <= radius
 
 
 def test_what_it_commands_is_said_in_words(stage, circle):
     stage.frames(1)
     assert circle.texts == ["T\u200aI\u200aL\u200aT"]
-    circle.lean(math.radians(-5), math.radians(12))
+    circle.tilt(math.radians(-5), math.radians(12))
     stage.frames(2)
     assert circle.texts == ["12° ahead · 5° left"]
 
 
 def test_where_it_is_wide_the_figures_stand_beside_it(stage):
     circle = stage.show(TiltCircle(card=True), size=(326, 228))
-    circle.lean(math.radians(5), 0.0)
+    circle.tilt(math.radians(5), 0.0)
     stage.frames(2)
     assert circle.texts[1:] == ["PITCH", "0°", "level", "ROLL", "5°", "right"]
