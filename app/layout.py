@@ -1,10 +1,15 @@
-"""Layout files: which instruments sit in which place of the drive screen, and what is wrong with one in a sentence."""
+"""Layout files: the drive screen of a robot as a table, and what is wrong with one in a sentence.
+
+A file says for which robots it is, how the screen is arranged, which instruments and controls sit where, and what can be
+done by a button. The app takes the one whose `for` names the robot's model, else its kind, else `DEFAULT`.
+"""
 
 from __future__ import annotations
 
 import tomllib
 import typing
 from collections.abc import Iterable, Mapping
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from functools import reduce
 from pathlib import Path
@@ -12,16 +17,64 @@ from typing import Any
 
 import msgspec
 
+from app.piloting import PARTS
 from bridge.msgs import Msg
 from bridge.topics import TOPICS, topic
 
-__all__ = ["FOLDER", "SLOTS", "Instrument", "Layout", "LayoutError", "load", "names", "parse"]
+__all__ = [
+    "ACTIONS",
+    "ARRANGEMENTS",
+    "DEFAULT",
+    "FOLDER",
+    "SLIDER",
+    "Action",
+    "Arrangement",
+    "Control",
+    "Instrument",
+    "Layout",
+    "LayoutError",
+    "choose",
+    "load",
+    "load_all",
+    "names",
+    "parse",
+]
 
 FOLDER = Path(__file__).parent / "layouts"
-SLOTS = {"top_left": 1, "top": 1, "top_right": 1, "readouts": 4, "senses": 3}
-"""Place on the drive screen to the number of instruments that fit."""
+DEFAULT = "patrol"
+"""The layout of a robot that none is made for."""
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """How a drive screen is cut up: places to the number of things that fit."""
+
+    instruments: Mapping[str, int]
+    controls: Mapping[str, int]
+    actions: int
+
+
+_FLOATING = {"top_left": 1, "top": 1, "top_right": 1, "readouts": 4, "senses": 3}
+ARRANGEMENTS: Mapping[str, Arrangement] = {
+    "float": Arrangement(_FLOATING, {"stick": 2, "slider": 1}, 3),
+    "two_sticks": Arrangement(_FLOATING, {"stick": 1, "right_stick": 1, "slider": 1, "confirm": 2}, 3),
+    "columns": Arrangement(
+        {"left": 3, "corner": 1, "motion": 1, "readouts": 4}, {"stick": 1, "slider": 1, "tilt": 1}, 8
+    ),
+}
+"""Video behind everything; the same with a control under either thumb; three columns with the video in the middle."""
+
+SLIDER = "SpeedCard"
+"""The app's own control among those of the widget catalogue: how fast the others are at the end of their way."""
+ACTIONS = (
+    *(f"task.{task}" for task in ("surface", "hold", "follow_heading", "take_off", "land", "go_home")),
+    *("pause", "lights", "record", "snapshot", "camera", "reset"),
+)
+"""What a button or a slide may do: the keys of `app.actions.ACTIONS`, which is known only once Kivy is set up."""
 _TEXTS = {"slot", "widget", "topic", "field", "title", "unit"}
 _NUMBERS = {"factor", "digits"}
+_CONTROL_TEXTS = {"slot", "widget", "topic", "title", "forward", "left", "pad", "action", "icon"}
+_PADS = ("left", "right")
 
 
 class LayoutError(ValueError):
@@ -33,7 +86,7 @@ class Instrument:
     """One instrument of a layout."""
 
     slot: str
-    """Key in `SLOTS`."""
+    """Key in the instruments of its arrangement."""
     widget: str
     """Name in the widget catalogue."""
     topic: str
@@ -46,12 +99,47 @@ class Instrument:
     digits: int = 1
     """Figures behind the point."""
     also: tuple[str, ...] = ()
-    """Further topics of the same type that it shows with the first."""
+    """Further topics that it shows with the first."""
 
     @property
     def topics(self) -> tuple[str, ...]:
         """All topics that it shows."""
         return (self.topic, *self.also)
+
+
+@dataclass(frozen=True)
+class Control:
+    """One control of a layout."""
+
+    slot: str
+    """Key in the controls of its arrangement. Of two in one slot one is on the glass, and a switch between them."""
+    widget: str
+    """Name in the widget catalogue, or `SLIDER`."""
+    title: str = ""
+    """What it is called where it has to be told from another."""
+    topic: str = ""
+    """What it shows beside what it says; empty for nothing."""
+    forward: str = "ahead"
+    """Of a stick: which of `app.piloting.PARTS` it says when it is pushed away from the operator."""
+    left: str = "turn"
+    """The same to the left."""
+    pad: str = "left"
+    """Which stick of a gamepad pushes it too; empty for none."""
+    action: str = ""
+    """Of one that does something once: which of `ACTIONS`."""
+    icon: str = ""
+
+
+@dataclass(frozen=True)
+class Action:
+    """One button of a layout."""
+
+    what: str
+    """One of `ACTIONS`."""
+    icon: str = ""
+    """Empty for the usual one."""
+    text: str = ""
+    """Empty for the usual words."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +149,12 @@ class Layout:
     name: str
     title: str
     instruments: tuple[Instrument, ...]
+    arrangement: str = "float"
+    """Key in `ARRANGEMENTS`."""
+    robots: tuple[str, ...] = ()
+    """Models and kinds of robots that it is for, as of RobotInfo."""
+    controls: tuple[Control, ...] = ()
+    actions: tuple[Action, ...] = ()
 
 
 def names(folder: Path = FOLDER) -> list[str]:
@@ -75,49 +169,139 @@ def load(name: str, widgets: Iterable[str], folder: Path = FOLDER) -> Layout:
     return parse(name, (folder / f"{name}.toml").read_text(encoding="utf-8"), widgets)
 
 
+def load_all(widgets: Iterable[str], folder: Path = FOLDER) -> tuple[Layout, ...]:
+    """Every layout there is, each robot in one of them at most. LayoutError with a sentence."""
+    known = tuple(widgets)
+    layouts = tuple(load(name, known, folder) for name in names(folder))
+    owners: dict[str, str] = {}
+    for layout in layouts:
+        for robot in layout.robots:
+            if robot in owners:
+                raise LayoutError(f"Layouts {owners[robot]} and {layout.name} are both for {robot}.")
+            owners[robot] = layout.name
+    return layouts
+
+
+def choose(layouts: Iterable[Layout], model: str, kind: str) -> Layout:
+    """The layout for a robot of that model and kind: models come before kinds, and a robot of neither gets `DEFAULT`.
+
+    LayoutError where there is none of that name.
+    """
+    known = tuple(layouts)
+    for robot in (model, kind):
+        for layout in known:
+            if robot and robot in layout.robots:
+                return layout
+    for layout in known:
+        if layout.name == DEFAULT:
+            return layout
+    raise LayoutError(f"There is no layout {DEFAULT!r}, which robots get that none is made for.")
+
+
 def parse(name: str, text: str, widgets: Iterable[str]) -> Layout:
     """The layout in TOML text; LayoutError with a sentence."""
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise LayoutError(f"Layout {name} is no TOML: {error}.") from error
-    entries = data.get("instrument", [])
-    if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
-        raise LayoutError(f"Layout {name} lists its instruments as [[instrument]] tables.")
-    known = frozenset(widgets)
+    where, known = f"Layout {name}", frozenset(widgets)
+    for key in data:
+        _one_of(where, "key", key, ("title", "for", "arrangement", "instrument", "control", "action"))
+    arrangement = data.get("arrangement", "float")
+    _one_of(where, "arrangement", arrangement, ARRANGEMENTS)
+    places, robots = ARRANGEMENTS[arrangement], data.get("for", [])
+    if not isinstance(robots, list) or not all(isinstance(robot, str) for robot in robots):
+        raise LayoutError(f"{where}: for is a list of models and kinds of robots, not {robots!r}.")
     instruments = tuple(
-        _instrument(f"Layout {name}, instrument {i}", e, known) for i, e in enumerate(entries, 1)
+        _instrument(f"{where}, instrument {i}", e, known, places.instruments)
+        for i, e in enumerate(_tables(name, data, "instrument"), 1)
     )
-    for slot, room in SLOTS.items():
-        count = sum(one.slot == slot for one in instruments)
-        if count > room:
-            raise LayoutError(f"Layout {name} puts {count} instruments into {slot}, where {room} fit.")
-    return Layout(name, str(data.get("title", name)), instruments)
+    controls = tuple(
+        _control(f"{where}, control {i}", e, known, places.controls)
+        for i, e in enumerate(_tables(name, data, "control"), 1)
+    )
+    actions = tuple(
+        _action(f"{where}, action {i}", e) for i, e in enumerate(_tables(name, data, "action"), 1)
+    )
+    _check_room(where, "instruments", [one.slot for one in instruments], places.instruments)
+    _check_room(where, "controls", [one.slot for one in controls], places.controls)
+    _check_room(where, "actions", ["the buttons"] * len(actions), {"the buttons": places.actions})
+    title = str(data.get("title", name))
+    return Layout(name, title, instruments, arrangement, tuple(robots), controls, actions)
 
 
-def _instrument(where: str, entry: Mapping[str, Any], widgets: frozenset[str]) -> Instrument:
-    _check_keys(where, entry)
-    _one_of(where, "slot", entry.get("slot"), SLOTS)
+def _tables(name: str, data: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
+    entries = data.get(key, [])
+    if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
+        raise LayoutError(f"Layout {name} lists its {key}s as [[{key}]] tables.")
+    return entries
+
+
+def _check_room(where: str, what: str, slots: list[str], room: Mapping[str, int]) -> None:
+    for slot, most in room.items():
+        if slots.count(slot) > most:
+            raise LayoutError(f"{where} puts {slots.count(slot)} {what} into {slot}, where {most} fit.")
+
+
+def _instrument(
+    where: str, entry: Mapping[str, Any], widgets: frozenset[str], slots: Mapping[str, int]
+) -> Instrument:
+    _check_keys(where, entry, texts=_TEXTS, numbers=_NUMBERS, lists={"also"})
+    _one_of(where, "slot", entry.get("slot"), slots)
     _one_of(where, "widget", entry.get("widget"), sorted(widgets))
-    _one_of(where, "topic", entry.get("topic"), [one.name for one in TOPICS if one.to == "handheld"])
+    _one_of(where, "topic", entry.get("topic"), _TOLD)
     if entry["widget"] == "Readout":
         _check_field(where, topic(entry["topic"]).type, entry.get("field", ""))
     also = entry.get("also", [])
-    if not isinstance(also, list):
-        raise LayoutError(f"{where}: also is a list of topics, not {also!r}.")
-    same = [one.name for one in TOPICS if one.type is topic(entry["topic"]).type and one.to == "handheld"]
     for name in also:
-        _one_of(where, "also", name, same)
+        _one_of(where, "also", name, _TOLD)
     return Instrument(**{**entry, "also": tuple(also)})
 
 
-def _check_keys(where: str, entry: Mapping[str, Any]) -> None:
+def _control(
+    where: str, entry: Mapping[str, Any], widgets: frozenset[str], slots: Mapping[str, int]
+) -> Control:
+    _check_keys(where, entry, texts=_CONTROL_TEXTS)
+    _one_of(where, "slot", entry.get("slot"), slots)
+    _one_of(where, "widget", entry.get("widget"), [*sorted(widgets), SLIDER])
+    for key, allowed in (
+        ("topic", _TOLD),
+        ("forward", PARTS),
+        ("left", PARTS),
+        ("pad", ("", *_PADS)),
+        ("action", ACTIONS),
+    ):
+        if key in entry:
+            _one_of(where, key, entry[key], allowed)
+    return Control(**entry)
+
+
+def _action(where: str, entry: Mapping[str, Any]) -> Action:
+    _check_keys(where, entry, texts={"what", "icon", "text"})
+    _one_of(where, "what", entry.get("what"), ACTIONS)
+    return Action(**entry)
+
+
+_TOLD = tuple(one.name for one in TOPICS if one.to == "handheld")
+"""Topics that can be shown."""
+
+
+def _check_keys(
+    where: str,
+    entry: Mapping[str, Any],
+    *,
+    texts: AbstractSet[str],
+    numbers: AbstractSet[str] = frozenset(),
+    lists: AbstractSet[str] = frozenset(),
+) -> None:
     for key, value in entry.items():
-        _one_of(where, "key", key, sorted(_TEXTS | _NUMBERS | {"also"}))
-        if key in _TEXTS and not isinstance(value, str):
+        _one_of(where, "key", key, sorted(texts | numbers | lists))
+        if key in texts and not isinstance(value, str):
             raise LayoutError(f"{where}: {key} is a text, not {value!r}.")
-        if key in _NUMBERS and (isinstance(value, bool) or not isinstance(value, int | float)):
+        if key in numbers and (isinstance(value, bool) or not isinstance(value, int | float)):
             raise LayoutError(f"{where}: {key} is a number, not {value!r}.")
+        if key in lists and not isinstance(value, list):
+            raise LayoutError(f"{where}: {key} is a list of topics, not {value!r}.")
 
 
 def _one_of(where: str, what: str, value: object, allowed: Iterable[str]) -> None:

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from app.layout import LayoutError, load, names, parse
+from app import actions
+from app.layout import ACTIONS, LayoutError, choose, load, load_all, names, parse
 from widgets import CATALOGUE
 
 WIDGETS = ["Compass", "LaserScanView", "Readout"]
@@ -17,6 +18,11 @@ def one(**changes: object) -> str:
     return "[[instrument]]\n" + "\n".join(
         f"{key} = {value!r}" for key, value in entry.items() if value is not None
     )
+
+
+def control(**changes: str) -> str:
+    entry = {"slot": "stick", "widget": "Compass", **changes}
+    return "[[control]]\n" + "\n".join(f"{key} = {value!r}" for key, value in entry.items()) + "\n"
 
 
 @pytest.mark.parametrize(
@@ -41,6 +47,21 @@ def one(**changes: object) -> str:
         (one(widget="Readout", topic="/odom", field="twist.twist"), "has no number 'twist.twist'"),
         (one(widget="Readout", topic="/odom"), "has no number ''"),
         (one() + "\n" + one(), "2 instruments into top, where 1 fit"),
+        (one(also="/odom"), "also is a list of topics, not '/odom'"),
+        ("robots = []", "Layout x: key is one of title, for, arrangement, .*, not 'robots'"),
+        ("arrangement = 'rows'", "arrangement is one of float, two_sticks, columns, not 'rows'"),
+        ("for = 'patrol'", "for is a list of models and kinds of robots, not 'patrol'"),
+        ("arrangement = 'columns'\n" + one(), "instrument 1: slot is one of left, .*, not 'top'"),
+        ("[control]", r"lists its controls as \[\[control\]\] tables"),
+        (control(slot="top"), "control 1: slot is one of stick, slider, not 'top'"),
+        (control(widget="Lever"), "widget is one of Compass, .*, SpeedCard, not 'Lever'"),
+        (control(forward="up"), "forward is one of ahead, aside, climb, .*, not 'up'"),
+        (control(pad="middle"), "pad is one of , left, right, not 'middle'"),
+        (control(action="fly"), "action is one of task.surface, .*, not 'fly'"),
+        (control(colour="red"), "key is one of .*, not 'colour'"),
+        (control() * 3, "3 controls into stick, where 2 fit"),
+        ("[[action]]\nwhat = 'jump'", "action 1: what is one of task.surface, .*, not 'jump'"),
+        ("[[action]]\nwhat = 'pause'\n" * 4, "4 actions into the buttons, where 3 fit"),
     ],
 )
 def test_a_mistake_is_one_sentence(text: str, sentence: str) -> None:
@@ -58,3 +79,37 @@ def test_an_unknown_layout_names_those_there_are(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", names())
 def test_every_layout_that_is_shipped_can_be_loaded(name: str) -> None:
     assert load(name, CATALOGUE).instruments
+
+
+def test_the_actions_that_a_layout_may_name_are_those_that_the_app_knows() -> None:
+    assert set(ACTIONS) == set(actions.ACTIONS)
+
+
+def test_models_come_before_kinds_and_a_robot_of_neither_gets_patrols() -> None:
+    layouts = [
+        parse("boat", "for = ['boat']", WIDGETS),
+        parse("patrol", "for = ['patrol']", WIDGETS),
+        parse("minnow", "for = ['minnow']", WIDGETS),
+    ]
+    assert choose(layouts, "minnow", "boat").name == "minnow"
+    assert choose(layouts, "dory", "boat").name == "boat"
+    assert choose(layouts, "rover", "wheels").name == "patrol"
+    assert choose(layouts, "", "").name == "patrol", "one that has not said yet what it is"
+    with pytest.raises(LayoutError, match="no layout 'patrol'"):
+        choose(layouts[::2], "rover", "wheels")
+
+
+def test_two_layouts_for_one_robot_are_a_mistake(tmp_path: Path) -> None:
+    for name in ("boat", "minnow"):
+        (tmp_path / f"{name}.toml").write_text("for = ['minnow', 'boat']")
+    with pytest.raises(LayoutError, match="Layouts boat and minnow are both for minnow."):
+        load_all(WIDGETS, tmp_path)
+
+
+def test_a_layout_says_how_it_is_driven() -> None:
+    text = "arrangement = 'two_sticks'\n" + control(
+        slot="right_stick", widget="Compass", forward="climb", left=""
+    )
+    assert parse("x", text, WIDGETS).controls[0].forward == "climb"
+    actions = parse("x", "[[action]]\nwhat = 'lights'\ntext = 'Lamp'", WIDGETS).actions
+    assert [(one.what, one.text, one.icon) for one in actions] == [("lights", "Lamp", "")]
