@@ -43,6 +43,7 @@ CATALOGUE: dict[str, str] = {
     "RudderThrottle": "widgets.rudder_throttle",
     "RunList": "widgets.run_list",
     "ScheduleList": "widgets.schedule_list",
+    "SonarRingView": "widgets.sonar_ring",
     "SpeedCap": "widgets.speed_cap",
     "StopAll": "widgets.stop_all",
     "StopButton": "widgets.stop_button",
