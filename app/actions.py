@@ -130,7 +130,11 @@ class Actions:
         if not session.offers("/task/pause"):
             return None
         able = session.may_ask and session.running and not (session.stop_latched and self._paused)
-        return Action("pause", "Resume", "play_arrow", able) if self._paused else Action("pause", text, icon, able)
+        return (
+            Action("pause", "Resume", "play_arrow", able)
+            if self._paused
+            else Action("pause", text, icon, able)
+        )
 
     # what it carries
 

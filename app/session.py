@@ -34,13 +34,12 @@ from bridge.msgs.geometry_msgs import (
 )
 from bridge.msgs.pilothouse_msgs import ControlStatus, Mission, RobotInfo, TaskStatus
 from bridge.msgs.std_msgs import Header, Time
+from widgets.task_words import known
 
 __all__ = ["Session"]
 
 UNDECIDED = 20
 """So many events may wait for the robot's word of control."""
-PECULIAR = ("take_off", "land", "surface")
-"""Tasks of robots that fly or dive."""
 PLACED_WITHIN = (0.25, 0.25, 0.07)
 """Variance of a place pointed at by finger: x, y [m2] and yaw [rad2]."""
 
@@ -168,8 +167,8 @@ class Session:
             self._chosen = cameras[(cameras.index(shown) + 1) % len(cameras)]
 
     def knows(self, task: str) -> bool:
-        """Whether the robot knows that task; one that does not say knows those that every robot does that drives."""
-        return task in self.info.tasks if self.info.tasks else task not in PECULIAR
+        """Whether the robot can be asked for that task, as `task_words.known` says."""
+        return task in known(self.info)
 
     @property
     def control(self) -> str:

@@ -26,7 +26,7 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
-from bridge.msgs.pilothouse_msgs import Mission, Place, PlaceArray, TaskOrder, Waypoint
+from bridge.msgs.pilothouse_msgs import Mission, Place, PlaceArray, RobotInfo, TaskOrder, Waypoint
 from widgets.base import Control
 from widgets.buttons import IconButton, QuietButton
 from widgets.choices import Segmented
@@ -35,7 +35,7 @@ from widgets.labels import SectionLabel
 from widgets.place_list import SOME, PlaceList
 from widgets.rows import ListRow
 from widgets.stepper import Stepper
-from widgets.task_words import KINDS, TASKS, lacking, will
+from widgets.task_words import KINDS, fields, lacking, will
 from widgets.text_field import TextField
 
 __all__ = ["OrderForm"]
@@ -54,6 +54,10 @@ OPTIONAL = {"then": "Stay there", "dock": "Its own dock"}
 """Field that may be left open to what that means."""
 LONGEST_TEXT = 200
 """Characters of a message."""
+USUAL_SPEED = 1.0
+"""Of a robot that does not tell how fast it can go [m/s]."""
+HIGHEST = 30.0
+"""Height and depth that can be asked for [m]; what the robot itself allows it says."""
 
 Builder.load_string("""
 <OrderForm>:
@@ -105,10 +109,14 @@ class OrderForm(Control, BoxLayout):
     """[rad]; NaN for where the robot points."""
     speed = NumericProperty(math.nan)
     """[m/s]; NaN for the robot's own."""
+    throttle = NumericProperty(math.nan)
+    """Share of the full power, 0 to 1; NaN for the robot's own."""
+    at_height = NumericProperty(math.nan)
+    """[m], below water negative; NaN for the usual or the present one."""
     duration = NumericProperty(math.nan)
     """[s]; NaN until stopped."""
-    max_speed = NumericProperty(1.0)
-    """What the robot can do [m/s]."""
+    robot = ObjectProperty(RobotInfo())
+    """Who it is for: what it can do decides what is asked for, and how fast and how high."""
     mission = ObjectProperty(Mission())
     """Where a patrol goes when no places are named."""
     follows = BooleanProperty(True)
@@ -128,19 +136,24 @@ class OrderForm(Control, BoxLayout):
             recipient_tag=self.recipient_tag.strip(),
             heading=self.heading,
             speed=self.speed,
+            throttle=self.throttle,
+            height=self.at_height,
             duration=self.duration,
         )
 
     order = AliasProperty(
         _order,
-        bind=["task", "places", "message", "recipient_tag", "heading", "speed", "duration"],
+        bind=[
+            *("task", "places", "message", "recipient_tag"),
+            *("heading", "speed", "throttle", "at_height", "duration"),
+        ],
     )
     """What is asked for so far."""
 
     def _sentence(self) -> str:
-        return will(self.order, self.mission, follows=self.follows)
+        return will(self.order, self.mission, follows=self.follows, kind=self.robot.kind)
 
-    sentence = AliasProperty(_sentence, bind=["order", "mission", "follows"])
+    sentence = AliasProperty(_sentence, bind=["order", "mission", "follows", "robot"])
     """What will happen, or what is still lacking."""
 
     def _complete(self) -> bool:
@@ -162,6 +175,7 @@ class OrderForm(Control, BoxLayout):
         self._roll = self.ids.roll.__self__
         self.list.bind(on_command=lambda _, place: self.pick(place))
         self.dial.bind(on_command=lambda _, yaw: self.set(heading=yaw))
+        self.bind(robot=self._build)
         self._build()
 
     # what comes in
@@ -190,6 +204,7 @@ class OrderForm(Control, BoxLayout):
         self._id, self.task, self.places = order.id, order.task, list(order.places)
         self.message, self.recipient_tag = order.message, order.recipient_tag
         self.heading, self.speed, self.duration = order.heading, order.speed, order.duration
+        self.throttle, self.at_height = order.throttle, order.height
         self.dial.value = order.heading
         self.picking = ""
         self._build()
@@ -244,7 +259,7 @@ class OrderForm(Control, BoxLayout):
     # how it is built
 
     def _fields(self) -> tuple[str, ...]:
-        return TASKS[self.task].fields if self.task in TASKS else ()
+        return fields(self.task, self.robot)
 
     def _build(self, *_: object) -> None:
         self.clear_widgets()
@@ -283,6 +298,8 @@ class OrderForm(Control, BoxLayout):
             "recipient": lambda: [self._text("recipient_tag")],
             "heading": lambda: [self.dial],
             "speed": self._speed,
+            "throttle": self._throttle,
+            "height": self._height,
             "duration": self._duration,
         }
         return make[field]()
@@ -347,7 +364,7 @@ class OrderForm(Control, BoxLayout):
 
     def _speed(self) -> list[Widget]:
         tenths = 0 if math.isnan(self.speed) else round(self.speed * 10)
-        most = max(1, math.floor(self.max_speed * 10 + 1e-6)) / 10
+        most = max(1, math.floor((self.robot.max_speed or USUAL_SPEED) * 10 + 1e-6)) / 10
         speed = Stepper(value=tenths / 10, step=0.1, maximum=most, unit="m/s", zero="as usual")
         speed.bind(on_change=self._sped)
         return [self._row("Speed", speed)]
@@ -355,6 +372,21 @@ class OrderForm(Control, BoxLayout):
     def _sped(self, stepper: Stepper, value: float) -> None:
         stepper.value = round(value, 1)  # tenths have no exact binary form
         self.set(speed=stepper.value or math.nan)
+
+    def _throttle(self) -> list[Widget]:
+        share = 0 if math.isnan(self.throttle) else round(self.throttle * 100)
+        throttle = Stepper(value=share, step=10, maximum=100, unit="%", zero="as usual")
+        throttle.bind(on_change=lambda _, value: self.set(throttle=value / 100 if value else math.nan))
+        return [self._row("Throttle", throttle)]
+
+    def _height(self) -> list[Widget]:
+        deep = self.robot.kind == "hexapod"
+        value = 0 if math.isnan(self.at_height) else abs(self.at_height)
+        usual = "as usual" if self.task == "take_off" else "as now"
+        height = Stepper(value=value, step=0.5, maximum=HIGHEST, unit="m", zero=usual)
+        sign = -1.0 if deep else 1.0
+        height.bind(on_change=lambda _, value: self.set(at_height=sign * value if value else math.nan))
+        return [self._row("Depth" if deep else "Height", height)]
 
     def _duration(self) -> list[Widget]:
         minutes = 0 if math.isnan(self.duration) else math.ceil(self.duration / 60)
@@ -393,6 +425,13 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "guide blind": make(TaskOrder(task="guide", places=["Lab"]), follows=False),
         "heading": make(TaskOrder(task="follow_heading", heading=math.pi / 2, duration=120.0)),
         "hold": make(TaskOrder(task="hold")),
+        "hold a depth": make(
+            TaskOrder(task="hold", height=-4.5), robot=RobotInfo(kind="hexapod", max_climb=0.5)
+        ),
+        "heading of a boat": make(
+            TaskOrder(task="follow_heading", heading=0.0, throttle=0.6), robot=RobotInfo(kind="boat")
+        ),
+        "take off": make(TaskOrder(task="take_off"), robot=RobotInfo(kind="quadrotor", max_climb=1.0)),
         "dock": make(TaskOrder(task="dock")),
         "from where": make(TaskOrder(task="deliver"), pick="from"),
         "disabled": make(TaskOrder(task="dock"), state="disabled"),

@@ -6,6 +6,7 @@ chooser.bind(on_command=lambda _, task: form.begin(task))
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 from kivy.lang import Builder
@@ -22,6 +23,11 @@ from widgets.base import Control
 from widgets.task_words import TASKS
 
 __all__ = ["TaskChooser"]
+
+MOST = 4
+"""Tiles side by side where there is no room for all."""
+LEAST = 68.0
+"""A tile needs so much for its word [dp]."""
 
 Builder.load_string("""
 <TaskChooser>:
@@ -104,10 +110,13 @@ class TaskChooser(Control, GridLayout):
     """Each tile says what its task is for."""
 
     def _across(self) -> int:
-        return 4 if self.width < dp(700) or self.told else 8
+        count = max(1, len(self.tasks))
+        if not self.told and self.width >= count * dp(LEAST):
+            return count
+        return math.ceil(count / math.ceil(count / MOST))
 
-    across = AliasProperty(_across, bind=["width", "told"], cache=True)
-    """How many tiles stand side by side."""
+    across = AliasProperty(_across, bind=["width", "told", "tasks"], cache=True)
+    """How many tiles stand side by side: all where there is room, else the same number in each row as far as it goes."""
 
     def __init__(self, **kwargs: object) -> None:
         self._tiles: dict[str, TaskTile] = {}
@@ -151,5 +160,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "one": make(chosen="deliver"),
         "told": make("748dp", told=True),
         "row": make("760dp", chosen="guide"),
+        "of a swimmer": make(
+            tasks=["patrol", "go_to", "go_home", "hold", "follow_heading", "surface"], chosen="surface"
+        ),
         "disabled": make(chosen="patrol", state="disabled"),
     }

@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from bridge.msgs.pilothouse_msgs import Mission, ScheduledTask, TaskOrder
+from bridge.msgs.pilothouse_msgs import Mission, RobotInfo, ScheduledTask, TaskOrder
 
 __all__ = [
     "KINDS",
@@ -17,7 +17,9 @@ __all__ = [
     "TASKS",
     "TaskWords",
     "distance_words",
+    "fields",
     "heading_of",
+    "known",
     "lacking",
     "rhythm",
     "span_words",
@@ -97,6 +99,16 @@ NEEDS = {
     "guide": ((1, "Choose at least one place to lead to."),),
     "go_to": ((1, "Choose where to go."),),
 }
+PECULIAR = ("take_off", "land", "surface")
+"""Tasks of robots that fly or dive."""
+HOLDS = {
+    "wheels": "Stands still where it is",
+    "boat": "Keeps its place on the water",
+    "hexapod": "Keeps its place in the water",
+    "quadrotor": "Hovers where it is",
+}
+GOES = {"wheels": "Drives", "boat": "Sails", "hexapod": "Swims", "quadrotor": "Flies"}
+"""Kind of robot to its verb; any other one is as wheels."""
 DAYS = ("Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun")
 REACTS = {
     "stop": "Stops when it finds an intruder.",
@@ -112,6 +124,8 @@ def title(order: TaskOrder) -> str:
     places = [place for place in order.places if place]
     if order.task == "follow_heading":
         return f"{name} {heading_of(order.heading)}"
+    if order.task == "take_off" and math.isfinite(order.height):
+        return f"{name} to {order.height:g} m"
     if order.task == "hold" and math.isfinite(order.duration):
         return f"{name} for {span_words(order.duration)}"
     if order.task == "go_to" and places:
@@ -140,10 +154,25 @@ def lacking(order: TaskOrder, mission: Mission | None = None) -> str:
     return "" if order.task in TASKS else "Choose a task."
 
 
-def will(order: TaskOrder, mission: Mission | None = None, *, follows: bool = True) -> str:
+def fields(task: str, info: RobotInfo) -> tuple[str, ...]:
+    """What the operator may say about a task of that robot: a height only to one that climbs or dives, a throttle in
+    place of a speed to a boat."""
+    left_out = {"throttle" if info.kind != "boat" else "speed", *(() if info.max_climb > 0 else ("height",))}
+    return tuple(one for one in TASKS[task].fields if one not in left_out) if task in TASKS else ()
+
+
+def known(info: RobotInfo) -> list[str]:
+    """The tasks that a robot can be asked for, in the order of the chooser; one that does not say knows those that every
+    robot does that drives."""
+    return [task for task in TASKS if (task in info.tasks if info.tasks else task not in PECULIAR)]
+
+
+def will(
+    order: TaskOrder, mission: Mission | None = None, *, follows: bool = True, kind: str = "wheels"
+) -> str:
     """What will happen when the order is given, as a sentence or two; what is lacking when it cannot be given.
 
-    `follows`: the robot can tell whether somebody follows it.
+    `follows`: the robot can tell whether somebody follows it. `kind` is the robot's, as RobotInfo has it.
     """
     missing = lacking(order, mission)
     if missing:
@@ -154,20 +183,48 @@ def will(order: TaskOrder, mission: Mission | None = None, *, follows: bool = Tr
         "guide": lambda: _guides(order, follows),
         "dock": lambda: _docks(order),
     }
+    says |= {
+        "hold": lambda: _holds(order, kind),
+        "follow_heading": lambda: _follows(order, kind),
+        "take_off": lambda: _takes_off(order),
+        "land": lambda: "Lands on what is below it.",
+        "surface": lambda: "Swims up to the surface and stays there.",
+        "go_home": lambda: "Goes home and stays there.",
+    }
     if order.task in says:
         return says[order.task]()
-    how_long = f"for {span_words(order.duration)}" if math.isfinite(order.duration) else "until you stop it"
-    if order.task == "hold":
-        return f"Stands still where it is {how_long}."
-    if order.task == "follow_heading":
-        speed = f" at {order.speed:.1f} m/s" if math.isfinite(order.speed) else ""
-        where = heading_of(order.heading)
-        towards = "where it points now" if math.isnan(order.heading) else where
-        return f"Drives straight towards {towards}{speed} {how_long}."
-    if order.task == "go_home":
-        return "Goes home and stays there."
     goal = order.places[0] if order.places else "the goal"
     return f"Goes to {goal} and stays there."
+
+
+def _how_long(order: TaskOrder) -> str:
+    return f"for {span_words(order.duration)}" if math.isfinite(order.duration) else "until you stop it"
+
+
+def _holds(order: TaskOrder, kind: str) -> str:
+    does = HOLDS.get(kind, HOLDS["wheels"])
+    return f"{does}{_at_height(order, kind)} {_how_long(order)}."
+
+
+def _follows(order: TaskOrder, kind: str) -> str:
+    towards = "where it points now" if math.isnan(order.heading) else heading_of(order.heading)
+    pace = f" at {order.speed:.1f} m/s" if math.isfinite(order.speed) else ""
+    if math.isfinite(order.throttle):
+        pace = f" with {order.throttle * 100:.0f} % throttle"
+    does = GOES.get(kind, GOES["wheels"])
+    return f"{does} straight towards {towards}{pace}{_at_height(order, kind)} {_how_long(order)}."
+
+
+def _takes_off(order: TaskOrder) -> str:
+    height = f" to {order.height:g} m" if math.isfinite(order.height) else ""
+    return f"Takes off{height} and hovers there."
+
+
+def _at_height(order: TaskOrder, kind: str) -> str:
+    if not math.isfinite(order.height):
+        return ""
+    deep = kind == "hexapod"
+    return f", {abs(order.height):g} m {'deep' if deep else 'high'},"
 
 
 def _patrols(order: TaskOrder, mission: Mission) -> str:

@@ -10,10 +10,10 @@ from kivy.properties import AliasProperty, BooleanProperty, ObjectProperty, Stri
 from kivy.uix.boxlayout import BoxLayout
 
 from app.session import Session
-from bridge.msgs.pilothouse_msgs import ScheduledTask, TaskOrder, TaskStatus
+from bridge.msgs.pilothouse_msgs import RobotInfo, ScheduledTask, TaskOrder, TaskStatus
 from widgets import OrderForm, TaskChooser, WhenPicker
 from widgets.kit import IconButton, ListRow, Roll, Segmented
-from widgets.task_words import TASKS, rhythm, title
+from widgets.task_words import TASKS, known, rhythm, title
 
 __all__ = ["OrderPane", "why_not_now"]
 
@@ -182,6 +182,13 @@ class OrderPane(BoxLayout):
         self.form.dial.rest()
 
     # what is shown
+
+    def meet(self, info: RobotInfo) -> None:
+        """Offer what this robot knows, and ask for what it can do."""
+        self.form.robot = info
+        tasks = known(info)
+        if list(self.chooser.tasks) != tasks:
+            self.chooser.tasks = tasks
 
     def refresh(self) -> None:
         """Take over the mission when it was edited; call it often."""

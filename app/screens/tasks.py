@@ -222,7 +222,7 @@ class TasksScreen(FloatLayout):
         self.dashboard.tick()
         self.now.tick(self.mine)
         self.pane.refresh()
-        self.pane.form.max_speed = self.session.info.max_speed or 1.0
+        self.pane.meet(self.session.info)
         clock = self.session.link.robot_time()
         if math.isfinite(clock) and not abs(clock - self.schedule.now) < 5.0:
             self.schedule.now = self.runs.now = self.missions.now = clock

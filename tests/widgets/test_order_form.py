@@ -4,11 +4,11 @@ import math
 
 import pytest
 
-from bridge.msgs.pilothouse_msgs import Mission, PlaceArray, TaskOrder, Waypoint
+from bridge.msgs.pilothouse_msgs import Mission, PlaceArray, RobotInfo, TaskOrder, Waypoint
 from widgets.buttons import PushButton
 from widgets.choices import Segment
 from widgets.heading_dial import HeadingDial
-from widgets.order_form import OrderForm
+from widgets.order_form import FormRow, OrderForm
 from widgets.place_list import SOME
 from widgets.rows import ListRow
 from widgets.stepper import Stepper, StepperEnd
@@ -18,7 +18,7 @@ from widgets.text_field import TextField
 
 @pytest.fixture
 def form(stage):
-    form = OrderForm(size_hint=(None, None), size=(388, 600), max_speed=0.8)
+    form = OrderForm(size_hint=(None, None), size=(388, 600), robot=RobotInfo(max_speed=0.8))
     form.show(PlaceArray(places=SOME))
     form.show(Mission(waypoints=[Waypoint(1.0, 2.0)]))
     stage.show(form)
@@ -151,3 +151,31 @@ def test_an_order_to_be_changed_keeps_its_number(form):
     assert form.order.id == 7
     form.begin("go_to")
     assert form.order.id == 0
+
+
+def steppers(form):
+    return {row.title: row.children[0] for row in of(form, FormRow) if isinstance(row.children[0], Stepper)}
+
+
+def test_only_a_robot_that_climbs_is_asked_for_a_height_and_a_diver_for_a_depth(stage, form):
+    form.begin("hold")
+    assert "Height" not in steppers(form)
+    form.robot = RobotInfo(kind="hexapod", max_climb=0.5)
+    steppers(form)["Depth"].count(3)
+    assert form.asked[-1].height == -1.5
+    assert form.sentence == "Keeps its place in the water, 1.5 m deep, until you stop it."
+    form.robot = RobotInfo(kind="quadrotor", max_climb=1.0)
+    form.begin("take_off")
+    steppers(form)["Height"].count(4)
+    assert form.asked[-1].height == 2.0
+
+
+def test_a_boat_is_asked_for_its_throttle_in_place_of_a_speed(form):
+    form.robot = RobotInfo(kind="boat")
+    form.begin("follow_heading")
+    rows = steppers(form)
+    assert "Speed" not in rows
+    rows["Throttle"].count(6)
+    assert form.asked[-1].throttle == 0.6
+    rows["Throttle"].count(-6)
+    assert math.isnan(form.asked[-1].throttle)

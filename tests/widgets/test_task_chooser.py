@@ -44,3 +44,10 @@ def test_disabled_it_chooses_nothing(stage, chooser):
     stage.tap(*tiles(chooser)[0].to_window(*tiles(chooser)[0].center))
     stage.run_for(0.3)
     assert chooser.heard == []
+
+
+def test_a_few_tasks_are_shared_out_evenly(stage, chooser):
+    chooser.tasks = ["patrol", "go_to", "go_home", "hold", "follow_heading", "surface"]
+    stage.frames(4)
+    assert chooser.across == 3
+    assert [tile.text for tile in tiles(chooser)][-1] == "Surface"

@@ -4,11 +4,40 @@ import math
 
 import pytest
 
-from bridge.msgs.pilothouse_msgs import PLACE_KINDS, Mission, ScheduledTask, TaskOrder, Waypoint
+from bridge.msgs.pilothouse_msgs import PLACE_KINDS, Mission, RobotInfo, ScheduledTask, TaskOrder, Waypoint
 from bridge.msgs.pilothouse_msgs import TASKS as KNOWN
-from widgets.task_words import KINDS, TASKS, heading_of, lacking, rhythm, span_words, title, will
+from widgets.task_words import KINDS, TASKS, heading_of, known, lacking, rhythm, span_words, title, will
 
 SIX = Mission(waypoints=[Waypoint(float(x), 0.0) for x in range(6)], on_intruder="circle")
+
+
+def test_a_robot_is_offered_what_it_says_that_it_knows():
+    assert known(RobotInfo(tasks=["surface", "hold", "dance"])) == ["hold", "surface"]
+
+
+def test_one_that_does_not_say_is_not_asked_to_fly_or_to_dive():
+    assert set(TASKS) - set(known(RobotInfo())) == {"take_off", "land", "surface"}
+
+
+@pytest.mark.parametrize(
+    ("kind", "order", "sentence"),
+    [
+        ("quadrotor", TaskOrder(task="hold"), "Hovers where it is until you stop it."),
+        (
+            "hexapod",
+            TaskOrder(task="follow_heading", heading=0.0, height=-3.0),
+            "Swims straight towards 090°, 3 m deep, until you stop it.",
+        ),
+        (
+            "boat",
+            TaskOrder(task="follow_heading", heading=0.0, throttle=0.6),
+            "Sails straight towards 090° with 60 % throttle until you stop it.",
+        ),
+        ("quadrotor", TaskOrder(task="take_off", height=2.0), "Takes off to 2 m and hovers there."),
+    ],
+)
+def test_each_kind_has_its_own_verb(kind, order, sentence):
+    assert will(order, kind=kind) == sentence
 
 
 def test_there_are_words_for_every_task_and_kind_of_place():
