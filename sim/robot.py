@@ -22,16 +22,27 @@ from sim.orders import check, cut
 from sim.payloads import PAYLOADS, mount
 from sim.run import Run
 from sim.simulation import Simulation
+from sim.starts import starts
 from sim.vehicles.aqua import AQUA
 from sim.vehicles.ardrone import ARDRONE
 from sim.vehicles.commander import COMMANDER
 from sim.vehicles.minnow import MINNOW
-from sim.vehicles.model import Model, Vehicle
+from sim.vehicles.model import Model, Vehicle, numbered, suits
 from sim.vehicles.patrol import PATROL
 from sim.vehicles.scout import SCOUT
 from sim.world import WORLDS, Start, World, load
 
-__all__ = ["CAMERA_TOPIC", "PAYLOADS", "ROBOTS", "WORLDS", "SimRobot", "make", "make_several", "model_of"]
+__all__ = [
+    "CAMERA_TOPIC",
+    "PAYLOADS",
+    "ROBOTS",
+    "WORLDS",
+    "SimRobot",
+    "home_of",
+    "make",
+    "make_several",
+    "model_of",
+]
 
 ROBOTS: dict[str, Model] = {
     "patrol": PATROL,
@@ -237,30 +248,47 @@ def make_several(
     world: str,
     *,
     seed: int = 0,
+    gui: bool = False,
     camera: bool = True,
     noise: bool = True,
+    payloads: Sequence[Sequence[str]] = (),
 ) -> list[SimRobot]:
     """Several robots in one `world`, each by its name or with the place where it starts; they see and bump into each other.
 
-    Those without a place stand beside the world's own start. Raises ValueError like `make`.
+    Those without a place stand beside the world's own start, where there is room. The second one of a kind is called
+    `Patrol-2`, and so on. `payloads` has the names of what each carries, in their order; empty for nothing.
+    Raises ValueError like `make`.
     """
     loaded = load(world)
     entries = [(entry, None) if isinstance(entry, str) else entry for entry in robots]
     if not entries:
         raise ValueError("A world needs one robot at least.")
-    models = [model_of(name) for name, _ in entries]
-    starts = [start or _beside(loaded.start, number) for number, (_, start) in enumerate(entries)]
-    run = Run(Simulation(loaded, *zip(models, starts, strict=True), seed=seed, noise=noise))
-    return [SimRobot(run, camera=camera, number=number) for number in range(len(models))]
+    models = numbered([model_of(name) for name, _ in entries])
+    placed = zip(models, starts(loaded, models, [start for _, start in entries]), strict=True)
+    run = Run(Simulation(loaded, *placed, seed=seed, gui=gui, noise=noise))
+    carried = payloads or [()] * len(models)
+    made: list[SimRobot] = []
+    try:
+        for number, names in zip(range(len(models)), carried, strict=True):
+            made.append(SimRobot(run, camera=camera, number=number, payloads=names))
+    except ValueError:
+        for robot in made:
+            robot.close()
+        run.simulation.close()
+        raise
+    return made
 
 
-def _beside(start: Start, number: int) -> Start:
-    """The place of the robot of this number: beside the first one, to the right and left by turns."""
-    aside = (number + 1) // 2 * _APART * (-1 if number % 2 else 1)
-    return msgspec.structs.replace(
-        start, x=start.x - aside * math.sin(start.angle), y=start.y + aside * math.cos(start.angle)
+def home_of(robots: Sequence[str]) -> str:
+    """The world that suits the `robots` of these names best when nobody names one: the home of one of them.
+
+    ValueError with one sentence when there is none in which all of them can be.
+    """
+    models = [model_of(name) for name in robots]
+    homes = list(dict.fromkeys(model.home for model in models))
+    for home in homes:
+        if all(suits(model, load(home)) for model in models):
+            return home
+    raise ValueError(
+        f"There is no world for {' and '.join(dict.fromkeys(robots))} together: some need dry land, some water."
     )
-
-
-_APART = 2.0
-"""Between robots that nobody placed [m]."""

@@ -6,7 +6,7 @@ from sim.backend_bullet import STEPS_PER_SECOND, Bullet
 from sim.scene import Scene
 from sim.sensors.noise import Noise
 from sim.shapes import Shape, yaw_of
-from sim.vehicles.model import Model, Vehicle
+from sim.vehicles.model import Model, Vehicle, suits
 from sim.weather import Weather
 from sim.world import Start, World
 
@@ -105,7 +105,8 @@ class Simulation:
 
 def _check(model: Model, world: World) -> None:
     name = model.parameters.info.model
-    if model.element == "water" and world.water is None:
+    if suits(model, world):
+        return
+    if world.water is None:
         raise ValueError(f"{name} needs water, and there is none in {world.name}.")
-    if model.element == "land" and world.water is not None:
-        raise ValueError(f"{name} needs dry land, and {world.name} is under water.")
+    raise ValueError(f"{name} needs dry land, and {world.name} is under water.")

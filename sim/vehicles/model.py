@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Literal, Protocol
+
+from msgspec import structs
 
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
@@ -16,8 +19,9 @@ from sim.sensors.bumper import BumperRing
 from sim.shapes import Shape
 from sim.vehicles.parameters import CameraParameters, Parameters
 from sim.vehicles.suite import Suite
+from sim.world import World
 
-__all__ = ["Model", "Vehicle"]
+__all__ = ["Model", "Vehicle", "numbered", "suits"]
 
 
 class Vehicle(Protocol):
@@ -83,3 +87,26 @@ class Model:
     """The shapes to draw of one with its parameters, at a position [m], turned by a rotation."""
     element: Literal["land", "water", "air"] = "land"
     """Where it moves."""
+    home: str = "parking_lot"
+    """The world that it is put into when nobody names another."""
+
+
+def suits(model: Model, world: World) -> bool:
+    """Whether such a robot can be in this world."""
+    return model.element == "air" or (model.element == "water") == (world.water is not None)
+
+
+def numbered(models: Sequence[Model]) -> list[Model]:
+    """The same with names that tell them apart: the second one of a kind is `Patrol-2`, and so on."""
+    met: Counter[str] = Counter()
+    return [_called(model, met) for model in models]
+
+
+def _called(model: Model, met: Counter[str]) -> Model:
+    info = model.parameters.info
+    met[info.name] += 1
+    if met[info.name] == 1:
+        return model
+    stem = info.name.rpartition("-")[0] or info.name
+    own = structs.replace(info, name=f"{stem}-{met[info.name]}")
+    return replace(model, parameters=structs.replace(model.parameters, info=own))

@@ -134,5 +134,5 @@ class Aqua(Chassis[SwimmerParameters]):
         )
 
 
-AQUA = Model(Aqua, PARAMETERS, looks, "water")
+AQUA = Model(Aqua, PARAMETERS, looks, "water", home="tank")
 """All that is needed to make one."""

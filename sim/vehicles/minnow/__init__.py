@@ -165,5 +165,5 @@ class Minnow(Chassis[BoatParameters]):
         )
 
 
-MINNOW = Model(Minnow, PARAMETERS, looks, "water")
+MINNOW = Model(Minnow, PARAMETERS, looks, "water", home="lake")
 """All that is needed to make one."""

@@ -116,5 +116,5 @@ class Scout(Chassis[ScoutParameters]):
         yield "/joint_states", self._odometry.joint_state(stamp)
 
 
-SCOUT = Model(Scout, PARAMETERS, looks, "land")
+SCOUT = Model(Scout, PARAMETERS, looks, "land", home="office")
 """All that is needed to make one."""
