@@ -107,9 +107,7 @@ def test_two_layouts_for_one_robot_are_a_mistake(tmp_path: Path) -> None:
 
 
 def test_a_layout_says_how_it_is_driven() -> None:
-    text = "arrangement = 'two_sticks'\n" + control(
-        slot="right_stick", widget="Compass", forward="climb", left=""
-    )
+    text = "arrangement = 'two_sticks'\n" + control(slot="right_stick", forward="climb")
     assert parse("x", text, WIDGETS).controls[0].forward == "climb"
     actions = parse("x", "[[action]]\nwhat = 'lights'\ntext = 'Lamp'", WIDGETS).actions
     assert [(one.what, one.text, one.icon) for one in actions] == [("lights", "Lamp", "")]
