@@ -9,11 +9,11 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.authority import Authority, Operator
 from robotside.expiry import HELD, Expiry
+from robotside.manoeuvres import Order, at_rest, finite, paced
 from robotside.pace import Pace
-from robotside.slower import slower
 from robotside.sticks import LET_GO, Sticks
 
 __all__ = ["SOMEBODY", "STOP_SENTENCE", "Controls", "Ruling"]
@@ -24,11 +24,15 @@ SOMEBODY = "somebody"
 """Who pressed STOP without a name."""
 
 
+_FREE = RobotInfo(max_speed=math.inf, max_yaw_rate=math.inf)
+"""Of a robot that nothing limits."""
+
+
 @dataclass(frozen=True, slots=True)
 class Ruling:
     """What is to be done with a drive command."""
 
-    twist: Twist | None
+    order: Order | None
     """To pass to the robot at once; None when it must not be."""
     said: str = ""
     """Why not, as one sentence; empty when nobody needs to know."""
@@ -37,12 +41,10 @@ class Ruling:
 class Controls(Authority):
     """The one place that decides whether a command may move the robot."""
 
-    def __init__(
-        self, *, max_speed: float, max_yaw_rate: float, follows: Callable[[], bool] = lambda: True
-    ) -> None:
-        """`follows` tells whether the speed follows the driver's link."""
+    def __init__(self, info: RobotInfo | None = None, *, follows: Callable[[], bool] = lambda: True) -> None:
+        """`info` is what the robot may do, `follows` tells whether the speed follows the driver's link."""
         super().__init__()
-        self._max_speed, self._max_yaw_rate, self._follows = max_speed, max_yaw_rate, follows
+        self._info, self._follows = info or _FREE, follows
         self._expiry = Expiry()
         self._sticks = Sticks()
         self._until = -math.inf
@@ -90,7 +92,7 @@ class Controls(Authority):
     def drive(
         self,
         client: Operator,
-        twist: Twist,
+        order: Order,
         now: float,
         *,
         stamp: float | None = None,
@@ -103,18 +105,18 @@ class Controls(Authority):
         why the robot cannot be driven at all, empty when it can. A stick that was pushed in vain, or for longer than a
         moment without being obeyed, counts again once it was at rest.
         """
-        moving = not _zero(twist)
-        said = self._fault(client, twist, now, stamp)
+        moving = not at_rest(order)
+        said = self._fault(client, order, now, stamp)
         given = now if stamp is None or math.isnan(stamp) else stamp
-        counts = not _finite(twist) or self._sticks.hear(client.id, moving, given, now)
+        counts = not finite(order) or self._sticks.hear(client.id, moving, given, now)
         if not said and (moving or not (auto or trouble or self.stopped)):
             said = trouble or self._refusal(client, now, counts)
             if not said:
                 self._sticks.obey(client.id, now)
                 self._giver, self._until = client, self._expiry.given(client, now, stamp) + HELD
                 self.look(now)
-                share = self.pace.share  # the robot's own limits are looked at where twists reach its port
-                return Ruling(slower(twist, self._max_speed * share, self._max_yaw_rate * share))
+                # the robot's own limits are looked at where orders reach its port
+                return Ruling(paced(order, self._info, self.pace.share))
             self._sticks.void(client.id)
         self.dropped += bool(said)
         return Ruling(None, said)
@@ -159,20 +161,7 @@ class Controls(Authority):
         self._look(now)
         return self.objection(client) or (self.acquire(client, now) if counts else LET_GO)
 
-    def _fault(self, client: Operator, twist: Twist, now: float, stamp: float | None) -> str:
-        if not _finite(twist):
+    def _fault(self, client: Operator, order: Order, now: float, stamp: float | None) -> str:
+        if not finite(order):
             return "A drive command was dropped: its speeds are not all numbers."
-        return self._expiry.fault(client, now, stamp, rest=_zero(twist))
-
-
-def _numbers(twist: Twist) -> tuple[float, ...]:
-    v, w = twist.linear, twist.angular
-    return v.x, v.y, v.z, w.x, w.y, w.z
-
-
-def _finite(twist: Twist) -> bool:
-    return all(map(math.isfinite, _numbers(twist)))
-
-
-def _zero(twist: Twist) -> bool:
-    return not any(_numbers(twist))
+        return self._expiry.fault(client, now, stamp, rest=at_rest(order))

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from bridge.liveness import LAPSE
-from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.authority import TO_OBJECT, Operator
 from robotside.commands import Refusal
 from robotside.config import ControlSettings
 from robotside.controls import Controls
 from robotside.events import Say
-from robotside.limits import Measured
-from robotside.robot import Robot
+from robotside.guarded import Guarded
+from robotside.limits import Measured, turned_over
+from robotside.manoeuvres import BY_STICK, Order, settled
 from robotside.safe_state import Act, SafeState
 from robotside.tasks import Engine
 
@@ -61,7 +62,7 @@ class Helm:
     def __init__(
         self,
         controls: Controls,
-        robot: Robot,
+        robot: Guarded,
         engine: Engine,
         safe: SafeState,
         options: Options,
@@ -82,6 +83,8 @@ class Helm:
     def step(self, now: float) -> None:
         """Bring everything up to `now` [s, robot clock]."""
         clock, controls = self._clock(), self._controls
+        if self._engine.running and turned_over(self._measured(), self._robot.info.kind):
+            self._engine.pause(f"Paused: {self._robot.info.name} has turned over.", "alarm")
         lost = controls.mind(clock)
         if lost:
             self._say("control", f"{lost} was not heard for {LAPSE:.0f} s and lost control.", "warn")
@@ -91,21 +94,38 @@ class Helm:
             self.rest(now)
         self._keep_safe(now)
 
-    def drive(self, client: Operator, twist: Twist, stamp: float | None) -> str:
-        """Obey a drive command or say why not; empty when there is nothing to say.
+    def drive(self, client: Operator, order: Order, stamp: float | None) -> str:
+        """Obey a drive command, a twist or a manoeuvre, or say why not; empty when there is nothing to say.
 
         `stamp` is when it was given [s, operators' clock], None when nobody said.
         """
         engine = self._engine
+        fault = self._strange(order)
+        if fault:
+            self._controls.dropped += 1
+            return fault
         ruling = self._controls.drive(
-            client, twist, self._clock(), stamp=stamp, auto=engine.running, trouble=self._robot.trouble
+            client, order, self._clock(), stamp=stamp, auto=engine.running, trouble=self._robot.trouble
         )
-        if ruling.twist is None:
+        if ruling.order is None:
             return ruling.said
         self._safe.leave()
         engine.pause(f"Paused: {self._controls.name(client)} took the stick.", "warn")
         self._ran = self._returned = False
-        self._robot.drive(ruling.twist)
+        self._robot.follow(settled(ruling.order, self._robot.info))
+        return ""
+
+    def _strange(self, order: Order) -> str:
+        """Why nobody can drive this robot by such an order, as one sentence; empty when somebody can."""
+        if not isinstance(order, Manoeuvre):
+            return ""
+        info = self._robot.info
+        if order.kind not in BY_STICK:
+            said = f"it is {', '.join(BY_STICK[:-1])} or {BY_STICK[-1]}, not {order.kind!r}"
+            return f"A drive command was dropped: {said}."
+        lacks = {"steer": not info.max_steering, "tilt": not info.max_tilt}
+        if lacks.get(order.kind) and order.kind not in info.manoeuvres:
+            return f"A drive command was dropped: {info.name} cannot {order.kind}."
         return ""
 
     def rest(self, now: float) -> None:

@@ -19,12 +19,13 @@ from robotside.config import LimitSettings, Ring
 from robotside.fence import Fence
 from robotside.fencing import Fencing
 from robotside.grid import Grid
+from robotside.manoeuvres import Order, kept, leads_to, levelled
 from robotside.planner import place_sentence
 from robotside.pose2 import Pose2
 from robotside.slower import slower
 from robotside.tracks import HANDLING, REACTION, REST, Handling, Moving
 
-__all__ = ["GOAL_ROOM", "PATH_ROOM", "Clamped", "Keeper", "Measured"]
+__all__ = ["GOAL_ROOM", "PATH_ROOM", "Clamped", "Keeper", "Kept", "Measured", "turned_over"]
 
 GOAL_ROOM = 0.35
 """Kept between the body and the fence at a goal [m]: following a path is not exact."""
@@ -32,6 +33,10 @@ PATH_ROOM = 0.15
 """Of the map, what is nearer than this to the fence is no place to plan through [m]."""
 STEEP_FROM, STEEP_SLOWEST = 0.8, 0.3
 """From this part of the greatest slope on it goes slower, down to this part of the speed."""
+UPSIDE_DOWN = 0.2
+"""Cosine of the tilt from which on a robot has turned over."""
+DIVING = 0.1
+"""From this pitch on a swimmer goes up and down as it goes ahead, and its fins cannot make up for that [rad]."""
 NOT_PLACED = "The robot does not know where it is, so it cannot keep to its fence; place it on the map."
 
 
@@ -49,6 +54,8 @@ class Measured:
     """[rad]"""
     pitch: float = 0.0
     """[rad], positive is nose down."""
+    landed: bool = False
+    """It says itself that it stands on the ground; False for one that does not fly."""
 
 
 class Clamped(NamedTuple):
@@ -59,13 +66,26 @@ class Clamped(NamedTuple):
     """What holds it back by more than half, as one sentence; empty when nothing does."""
 
 
+class Kept(NamedTuple):
+    """An order of any kind as it may be done."""
+
+    order: Order
+    why: str = ""
+    """As that of `Clamped`."""
+
+
+def turned_over(measured: Measured, kind: str) -> bool:
+    """A robot of this `kind` lies on its side or its back, as only a swimmer may."""
+    return kind != "hexapod" and math.cos(measured.roll) * math.cos(measured.pitch) < UPSIDE_DOWN
+
+
 class Keeper:
     """Keeps one robot to its limits."""
 
     def __init__(self, settings: LimitSettings, info: RobotInfo) -> None:
         """`settings` are the configuration's, `info` what the robot says of itself."""
         self._settings = settings
-        self._radius = info.radius
+        self._own, self._radius = info, info.radius
         known = HANDLING.get(info.kind, HANDLING["wheels"])
         self._handling: Handling = replace(known, braking=settings.braking or known.braking)
         self._height = _highest(settings)
@@ -131,7 +151,21 @@ class Keeper:
             self._last = twist, measured, self._clamped(twist, measured)
         return self._last[2]
 
+    def keep(self, order: Order, measured: Measured) -> Kept:
+        """`order` as it may be done now, of any kind; as a twist where the robot does not know the kind."""
+        if isinstance(order, Twist):
+            return Kept(*self.clamp(order, measured))
+        own = self._own
+        order = levelled(order, self._deepest, self._height, measured.height)
+        leads = leads_to(order, own, measured)
+        may, why = self.clamp(leads, measured)
+        if order.kind not in own.manoeuvres or turned_over(measured, own.kind):
+            return Kept(may, why)
+        return Kept(kept(order, leads, may, own), why)
+
     def _clamped(self, twist: Twist, measured: Measured) -> Clamped:
+        if turned_over(measured, self.info.kind):
+            return Clamped(Twist(), f"{self.info.name or 'The robot'} has turned over; put it upright first.")
         fitted = self._upright(slower(twist, self.info.max_speed, self.info.max_yaw_rate), measured)
         level = self._level(fitted.twist, measured)
         fenced = self._fenced(level.twist, measured)
@@ -142,12 +176,14 @@ class Keeper:
         z = measured.height
         if math.isnan(z) or not (self._height < math.inf or self._deepest > -math.inf):
             return Clamped(twist)
-        v, nose = twist.linear, measured.pitch
+        v, nose = twist.linear, 0.0 if self._handling.sideways else measured.pitch
         rise = v.z * math.cos(nose) - v.x * math.sin(nose)
         allowed = max(-self._speed_within(z - self._deepest), min(rise, self._speed_within(self._height - z)))
-        if abs(math.cos(nose)) < 0.1:
-            return Clamped(twist)
-        fitted = Vector3(v.x, v.y, (allowed + v.x * math.sin(nose)) / math.cos(nose))
+        if abs(nose) < DIVING:
+            fitted = Vector3(v.x, v.y, (allowed + v.x * math.sin(nose)) / math.cos(nose))
+        else:
+            part = allowed / rise if rise else 1.0
+            fitted = Vector3(part * v.x, v.y, part * v.z)
         why = ""
         if abs(allowed) < abs(rise) / 2:
             limit = self._height if rise > 0 else self._deepest

@@ -6,10 +6,10 @@ from collections.abc import Iterable
 from typing import Protocol, runtime_checkable
 
 from bridge.msgs import Msg
-from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import RobotInfo
+from bridge.msgs.geometry_msgs import Pose, Twist
+from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 
-__all__ = ["Robot", "Stoppable"]
+__all__ = ["Equipped", "Manoeuvrable", "Resettable", "Robot", "Stoppable"]
 
 
 class Robot(Protocol):
@@ -51,3 +51,30 @@ class Stoppable(Protocol):
 
     def release_stop(self) -> None:
         """Release it if it was pressed from here."""
+
+
+@runtime_checkable
+class Manoeuvrable(Protocol):
+    """A robot that moves by more than twists; its `info` says which kinds of manoeuvre it knows."""
+
+    def manoeuvre(self, order: Manoeuvre) -> None:
+        """Move by `order` until told otherwise; ValueError with one sentence when it cannot, which changes nothing."""
+
+
+@runtime_checkable
+class Equipped(Protocol):
+    """A robot with payloads that take orders; its `info` says which are mounted."""
+
+    def command(self, payload: str, order: Msg) -> None:
+        """Tell a payload what to do; ValueError with one sentence when it cannot, which changes nothing."""
+
+    def hold_payloads(self) -> None:
+        """Whatever moves on it stays as it is now."""
+
+
+@runtime_checkable
+class Resettable(Protocol):
+    """A robot that can be put back to where it started, as only a simulated one can."""
+
+    def reset(self) -> Pose:
+        """Put it back, at rest; where it stands now, in `map`."""

@@ -24,6 +24,7 @@ from bridge.msgs.pilothouse_msgs import (
     ControlStatus,
     Event,
     IntruderArray,
+    Manoeuvre,
     Mission,
     TaskOrder,
 )
@@ -38,12 +39,13 @@ from robotside.controls import Controls
 from robotside.database import Records
 from robotside.demand import Demand
 from robotside.events import Events
-from robotside.guarded import Guarded
+from robotside.guarded import Guarded, port_info
 from robotside.helm import FOLLOW_LINK, LOST_LINK_STOPS_TASK, Helm, Options
 from robotside.history import History
 from robotside.interrupted import Interrupted
 from robotside.latch import Latch
 from robotside.limits import Keeper
+from robotside.manoeuvres import Order
 from robotside.pose2 import Pose2
 from robotside.readiness import Readiness
 from robotside.robot import Robot
@@ -89,7 +91,7 @@ class Station:
         self._next_diagnostics = self._next_fault = -math.inf
         self._turned = -math.inf
         """When trouble began or ended last [s]: what was measured before says nothing of the time since."""
-        self.keeper = Keeper(config.limits, robot.info)
+        self.keeper = Keeper(config.limits, port_info(robot))
         """Keeps the robot to its limits."""
         self.info = replace(self.keeper.info, name=name or config.robot.name or robot.info.name)
         self.bus = Bus()
@@ -141,7 +143,9 @@ class Station:
         """
         if stamp is not None:
             self.readiness.told_time(stamp)
-        if isinstance(msg, Twist):
+        if isinstance(msg, Manoeuvre) and stamp is None and msg.header.stamp.seconds > 0:
+            stamp = msg.header.stamp.seconds
+        if isinstance(msg, Twist | Manoeuvre):
             self._mind(lambda: self._remark(client, self.helm.drive(client, msg, stamp)))
         elif isinstance(msg, PoseWithCovarianceStamped):
             self._place(client, Pose2.from_msg(msg.pose.pose))
@@ -357,9 +361,9 @@ class Station:
         text = f"{name} placed the robot at ({pose.x:.1f}, {pose.y:.1f})."
         self.events.say("localisation", text, at=(pose.x, pose.y))
 
-    def _clamp(self, twist: Twist) -> Twist:
+    def _clamp(self, order: Order) -> Order:
         measured = self.readiness.senses.measured(self.autonomy.whereabouts.pose)
-        done, why = self.keeper.clamp(twist, measured)
+        done, why = self.keeper.keep(order, measured)
         now = self.clock()
         if why and not self._held and now >= self._next_remark.get("limits", -math.inf):
             self._next_remark["limits"] = now + REMARK_PERIOD
@@ -395,8 +399,7 @@ class Station:
 
     def _controls(self) -> Controls:
         follows = partial(self.options.on, FOLLOW_LINK)
-        info = self.info
-        return Controls(max_speed=info.max_speed, max_yaw_rate=info.max_yaw_rate, follows=follows)
+        return Controls(self.info, follows=follows)
 
     def _autonomy(self, first: Iterable[tuple[str, Msg]], rng: random.Random) -> Autonomy:
         return Autonomy(

@@ -9,6 +9,7 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, 
 
 from bridge.liveness import LAPSE
 from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.authority import TO_OBJECT
 from robotside.controls import Controls
 from robotside.expiry import VALID
@@ -26,7 +27,7 @@ class Operators(RuleBasedStateMachine):
     def __init__(self) -> None:
         super().__init__()
         self.now = 1000.0
-        self.controls = Controls(max_speed=0.7, max_yaw_rate=1.9)
+        self.controls = Controls(RobotInfo(max_speed=0.7, max_yaw_rate=1.9))
         self.body = FakeRobot()
         self.robot = Guarded(self.body, lambda: self.controls.stopped)
         self.numbers = itertools.count(1)
@@ -95,13 +96,13 @@ class Operators(RuleBasedStateMachine):
     def drive(self, who: str, age: float, speed: float) -> None:
         client, before, stopped = self._heard(who), self._driver(), self.controls.stopped
         ruling = self.controls.drive(client, Twist.planar(speed, 0.0), self.now, stamp=self.now - age)
-        if ruling.twist is None:
+        if ruling.order is None:
             return
         assert age <= VALID
         assert not stopped
         assert before in ("", who)
         assert self.controls.holds(client)
-        self.robot.drive(ruling.twist)
+        self.robot.follow(ruling.order)
         self.moved_by, self.valid = client.id, self.now - max(age, 0.0)
 
     @rule(who=WHO)

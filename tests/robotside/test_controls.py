@@ -8,6 +8,7 @@ import pytest
 
 from bridge.liveness import LAPSE
 from bridge.msgs.geometry_msgs import Twist, Vector3
+from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.authority import SILENT
 from robotside.controls import STOP_SENTENCE, Controls, Ruling
 from robotside.expiry import HELD, VALID
@@ -20,7 +21,7 @@ REST = Twist()
 
 @pytest.fixture
 def controls() -> Controls:
-    return Controls(max_speed=0.7, max_yaw_rate=1.9)
+    return Controls(RobotInfo(max_speed=0.7, max_yaw_rate=1.9))
 
 
 @pytest.fixture
@@ -34,7 +35,7 @@ def bert() -> FakeClient:
 
 
 def test_a_drive_command_within_the_limits_passes_unchanged(controls: Controls, anna: FakeClient) -> None:
-    assert controls.drive(anna, AHEAD, 10.0).twist == AHEAD
+    assert controls.drive(anna, AHEAD, 10.0).order == AHEAD
 
 
 def test_a_drive_command_expires_after_its_validity_and_only_once(
@@ -67,7 +68,7 @@ def test_somebody_else_is_refused_with_the_drivers_name(
     controls.introduce(anna, "tablet-1", "Anna's tablet")
     controls.acquire(anna, 10.0)
     ruling = controls.drive(bert, AHEAD, 10.0)
-    assert ruling.twist is None
+    assert ruling.order is None
     assert ruling.said.startswith("Anna's tablet has control")
     assert controls.dropped == 1
 
@@ -114,7 +115,7 @@ def test_two_with_the_same_id_are_two_while_both_are_heard(
     assert controls.acquire(bert, bert.last_heard).startswith(said)
     assert controls.objection(bert).startswith(said)
     assert controls.release(bert) == f"{said}; only its holder can release it."
-    assert controls.drive(anna, AHEAD, bert.last_heard).twist == AHEAD
+    assert controls.drive(anna, AHEAD, bert.last_heard).order == AHEAD
 
 
 def test_closing_the_socket_while_driving_stops_the_robot_and_frees_control(
@@ -148,24 +149,24 @@ def test_closing_a_watchers_socket_stops_nothing(
 
 def test_a_late_command_is_dropped_and_says_how_late(controls: Controls, anna: FakeClient) -> None:
     ruling = controls.drive(anna, AHEAD, 10.0, stamp=9.5)
-    assert ruling.twist is None
+    assert ruling.order is None
     assert "0.5 s late" in ruling.said
 
 
 def test_a_command_as_old_as_allowed_passes(controls: Controls, anna: FakeClient) -> None:
-    assert controls.drive(anna, AHEAD, 10.0, stamp=9.75).twist == AHEAD
+    assert controls.drive(anna, AHEAD, 10.0, stamp=9.75).order == AHEAD
 
 
 @pytest.mark.parametrize("stamp", [9.9, 9.95])
 def test_a_command_that_was_overtaken_is_dropped(controls: Controls, anna: FakeClient, stamp: float) -> None:
     controls.drive(anna, REST, 10.0, stamp=9.95)
-    assert controls.drive(anna, AHEAD, 10.0, stamp=stamp).twist is None
+    assert controls.drive(anna, AHEAD, 10.0, stamp=stamp).order is None
 
 
 def test_each_client_has_its_own_order(controls: Controls, anna: FakeClient, bert: FakeClient) -> None:
     controls.drive(anna, AHEAD, 10.0, stamp=9.95)
     controls.release(anna)
-    assert controls.drive(bert, AHEAD, 10.0, stamp=9.9).twist == AHEAD
+    assert controls.drive(bert, AHEAD, 10.0, stamp=9.9).order == AHEAD
 
 
 def test_a_command_from_a_wrong_clock_does_not_lock_its_sender_out(
@@ -174,14 +175,14 @@ def test_a_command_from_a_wrong_clock_does_not_lock_its_sender_out(
     assert "1e+308 s late" in controls.drive(anna, AHEAD, 10.0, stamp=-1e308).said
     assert "1e+308 s ahead" in controls.drive(anna, AHEAD, 10.0, stamp=1e308).said
     assert "ahead of the robot's" in controls.drive(anna, AHEAD, 10.0, stamp=99.0).said
-    assert controls.drive(anna, AHEAD, 10.1, stamp=10.1).twist == AHEAD
+    assert controls.drive(anna, AHEAD, 10.1, stamp=10.1).order == AHEAD
 
 
 @pytest.mark.parametrize("ahead", [0.1, 0.9])
 def test_a_clock_that_is_ahead_lengthens_no_command(
     controls: Controls, anna: FakeClient, ahead: float
 ) -> None:
-    assert controls.drive(anna, AHEAD, 10.0, stamp=10.0 + ahead).twist == AHEAD
+    assert controls.drive(anna, AHEAD, 10.0, stamp=10.0 + ahead).order == AHEAD
     assert controls.expired(10.0 + HELD)
 
 
@@ -202,14 +203,14 @@ def test_a_command_with_a_speed_that_is_no_number_is_dropped(
     numbers = [0.1] * 6
     numbers[part] = bad
     ruling = controls.drive(anna, Twist(Vector3(*numbers[:3]), Vector3(*numbers[3:])), 10.0)
-    assert ruling.twist is None
+    assert ruling.order is None
     assert "not all numbers" in ruling.said
     assert controls.driver is None
 
 
 def test_speeds_are_cut_to_the_limits_with_their_direction_kept(controls: Controls, anna: FakeClient) -> None:
-    twist = controls.drive(anna, Twist(Vector3(-3.0, 4.0), Vector3(0.0, 0.0, -9.0)), 10.0).twist
-    assert twist is not None
+    twist = controls.drive(anna, Twist(Vector3(-3.0, 4.0), Vector3(0.0, 0.0, -9.0)), 10.0).order
+    assert isinstance(twist, Twist)
     assert math.hypot(twist.linear.x, twist.linear.y) == pytest.approx(0.7)
     assert twist.linear.y / twist.linear.x == pytest.approx(-4 / 3)
     assert twist.angular.z == -1.9
@@ -222,7 +223,7 @@ def test_after_stop_nothing_drives_until_it_is_released(controls: Controls, anna
     assert not controls.expired(11.0)
     controls.release_stop()
     controls.drive(anna, REST, 10.2)
-    assert controls.drive(anna, AHEAD, 10.3).twist == AHEAD
+    assert controls.drive(anna, AHEAD, 10.3).order == AHEAD
 
 
 def held(
@@ -236,7 +237,7 @@ def held(
 def test_a_stick_held_from_rest_on_counts_from_its_first_command(
     controls: Controls, anna: FakeClient
 ) -> None:
-    assert all(ruling.twist == AHEAD for ruling in held(controls, anna, 10.0, 13.0, lag=0.2))
+    assert all(ruling.order == AHEAD for ruling in held(controls, anna, 10.0, 13.0, lag=0.2))
 
 
 def test_a_stick_held_while_the_robot_was_halted_counts_again_when_it_was_at_rest(
@@ -245,10 +246,10 @@ def test_a_stick_held_while_the_robot_was_halted_counts_again_when_it_was_at_res
     held(controls, anna, 10.0, 11.0)
     controls.halt()
     after = held(controls, anna, 11.0, 15.0)
-    assert {(ruling.twist, ruling.said) for ruling in after} == {(None, LET_GO)}
+    assert {(ruling.order, ruling.said) for ruling in after} == {(None, LET_GO)}
     assert not controls.driving
     controls.drive(anna, REST, 15.0, stamp=15.0)
-    assert controls.drive(anna, AHEAD, 15.05, stamp=15.05).twist == AHEAD
+    assert controls.drive(anna, AHEAD, 15.05, stamp=15.05).order == AHEAD
 
 
 def test_a_stick_that_says_nothing_while_it_rests_counts_after_half_a_second(
@@ -258,7 +259,7 @@ def test_a_stick_that_says_nothing_while_it_rests_counts_after_half_a_second(
     controls.halt()
     assert controls.drive(anna, AHEAD, 10.1).said == LET_GO
     assert controls.drive(anna, AHEAD, 10.5).said == LET_GO
-    assert controls.drive(anna, AHEAD, 11.0).twist == AHEAD
+    assert controls.drive(anna, AHEAD, 11.0).order == AHEAD
 
 
 def test_a_stick_pushed_while_there_is_trouble_does_not_drive_off_when_it_ends(
@@ -268,7 +269,7 @@ def test_a_stick_pushed_while_there_is_trouble_does_not_drive_off_when_it_ends(
     assert controls.drive(anna, AHEAD, 10.0, trouble=trouble).said == trouble
     assert controls.drive(anna, AHEAD, 10.05).said == LET_GO
     assert controls.drive(anna, REST, 10.1, trouble=trouble) == Ruling(None)
-    assert controls.drive(anna, AHEAD, 10.15).twist == AHEAD
+    assert controls.drive(anna, AHEAD, 10.15).order == AHEAD
 
 
 def test_a_stick_held_through_stop_does_not_drive_off_when_stop_is_released(
@@ -298,7 +299,7 @@ def test_a_stick_held_through_an_outage_of_its_link_does_not_drive_off_after_it(
     assert controls.expired(12.0)
     held(controls, anna, 11.0, 11.2, lag=2.0)
     late = [controls.drive(anna, AHEAD, 13.2, stamp=11.2 + number * 0.05) for number in range(40)]
-    assert {ruling.twist for ruling in late} == {None}
+    assert {ruling.order for ruling in late} == {None}
     assert controls.drive(anna, AHEAD, 13.25, stamp=13.25).said == LET_GO
 
 
@@ -308,7 +309,7 @@ def test_a_hiccup_of_the_link_costs_no_more_than_the_time_it_takes(
     held(controls, anna, 10.0, 11.0)
     assert controls.expired(11.3)
     held(controls, anna, 11.0, 11.2, lag=0.4)
-    assert controls.drive(anna, AHEAD, 11.6, stamp=11.5).twist == AHEAD
+    assert controls.drive(anna, AHEAD, 11.6, stamp=11.5).order == AHEAD
 
 
 def test_a_zero_that_was_overtaken_does_not_stand_for_rest(controls: Controls, anna: FakeClient) -> None:
@@ -322,13 +323,13 @@ def test_who_went_leaves_no_stick_behind(controls: Controls, anna: FakeClient) -
     controls.drive(anna, AHEAD, 10.0)
     controls.halt()
     controls.gone(anna)
-    assert controls.drive(anna, AHEAD, 10.1).twist == AHEAD
+    assert controls.drive(anna, AHEAD, 10.1).order == AHEAD
 
 
 def test_a_stick_at_rest_is_not_scolded_while_stopped(controls: Controls, anna: FakeClient) -> None:
     controls.stop("Bert")
     ruling = controls.drive(anna, REST, 10.0)
-    assert (ruling.twist, ruling.said, controls.dropped) == (None, "", 0)
+    assert (ruling.order, ruling.said, controls.dropped) == (None, "", 0)
 
 
 def test_the_first_who_pressed_stop_is_remembered(controls: Controls) -> None:
@@ -340,9 +341,9 @@ def test_the_first_who_pressed_stop_is_remembered(controls: Controls) -> None:
 def test_a_stick_at_rest_does_not_disturb_a_robot_that_drives_itself(
     controls: Controls, anna: FakeClient
 ) -> None:
-    assert controls.drive(anna, REST, 10.0, auto=True).twist is None
+    assert controls.drive(anna, REST, 10.0, auto=True).order is None
     assert controls.driver is None
-    assert controls.drive(anna, AHEAD, 10.0, auto=True).twist == AHEAD
+    assert controls.drive(anna, AHEAD, 10.0, auto=True).order == AHEAD
 
 
 def test_only_its_holder_releases_control(controls: Controls, anna: FakeClient, bert: FakeClient) -> None:
@@ -353,7 +354,7 @@ def test_only_its_holder_releases_control(controls: Controls, anna: FakeClient, 
 
 
 def test_stop_is_latched_whoever_pressed_it_even_without_a_name() -> None:
-    controls = Controls(max_speed=1.0, max_yaw_rate=1.0)
+    controls = Controls(RobotInfo(max_speed=1.0, max_yaw_rate=1.0))
     controls.stop("")
     assert controls.stopped
     assert controls.stopped_by == "somebody"
