@@ -14,6 +14,7 @@ from bridge.msgs.geometry_msgs import PoseStamped
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry, Path
 from bridge.msgs.pilothouse_msgs import (
     Bumper,
+    FlightState,
     Following,
     Intruder,
     Mission,
@@ -165,6 +166,7 @@ class Autonomy:
             "/odom": self._odom,
             "/scan": self._scan,
             "/sonar": self._sonar,
+            "/flight": self._flight,
             "/fix": self.whereabouts.take_fix,
             "/imu/data": self.whereabouts.take_imu,
             "/battery_state": self._battery,
@@ -226,6 +228,7 @@ class Autonomy:
             return  # as good as none: one pose that is no number would spoil all later ones
         self._heard["/odom"] = self._now
         self.whereabouts.take_odom(msg)
+        self.guide.measured(msg.pose.pose.position.z)
         pose = self.whereabouts.pose
         if pose is None:
             return
@@ -289,6 +292,10 @@ class Autonomy:
             return
         self._events.say("battery", f"{said}: going home.", "warn")
         self.engine.start(home, self._now)
+
+    def _flight(self, msg: FlightState) -> None:
+        self.situation.flight = msg.phase
+        self.guide.flies(msg.phase)
 
     def _tag(self, msg: TagRead) -> None:
         if msg.tag:

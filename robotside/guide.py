@@ -9,24 +9,18 @@ from enum import Enum
 import numpy as np
 
 from bridge.msgs.geometry_msgs import Twist
-from robotside.avoidance import Avoidance
-from robotside.follow import Follower
+from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
+from robotside.coursing import Coursing
+from robotside.going import CRUISE, UNSURE_SPEED, Going
 from robotside.grid import Grid
 from robotside.obstacles import Obstacles
-from robotside.planner import Planner, Unreachable, place_sentence
+from robotside.planner import STEP, Planner, Unreachable, place_sentence
 from robotside.pose2 import Points, Pose2
-from robotside.robot import Robot
+from robotside.robot import Manoeuvrable, Robot
+from robotside.trucking import Trucking, girth
+from robotside.wheeling import Wheeling
 
-__all__ = ["Goal", "Guide", "Leg"]
-
-CRUISE = 0.9
-"""Part of the robot's greatest speed that it travels with by itself."""
-
-UNSURE_SPEED = 0.15
-"""Speed while the position is unsure [m/s]."""
-
-LOOK = 6.0
-"""How far along the path something new makes it plan anew [m]."""
+__all__ = ["CRUISE", "UNSURE_SPEED", "Goal", "Guide", "Leg"]
 
 REPLAN = 1.0
 """Least time between two plans [s]."""
@@ -66,25 +60,40 @@ class Goal:
         return name if name == self.place else f"{name[0].lower()}{name[1:]}"
 
 
+def going_of(robot: Robot) -> Going:
+    """How a robot of its kind goes; one of an unknown kind as if on wheels."""
+    if robot.info.kind == "ackermann":
+        return Trucking(robot)
+    if robot.info.kind in ("boat", "hexapod", "quadrotor"):
+        return Coursing(robot)
+    return Wheeling(robot)
+
+
+def room_of(info: RobotInfo) -> float:
+    """The room that a robot needs round its place, whichever way it points [m]."""
+    return girth(info) if info.kind == "ackermann" else info.radius
+
+
 class Guide:
     """Drives one robot on one map."""
 
     def __init__(self, robot: Robot, grid: Grid, show: Callable[[Points], None]) -> None:
         info = robot.info
         self._robot, self._show = robot, show
-        self._radius = info.radius
+        self.kind = info.kind
+        """Of robot, as its information calls it."""
+        self.going: Going = going_of(robot)
+        """How it goes along a way."""
+        self._radius = room_of(info)
         self.take_map(grid)
-        self._avoidance = Avoidance(info.radius, max_yaw_rate=info.max_yaw_rate)
-        self._clear = info.radius + 0.18
-        self._cruise, self._turn = CRUISE * info.max_speed, info.max_yaw_rate
-        self._follower: Follower | None = None
         self._goal: Goal | None = None
         self.reason = ""
         """Why the way is blocked, as one sentence; empty when it is not."""
+        self.waits_for = ""
+        """What it does before it can go, as one sentence; empty when it goes."""
         self.sure = True
         """The position is trusted; otherwise it creeps."""
         self._turning = False
-        self._speed = 0.0
         self._planned = self._moved = -math.inf
         self._best = math.inf
         self._stuck = 0
@@ -106,11 +115,11 @@ class Guide:
     @property
     def cruise(self) -> float:
         """The speed that it travels with [m/s]."""
-        return self._cruise
+        return self.going.cruise
 
     @property
     def radius(self) -> float:
-        """Of the robot [m]."""
+        """Of the room that the robot needs round its place [m]."""
         return self._radius
 
     @property
@@ -119,18 +128,35 @@ class Guide:
         return self._turning
 
     def move(self, twist: Twist) -> None:
-        """Move so until the next `move`, `update` or `rest`, with nobody looking for obstacles but the caller."""
+        """Move so until the next order, `update` or `rest`, with nobody looking for obstacles but the caller."""
         self._robot.drive(twist)
+
+    def measured(self, height: float) -> None:
+        """The robot is at a `height` above the map's origin [m]."""
+        if isinstance(self.going, Coursing):
+            self.going.measured = height
+
+    def flies(self, phase: str) -> None:
+        """What it does in the air, of a robot that flies: landed, taking_off, flying or landing."""
+        if isinstance(self.going, Coursing):
+            self.going.aloft = phase in ("flying", "landing")
+
+    def order(self, manoeuvre: Manoeuvre) -> None:
+        """The same for what a twist does not say, of a robot that knows manoeuvres; others stay as they are."""
+        if isinstance(self._robot, Manoeuvrable):
+            self._robot.manoeuvre(manoeuvre)
 
     def head_for(self, goal: Goal) -> None:
         """Begin a new leg; the path is planned with the next `update`."""
-        self._goal, self._follower, self.reason = goal, None, ""
+        self._goal, self.reason = goal, ""
+        self.going.forget()
         self._stuck, self._left, self._moved = 0, math.nan, -math.inf
 
     def rest(self) -> None:
         """Stand still and forget the path; a leg that goes on later is planned from wherever it is then."""
         self._robot.stop()
-        self._follower, self._speed, self._left = None, 0.0, math.nan
+        self.going.forget()
+        self._left = math.nan
         self._moved = -math.inf
 
     def finish(self) -> None:
@@ -145,46 +171,37 @@ class Guide:
         self._turning = False
         if goal is None:
             return Leg.ARRIVED
-        if self._follower is None and not self._plan(pose, goal, now):
+        going = self.going
+        self.waits_for = going.ready(pose, now)
+        if self.waits_for:
+            return Leg.UNDER_WAY
+        if not going.under_way and not self._plan(pose, goal, now):
             return Leg.BLOCKED
-        follower = self._follower
-        if follower is None:
-            return Leg.BLOCKED
-        if follower.arrived(pose):
+        if going.arrived(pose):
             return self._face(pose, goal)
-        self._left = follower.remaining(pose)
+        self._left = going.remaining(pose)
         if not self._progresses(pose, now):
             return Leg.BLOCKED
-        self._steer(follower, pose, points, now)
+        if now - self._planned >= REPLAN and self._in_the_way(now):
+            self._replan(pose, now)
+        going.steer(pose, points, sure=self.sure)
         return Leg.UNDER_WAY
 
     def _plan(self, pose: Pose2, goal: Goal, now: float) -> bool:
         self._planned = now
         known = self.obstacles.points(now)
-        here, there = (pose.x, pose.y), (goal.x, goal.y)
         try:
-            path = self.planner.plan(here, there, goal.name, known)
+            path = self.going.plan(self.planner, pose, (goal.x, goal.y, goal.yaw), goal.name, known)
         except Unreachable as problem:
             self.reason = str(problem)
             return False
-        self._follower = Follower(path, cruise=self._cruise)
-        self._left = self._follower.length
+        self._left = self.going.remaining(pose)
         self._show(path)
         return True
 
-    def _steer(self, follower: Follower, pose: Pose2, points: Points, now: float) -> None:
-        distance, bearing = follower.aim(pose, self._speed)
-        if now - self._planned >= REPLAN and self._in_the_way(follower, now):
-            self._replan(pose, now)
-        cruise = follower.speed(pose, bearing, distance)
-        speed = cruise if self.sure else min(cruise, UNSURE_SPEED)
-        way = self._avoidance.choose(distance, bearing, min(speed, self._speed + 0.08), points)
-        self._speed = way.twist.linear.x
-        self._robot.drive(way.twist)
-
-    def _in_the_way(self, follower: Follower, now: float) -> bool:
-        ahead = follower.ahead[: int(LOOK / 0.1)]
-        return bool(len(self.obstacles.near(ahead, self._clear, now)))
+    def _in_the_way(self, now: float) -> bool:
+        ahead = self.going.ahead[: int(self.going.look / STEP)]
+        return bool(len(self.obstacles.near(ahead, self.going.clear, now)))
 
     def _replan(self, pose: Pose2, now: float) -> None:
         if self._goal and not self._plan(pose, self._goal, now):
@@ -192,13 +209,10 @@ class Guide:
 
     def _face(self, pose: Pose2, goal: Goal) -> Leg:
         """At the place: turn to the direction asked for, if any."""
-        error = 0.0 if math.isnan(goal.yaw) else math.remainder(goal.yaw - pose.yaw, math.tau)
-        if abs(error) < 0.05:
-            self._left = 0.0
+        self._left = 0.0
+        if math.isnan(goal.yaw) or self.going.face(pose, goal.yaw):
             return Leg.ARRIVED
-        rate = math.copysign(min(0.6 * self._turn, max(0.15, 1.5 * abs(error))), error)
-        self._turning, self._left = True, 0.0
-        self._robot.drive(Twist.planar(0.0, rate))
+        self._turning = True
         return Leg.UNDER_WAY
 
     def _progresses(self, pose: Pose2, now: float) -> bool:

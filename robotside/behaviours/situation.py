@@ -60,6 +60,8 @@ class Situation:
     """Somebody follows; None while no sensor was heard that could tell."""
     follows_heard: float = -math.inf
     """When that sensor was last heard [s], robot clock."""
+    flight: str = ""
+    """landed, taking_off, flying or landing; empty for what does not fly."""
     charging: bool = False
     """The battery takes charge, or is full at the charger."""
     touched: bool = False

@@ -1,0 +1,135 @@
+"""Going by courses: of boats, swimmers and what flies, which keep a heading, a speed and a height by themselves."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from bridge.msgs.pilothouse_msgs import Manoeuvre
+from bridge.units import wrap
+from robotside.follow import Follower, Manner
+from robotside.going import CRUISE, UNSURE_SPEED
+from robotside.planner import Planner
+from robotside.pose2 import Points, Pose2
+from robotside.robot import Manoeuvrable, Robot
+
+__all__ = ["TAKES_OFF_TO", "Coursing"]
+
+TAKES_OFF_TO = 2.0
+"""Above where it stands, which is over people's heads [m]."""
+
+FASTEST = 2.0
+"""It goes by itself no faster than this [m/s]."""
+
+TURNS_FIRST = 0.6
+"""Farther off its course than this, what turns where it is does so before it goes [rad]."""
+
+SLOW = 0.4
+"""The speed at which a boat, which turns only by going, comes about [m/s]."""
+
+ALIGNED = 0.1
+"""It looks to where it should within this [rad]."""
+
+PATIENCE = 15.0
+"""To take off [s]."""
+
+MANNERS = {
+    "boat": Manner(1.5, 3.0, 4.0, 1.0, 0.2, 0.3, 0.4),
+    "hexapod": Manner(0.4, 0.8, 1.2, 1.0, 0.15, 0.1, 0.2),
+    "quadrotor": Manner(0.3, 0.6, 1.0, 0.8, 0.5, 0.15, 0.8),
+}
+"""By kind; the circles of arrival are as large as waves, currents and the way that one has on make them."""
+
+
+class Coursing:
+    """`going.Going` of a robot that keeps courses."""
+
+    look = 10.0
+
+    def __init__(self, robot: Robot) -> None:
+        info = robot.info
+        self._robot, self._kind = robot, info.kind
+        self._manner = MANNERS[info.kind]
+        self.cruise, self.clear = min(CRUISE * info.max_speed, FASTEST), info.radius + 0.18
+        self.height = math.nan
+        """To go at, above the map's origin [m]; NaN for the present one. A task sets it."""
+        self.aloft = info.kind != "quadrotor"
+        """It is where it moves: what flies is in the air. Whoever hears that sets it."""
+        self.measured = math.nan
+        """Its height now, above the map's origin [m]; NaN while not known. Whoever measures it sets it."""
+        self._follower: Follower | None = None
+        self._speed = 0.0
+        self._rises_since = math.nan
+
+    @property
+    def under_way(self) -> bool:
+        """It has a way."""
+        return self._follower is not None
+
+    @property
+    def ahead(self) -> Points:
+        """What is left of the way, from beside the robot on."""
+        return self._follower.ahead if self._follower else np.empty((0, 2))
+
+    def plan(
+        self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
+    ) -> Points:
+        """A way to `goal`; its points. Unreachable raises."""
+        path = planner.plan((pose.x, pose.y), goal[:2], name, obstacles)
+        self._follower = Follower(path, cruise=self.cruise, manner=self._manner)
+        return path
+
+    def forget(self) -> None:
+        """Have no way any more."""
+        self._follower, self._speed, self._rises_since = None, 0.0, math.nan
+
+    def remaining(self, pose: Pose2) -> float:
+        """Along the way to its end [m]."""
+        return self._follower.remaining(pose) if self._follower else math.nan
+
+    def arrived(self, pose: Pose2) -> bool:
+        """The way is gone to its end."""
+        return self._follower is not None and self._follower.arrived(pose)
+
+    def steer(self, pose: Pose2, points: Points, *, sure: bool) -> None:
+        """Go on."""
+        follower = self._follower
+        if follower is None:
+            return
+        distance, bearing = follower.aim(pose, self._speed)
+        speed = follower.speed(pose, bearing, distance)
+        if abs(bearing) > TURNS_FIRST:
+            speed = SLOW if self._kind == "boat" else 0.0
+        self._speed = speed if sure else min(speed, UNSURE_SPEED)
+        self._keep(wrap(pose.yaw + bearing), self._speed)
+
+    def face(self, pose: Pose2, yaw: float) -> bool:
+        """Turn to `yaw`; a boat, which turns only by going, looks wherever it came from."""
+        if self._kind == "boat" or abs(wrap(yaw - pose.yaw)) < ALIGNED:
+            return True
+        self._keep(yaw, 0.0)
+        return False
+
+    def ready(self, pose: Pose2, now: float) -> str:
+        """What stands on the ground takes off first."""
+        if self.aloft:
+            self._rises_since = math.nan
+            return ""
+        if math.isnan(self._rises_since):
+            self._rises_since = now
+            self.take_off()
+        return "Taking off."
+
+    def take_off(self, height: float = math.nan) -> None:
+        """Rise to `height` above the map's origin [m], NaN for the usual one."""
+        told = self.height if math.isnan(height) else height
+        usual = TAKES_OFF_TO + (0.0 if math.isnan(self.measured) else self.measured)
+        self._order(Manoeuvre(kind="take_off", height=usual if math.isnan(told) else told))
+
+    def _keep(self, yaw: float, speed: float) -> None:
+        self._order(Manoeuvre(kind="course", yaw=yaw, speed=speed, throttle=math.nan, height=self.height))
+
+    def _order(self, order: Manoeuvre) -> None:
+        if isinstance(self._robot, Manoeuvrable):
+            self._robot.manoeuvre(order)

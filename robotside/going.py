@@ -1,0 +1,58 @@
+"""How a kind of robot goes along a way: what the guide asks of it. There is one for wheels, for trucks, and for what keeps courses."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from robotside.planner import Planner
+from robotside.pose2 import Points, Pose2
+
+__all__ = ["CRUISE", "UNSURE_SPEED", "Going"]
+
+CRUISE = 0.9
+"""Part of the robot's greatest speed that it travels with by itself."""
+
+UNSURE_SPEED = 0.15
+"""Speed while the position is unsure [m/s]."""
+
+
+class Going(Protocol):
+    """Goes one way after the other; it stands without one until `plan`, and again after `forget`."""
+
+    cruise: float
+    """The speed that it travels with [m/s]."""
+    look: float
+    """How far along the way something new makes the guide plan anew [m]."""
+    clear: float
+    """What is nearer than this to the way is in it [m]."""
+
+    @property
+    def under_way(self) -> bool:
+        """It has a way."""
+
+    @property
+    def ahead(self) -> Points:
+        """What is left of the way, from beside the robot on."""
+
+    def plan(
+        self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
+    ) -> Points:
+        """A way from `pose` to `goal` (x, y [m], yaw [rad], NaN for any) round `obstacles`; its points. Unreachable raises."""
+
+    def forget(self) -> None:
+        """Have no way any more; the robot rests."""
+
+    def remaining(self, pose: Pose2) -> float:
+        """Along the way to its end [m]."""
+
+    def arrived(self, pose: Pose2) -> bool:
+        """The way is gone to its end."""
+
+    def steer(self, pose: Pose2, points: Points, *, sure: bool) -> None:
+        """Go on from `pose`, with something at `points` in `base_link`; slowly where that is not `sure`."""
+
+    def face(self, pose: Pose2, yaw: float) -> bool:
+        """At the end: turn to `yaw` [rad]; True when it looks there, or never will."""
+
+    def ready(self, pose: Pose2, now: float) -> str:
+        """Get ready to go; why it is not yet, as one sentence, empty when it is."""

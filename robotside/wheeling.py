@@ -1,0 +1,88 @@
+"""Going on wheels that turn the robot where it stands: pure pursuit, and arcs that stay free of what the laser sees."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from bridge.msgs.geometry_msgs import Twist
+from robotside.avoidance import Avoidance
+from robotside.follow import Follower
+from robotside.going import CRUISE, UNSURE_SPEED
+from robotside.planner import Planner
+from robotside.pose2 import Points, Pose2
+from robotside.robot import Robot
+
+__all__ = ["Wheeling"]
+
+NOWHERE: Points = np.empty((0, 2))
+
+
+class Wheeling:
+    """`going.Going` of a robot that turns where it stands."""
+
+    look = 6.0
+
+    def __init__(self, robot: Robot) -> None:
+        info = robot.info
+        self._robot, self._turn = robot, info.max_yaw_rate
+        self._avoidance = Avoidance(info.radius, max_yaw_rate=info.max_yaw_rate)
+        self.cruise, self.clear = CRUISE * info.max_speed, info.radius + 0.18
+        self._follower: Follower | None = None
+        self._speed = 0.0
+
+    @property
+    def under_way(self) -> bool:
+        """It has a way."""
+        return self._follower is not None
+
+    @property
+    def ahead(self) -> Points:
+        """What is left of the way, from beside the robot on."""
+        return self._follower.ahead if self._follower else NOWHERE
+
+    def plan(
+        self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
+    ) -> Points:
+        """A way to `goal`; its points. Unreachable raises."""
+        path = planner.plan((pose.x, pose.y), goal[:2], name, obstacles)
+        self._follower = Follower(path, cruise=self.cruise)
+        return path
+
+    def forget(self) -> None:
+        """Have no way any more."""
+        self._follower, self._speed = None, 0.0
+
+    def remaining(self, pose: Pose2) -> float:
+        """Along the way to its end [m]."""
+        return self._follower.remaining(pose) if self._follower else math.nan
+
+    def arrived(self, pose: Pose2) -> bool:
+        """The way is gone to its end."""
+        return self._follower is not None and self._follower.arrived(pose)
+
+    def steer(self, pose: Pose2, points: Points, *, sure: bool) -> None:
+        """Go on."""
+        follower = self._follower
+        if follower is None:
+            return
+        distance, bearing = follower.aim(pose, self._speed)
+        cruise = follower.speed(pose, bearing, distance)
+        speed = cruise if sure else min(cruise, UNSURE_SPEED)
+        way = self._avoidance.choose(distance, bearing, min(speed, self._speed + 0.08), points)
+        self._speed = way.twist.linear.x
+        self._robot.drive(way.twist)
+
+    def face(self, pose: Pose2, yaw: float) -> bool:
+        """Turn to `yaw` where it stands."""
+        error = math.remainder(yaw - pose.yaw, math.tau)
+        if abs(error) < 0.05:
+            return True
+        rate = math.copysign(min(0.6 * self._turn, max(0.15, 1.5 * abs(error))), error)
+        self._robot.drive(Twist.planar(0.0, rate))
+        return False
+
+    def ready(self, pose: Pose2, now: float) -> str:
+        """It always is."""
+        return ""
