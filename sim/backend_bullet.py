@@ -33,6 +33,8 @@ _FIRST_GROUP, _GROUPS = 64, 24
 """Collision groups of vehicles, one each, so that a vehicle's own rays look through it; the 25th shares the first's."""
 _MOST_SOLIDS = 16
 """Of a thing; pybullet leaves out what is more, without a word."""
+_PLAIN = 1
+"""What nothing moves has no joints; pybullet would take it for a robot without any and reckon with it in every step."""
 _KNUCKLE = 0.5
 """Mass of what a steered wheel hangs on [kg], and its moments of inertia [kg m2]."""
 
@@ -89,7 +91,13 @@ class Bullet:
         """The level ground at z = `height` [m]; its number."""
         shape = p.createCollisionShape(p.GEOM_PLANE, physicsClientId=self._client)
         self.ground = int(
-            p.createMultiBody(0, shape, basePosition=(0, 0, height), physicsClientId=self._client)
+            p.createMultiBody(
+                0,
+                shape,
+                basePosition=(0, 0, height),
+                useMaximalCoordinates=_PLAIN,
+                physicsClientId=self._client,
+            )
         )
         return self.ground
 
@@ -107,7 +115,11 @@ class Bullet:
             number, place_ = self._collision(shape), (shape.position, shape.rotation)
         else:
             number, place_ = self._compound(shapes), ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
-        body = int(p.createMultiBody(0, number, -1, *place_, physicsClientId=self._client))
+        body = int(
+            p.createMultiBody(
+                0, number, -1, *place_, useMaximalCoordinates=_PLAIN, physicsClientId=self._client
+            )
+        )
         if self._gui:
             for shape in shapes:
                 self.add_looks(shape)
