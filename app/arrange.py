@@ -6,7 +6,8 @@ makes none anew, so nothing that was entered is lost.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from app.arrange_drive import drive
+from app.rects import Body, Rect, StopPlace, between, crowded, stop_place, stop_tall
 
 __all__ = [
     "CORNER",
@@ -26,88 +27,6 @@ __all__ = [
 
 SELECTION = 310
 """Width of the bar for what is selected on a phone's map [dp]."""
-SENSES, SENSES_LEAST = 196, 148
-"""Height of the card with the small sensors, and the least that it is still open with [dp]."""
-STRIP = 54
-"""Height of the folded card: a finger opens it [dp]."""
-BADGE = 46
-"""Height of what says that intruders were found [dp]."""
-ALL = 54
-"""Height of STOP ALL where it is above something [dp]."""
-CHIP = 200
-"""Width of a phone's glass that the picture's size and rate need [dp]."""
-
-
-@dataclass(frozen=True, slots=True)
-class Rect:
-    """A place on the glass [px]."""
-
-    x: float
-    y: float
-    width: float
-    height: float
-
-    @property
-    def right(self) -> float:
-        """x of the right edge [px]."""
-        return self.x + self.width
-
-    @property
-    def top(self) -> float:
-        """y of the upper edge [px]."""
-        return self.y + self.height
-
-    def overlaps(self, other: Rect) -> bool:
-        """Whether the two share any pixel."""
-        return self.x < other.right and other.x < self.right and self.y < other.top and other.y < self.top
-
-    def holds(self, other: Rect) -> bool:
-        """Whether `other` lies within."""
-        inside = self.x <= other.x and other.right <= self.right + 1e-6
-        return inside and self.y <= other.y and other.top <= self.top + 1e-6
-
-
-@dataclass(frozen=True, slots=True)
-class Body(Rect):
-    """The room of a screen between bar and navigation."""
-
-    crowded: bool = False
-    """STOP ALL is in STOP's corner as well."""
-
-
-@dataclass(frozen=True, slots=True)
-class StopPlace(Rect):
-    """Where STOP is, the largest thing to press, and the smaller STOP ALL beside or above it."""
-
-    other: Rect | None = None
-    """Where STOP ALL is; None where there is none."""
-
-    @property
-    def left(self) -> float:
-        """x of the left edge of both [px]."""
-        return self.x if self.other is None else min(self.x, self.other.x)
-
-    @property
-    def head(self) -> float:
-        """y of the upper edge of both [px]."""
-        return self.top if self.other is None else max(self.top, self.other.top)
-
-
-def _crowded(body: Rect) -> bool:
-    return isinstance(body, Body) and body.crowded
-
-
-def _stop_place(room: Rect, body: Rect, dp: float) -> StopPlace:
-    """STOP in the room that it has alone, or together with STOP ALL: beside each other, or one above the other."""
-    gap = 8 * dp
-    if not _crowded(body):
-        return StopPlace(room.x, room.y, room.width, room.height)
-    if room.width >= 1.3 * room.height:
-        small = (84 if room.width >= 250 * dp else 54) * dp
-        other = Rect(room.x, room.y, small, room.height)
-        return StopPlace(room.x + small + gap, room.y, room.width - small - gap, room.height, other)
-    low = room.height - ALL * dp - gap
-    return StopPlace(room.x, room.y, room.width, low, Rect(room.x, room.y + low + gap, room.width, ALL * dp))
 
 
 def form(width: float, height: float, dp: float = 1.0) -> str:
@@ -145,9 +64,9 @@ def mission(body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False
     gap, wide = 14 * dp, shape == "wide"
     side = min(max(344 * dp, body.width * 0.22), 420 * dp) if wide else 304 * dp
     panel = Rect(body.right - side, body.y, side, body.height)
-    high = 84 if wide or _crowded(body) else 68  # narrower beside STOP ALL, and still larger than all else
+    high = 84 if wide or crowded(body) else 68  # narrower beside STOP ALL, and still larger than all else
     room = Rect(panel.x + gap, body.y + gap, side - 2 * gap, high * dp)
-    stop = _stop_place(room, body, dp)
+    stop = stop_place(room, body, dp)
     area = Rect(body.x, body.y, body.width - side, body.height)
     places = {"map": area, "panel": _above(panel, stop, gap), "side": panel, "stop": stop}
     button = (52 if wide else 46) * dp
@@ -195,8 +114,8 @@ def _mission_instruments(area: Rect, gap: float, dp: float) -> dict[str, Rect]:
 
 def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
     gap = 12 * dp
-    stop, tasks = _stop_tall(body, gap, dp)
-    low = min(208 * dp + stop.height, body.height * (0.58 if _crowded(body) else 0.5))
+    stop, tasks = stop_tall(body, gap, dp)
+    low = min(208 * dp + stop.height, body.height * (0.58 if crowded(body) else 0.5))
     height = body.height - 120 * dp if sheet_open else low
     sheet = Rect(body.x, body.y, body.width, height)
     handle = 22 * dp
@@ -214,7 +133,7 @@ def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
     return {
         "map": area,
         "side": sheet,
-        "notice": _between(video.x, modes.top + 8 * dp, tools.x - gap, video.y - 8 * dp),
+        "notice": between(video.x, modes.top + 8 * dp, tools.x - gap, video.y - 8 * dp),
         "handle": Rect(sheet.x, sheet.top - handle, sheet.width, handle),
         "panel": panel,
         "stop": stop,
@@ -226,21 +145,6 @@ def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
             area.x + gap, area.y + 2 * gap + 46 * dp, min(340 * dp, body.width - 3 * gap - 50 * dp), 52 * dp
         ),
     }
-
-
-def _stop_tall(body: Rect, gap: float, dp: float) -> tuple[StopPlace, Rect]:
-    """STOP in an upright screen's corner, and the strip beside it; STOP ALL is above the strip, and STOP grows with it."""
-    width, height = min(max(158 * dp, body.width * 0.43), 260 * dp), 118 * dp
-    x = body.right - gap - width
-    strip = Rect(body.x + gap, body.y + gap, x - body.x - 2 * gap, height)
-    if not _crowded(body):
-        return StopPlace(x, strip.y, width, height), strip
-    other = Rect(strip.x, strip.top + 8 * dp, strip.width, ALL * dp)
-    return StopPlace(x, strip.y, width, other.top - strip.y, other), strip
-
-
-def _between(left: float, low: float, right: float, top: float) -> Rect:
-    return Rect(left, low, right - left, top - low)
 
 
 def _column(area: Rect, button: float, count: int, gap: float, between: float) -> Rect:
@@ -255,150 +159,6 @@ def _above(panel: Rect, stop: Rect, gap: float) -> Rect:
     return Rect(panel.x + gap, low, panel.width - 2 * gap, panel.top - gap - low)
 
 
-def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
-    """Of the drive screen: `video` behind all, the slots `top_left`, `top`, `top_right`, `readouts`, and the controls.
-
-    `badge` says what was found, `senses` is the strip or card of the small sensors and `senses_open` where the strip
-    unfolds. `notice_low` is for what holds on until it is dealt with, from its lower edge upwards.
-    """
-    if shape == "tall":
-        return _drive_tall(body, dp)
-    wide = shape == "wide"
-    dp = dp * min(1.0, body.height / ((590 if wide else 364) * dp))
-    gap = (16 if wide else 10) * dp
-    room = Rect(
-        body.right - gap - (210 if wide else 150) * dp, body.y + gap, *_pair(wide, (210, 180), (150, 156), dp)
-    )
-    stop = _stop_place(room, body, dp)
-    size = (242 if wide else 176) * dp
-    stick = Rect(body.x + gap, body.y + gap, size, size)
-    slider = Rect(stick.right + (38 if wide else 12) * dp, stick.y, *_pair(wide, (96, 238), (80, 176), dp))
-    actions = Rect(
-        room.x - 16 * dp - (150 if wide else 132) * dp, room.y, (150 if wide else 132) * dp, room.height
-    )
-    left = Rect(
-        body.x + gap, body.top - gap - (228 if wide else 148) * dp, *_pair(wide, (326, 228), (212, 148), dp)
-    )
-    right_size = _pair(wide, (194, 194), (128, 128), dp)
-    right = Rect(body.right - gap - right_size[0], body.top - gap - right_size[1], *right_size)
-    places = {
-        "video": body,
-        "stop": stop,
-        "stick": stick,
-        "slider": slider,
-        "actions": actions,
-        "top_left": left,
-    }
-    tape_width = min((420 if wide else 260) * dp, 2 * (body.x + body.width / 2 - left.right - gap))
-    tape = Rect(body.x + (body.width - tape_width) / 2, body.top - gap - 52 * dp, tape_width, 52 * dp)
-    readouts_size = _pair(wide, (194, 116), (116, 128), dp)
-    readouts = Rect(right.right - readouts_size[0], right.y - 12 * dp - readouts_size[1], *readouts_size)
-    if not wide:
-        readouts = Rect(right.x - gap - readouts_size[0], right.y, *readouts_size)
-        tape = Rect(left.right + gap, tape.y, readouts.x - gap - left.right - gap, 52 * dp)
-    places |= {"top": tape, "top_right": right, "readouts": readouts}
-    return places | (_senses_wide(places, dp) if wide else _senses_short(places, dp))
-
-
-def _senses_wide(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
-    """A card under the laser, or a strip where there is no height for one."""
-    laser, stick, tape, slider = places["top_left"], places["stick"], places["top"], places["slider"]
-    free = laser.y - stick.top - 24 * dp
-    height = min(free, SENSES * dp) if free >= SENSES_LEAST * dp else STRIP * dp
-    senses = Rect(laser.x, laser.y - 12 * dp - height, laser.width, height)
-    badge = Rect(tape.x, tape.y - 8 * dp - BADGE * dp, tape.width, BADGE * dp)
-    left, right = slider.right + 12 * dp, places["actions"].x - 12 * dp
-    return {
-        "badge": badge,
-        "senses": senses,
-        "senses_open": senses if free >= SENSES_LEAST * dp else laser,
-        "notice_low": Rect(left, slider.y, right - left, places["actions"].height),
-        "notice": _between(tape.x, slider.top + 8 * dp, tape.right, badge.y - 32 * dp),
-    }
-
-
-def _senses_short(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
-    """A strip between slider and buttons, or above them where that is too narrow; the badge above STOP."""
-    tape, slider, actions, right = places["top"], places["slider"], places["actions"], places["top_right"]
-    low = places["readouts"].x
-    badge = _between(low, actions.top + 8 * dp, right.right, right.y - 8 * dp)
-    notice = _between(tape.x, slider.top + 8 * dp, tape.right, tape.y - 8 * dp)
-    left, wide = slider.right + 12 * dp, actions.x - slider.right - 24 * dp
-    if wide >= 180 * dp:
-        strip = Rect(left, slider.y, wide, STRIP * dp)
-        above = _between(left, strip.top + 8 * dp, left + wide, slider.top)
-    else:
-        strip = Rect(notice.x, notice.y, notice.width, min(STRIP * dp, notice.height / 2))
-        above = _between(notice.x, strip.top + 4 * dp, notice.right, notice.top)
-    return {
-        "badge": badge,
-        "senses": strip,
-        "senses_open": places["top_left"],
-        "notice_low": above,
-        "notice": notice,
-    }
-
-
-def _pair(
-    wide: bool, large: tuple[float, float], small: tuple[float, float], dp: float
-) -> tuple[float, float]:
-    width, height = large if wide else small
-    return width * dp, height * dp
-
-
-def _drive_tall(body: Rect, dp: float) -> dict[str, Rect]:
-    gap = 12 * dp
-    picture = min(body.width * 0.75, body.height * 0.42)
-    video = Rect(body.x, body.top - picture, body.width, picture)
-    stick = min(176 * dp, body.width * 0.42)
-    controls = Rect(body.x + gap, body.y + gap, stick, stick)
-    slider = Rect(controls.right + gap, body.y + gap, 80 * dp, stick)
-    spare = body.right - gap - slider.right - gap
-    width = min(spare, 240 * dp)
-    room = Rect(body.right - gap - width, body.y + gap, width, stick)
-    stop, across, low = StopPlace(room.x, room.y, width, stick), body.width - 2 * gap, controls.top + gap
-    if _crowded(body):  # in a row with what is done once, so that STOP keeps its size
-        stop = StopPlace(room.x, room.y, width, stick, Rect(room.x, low, width, ALL * dp))
-        across -= width + gap
-    actions = Rect(body.x + gap, low, across, (ALL if _crowded(body) else 52) * dp)
-    cards_low = actions.top + gap
-    cards = Rect(body.x + gap, cards_low, body.width - 2 * gap, video.y - gap - cards_low)
-    side = min(cards.height, cards.width * 0.52)
-    left = Rect(cards.x, cards.top - side, side, side)
-    right = Rect(left.right + gap, cards.y, cards.right - left.right - gap, cards.height)
-    readouts_height = min(64 * dp, cards.height * 0.34)
-    tape = Rect(body.x + body.width * 0.1, body.top - gap - 52 * dp, body.width * 0.8, 52 * dp)
-    return {
-        "video": video,
-        "stop": stop,
-        "stick": controls,
-        "slider": slider,
-        "actions": actions,
-        "top_left": left,
-        "top_right": Rect(
-            right.x, right.y + readouts_height + gap, right.width, right.height - readouts_height - gap
-        ),
-        "readouts": Rect(right.x, right.y, right.width, readouts_height),
-        "top": tape,
-        **_senses_tall(video, cards, tape, gap, dp),
-    }
-
-
-def _senses_tall(video: Rect, cards: Rect, tape: Rect, gap: float, dp: float) -> dict[str, Rect]:
-    """Over the edges of the picture; the strip unfolds over the instruments, never over what is touched to drive."""
-    strip = Rect(video.x + gap, video.y + 8 * dp, video.width - 2 * gap, STRIP * dp)
-    left = video.x + CHIP * dp
-    badge = Rect(left, tape.y - 8 * dp - BADGE * dp, video.right - gap - left, BADGE * dp)
-    room = badge.y - 8 * dp - strip.top
-    return {
-        "badge": badge,
-        "senses": strip,
-        "senses_open": Rect(cards.x, cards.y, cards.width, max(cards.height, SENSES_LEAST * dp)),
-        "notice_low": Rect(strip.x, strip.top + 8 * dp, strip.width, max(room - 8 * dp, 8 * dp)),
-        "notice": _between(cards.x, cards.y, cards.right, badge.y - 8 * dp),
-    }
-
-
 def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     """Of the topics screen: `list` and `detail`, side by side or in the same place on a phone, `strip` and `stop`.
 
@@ -406,7 +166,7 @@ def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     """
     gap = 12 * dp
     if shape == "tall":
-        stop, strip = _stop_tall(body, gap, dp)
+        stop, strip = stop_tall(body, gap, dp)
         low = stop.head + 10 * dp
         whole = Rect(body.x + gap, low, body.width - 2 * gap, body.top - gap - low)
         notice = Rect(whole.x, low, whole.width, 120 * dp)
@@ -427,8 +187,8 @@ def _stop_of_lists(body: Rect, shape: str, dp: float) -> StopPlace:
     places = mission(body, shape, dp)
     stop, right = places["stop"], places["stop"].right
     width = right - places["panel"].x
-    more = 92 * dp if shape == "wide" and _crowded(body) else 0.0
-    return _stop_place(Rect(right - width - more, stop.y, width + more, stop.height), body, dp)
+    more = 92 * dp if shape == "wide" and crowded(body) else 0.0
+    return stop_place(Rect(right - width - more, stop.y, width + more, stop.height), body, dp)
 
 
 def tasks(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
@@ -439,7 +199,7 @@ def tasks(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
         whole, listed, detail = places["stop"], places["list"], places["detail"]
         width, more = 190 * dp, 44 * dp
         x = detail.x + more
-        stop = _stop_place(Rect(whole.right - width, whole.y, width, whole.height), body, dp)
+        stop = stop_place(Rect(whole.right - width, whole.y, width, whole.height), body, dp)
         places["stop"] = stop
         places["list"] = Rect(listed.x, listed.y, listed.width + more, listed.height)
         places["strip"] = Rect(x, stop.y, stop.left - gap - x, stop.height)

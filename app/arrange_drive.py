@@ -1,0 +1,160 @@
+"""Where everything sits on a drive screen whose instruments float on the video: rectangles by the shape of the window."""
+
+from __future__ import annotations
+
+from app.rects import ALL, Rect, StopPlace, between, crowded, stop_place
+
+__all__ = ["drive"]
+
+SENSES, SENSES_LEAST = 196, 148
+"""Height of the card with the small sensors, and the least that it is still open with [dp]."""
+STRIP = 54
+"""Height of the folded card: a finger opens it [dp]."""
+BADGE = 46
+"""Height of what says that intruders were found [dp]."""
+CHIP = 200
+"""Width of a phone's glass that the picture's size and rate need [dp]."""
+
+
+def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+    """Of the drive screen: `video` behind all, the slots `top_left`, `top`, `top_right`, `readouts`, and the controls.
+
+    `badge` says what was found, `senses` is the strip or card of the small sensors and `senses_open` where the strip
+    unfolds. `notice_low` is for what holds on until it is dealt with, from its lower edge upwards.
+    """
+    if shape == "tall":
+        return _drive_tall(body, dp)
+    wide = shape == "wide"
+    dp = dp * min(1.0, body.height / ((590 if wide else 364) * dp))
+    gap = (16 if wide else 10) * dp
+    room = Rect(
+        body.right - gap - (210 if wide else 150) * dp, body.y + gap, *_pair(wide, (210, 180), (150, 156), dp)
+    )
+    stop = stop_place(room, body, dp)
+    size = (242 if wide else 176) * dp
+    stick = Rect(body.x + gap, body.y + gap, size, size)
+    slider = Rect(stick.right + (38 if wide else 12) * dp, stick.y, *_pair(wide, (96, 238), (80, 176), dp))
+    actions = Rect(
+        room.x - 16 * dp - (150 if wide else 132) * dp, room.y, (150 if wide else 132) * dp, room.height
+    )
+    left = Rect(
+        body.x + gap, body.top - gap - (228 if wide else 148) * dp, *_pair(wide, (326, 228), (212, 148), dp)
+    )
+    right_size = _pair(wide, (194, 194), (128, 128), dp)
+    right = Rect(body.right - gap - right_size[0], body.top - gap - right_size[1], *right_size)
+    places = {
+        "video": body,
+        "stop": stop,
+        "stick": stick,
+        "slider": slider,
+        "actions": actions,
+        "top_left": left,
+    }
+    tape_width = min((420 if wide else 260) * dp, 2 * (body.x + body.width / 2 - left.right - gap))
+    tape = Rect(body.x + (body.width - tape_width) / 2, body.top - gap - 52 * dp, tape_width, 52 * dp)
+    readouts_size = _pair(wide, (194, 116), (116, 128), dp)
+    readouts = Rect(right.right - readouts_size[0], right.y - 12 * dp - readouts_size[1], *readouts_size)
+    if not wide:
+        readouts = Rect(right.x - gap - readouts_size[0], right.y, *readouts_size)
+        tape = Rect(left.right + gap, tape.y, readouts.x - gap - left.right - gap, 52 * dp)
+    places |= {"top": tape, "top_right": right, "readouts": readouts}
+    return places | (_senses_wide(places, dp) if wide else _senses_short(places, dp))
+
+
+def _senses_wide(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
+    """A card under the laser, or a strip where there is no height for one."""
+    laser, stick, tape, slider = places["top_left"], places["stick"], places["top"], places["slider"]
+    free = laser.y - stick.top - 24 * dp
+    height = min(free, SENSES * dp) if free >= SENSES_LEAST * dp else STRIP * dp
+    senses = Rect(laser.x, laser.y - 12 * dp - height, laser.width, height)
+    badge = Rect(tape.x, tape.y - 8 * dp - BADGE * dp, tape.width, BADGE * dp)
+    left, right = slider.right + 12 * dp, places["actions"].x - 12 * dp
+    return {
+        "badge": badge,
+        "senses": senses,
+        "senses_open": senses if free >= SENSES_LEAST * dp else laser,
+        "notice_low": Rect(left, slider.y, right - left, places["actions"].height),
+        "notice": between(tape.x, slider.top + 8 * dp, tape.right, badge.y - 32 * dp),
+    }
+
+
+def _senses_short(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
+    """A strip between slider and buttons, or above them where that is too narrow; the badge above STOP."""
+    tape, slider, actions, right = places["top"], places["slider"], places["actions"], places["top_right"]
+    low = places["readouts"].x
+    badge = between(low, actions.top + 8 * dp, right.right, right.y - 8 * dp)
+    notice = between(tape.x, slider.top + 8 * dp, tape.right, tape.y - 8 * dp)
+    left, wide = slider.right + 12 * dp, actions.x - slider.right - 24 * dp
+    if wide >= 180 * dp:
+        strip = Rect(left, slider.y, wide, STRIP * dp)
+        above = between(left, strip.top + 8 * dp, left + wide, slider.top)
+    else:
+        strip = Rect(notice.x, notice.y, notice.width, min(STRIP * dp, notice.height / 2))
+        above = between(notice.x, strip.top + 4 * dp, notice.right, notice.top)
+    return {
+        "badge": badge,
+        "senses": strip,
+        "senses_open": places["top_left"],
+        "notice_low": above,
+        "notice": notice,
+    }
+
+
+def _pair(
+    wide: bool, large: tuple[float, float], small: tuple[float, float], dp: float
+) -> tuple[float, float]:
+    width, height = large if wide else small
+    return width * dp, height * dp
+
+
+def _drive_tall(body: Rect, dp: float) -> dict[str, Rect]:
+    gap = 12 * dp
+    picture = min(body.width * 0.75, body.height * 0.42)
+    video = Rect(body.x, body.top - picture, body.width, picture)
+    stick = min(176 * dp, body.width * 0.42)
+    controls = Rect(body.x + gap, body.y + gap, stick, stick)
+    slider = Rect(controls.right + gap, body.y + gap, 80 * dp, stick)
+    spare = body.right - gap - slider.right - gap
+    width = min(spare, 240 * dp)
+    room = Rect(body.right - gap - width, body.y + gap, width, stick)
+    stop, across, low = StopPlace(room.x, room.y, width, stick), body.width - 2 * gap, controls.top + gap
+    if crowded(body):  # in a row with what is done once, so that STOP keeps its size
+        stop = StopPlace(room.x, room.y, width, stick, Rect(room.x, low, width, ALL * dp))
+        across -= width + gap
+    actions = Rect(body.x + gap, low, across, (ALL if crowded(body) else 52) * dp)
+    cards_low = actions.top + gap
+    cards = Rect(body.x + gap, cards_low, body.width - 2 * gap, video.y - gap - cards_low)
+    side = min(cards.height, cards.width * 0.52)
+    left = Rect(cards.x, cards.top - side, side, side)
+    right = Rect(left.right + gap, cards.y, cards.right - left.right - gap, cards.height)
+    readouts_height = min(64 * dp, cards.height * 0.34)
+    tape = Rect(body.x + body.width * 0.1, body.top - gap - 52 * dp, body.width * 0.8, 52 * dp)
+    return {
+        "video": video,
+        "stop": stop,
+        "stick": controls,
+        "slider": slider,
+        "actions": actions,
+        "top_left": left,
+        "top_right": Rect(
+            right.x, right.y + readouts_height + gap, right.width, right.height - readouts_height - gap
+        ),
+        "readouts": Rect(right.x, right.y, right.width, readouts_height),
+        "top": tape,
+        **_senses_tall(video, cards, tape, gap, dp),
+    }
+
+
+def _senses_tall(video: Rect, cards: Rect, tape: Rect, gap: float, dp: float) -> dict[str, Rect]:
+    """Over the edges of the picture; the strip unfolds over the instruments, never over what is touched to drive."""
+    strip = Rect(video.x + gap, video.y + 8 * dp, video.width - 2 * gap, STRIP * dp)
+    left = video.x + CHIP * dp
+    badge = Rect(left, tape.y - 8 * dp - BADGE * dp, video.right - gap - left, BADGE * dp)
+    room = badge.y - 8 * dp - strip.top
+    return {
+        "badge": badge,
+        "senses": strip,
+        "senses_open": Rect(cards.x, cards.y, cards.width, max(cards.height, SENSES_LEAST * dp)),
+        "notice_low": Rect(strip.x, strip.top + 8 * dp, strip.width, max(room - 8 * dp, 8 * dp)),
+        "notice": between(cards.x, cards.y, cards.right, badge.y - 8 * dp),
+    }
