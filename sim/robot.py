@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 import msgspec
 
 from bridge.msgs import Msg
-from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.geometry_msgs import Point, Pose, Quaternion, Twist
 from bridge.msgs.pilothouse_msgs import Event, Manoeuvre, Place, RobotInfo
 from sim.cameras import CAMERA_TOPIC, Cameras
 from sim.mishaps import Mishaps
@@ -141,10 +141,20 @@ class SimRobot:
             raise ValueError(f"{self.info.name} has no {payload.replace('_', ' ')}.")
         self.payloads[payload].command(order)
 
-    def reset(self) -> None:
-        """Put it back to where it started, at rest, with fresh odometry: for one that turned over, sank or went astray."""
+    def hold_payloads(self) -> None:
+        """An arm that moves stays as it is now, and so does its gripper."""
+        for payload in self.payloads.values():
+            payload.hold()
+
+    def reset(self) -> Pose:
+        """Put it back to where it started, at rest, with fresh odometry: for one that turned over, sank or went astray.
+
+        Gives where that is, in `map`.
+        """
         self._vehicle.reset()
         self._excess = ""
+        state = self._vehicle.state()
+        return Pose(Point(*state.position), Quaternion(*state.rotation))
 
     def want(self, topic: str, wanted: bool) -> None:
         """Measure an on-demand topic or no longer; other topics always come."""
@@ -208,6 +218,10 @@ def info_of(vehicle: Vehicle, world: World, *, camera: bool) -> RobotInfo:
         longitude=world.datum.longitude,
         camera_fov=vehicle.cameras[0].field_of_view if vehicle.cameras else math.nan,
         manoeuvres=list(vehicle.MANOEUVRES),
+        max_climb=parameters.max_climb,
+        max_tilt=parameters.max_tilt,
+        max_steering=parameters.max_steering,
+        min_radius=parameters.min_radius,
         laser_x=vehicle.laser_x,
     )
 

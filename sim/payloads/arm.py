@@ -94,6 +94,10 @@ class MountedArm:
         self._wanted = self._goal(order)
         self._opening = opening
 
+    def hold(self) -> None:
+        """Stay as it is, gripper and all."""
+        self._wanted, self._opening = self.angles, self._gripper
+
     def shapes(self) -> tuple[Shape, ...]:
         """What is seen of it."""
         joints = [self._placed(point) for point in self.arm.points(self.angles)]

@@ -34,6 +34,9 @@ class Mounted(Protocol):
     def command(self, order: Msg) -> None:
         """Do it; ValueError with one sentence when it cannot, which changes nothing."""
 
+    def hold(self) -> None:
+        """Move no more, if it moves."""
+
     def shapes(self) -> tuple[Shape, ...]:
         """What is seen of it, in `base_link`."""
 

@@ -62,6 +62,9 @@ class _Plain:
         """Refused."""
         raise ValueError("This payload takes no orders.")
 
+    def hold(self) -> None:
+        """It does not move."""
+
     def shapes(self) -> tuple[Shape, ...]:
         """What is seen of it."""
         return self._shapes
@@ -218,6 +221,9 @@ class MountedLights:
         if not isinstance(order, LightState) or not 0.0 <= order.brightness <= 1.0:
             raise ValueError("The brightness of the lights must be a number from 0 to 1.")
         self._brightness = order.brightness
+
+    def hold(self) -> None:
+        """It does not move."""
 
     def shapes(self) -> tuple[Shape, ...]:
         """What is seen of them."""

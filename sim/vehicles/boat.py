@@ -49,6 +49,8 @@ class Rudder(Table, frozen=True, kw_only=True):
     """[rad]"""
     rate: Positive
     """[rad/s]"""
+    radius: Positive
+    """Of the turn with the rudder hard over [m]."""
 
 
 class BoatParameters(Parameters, frozen=True, kw_only=True):
@@ -80,6 +82,16 @@ class BoatParameters(Parameters, frozen=True, kw_only=True):
     def cameras(self) -> tuple[CameraParameters, ...]:
         """It has one."""
         return (self.camera,)
+
+    @property
+    def max_steering(self) -> float:
+        """Greatest angle of the rudder [rad]."""
+        return self.rudder.limit
+
+    @property
+    def min_radius(self) -> float:
+        """Of the tightest turn that it drives [m]."""
+        return self.rudder.radius
 
 
 class Drive:

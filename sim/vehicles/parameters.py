@@ -109,6 +109,26 @@ class Parameters(Table, frozen=True, kw_only=True):
         """Its cameras, the first one is the main one."""
         return ()
 
+    @property
+    def max_climb(self) -> float:
+        """Greatest speed up and down [m/s]; 0 for what stays on the ground or the water."""
+        return 0.0
+
+    @property
+    def max_tilt(self) -> float:
+        """Greatest roll and pitch that it holds by order [rad]; 0 for what takes no such order."""
+        return 0.0
+
+    @property
+    def max_steering(self) -> float:
+        """Greatest angle of front wheels or rudder [rad]; 0 for what has none."""
+        return 0.0
+
+    @property
+    def min_radius(self) -> float:
+        """Of the tightest turn that it drives [m]; 0 for what turns where it stands."""
+        return 0.0
+
 
 P = TypeVar("P", bound=Parameters)
 

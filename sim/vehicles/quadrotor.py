@@ -94,6 +94,16 @@ class QuadrotorParameters(Parameters, frozen=True, kw_only=True):
         return (self.front, self.down)
 
     @property
+    def max_climb(self) -> float:
+        """Greatest speed up and down [m/s]."""
+        return self.limits.climb
+
+    @property
+    def max_tilt(self) -> float:
+        """Greatest roll and pitch that it holds by order [rad]."""
+        return self.limits.tilt
+
+    @property
     def hover(self) -> float:
         """Speed of the rotors that carries its weight [rad/s]."""
         return math.sqrt(self.body.mass * GRAVITY / 4 / self.rotors.lift)

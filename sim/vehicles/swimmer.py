@@ -86,6 +86,16 @@ class SwimmerParameters(Parameters, frozen=True, kw_only=True):
         """It has one."""
         return (self.camera,)
 
+    @property
+    def max_climb(self) -> float:
+        """Greatest speed up and down [m/s]."""
+        return self.limits.climb
+
+    @property
+    def max_tilt(self) -> float:
+        """Greatest roll and pitch that it holds by order [rad]."""
+        return self.limits.tilt
+
 
 def inertia_of(body: SwimmerBody) -> Inertia:
     """What the body sets against being moved."""

@@ -193,6 +193,21 @@ def test_told_to_stop_just_over_the_ground_it_sets_down(drone):
     assert max(drone.simulation.vehicle.rotors.speeds) < 1.0
 
 
+@pytest.mark.parametrize("kind", ["take_off", "land"])
+def test_told_to_stop_half_way_up_or_down_it_hovers_there(drone, kind):
+    if kind == "land":
+        fly(drone, 3.0)
+    drone.manoeuvre(Manoeuvre(kind=kind, height=3.0))
+    until(drone, 2.0)
+    before = motion(drone).position[2]
+    drone.stop()
+    until(drone, 4.0)
+    assert 0.5 < before < 2.6
+    assert motion(drone).position[2] == pytest.approx(before, abs=0.7)
+    assert abs(motion(drone).velocity[2]) < 0.05
+    assert drone.simulation.vehicle.pilot.phase == "flying"
+
+
 def test_gusts_move_it_about_and_do_not_take_it_away():
     """With 1 m/s of gusts it stays within a metre and tilts by less than 20 degrees."""
     robot = alone(ARDRONE, plain("[wind]\nspeed = 0.0\ngusts = 1.0\ngust_time = 1.0\n"), seed=2, noise=True)
@@ -233,7 +248,9 @@ def test_its_battery_carries_it_for_about_a_quarter_of_an_hour_and_then_it_lands
     assert spent == pytest.approx(10 * (6.0 + shaft / 0.75 + copper), rel=0.01)
     assert 10 * 60 < (1 - 0.05) * 1.5 * 3600 * 11.1 / (spent / 10) < 18 * 60
     vehicle.battery.charge = 0.04
-    until(drone, 12.0)
+    for _ in range(120):
+        until(drone, 0.1)
+        drone.manoeuvre(Manoeuvre(kind="hover"))  # whoever flies it cannot keep it up until it falls
     assert vehicle.pilot.phase == "landed"
 
 

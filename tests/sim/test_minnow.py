@@ -158,6 +158,13 @@ def test_a_rudder_to_the_left_turns_it_left_while_it_slides_outward(boat):
     assert body.through[1] < -0.1
 
 
+def test_with_the_rudder_hard_over_it_turns_on_the_radius_that_it_tells(boat):
+    boat.manoeuvre(Manoeuvre(kind="steer", throttle=1.0, steering=boat.info.max_steering))
+    until(boat, 15.0)
+    state = boat.simulation.vehicle.state()
+    assert math.hypot(*state.velocity[:2]) / state.turning[2] == pytest.approx(boat.info.min_radius, rel=0.05)
+
+
 def test_without_throttle_the_rudder_does_nothing(boat):
     boat.manoeuvre(Manoeuvre(kind="steer", throttle=0.0, steering=0.5))
     told = [m for name, m in until(boat, 4.0) if name == "/rudder"][-1]

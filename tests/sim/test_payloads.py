@@ -207,6 +207,18 @@ def test_the_arm_goes_to_its_named_poses_no_faster_than_its_joints():
     robot.close()
 
 
+def test_held_on_its_way_the_arm_stays_there_gripper_and_all():
+    robot = carrying("arm", "lights")
+    robot.command("arm", ArmOrder(pose="stretch", gripper=0.0))
+    until(robot, 0.4)
+    robot.hold_payloads()
+    before, after = (said(until(robot, 0.5), "/arm")[-1] for _ in range(2))
+    robot.close()
+    assert list(after.angles) == list(before.angles) == list(before.wanted)
+    assert before.gripper == after.gripper > 0.0
+    assert after.pose == ""
+
+
 def test_the_arm_takes_its_tip_to_a_point_of_the_robots_frame():
     robot = carrying("arm")
     robot.command("arm", ArmOrder(point=Point(0.28, 0.10, 0.45), pitch=0.2, gripper=0.02))

@@ -89,6 +89,22 @@ def test_info_tells_limits_place_and_camera():
     assert info.latitude == pytest.approx(45.5069)
 
 
+@pytest.mark.parametrize(
+    ("name", "climb", "tilt", "steering", "radius"),
+    [
+        ("patrol", 0.0, 0.0, 0.0, 0.0),
+        ("commander", 0.0, 0.0, 0.52, 3.493),
+        ("minnow", 0.0, 0.0, 0.61, 1.4),
+        ("aqua", 0.25, 0.8, 0.0, 0.0),
+        ("ardrone", 1.0, 0.35, 0.0, 0.0),
+    ],
+)
+def test_info_tells_what_else_it_is_driven_by(name, climb, tilt, steering, radius):
+    own = ROBOTS[name].parameters
+    assert (own.max_climb, own.max_tilt, own.max_steering) == (climb, tilt, steering)
+    assert own.min_radius == pytest.approx(radius, abs=1e-3)
+
+
 def test_a_robot_without_camera_offers_none(robot):
     assert robot.info.cameras == []
 

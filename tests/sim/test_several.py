@@ -173,7 +173,8 @@ def test_one_that_lies_on_its_back_says_so_and_stands_up_again_when_it_is_reset(
     until(robot, 2.0)
     backend.place(body, (0.0, 0.0, 0.5), (1.0, 0.0, 0.0, 0.0))
     assert events(until(robot, 2.0)) == ["Scout-1 has turned over."]
-    robot.reset()
+    place = robot.reset().position
+    assert (place.x, place.y) == pytest.approx((1.0, 2.0), abs=1e-6)
     messages = until(robot, 1.0)
     odom = [m for name, m in messages if name == "/odom"][-1].pose.pose
     assert events(messages) == []

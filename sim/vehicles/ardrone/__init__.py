@@ -97,6 +97,8 @@ class Ardrone(Chassis[QuadrotorParameters]):
     def begin(self, order: Manoeuvre) -> None:
         """Take up a twist, a course, a tilt; hover, take off or land. At rest in the air it hovers."""
         self.dynamics.look((0.0, 0.0, 0.0))
+        if self.battery.charge < LAST and self.pilot.phase == "landing":
+            order = Manoeuvre(kind="land")  # nobody keeps it in the air until it falls
         self.pilot.begin(order, self.motion())
 
     def reset(self) -> None:

@@ -72,7 +72,9 @@ class Pilot:
             self._take_off(now, given(order.height, now.position[2] + TAKE_OFF_TO))
         elif self.phase != "landed" and (order.kind == "land" or self._nearly_down(order, now)):
             self.phase = "landing"
-        elif self.phase == "landing" and order.kind not in ("land", "rest"):
+        elif (self.phase == "landing" and order.kind != "land") or (
+            self.phase == "taking_off" and order.kind == "rest"
+        ):
             self.phase = "flying"
         if fresh and self.phase not in ("landed", "taking_off"):
             self._place, self._yaw = list(now.position), now.angles[2]

@@ -72,6 +72,16 @@ class CommanderParameters(Parameters, frozen=True, kw_only=True):
         """Front and rear."""
         return (self.front, self.rear)
 
+    @property
+    def max_steering(self) -> float:
+        """Greatest angle of a wheel in the middle of the front axle [rad]."""
+        return self.limits.steering
+
+    @property
+    def min_radius(self) -> float:
+        """Of the tightest turn of the middle of the rear axle [m]."""
+        return self.axles.base / math.tan(self.limits.steering)
+
 
 PARAMETERS: CommanderParameters = load(Path(__file__).parent / "commander.toml", CommanderParameters)
 """The truck's numbers."""
