@@ -70,7 +70,7 @@ class Actions:
             "record": app.toggle_recording,
             "snapshot": app.records.snapshot,
             "camera": session.next_camera,
-            "reset": lambda: app.shell.reset.ask(),
+            "reset": self._ask_to_reset,
         }
 
     def look(self) -> list[Action]:
@@ -164,6 +164,9 @@ class Actions:
     def _reset(self, text: str, icon: str) -> Action | None:
         session = self._session
         return Action("reset", text, icon, session.may_ask) if session.offers("/robot/reset") else None
+
+    def _ask_to_reset(self) -> None:
+        self._app.shell.reset.ask()
 
     # what is kept
 

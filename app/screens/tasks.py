@@ -17,7 +17,6 @@ from app.camera import Picture
 from app.dashboard import Dashboard
 from app.feeds import Post
 from app.link import OUTCOME
-from app.screens.act_buttons import Act, ActButtons
 from app.screens.event_list import EventList
 from app.screens.mission_pane import MissionPane
 from app.screens.now_list import NowList
@@ -25,6 +24,7 @@ from app.screens.order_pane import OrderPane
 from app.screens.place_pane import PlacePane
 from app.screens.placing import above, put
 from app.screens.settings_pane import SettingsPane
+from app.screens.task_acts import TaskActs
 from app.screens.task_tabs import TaskTabs
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import (
@@ -36,7 +36,6 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from widgets import MissionList, PlaceList, RunList, ScheduleList
 from widgets.kit import Text
-from widgets.task_words import title
 
 __all__ = ["TasksScreen"]
 
@@ -49,7 +48,6 @@ DETAILS = {
     "missions": "mission",
 }
 """What is beside each list where there is room for both."""
-PRIMARY = ("start", "save", "keep", "new", "new_scheduled", "recall", "keep_mission", "seen_all")
 NO_TASKS = "This robot offers no tasks and knows no places."
 
 Builder.load_string("""
@@ -103,31 +101,9 @@ class TasksScreen(FloatLayout):
         self._lacking = Text(text=NO_TASKS, role="muted")
         self._returns = False
         self.notice = Rect(0, 0, 1, 1)
-        self.acts = ActButtons(self._acts(), PRIMARY)
-        self._buttons = self.acts.by_name
-        self.ids.update({**self._buttons, "tabs": self.tabs})
+        self.acts = TaskActs(self)
+        self.ids.update({**self.acts.by_name, "tabs": self.tabs})
         self._bind()
-
-    def _acts(self) -> list[Act]:
-        return [
-            ("start", "Start", "play_arrow_fill", self._start),
-            ("queue", "Add to queue", "add", self._queue),
-            ("save", "Save", "check", self._save_scheduled),
-            ("unschedule", "Delete", "delete", self._unschedule),
-            ("keep", "Save", "check", self._keep_place),
-            ("forget", "Delete", "delete", self._forget_place),
-            ("go", "Go", "near_me", self._go_there),
-            ("move", "Move", "edit_location_alt", self._move_place),
-            ("new", "New task", "add", lambda: self.open("order")),
-            ("new_scheduled", "New", "add", lambda: self.open_scheduled(None)),
-            ("again", "Newest", "refresh", self.session.tasking.ask_history),
-            ("on_map", "New on map", "add_location_alt", self._point_at_place),
-            ("here", "New here", "my_location", self._place_here),
-            ("save_as", "Save under a name", "save", self._save_as),
-            ("keep_mission", "Save", "check", self._keep_mission),
-            ("recall", "Recall", "upload", self._recall),
-            ("seen_all", "All seen", "check", self.events.see_all),
-        ]
 
     def _bind(self) -> None:
         bind, tasking = self.dashboard.bind, self.session.tasking
@@ -144,7 +120,7 @@ class TasksScreen(FloatLayout):
         bind(self.runs, "/task/status", self._task_changed)
         self.places.bind(on_command=lambda _, place: self.edit_place(place))
         self.missions.bind(on_command=lambda _, mission: self._look_at(mission))
-        self.form.bind(on_command=lambda *_: self._show_buttons())
+        self.form.bind(on_command=lambda *_: self.acts.tick())
         self.schedule.bind(
             on_command=lambda _, task: tasking.keep_scheduled(task),
             on_open=lambda _, task: self.open_scheduled(task),
@@ -159,7 +135,7 @@ class TasksScreen(FloatLayout):
         for pane in (self.pane, self.place_pane, self.mission_pane, self.settings_pane):
             pane.bind(on_close=lambda _: self.close())
         self.place_pane.bind(on_back=lambda _, place: self.edit_place(place))
-        self.pane.bind(complete=lambda *_: self._show_buttons())
+        self.pane.bind(complete=lambda *_: self.acts.tick())
         self.bind(tab=self._tab_changed, detail=self._lay)
 
     # what the shell calls
@@ -234,7 +210,7 @@ class TasksScreen(FloatLayout):
         self.mission_pane.refresh()
         self.settings_pane.tick(self.mine)
         self.schedule.state = self.session.feeds.state("/schedule") if self.mine else "disabled"
-        self._show_buttons()
+        self.acts.tick()
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
         """A camera frame came; there is no picture here."""
@@ -287,7 +263,8 @@ class TasksScreen(FloatLayout):
         self.place_pane.open = self.detail == "place"
         self.missions.chosen = self.mission_pane.chosen.name if self.mission_pane.chosen else ""
         (self.events.enter if self.events.parent is listed and self.dashboard.active else self.events.leave)()
-        self._lay_buttons(shown)
+        if self._places:
+            self.acts.lay_for(self.tab, shown, form=self._form, stop=self._places["stop"])
 
     def _pane(self, shown: str) -> Widget:
         panes = {"place": self.place_pane, "mission": self.mission_pane, "settings": self.settings_pane}
@@ -296,55 +273,6 @@ class TasksScreen(FloatLayout):
         if (shown == "schedule") != (self.pane.scheduled is not None):
             self.pane.schedule() if shown == "schedule" else self.pane.now()
         return self.pane
-
-    def _lay_buttons(self, shown: str) -> None:
-        if not self._places:
-            return
-        tall = self._form == "tall"
-        for_list = {
-            "now": ["new"] if tall else [],
-            "schedule": ["new_scheduled"],
-            "history": ["again"],
-            "events": ["seen_all"],
-            "places": ["on_map", "here"],
-            "missions": ["save_as"],
-        }[self.tab]
-        for_detail = {
-            "order": ["start", "queue"],
-            "schedule": ["save", *(["unschedule"] if self._scheduled_id() else [])],
-            "place": ["keep", *(["forget", "go", "move"] if self.form.shown.id else [])],
-            "mission": ["recall" if self.mission_pane.chosen is not None else "keep_mission"],
-        }.get(shown, [])
-        if self.session.lacks_tasks:
-            for_list = for_detail = []
-        if shown == "place" and not self.place_pane.there:
-            for_detail = []
-        names = for_list if tall and not shown else for_detail
-        below, stop = [] if tall else for_list, self._places["stop"]
-        self.acts.lay(self.ids.strip, names, below, form=self._form, stop=stop)
-        self._show_buttons()
-
-    def _scheduled_id(self) -> int:
-        return self.pane.scheduled.id if self.pane.scheduled is not None else 0
-
-    def _show_buttons(self) -> None:
-        """What cannot be asked for just now cannot be pressed."""
-        session, buttons, mine = self.session, self._buttons, self.mine
-        complete = self.pane.complete and mine
-        busy = session.running
-        buttons["start"].disabled = not complete or session.stop_latched or busy
-        buttons["queue"].disabled = not complete
-        buttons["save"].disabled = not complete
-        buttons["keep"].disabled = not mine or bool(self.form.lacking)
-        for name in ("forget", "unschedule", "here"):
-            buttons[name].disabled = not mine
-        buttons["recall"].disabled = not mine or not session.offers("/mission/recall")
-        buttons["keep_mission"].disabled = not mine or bool(self.mission_pane.lacking)
-        waiting = len(self.events.waiting)
-        buttons["seen_all"].disabled = not waiting or not self.events.log.acts
-        buttons["seen_all"].text = f"All seen ({waiting})" if waiting else "All seen"
-        located = math.isfinite(self.places.robot[0])
-        buttons["here"].disabled = not mine or not located
 
     def _tab_changed(self, *_: object) -> None:
         self.detail, self._returns = "", False
@@ -374,6 +302,10 @@ class TasksScreen(FloatLayout):
             self._returns = False
             self.app.show("mission")
 
+    def stay(self) -> None:
+        """What is opened next is not left for the map."""
+        self._returns = False
+
     # orders
 
     def begin(self, task: str, places: tuple[str, ...] = ()) -> None:
@@ -382,38 +314,12 @@ class TasksScreen(FloatLayout):
         self.open("order")
         self.pane.begin(task, places)
 
-    def _start(self) -> None:
-        self.session.tasking.start(self.pane.order, send_first=self.pane.unsent)
-        self.detail = ""
-        self.tab = "now"
-
-    def _queue(self) -> None:
-        if self.pane.unsent:
-            self.session.send_mission()
-        self.session.tasking.queue.add(self.pane.order)
-        self.pane.begin("")
-        self.detail = ""
-        self.tab = "now"
-
     # the schedule
 
     def open_scheduled(self, task: Any) -> None:
         """Change a scheduled task; None for a new one."""
         self.pane.schedule(task)
         self.open("schedule")
-
-    def _save_scheduled(self) -> None:
-        if self.pane.unsent:
-            self.session.send_mission()
-        self.session.tasking.keep_scheduled(self.pane.made())
-        self.pane.schedule()
-        self.close()
-
-    def _unschedule(self) -> None:
-        task = self.pane.scheduled
-        self.session.tasking.forget_scheduled(task, title(task.order))
-        self.pane.schedule()
-        self.close()
 
     # places
 
@@ -425,53 +331,11 @@ class TasksScreen(FloatLayout):
         self._returns = returns
         self.open("place")
 
-    def _point_at_place(self) -> None:
-        self.app.show("mission")
-        self.app.screens["mission"].mode = "place"
-
-    def _place_here(self) -> None:
-        x, y = self.places.robot
-        yaw = self.form.dial.robot
-        self.edit_place(Place(x=x, y=y, yaw=yaw))
-
-    def _keep_place(self) -> None:
-        self.place_pane.keep()
-        self.close()
-
-    def _forget_place(self) -> None:
-        self.place_pane.forget()
-        self.close()
-
-    def _go_there(self) -> None:
-        name = self.form.shown.name
-        self._returns = False
-        self.begin("go_to", (name,))
-
-    def _move_place(self) -> None:
-        self._returns = False
-        place = self.form.place
-        self.detail = ""
-        self.app.show("mission")
-        self.app.screens["mission"].move_place(place)
-
     # missions
 
     def _look_at(self, mission: KeptMission) -> None:
         self.mission_pane.chosen = mission
         self.open("mission")
-
-    def _save_as(self) -> None:
-        self.mission_pane.begin()
-        self.open("mission")
-
-    def _keep_mission(self) -> None:
-        self.mission_pane.save()
-        self.close()
-
-    def _recall(self) -> None:
-        self.mission_pane.recall()
-        self.mission_pane.begin()
-        self.close()
 
     def _missions_changed(self) -> None:
         self.missions.missions = list(self.session.missions.kept)
