@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from kivy.clock import Clock
 from kivy.lang import Builder
 from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty, StringProperty
@@ -17,16 +16,14 @@ from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.widget import Widget
 
 from widgets.base import Control
+from widgets.hold import HOLD, Hold
 from widgets.labels import spaced
 
 __all__ = ["PHASES", "StopButton"]
 
-HOLD = 1.0
-"""How long the finger must stay to release a latched STOP [s]."""
-FRAME = 0.1
-"""A frame counts for no more of a hold [s]: a finger that left while it was drawn is only heard of after it."""
 LONG_HOLD = 3.0
-"""The same while a STOP held here alone is not confirmed [s]: who presses it again and stays on it wants it to stop."""
+"""How long the finger must stay to release a STOP held here alone that is not confirmed [s]: who presses it again and
+stays on it wants it to stop."""
 
 ROOMY = 130
 """Lower than this it has the icon beside the word while it says a sentence [dp]."""
@@ -124,7 +121,7 @@ Builder.load_string("""
 """)
 
 
-class StopButton(Control, AnchorLayout):
+class StopButton(Hold, Control, AnchorLayout):
     """Dispatches `on_command` the moment a finger comes down, and `on_release_stop` after a hold once stopped."""
 
     veiled = False
@@ -137,8 +134,6 @@ class StopButton(Control, AnchorLayout):
     """It is latched, or the robot has no STOP of its own: a hold releases it even while it is not confirmed."""
     ago = StringProperty("")
     """How long ago the link was lost, as in `8 s`; for `lost`."""
-    held = NumericProperty(0.0)
-    """How much of the hold that releases is over, 0 to 1."""
     pressed = NumericProperty(0)
     """Fingers on it."""
 
@@ -192,25 +187,13 @@ class StopButton(Control, AnchorLayout):
     sentence_size = AliasProperty(_sentence_size, bind=["word_size", "size", "upright"], cache=True)
     """Height of the sentence's type [px]; it goes on two lines where it is too long."""
 
-    def __init__(self, **kwargs: Any) -> None:
-        self._holding = Clock.create_trigger(self._hold, 0, interval=True)
-        super().__init__(**kwargs)
-
-    def rest(self) -> None:
-        """Forget a hold that has begun. A STOP that was given stays given."""
-        self._holding.cancel()
-        self.held = 0.0
-
-    def _hold(self, elapsed: float) -> None:
-        long = HOLD if self.phase == "stopped" else LONG_HOLD
-        self.held = min(1.0, self.held + min(elapsed, FRAME) / long)
-        if self.held >= 1.0 - 1e-9:
-            self.rest()
-            self.dispatch("on_release_stop")
-
     def on_phase(self, *_: object) -> None:
         """A hold belongs to the phase that it began in."""
         self.rest()
+
+    def on_held_long(self) -> None:
+        """It was held long enough."""
+        self.dispatch("on_release_stop")
 
     def on_release_stop(self) -> None:
         """It was held long enough: the operator wants to drive again."""
@@ -223,7 +206,7 @@ class StopButton(Control, AnchorLayout):
         self.pressed += 1
         unanswered = self.local and self.phase in ("no_answer", "moves")
         if self.phase == "stopped" or unanswered:
-            self._holding()
+            self.hold(HOLD if self.phase == "stopped" else LONG_HOLD)
         if self.phase != "stopped":
             self.dispatch("on_command")
         return True

@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from kivy.clock import Clock
 from kivy.lang import Builder
 from kivy.metrics import dp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
@@ -21,15 +20,12 @@ from kivy.uix.widget import Widget
 import widgets.kit  # noqa: F401 - its rules draw what is used here
 from widgets.base import Control
 from widgets.buttons import QuietButton
+from widgets.hold import Hold
 
 __all__ = ["WORDS", "StopList", "StopRow"]
 
-HOLD = 1.0
-"""How long the finger must stay to let go [s]."""
 SLIM = 320
 """A narrower line has no cross [dp]."""
-FRAME = 0.1
-"""A frame counts for no more of a hold [s], as of STOP."""
 
 WORDS = {
     "sent": ("SENT", "warn", "hourglass_top"),
@@ -198,39 +194,19 @@ class StopRow(BoxLayout):
         self.word, self.role, self.icon = WORDS[robot.phase]
 
 
-class HoldButton(QuietButton):
+class HoldButton(Hold, QuietButton):
     """Dispatches `on_held_long` after a finger has stayed for a second."""
 
-    __events__ = ("on_held_long",)
-
-    held = NumericProperty(0.0)
-    """How much of the hold is over, 0 to 1."""
-
     def __init__(self, **kwargs: Any) -> None:
-        self._holding = Clock.create_trigger(self._hold, 0, interval=True)
         kwargs.setdefault("min_state_time", 0)  # a finger that leaves early is gone at once
         super().__init__(**kwargs)
 
     def on_state(self, *_: object) -> None:
         """A finger came down or left."""
         if self.state == "down":
-            self._holding()
+            self.hold()
         else:
             self.rest()
-
-    def rest(self) -> None:
-        """Forget a hold that has begun."""
-        self._holding.cancel()
-        self.held = 0.0
-
-    def _hold(self, elapsed: float) -> None:
-        self.held = min(1.0, self.held + min(elapsed, FRAME) / HOLD)
-        if self.held >= 1.0 - 1e-9:
-            self.rest()
-            self.dispatch("on_held_long")
-
-    def on_held_long(self) -> None:
-        """It was held long enough."""
 
 
 class StopList(Control, BoxLayout):

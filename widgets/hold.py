@@ -1,0 +1,53 @@
+"""Something that is done by holding: how long a finger has stayed, counted by the frames that were really drawn.
+
+class Release(Hold, QuietButton): ...
+release.bind(on_held_long=lambda _: unlatch())
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from kivy.clock import Clock
+from kivy.event import EventDispatcher
+from kivy.properties import NumericProperty
+
+__all__ = ["HOLD", "Hold"]
+
+HOLD = 1.0
+"""How long the finger must stay, unless told otherwise [s]."""
+FRAME = 0.1
+"""A frame counts for no more of a hold [s]: a finger that left while it was drawn is only heard of after it."""
+
+
+class Hold(EventDispatcher):
+    """Dispatches `on_held_long` once `hold` was called and `rest` was not for as long as it takes."""
+
+    __events__ = ("on_held_long",)
+
+    held = NumericProperty(0.0)
+    """How much of the hold is over, 0 to 1."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        self._takes = HOLD
+        self._counting = Clock.create_trigger(self._count, 0, interval=True)
+        super().__init__(**kwargs)
+
+    def hold(self, takes: float = HOLD) -> None:
+        """A finger is there; it must stay for `takes` [s]."""
+        self._takes = takes
+        self._counting()
+
+    def rest(self) -> None:
+        """Forget a hold that has begun."""
+        self._counting.cancel()
+        self.held = 0.0
+
+    def _count(self, elapsed: float) -> None:
+        self.held = min(1.0, self.held + min(elapsed, FRAME) / self._takes)
+        if self.held >= 1.0 - 1e-9:
+            self.rest()
+            self.dispatch("on_held_long")
+
+    def on_held_long(self) -> None:
+        """It was held long enough."""
