@@ -1,0 +1,189 @@
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Pose,
+    PoseStamped,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Quaternion,
+)
+from bridge.msgs.nav_msgs import Path
+from widgets.goal_pad import BUTTONS, FARTHEST, GoalPad
+from widgets.theme import theme
+
+
+@pytest.fixture
+def pad(stage):
+    pad = stage.show(GoalPad(), size=(176, 176))
+    pad.goals = []
+    pad.bind(on_command=lambda _, goal: pad.goals.append(goal))
+    return pad
+
+
+def pose(x: float, y: float, degrees: float = 0.0) -> PoseWithCovarianceStamped:
+    at = Pose(Point(x, y), Quaternion.from_yaw(math.radians(degrees)))
+    return PoseWithCovarianceStamped(pose=PoseWithCovariance(at))
+
+
+def middle(pad, name):
+    left, low, width, height = pad.button(name)
+    return left + width / 2, low + height / 2
+
+
+def tap(stage, pad, *names):
+    for name in names:
+        stage.tap(*middle(pad, name))
+
+
+def test_each_button_moves_the_goal_a_quarter_of_a_metre_or_turns_it_by_fifteen_degrees(stage, pad):
+    pad.show(pose(1.0, 2.0, 30.0))
+    tap(stage, pad, "east", "east", "north", "turn left")
+    assert pad.wanted == [pytest.approx(1.5), pytest.approx(2.25), pytest.approx(math.radians(45))]
+    tap(stage, pad, "west", "south", "turn right")
+    assert pad.wanted == [pytest.approx(1.25), pytest.approx(2.0), pytest.approx(math.radians(30))]
+
+
+def test_the_first_step_begins_where_the_robot_is_on_round_figures(stage, pad):
+    pad.show(pose(1.06, -0.63, 62.0))
+    tap(stage, pad, "east")
+    assert pad.wanted == [pytest.approx(1.25), pytest.approx(-0.75), pytest.approx(math.radians(60))]
+
+
+def test_nothing_is_sent_before_go(stage, pad):
+    pad.show(pose(0.0, 0.0))
+    tap(stage, pad, "east", "turn left")
+    assert pad.goals == []
+    tap(stage, pad, "go")
+    (goal,) = pad.goals
+    assert goal.header.frame_id == "map"
+    assert (goal.pose.position.x, goal.pose.position.y) == (0.25, 0.0)
+    assert goal.pose.orientation.yaw == pytest.approx(math.radians(15))
+    assert pad.outcome == "sent"
+
+
+def test_a_finger_that_slides_off_go_sends_nothing(stage, pad):
+    pad.show(pose(0.0, 0.0))
+    tap(stage, pad, "east")
+    stage.drag([middle(pad, "go"), middle(pad, "south")])
+    assert (pad.goals, pad.pressed) == ([], "")
+
+
+def test_while_nobody_knows_where_the_robot_is_nothing_can_be_set(stage, pad):
+    tap(stage, pad, "east", "go", "here")
+    assert (pad.wanted, pad.goals) == ([], [])
+    with pytest.raises(ValueError, match="There is no goal yet"):
+        _ = pad.goal
+
+
+def test_a_held_button_goes_on_moving_the_goal_until_it_is_let_go(stage, pad):
+    pad.show(pose(0.0, 0.0))
+    finger = stage.touch(*middle(pad, "east"))
+    finger.touch_down()
+    stage.run_for(1.0)
+    moved = pad.wanted[0]
+    assert moved >= 4 * pad.step
+    finger.touch_up()
+    stage.run_for(1.0)
+    assert pad.wanted[0] == moved
+
+
+@pytest.mark.parametrize("how", ["rest", "disabled"])
+def test_at_rest_a_held_button_moves_nothing_more(stage, pad, how):
+    pad.show(pose(0.0, 0.0))
+    stage.touch(*middle(pad, "east")).touch_down()
+    stage.run_for(0.6)
+    if how == "rest":
+        pad.rest()
+    else:
+        pad.state = "disabled"
+    moved = pad.wanted[0]
+    stage.run_for(1.0)
+    assert (pad.wanted[0], pad.pressed) == (moved, "")
+
+
+@pytest.mark.parametrize(
+    ("outcome", "words"),
+    [("sent", "Sent"), ("accepted", "Going"), ("refused", "Refused"), ("no_reply", "No reply")],
+)
+def test_what_became_of_the_goal_is_said_on_the_button_until_it_is_moved(stage, pad, outcome, words):
+    pad.show(pose(0.0, 0.0))
+    tap(stage, pad, *["east"] * 8)
+    pad.answer(outcome)
+    stage.frames(2)
+    assert words in pad.texts
+    tap(stage, pad, "north")
+    stage.frames(2)
+    assert "Go" in pad.texts
+
+
+def test_a_goal_that_is_under_way_is_not_sent_twice_but_one_that_was_taken_may_be(stage, pad):
+    pad.show(pose(0.0, 0.0))
+    tap(stage, pad, "east", "go", "go")
+    assert len(pad.goals) == 1
+    pad.answer("accepted")
+    tap(stage, pad, "go")
+    assert len(pad.goals) == 2
+
+
+def test_a_robot_that_has_arrived_is_said_to_be_there(pad):
+    pad.show(pose(0.0, 0.0))
+    pad.press("east")
+    pad.press("east")
+    pad.answer("accepted")
+    assert pad.says[0] == "Going"
+    pad.show(pose(0.48, 0.02, 3.0))
+    assert pad.says[0] == "There"
+    pad.show(pose(0.48, 0.02, 90.0))
+    assert pad.says[0] == "Going"
+
+
+def test_here_puts_the_goal_where_the_robot_is(stage, pad):
+    pad.show(pose(4.0, 3.0))
+    tap(stage, pad, *["north"] * 3, "here")
+    assert pad.wanted[:2] == [4.0, 3.0]
+
+
+def test_the_robots_own_way_says_where_it_goes_while_nobody_sets_a_goal_here(pad):
+    ends = [PoseStamped(pose=Pose(Point(x, 1.0), Quaternion.from_yaw(1.0))) for x in (0.0, 3.0)]
+    pad.show(Path(poses=ends))
+    assert pad.wanted == [3.0, 1.0, pytest.approx(1.0)]
+    assert len(pad.way) == 2
+    pad.show(pose(0.0, 0.0))
+    pad.press("east")
+    pad.show(Path(poses=ends))
+    assert pad.wanted[0] == 3.25
+    pad.show(Path())
+    assert len(pad.way) == 0
+
+
+def test_a_pose_that_is_no_number_is_not_known(stage, pad):
+    pad.show(pose(1.0, 1.0))
+    pad.show(pose(math.nan, 1.0))
+    stage.frames(2)
+    assert pad.actual == []
+    assert pad.texts.count("–") == 6
+
+
+def test_no_goal_is_farther_than_a_map_can_be(pad):
+    pad.show(pose(FARTHEST, 0.0))
+    pad.press("east")
+    assert pad.wanted[0] == FARTHEST
+
+
+@pytest.mark.parametrize("size", [(176, 176), (242, 242), (326, 228), (420, 470), (420, 190)])
+def test_every_button_is_as_large_as_a_finger_and_inside_at_every_size(stage, size):
+    pad = stage.show(GoalPad(), size=size)
+    pad.show(pose(-123.4, 5.0))
+    pad.press("east")
+    stage.frames(2)
+    for name in BUTTONS:
+        left, low, width, height = pad.button(name)
+        assert min(width, height) >= theme.target - 0.1
+        assert left >= 0 <= low
+        assert left + width <= size[0] >= low + height - max(0, size[1] - size[0])
+    assert {"ROBOT", "GOAL", "x", "y"} <= set(pad.texts)

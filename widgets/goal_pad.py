@@ -1,0 +1,439 @@
+"""Where a robot is to go: buttons move the goal by a quarter of a metre and turn it by 15°, and Go sends it there.
+
+pad = GoalPad()
+robot.on("/pose", pad.show)
+pad.bind(on_command=lambda _, goal: robot.publish("/goal_pose", goal))
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any, ClassVar
+
+import numpy as np
+from kivy.clock import Clock
+from kivy.metrics import dp, sp
+from kivy.properties import ListProperty, NumericProperty, ObjectProperty, OptionProperty
+from kivy.uix.widget import Widget
+
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Pose,
+    PoseStamped,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Quaternion,
+)
+from bridge.msgs.nav_msgs import Path
+from bridge.msgs.std_msgs import Header
+from widgets.base import fitting_size
+from widgets.gauge import Gauge
+from widgets.geometry import DASH, Points, View, nice_floor, rounded
+from widgets.grip import Grip
+from widgets.icons import icon
+from widgets.ink import Word, tint
+from widgets.map_marks import arrow
+from widgets.readout import figure
+from widgets.shapes import Shapes
+from widgets.theme import theme
+
+__all__ = ["STEP", "TURN", "GoalPad", "samples"]
+
+STEP, TURN = 0.25, math.radians(15)
+"""By which a press moves the goal [m] and turns it [rad]."""
+FARTHEST = 1000.0
+"""From the map's origin, along x and y, that a goal may be [m]."""
+THERE = 0.3, math.radians(20)
+"""A robot that is no farther from its goal has reached it [m], [rad]."""
+REPEAT_AFTER, REPEAT_EVERY = 0.45, 0.12
+"""A held button goes on moving the goal [s]."""
+GAP = 3
+"""Between the buttons [dp]."""
+
+BUTTONS: dict[str, tuple[int, int, str, tuple[int, int, int]]] = {
+    "turn left": (0, 0, "rotate_left", (0, 0, 1)),
+    "north": (1, 0, "arrow_upward", (0, 1, 0)),
+    "turn right": (2, 0, "rotate_right", (0, 0, -1)),
+    "west": (0, 1, "arrow_back", (-1, 0, 0)),
+    "go": (1, 1, "near_me", (0, 0, 0)),
+    "east": (2, 1, "arrow_forward", (1, 0, 0)),
+    "here": (0, 2, "my_location", (0, 0, 0)),
+    "south": (1, 2, "arrow_downward", (0, -1, 0)),
+}
+"""Name to column, row from above, icon, and steps in x, y and yaw. `here` puts the goal where the robot is."""
+AXES = {"north": "y+", "south": "y−", "east": "x+", "west": "x−"}
+AXIS_NAMES = ("x", "y", "yaw")
+OUTCOMES = {
+    "": ("Go", "near_me"),
+    "sent": ("Sent", "hourglass_top"),
+    "accepted": ("Going", "route"),
+    "refused": ("Refused", "block"),
+    "no_reply": ("No reply", "help"),
+}
+"""What became of the goal to what the button says."""
+
+Box = tuple[float, float, float, float]
+"""Left, low, width, height [px]."""
+
+
+class GoalPad(Grip, Gauge):
+    """Dispatches `on_command(pose)`, a PoseStamped in `map`, when Go is pressed, and only then."""
+
+    accepts: ClassVar = (PoseWithCovarianceStamped, Path)
+    sends = (PoseStamped,)
+    drawn_from: ClassVar = ("actual", "wanted", "outcome", "way", "pressed")
+
+    actual = ListProperty()
+    """Where the robot is: x, y [m], yaw [rad]; empty while that is not known."""
+    wanted = ListProperty()
+    """Where it is to go: x, y [m], yaw [rad]; empty before anybody said."""
+    outcome = OptionProperty("", options=list(OUTCOMES))
+    """What became of the goal: empty while it has not been sent as it is."""
+    way = ObjectProperty(np.zeros((0, 2)), force_dispatch=True, comparator=lambda *_: False)
+    """The way that the robot means to take, shape (n, 2) [m]; empty when it has none."""
+    pressed = OptionProperty("", options=["", *BUTTONS])
+    """The button under the finger; empty without one."""
+    step = NumericProperty(STEP)
+    """By which a press moves the goal [m]."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**{"title": "Goal", **kwargs})
+        self.veil_radius = theme.radius
+        self._repeat = Clock.create_trigger(lambda _: self.press(self.pressed), REPEAT_EVERY, interval=True)
+        self._held = Clock.create_trigger(lambda _: self._repeat(), REPEAT_AFTER)
+
+    def show(self, msg: PoseWithCovarianceStamped | Path) -> None:
+        """Show where the robot is, or the way it means to take; its end is the goal while none is being set here."""
+        if isinstance(msg, Path):
+            self._show_way(msg)
+            return
+        pose = msg.pose.pose
+        place = [round(value, 3) for value in (pose.position.x, pose.position.y, pose.orientation.yaw)]
+        self.actual = place if all(map(math.isfinite, place)) else []
+
+    def _show_way(self, path: Path) -> None:
+        places = [(one.pose.position.x, one.pose.position.y) for one in path.poses]
+        self.way = np.array(places, dtype=np.float64).reshape(-1, 2)
+        if places and not self.wanted and all(map(math.isfinite, places[-1])):
+            self.wanted = [*places[-1], path.poses[-1].pose.orientation.yaw]
+            self.outcome = "accepted"
+
+    @property
+    def goal(self) -> PoseStamped:
+        """The goal as a message; ValueError while there is none."""
+        if not self.wanted:
+            raise ValueError(
+                "There is no goal yet: the robot has not said where it is, and nobody where it is to go."
+            )
+        x, y, yaw = self.wanted
+        return PoseStamped(Header(frame_id="map"), Pose(Point(x, y), Quaternion.from_yaw(yaw)))
+
+    @property
+    def there(self) -> bool:
+        """The robot is where it is wanted."""
+        if not (self.actual and self.wanted):
+            return False
+        (x, y, yaw), (goal_x, goal_y, goal_yaw) = self.actual, self.wanted
+        turn = abs(math.remainder(goal_yaw - yaw, math.tau))
+        return math.hypot(goal_x - x, goal_y - y) <= THERE[0] and turn <= THERE[1]
+
+    @property
+    def says(self) -> tuple[str, str]:
+        """Words and icon of the button in the middle."""
+        return ("There", "check") if self.outcome == "accepted" and self.there else OUTCOMES[self.outcome]
+
+    def can(self, name: str) -> bool:
+        """Whether a press of that button does anything."""
+        if name == "go":
+            return bool(self.wanted) and self.outcome != "sent"
+        return bool(self.actual or (self.wanted and name != "here"))
+
+    def answer(self, outcome: str) -> None:
+        """What became of the goal that was sent: `sent`, `accepted`, `refused` or `no_reply`."""
+        self.outcome = outcome
+
+    def press(self, name: str) -> None:
+        """Do what a button says, as a finger would."""
+        if not name or not self.can(name):
+            return
+        if name == "go":
+            self.outcome = "sent"
+            self.dispatch("on_command", self.goal)
+        elif name == "here":
+            self._want(self._snapped())
+        else:
+            x, y, yaw = self.wanted or self._snapped()
+            across, up, turn = BUTTONS[name][3]
+            self._want([x + across * self.step, y + up * self.step, yaw + turn * TURN])
+
+    def _snapped(self) -> list[float]:
+        """Where the robot is, on whole steps, so that the goal's figures are round."""
+        x, y, yaw = self.actual
+        return [round(x / self.step) * self.step, round(y / self.step) * self.step, round(yaw / TURN) * TURN]
+
+    def _want(self, place: list[float]) -> None:
+        x, y = (max(-FARTHEST, min(FARTHEST, value)) + 0.0 for value in place[:2])
+        self.wanted, self.outcome = [x, y, math.remainder(place[2], math.tau)], ""
+
+    def spring(self) -> None:
+        """Count no further; the goal stays."""
+        self.pressed = ""
+        self._held.cancel()
+        self._repeat.cancel()
+
+    def holds(self, x: float, y: float) -> bool:
+        """On a button."""
+        return bool(self._button_at(x, y))
+
+    def follow(self, touch: Any) -> None:
+        """Count at once where the finger comes down, and on while it stays; Go waits until it is lifted."""
+        name = self._button_at(*touch.pos)
+        if self.pressed and name != self.pressed:
+            self.rest()
+        elif name and not self.pressed:
+            self.pressed = name
+            if name not in ("go", "here"):
+                self.press(name)
+                self._held()
+
+    def on_touch_up(self, touch: Any) -> bool:
+        """Go, where the finger is still on it."""
+        name = self.pressed if touch.grab_current is self else ""
+        done = bool(super().on_touch_up(touch))
+        if name in ("go", "here"):
+            self.press(name)
+        return done
+
+    def _button_at(self, x: float, y: float) -> str:
+        for name in BUTTONS:
+            left, low, width, height = self.button(name)
+            if left <= x <= left + width and low <= y <= low + height:
+                return name
+        return ""
+
+    def button(self, name: str) -> Box:
+        """Where a button is."""
+        column, row, *_ = BUTTONS[name]
+        return self._cell(column, row)
+
+    def _cell(self, column: int, row: int) -> Box:
+        left, low, width, height = self.layout[0]
+        gap = dp(GAP)
+        wide, high = (width - 2 * gap) / 3, (height - 2 * gap) / 3
+        return left + column * (wide + gap), low + (2 - row) * (high + gap), wide, high
+
+    @property
+    def layout(self) -> tuple[Box, Box | None, Box | None]:
+        """Of the pad, of the picture and of the figures; None for what has no room: the figures are in corners then."""
+        edge, least = dp(5), 3 * theme.target + 2 * dp(GAP)
+        left, low = self.x + edge, self.y + edge
+        width, height = self.width - 2 * edge, self.height - 2 * edge
+        gap, table = dp(10), sp(62)
+        if width >= least + gap + dp(116) and height < 2 * least + table:
+            wide = min(max(least, width * 0.54), height * 1.1, width - gap - dp(116))
+            rest = left + dp(5), low + dp(4), width - wide - gap, height - dp(8)
+            figures = rest[0], rest[1], rest[2], table
+            picture = rest[0], rest[1] + table + dp(6), rest[2], rest[3] - table - dp(6)
+            return (left + width - wide, low, wide, height), picture, figures
+        pad = min(max(least, min(width * 0.75, height * 0.45)), height - table - dp(10))
+        if pad < least:
+            return (left, low, width, height), None, None
+        figures = left + dp(6), low + height - table - dp(4), width - dp(12), table
+        free = height - pad - table - dp(10)
+        if free < dp(90):
+            return (left, low, width, height - table - dp(8)), None, figures
+        picture = left + dp(6), low + pad + dp(6), width - dp(12), free - dp(8)
+        return (left, low, width, pad), picture, figures
+
+    def marks(self, shapes: Shapes) -> Iterator[Word]:
+        """The buttons, the picture, the figures."""
+        _, picture, figures = self.layout
+        for name in BUTTONS:
+            if name != "here" or figures is not None:
+                yield from self._draw_button(shapes, name)
+        if picture is not None:
+            yield from self._draw_picture(shapes, picture)
+        if figures is None:
+            yield from self._in_corners(shapes)
+        else:
+            yield from self._table(figures)
+            left, low, width, height = self._cell(2, 2)
+            for row, step in ((-1, f"{self.step:g} m"), (1, f"{math.degrees(TURN):.0f}°")):
+                yield Word(step, left + width / 2, low + height / 2 - row * sp(9), sp(12), theme.muted)
+
+    def _ground(self, shapes: Shapes, box: Box, fill: Any, border: Any) -> None:
+        rim = rounded(*box, dp(9))
+        shapes.polygon([(x, y) for x, y in rim], fill)
+        shapes.line(np.array([*rim, rim[0]]), dp(1.2), border)
+
+    def _draw_button(self, shapes: Shapes, name: str) -> Iterator[Word]:
+        left, low, width, height = box = self.button(name)
+        x, y, can = left + width / 2, low + height / 2, self.can(name)
+        main = name == "go" and can and self.outcome != "accepted"
+        if name == "go" and self.outcome == "refused":
+            fill, ink = theme.danger, theme.ink_danger
+        else:
+            fill, ink = (theme.accent, theme.ink_accent) if main else (theme.raised, theme.text)
+        if name == "go" and self.outcome in ("sent", "accepted"):
+            ink = theme.plan
+        elif not can:
+            ink = theme.faint
+        self._ground(shapes, box, fill, fill if main else theme.line)
+        if self.pressed == name:
+            self._ground(shapes, box, tint(ink, 0.18), ink)
+        words, sign = self.says if name == "go" else (AXES.get(name, ""), BUTTONS[name][2])
+        shift = sp(9) if words else 0
+        yield Word(icon(sign), x, y + shift, sp(24), ink, font=theme.icons)
+        if words:
+            size = fitting_size([words], sp(14), width - dp(6), bold=name == "go")
+            yield Word(words, x, y - sp(14), size, ink, bold=name == "go")
+
+    def _figures(self, place: list[float]) -> tuple[str, str, str]:
+        if not place:
+            return DASH, DASH, DASH
+        x, y = (figure(value, 2 if abs(value) < 99.995 else 1) for value in place[:2])
+        return x, y, f"{figure(math.degrees(place[2]), 0)}°"
+
+    def _in_corners(self, shapes: Shapes) -> Iterator[Word]:
+        """Where the robot is in the lower left corner, which is a button too, where it is to go in the lower right one."""
+        for column, name, place, colour in (
+            (0, "ROBOT", self.actual, theme.accent),
+            (2, "GOAL", self.wanted, theme.plan),
+        ):
+            left, low, width, height = box = self._cell(column, 2)
+            if column == 0:
+                fill = tint(theme.accent, 0.25) if self.pressed == "here" else theme.raised
+                self._ground(shapes, box, fill, theme.line)
+            y, step = low + height - sp(9), (height - sp(18)) / 3
+            most = sp(15 if height >= dp(68) else 12)
+            yield Word(name, left + width / 2, y, sp(10), colour, bold=True)
+            for row, (axis, text) in enumerate(zip(AXIS_NAMES, self._figures(place), strict=True), 1):
+                at = y - row * step
+                size = fitting_size([text], most, width - dp(18), bold=True)
+                if axis != "yaw" or width > dp(66):  # the degree says it too
+                    yield Word(axis, left + dp(5), at, sp(11), theme.muted, anchor=(0, 0.5))
+                yield Word(text, left + width - dp(4), at, size, theme.text, bold=True, anchor=(1, 0.5))
+
+    def _table(self, box: Box) -> Iterator[Word]:
+        """Two columns under their names: where it is, where it is to go."""
+        left, low, width, height = box
+        right, rows = left + width, height / 4
+        middle = left + sp(22) + (width - sp(22)) / 2
+        for x, name, place, colour in (
+            (middle, "ROBOT", self.actual, theme.accent),
+            (right, "GOAL", self.wanted, theme.plan),
+        ):
+            yield Word(name, x, low + rows * 3.5, sp(11), colour, bold=True, anchor=(1, 0.5))
+            units = (" m", " m", "") if width > dp(180) else ("", "", "")
+            for row, (text, unit) in enumerate(zip(self._figures(place), units, strict=True)):
+                shown = text + (unit if place else "")
+                size = fitting_size([shown], sp(14), (width - sp(22)) / 2 - dp(6), bold=True)
+                yield Word(shown, x, low + rows * (2.5 - row), size, theme.text, bold=True, anchor=(1, 0.5))
+        for row, axis in enumerate(AXIS_NAMES):
+            yield Word(axis, left, low + rows * (2.5 - row), sp(12), theme.muted, anchor=(0, 0.5))
+
+    def _draw_picture(self, shapes: Shapes, box: Box) -> Iterator[Word]:
+        """Robot, goal and way from above, north up."""
+        left, low, width, height = box
+        self._ground(shapes, box, theme.bg, theme.line)
+        places = [place for place in (self.actual, self.wanted) if place]
+        if not places:
+            yield Word("where is the robot?", left + width / 2, low + height / 2, sp(11), theme.muted)
+            return
+        inner = left + dp(20), low + dp(20), width - dp(40), height - dp(40)
+        view = View.fitting(np.array([place[:2] for place in places]), box=inner, most=dp(70))
+        self._grid(shapes, view, box)
+        if self.wanted and self.actual:
+            ends = view.many_to_screen(np.array([self.actual[:2], self.wanted[:2]]))
+            shapes.dashes(ends, dp(3.4), tint(theme.plan, 0.8), period=dp(9), dash=dp(3))
+        if len(self.way) > 1:
+            inside = _within(view.many_to_screen(self.way), box)
+            for start, end in inside:
+                shapes.line(np.array([start, end]), dp(2.4), theme.plan)
+        if self.actual:
+            x, y = view.to_screen(*self.actual[:2])
+            shapes.disc(x, y, dp(10), theme.accent)
+            shapes.polygon(arrow(x, y, self.actual[2], dp(10)), theme.ink_accent)
+        if self.wanted:
+            x, y = view.to_screen(*self.wanted[:2])
+            if self.outcome in ("sent", "accepted"):
+                shapes.disc(x, y, dp(10), tint(theme.plan, 0.35))
+            shapes.ring(x, y, dp(10), dp(2.4), theme.plan)
+            shapes.polygon(arrow(x, y, self.wanted[2], dp(13)), theme.plan)
+
+    def _grid(self, shapes: Shapes, view: View, box: Box) -> None:
+        """Lines of a round distance, inside the box."""
+        left, low, width, height = box
+        gap = max(nice_floor(dp(48) / view.scale), self.step)
+        (first_x, first_y), (last_x, last_y) = (
+            view.to_world(left, low),
+            view.to_world(left + width, low + height),
+        )
+        easts = np.arange(math.ceil(first_x / gap), math.floor(last_x / gap) + 1) * gap
+        norths = np.arange(math.ceil(first_y / gap), math.floor(last_y / gap) + 1) * gap
+        columns = [view.to_screen(east, 0.0)[0] for east in easts]
+        rows = [view.to_screen(0.0, north)[1] for north in norths]
+        starts = [(x, low) for x in columns] + [(left, y) for y in rows]
+        ends = [(x, low + height) for x in columns] + [(left + width, y) for y in rows]
+        shapes.segments(np.array(starts), np.array(ends), dp(1), tint(theme.muted, 0.3))
+
+
+def _within(points: Points, box: Box) -> list[tuple[tuple[float, float], tuple[float, float]]]:
+    """The pieces of a line whose ends are both inside the box."""
+    left, low, width, height = box
+    kept = [left <= x <= left + width and low <= y <= low + height for x, y in points]
+    pairs = zip(points[:-1], points[1:], kept[:-1], kept[1:], strict=True)
+    return [((a[0], a[1]), (b[0], b[1])) for a, b, first, second in pairs if first and second]
+
+
+def _pose(x: float, y: float, degrees: float) -> PoseWithCovarianceStamped:
+    pose = Pose(Point(x, y), Quaternion.from_yaw(math.radians(degrees)))
+    return PoseWithCovarianceStamped(pose=PoseWithCovariance(pose))
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """Each state of the goal, in the sizes that screens give it."""
+
+    def made(
+        *presses: str,
+        size: tuple[float, float] = (176, 176),
+        outcome: str = "",
+        at: PoseWithCovarianceStamped | None = None,
+        **more: Any,
+    ) -> Callable[[], Widget]:
+        def build() -> GoalPad:
+            pad = GoalPad(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
+            if presses:
+                pad.show(_pose(1.27, -0.49, 62.0))
+                for name in presses:
+                    pad.press(name)
+            if at is not None:
+                pad.show(at)
+            pad.answer(outcome)
+            return pad
+
+        return build
+
+    steps = ("east",) * 5 + ("north",) * 4 + ("turn right",) * 3
+    large, wide = (326, 228), (242, 242)
+    return {
+        "never": made(state="never"),
+        "live": made(*steps),
+        "held": made(*steps, pressed="east"),
+        "far away": made("east", at=_pose(-123.4, 87.66, 180.0)),
+        "sent": made(*steps, outcome="sent"),
+        "going": made(*steps, outcome="accepted"),
+        "refused": made(*steps, outcome="refused"),
+        "no reply": made(*steps, outcome="no_reply"),
+        "there": made(*steps, outcome="accepted", at=_pose(2.45, 0.52, 16.0)),
+        "square": made(*steps, size=wide),
+        "large": made(*steps, size=large),
+        "large never": made(size=large, state="never"),
+        "large going": made(*steps, size=large, outcome="accepted"),
+        "huge": made(*steps, size=(420, 470), outcome="accepted"),
+        "broad": made(*steps, size=(420, 190)),
+        "stale": made(*steps, size=large, state="stale", age=3.0),
+        "alarm": made(*steps, size=large, state="alarm"),
+        "disabled": made(*steps, state="disabled"),
+    }
