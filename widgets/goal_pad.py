@@ -392,48 +392,50 @@ def _pose(x: float, y: float, degrees: float) -> PoseWithCovarianceStamped:
     return PoseWithCovarianceStamped(pose=PoseWithCovariance(pose))
 
 
+def _made(
+    *presses: str,
+    size: tuple[float, float] = (176, 176),
+    outcome: str = "",
+    at: PoseWithCovarianceStamped | None = None,
+    **more: Any,
+) -> Callable[[], Widget]:
+    """A pad on which these buttons were pressed, before the robot went to `at`."""
+
+    def build() -> GoalPad:
+        pad = GoalPad(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
+        if presses:
+            pad.show(_pose(1.27, -0.49, 62.0))
+        for name in presses:
+            pad.press(name)
+        if at is not None:
+            pad.show(at)
+        pad.answer(outcome)
+        return pad
+
+    return build
+
+
 def samples() -> dict[str, Callable[[], Widget]]:
     """Each state of the goal, in the sizes that screens give it."""
-
-    def made(
-        *presses: str,
-        size: tuple[float, float] = (176, 176),
-        outcome: str = "",
-        at: PoseWithCovarianceStamped | None = None,
-        **more: Any,
-    ) -> Callable[[], Widget]:
-        def build() -> GoalPad:
-            pad = GoalPad(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
-            if presses:
-                pad.show(_pose(1.27, -0.49, 62.0))
-                for name in presses:
-                    pad.press(name)
-            if at is not None:
-                pad.show(at)
-            pad.answer(outcome)
-            return pad
-
-        return build
-
     steps = ("east",) * 5 + ("north",) * 4 + ("turn right",) * 3
     large, wide = (326, 228), (242, 242)
     return {
-        "never": made(state="never"),
-        "live": made(*steps),
-        "held": made(*steps, pressed="east"),
-        "far away": made("east", at=_pose(-123.4, 87.66, 180.0)),
-        "sent": made(*steps, outcome="sent"),
-        "going": made(*steps, outcome="accepted"),
-        "refused": made(*steps, outcome="refused"),
-        "no reply": made(*steps, outcome="no_reply"),
-        "there": made(*steps, outcome="accepted", at=_pose(2.45, 0.52, 16.0)),
-        "square": made(*steps, size=wide),
-        "large": made(*steps, size=large),
-        "large never": made(size=large, state="never"),
-        "large going": made(*steps, size=large, outcome="accepted"),
-        "huge": made(*steps, size=(420, 470), outcome="accepted"),
-        "broad": made(*steps, size=(420, 190)),
-        "stale": made(*steps, size=large, state="stale", age=3.0),
-        "alarm": made(*steps, size=large, state="alarm"),
-        "disabled": made(*steps, state="disabled"),
+        "never": _made(state="never"),
+        "live": _made(*steps),
+        "held": _made(*steps, pressed="east"),
+        "far away": _made("east", at=_pose(-123.4, 87.66, 180.0)),
+        "sent": _made(*steps, outcome="sent"),
+        "going": _made(*steps, outcome="accepted"),
+        "refused": _made(*steps, outcome="refused"),
+        "no reply": _made(*steps, outcome="no_reply"),
+        "there": _made(*steps, outcome="accepted", at=_pose(2.45, 0.52, 16.0)),
+        "square": _made(*steps, size=wide),
+        "large": _made(*steps, size=large),
+        "large never": _made(size=large, state="never"),
+        "large going": _made(*steps, size=large, outcome="accepted"),
+        "huge": _made(*steps, size=(420, 470), outcome="accepted"),
+        "broad": _made(*steps, size=(420, 190)),
+        "stale": _made(*steps, size=large, state="stale", age=3.0),
+        "alarm": _made(*steps, size=large, state="alarm"),
+        "disabled": _made(*steps, state="disabled"),
     }
