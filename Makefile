@@ -1,7 +1,8 @@
 # The menu of verbs; `make help` lists them.
 PYTHON := .venv/bin/python
 ROBOT ?= patrol
-WORLD ?= parking_lot
+# that of the robot, unless it is said
+WORLD ?=
 export PYTHONPATH := $(CURDIR)
 
 .PHONY: help setup run demo test test-fast bench android-check gallery lint format
@@ -12,7 +13,7 @@ help: ## this list
 setup: ## make .venv and what it needs; nothing to do when it is there
 	@bash scripts/setup.sh
 
-run: setup ## open the app on the built-in simulator; ROBOT= and WORLD= choose
+run: setup ## open the app on the built-in simulator; ROBOT=scout,patrol WORLD=office choose
 	@PYTHON=$(PYTHON) ROBOT=$(ROBOT) WORLD=$(WORLD) bash scripts/run.sh
 
 demo: setup ## two stories by script, through the app's own touch events: out/demo/, out/demo-errand/

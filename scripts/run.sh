@@ -1,24 +1,33 @@
 #!/usr/bin/env bash
-# Opens the app beside a simulated robot and ends the robot with it. Without a display it runs the demo instead.
+# Opens the app beside one or several simulated robots and ends them with it. Without a display it runs the demo instead.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 python=${PYTHON:-.venv/bin/python}
+robots=${ROBOT:-patrol}
 
 if [ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
     echo "run: this machine has no display; running the demo, whose pictures go to out/demo."
     exec "$python" -m examples.demo --out out/demo
 fi
 
-# Prints the port if nothing listens there, else 0, which takes any that is free.
-free() { if (exec 3<>"/dev/tcp/127.0.0.1/$1") 2>/dev/null; then echo 0; else echo "$1"; fi; }
+commas=${robots//[!,]/}
+count=$((${#commas} + 1))
+
+# Prints the port if nothing listens there and on those that follow it, one for each robot, else 0, which takes any that are free.
+free() {
+    for ((port = $1; port < $1 + count; port++)); do
+        if (exec 3<>"/dev/tcp/127.0.0.1/$port") 2>/dev/null; then echo 0; return; fi
+    done
+    echo "$1"
+}
 
 log=$(mktemp)
-"$python" -m robotside serve --robot "sim:${ROBOT:-patrol}" --world "${WORLD:-parking_lot}" \
+"$python" -m robotside serve --robot "sim:$robots" --world "${WORLD:-}" \
     --port "$(free 9090)" --http-port "$(free 8080)" >"$log" 2>&1 &
 robot=$!
-# SIGTERM lets the robot side bring the robot to rest and end with 0
+# SIGTERM lets the robot side bring the robots to rest and end with 0
 trap 'kill -TERM $robot 2>/dev/null || true; wait $robot || true; rm -f "$log"' EXIT
-until grep '^robotside: ready' "$log"; do
+until [ "$(grep -c '^robotside: ready' "$log")" -ge "$count" ]; do
     if ! kill -0 $robot 2>/dev/null; then
         cat "$log" >&2
         wait $robot
@@ -26,4 +35,5 @@ until grep '^robotside: ready' "$log"; do
     fi
     sleep 0.1
 done
+grep '^robotside: ready' "$log"
 "$python" main.py

@@ -7,7 +7,7 @@ import errno
 import random
 import socket
 import time
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import ClassVar
@@ -203,7 +203,7 @@ def test_a_state_directory_that_cannot_be_made_is_one_sentence_and_lets_go_of_th
 ) -> None:
     robot, state = FakeRobot(), tmp_path / "file" / "state"
     state.parent.write_text("no directory")
-    monkeypatch.setattr("robotside.__main__._robot", lambda _: robot)
+    monkeypatch.setattr("robotside.__main__._robots", lambda *_: ([robot], "hall"))
     assert main(["serve", "--state", str(state)]) == 2
     said = f"Nothing can be kept in '{state}': not a directory; --state names another directory."
     assert capsys.readouterr().err == f"robotside: {said}\n"
@@ -211,18 +211,20 @@ def test_a_state_directory_that_cannot_be_made_is_one_sentence_and_lets_go_of_th
 
 
 class Glance:
-    """Serves for no time at all, and keeps the station that it was to serve."""
+    """Serves for no time at all, and keeps the stations that it was to serve."""
 
     stations: ClassVar[list[Station]] = []
 
-    def __init__(self, station: Station, *_: object, **__: object) -> None:
-        self.stations.append(station)
+    def __init__(self, servings: Sequence[Serving], *_: object, **__: object) -> None:
+        self.servings = servings
+        self.stations += [each.station for each in servings]
 
     def end(self) -> None:
         """Never called."""
 
-    async def run(self, ready: Callable[[Addresses], None]) -> None:
-        ready(Addresses("127.0.0.1", 1, 2))
+    async def run(self, ready: Callable[[Serving], None]) -> None:
+        for each in self.servings:
+            ready(each)
 
 
 @pytest.mark.parametrize(("more", "name"), [([], "Slow-1"), (["--name", "Rex"], "Rex")])
@@ -233,8 +235,8 @@ def test_a_settings_file_says_what_the_robot_is_called_and_may_do(
     more: list[str],
     name: str,
 ) -> None:
-    monkeypatch.setattr("robotside.__main__._robot", lambda _: FakeRobot())
-    monkeypatch.setattr("robotside.__main__.Serving", Glance)
+    monkeypatch.setattr("robotside.__main__._robots", lambda *_: ([FakeRobot()], "hall"))
+    monkeypatch.setattr("robotside.__main__.Together", Glance)
     settings = tmp_path / "robot.toml"
     settings.write_text("[robot]\nname = 'Slow-1'\n[limits]\nmax_speed = 0.2\n")
     assert main(["serve", "--state", str(tmp_path), "--config", str(settings), *more]) == 0
@@ -246,7 +248,7 @@ def test_a_settings_file_says_what_the_robot_is_called_and_may_do(
 def test_a_mistake_in_the_settings_file_is_one_sentence_and_no_robot_is_made(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    monkeypatch.setattr("robotside.__main__._robot", lambda _: pytest.fail("a robot was made"))
+    monkeypatch.setattr("robotside.__main__._robots", lambda *_: pytest.fail("a robot was made"))
     settings = tmp_path / "robot.toml"
     settings.write_text("[limits]\nmax_sped = 1")
     assert main(["serve", "--config", str(settings)]) == 2
@@ -275,7 +277,7 @@ def test_a_mistake_in_the_settings_file_is_one_sentence_and_no_robot_is_made(
         ),
         (
             "serve --robot rover",
-            "There is no robot 'rover'; simulated ones are written as sim:patrol, others as ros:ws://192.168.1.7:9090.",
+            "There is no robot 'rover'; simulated ones are written as sim:patrol or sim:patrol,scout, others as ros:ws://192.168.1.7:9090.",
         ),
         (
             "serve --robot ros:http://here",
@@ -283,7 +285,7 @@ def test_a_mistake_in_the_settings_file_is_one_sentence_and_no_robot_is_made(
         ),
         (
             "serve --robot ros:",
-            "There is no robot 'ros:'; simulated ones are written as sim:patrol, others as ros:ws://192.168.1.7:9090.",
+            "There is no robot 'ros:'; simulated ones are written as sim:patrol or sim:patrol,scout, others as ros:ws://192.168.1.7:9090.",
         ),
         (
             "serve --robot ros:ws://here:9 --speed 2",

@@ -1,0 +1,208 @@
+"""What may be said on the command line of `python -m robotside`, and what is wrong with what was said."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import os
+import re
+import sys
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from robotside.config import NOTHING_SET, Config, load
+
+__all__ = ["MOST", "SIMULATED", "One", "UserMistake", "configs", "ports", "read", "robots", "state"]
+
+MOST = 32
+"""Robots of one robot side."""
+SIMULATED = "sim:"
+
+
+class UserMistake(Exception):
+    """What was typed cannot be done; the text is one sentence."""
+
+
+@dataclass(frozen=True, slots=True)
+class One:
+    """One of the robots to serve."""
+
+    name: str
+    """Of a simulated one, as in `patrol`; `ros:URL` of another."""
+    payloads: tuple[str, ...]
+    """What it carries besides."""
+    called: str
+    """What people are to call it; empty for what the robot or its settings say."""
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> None:  # type: ignore[override]
+        raise UserMistake(f"{message[0].upper()}{message[1:]}; see python -m robotside serve --help.")
+
+
+def read(argv: Sequence[str] | None) -> argparse.Namespace:
+    """The options; UserMistake with one sentence for what cannot be."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    if words and words[0].startswith("-") and words[0] not in ("-h", "--help"):
+        words.insert(0, "serve")
+    about = "The robot's computer. Before options `serve` may be left out; `serve --help` tells them."
+    parser = _Parser(prog="python -m robotside", description=about)
+    commands = parser.add_subparsers(dest="command", required=True)
+    _add_serve(commands.add_parser("serve", help="serve one robot, or several in one simulated world"))
+    offer = commands.add_parser("offer", help="say which robots and worlds can be simulated")
+    offer.add_argument("--json", action="store_true", help="for programs")
+    options = parser.parse_args(words)
+    if options.command == "serve":
+        _check(options)
+    return options
+
+
+def _add_serve(serve: argparse.ArgumentParser) -> None:
+    add = serve.add_argument
+    add(
+        "--robot",
+        default="sim:patrol",
+        help="what to serve: sim:patrol, several in one world as sim:patrol,scout+arm with what they carry, "
+        "or ros:ws://HOST:9090 for one behind a rosbridge server",
+    )
+    add(
+        "--world",
+        default="",
+        help="where simulated robots are: a name or a TOML file; the robot's home if left out",
+    )
+    add(
+        "--host",
+        default="127.0.0.1",
+        help="where to listen: this machine alone, unless 0.0.0.0 lets a phone in",
+    )
+    add(
+        "--port",
+        type=int,
+        default=9090,
+        help="of the rosbridge socket, the next robot's is one more; 0 takes free ones",
+    )
+    add("--http-port", type=int, default=8080, help="of the web site, likewise")
+    add("--payloads", default="", help="what a simulated robot carries besides: arm,laser,…")
+    add("--protocols", default="", help="rosbridge and http, which are always up")
+    add("--seed", type=int, default=0, help="of the simulation's and the patrol's random numbers")
+    add("--speed", type=float, default=1.0, help="simulated seconds per second; commands expire in real time")
+    add(
+        "--config",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="ROBOT.TOML",
+        help="limits, fence, safe state, database, name; docs/robot.toml.example has every setting; "
+        "of several robots one for all, or one each in their order",
+    )
+    add(
+        "--state",
+        type=Path,
+        default=None,
+        help="directory of the database; of several robots each has one in it",
+    )
+    add("--name", default="", help="what people call the robot; of several robots with commas between")
+    add("--gui", action="store_true", help="show simulated robots in the physics engine's own window")
+    add("--with-parent", action="store_true", help="end when the program that started it is gone")
+
+
+def _check(options: argparse.Namespace) -> None:
+    for name in ("port", "http_port"):
+        number = getattr(options, name)
+        if not 0 <= number <= 65535:
+            raise UserMistake(f"A port is 0 to 65535, not {number}.")
+    if not (math.isfinite(options.speed) and 0 < options.speed <= 100):
+        raise UserMistake(f"The speed must be above 0 and at most 100, not {options.speed}.")
+    if options.robot.startswith("ros:"):
+        for given, option in ((options.payloads, "payloads"), (options.world, "world"), (options.gui, "gui")):
+            if given:
+                raise UserMistake(f"--{option} is for simulated robots; a real one has what it has.")
+    if options.gui and not os.environ.get("DISPLAY"):
+        raise UserMistake("--gui needs a display, and DISPLAY is not set.")
+    unknown = set(filter(None, options.protocols.split(","))) - {"rosbridge", "http"}
+    if unknown:
+        raise UserMistake(f"There is no protocol {', '.join(sorted(unknown))}; there are rosbridge and http.")
+
+
+def robots(options: argparse.Namespace) -> list[One]:
+    """The robots to serve, in their order; UserMistake when it is not clear which."""
+    text = options.robot
+    kind, _, rest = text.partition(":")
+    if kind == "ros" and rest:
+        return [One(text, (), options.name)]
+    words = [word.strip().removeprefix(SIMULATED) for word in rest.split(",")]
+    if kind != "sim" or not all(words):
+        said = "simulated ones are written as sim:patrol or sim:patrol,scout, others as ros:ws://192.168.1.7:9090"
+        raise UserMistake(f"There is no robot {text!r}; {said}.")
+    if len(words) > MOST:
+        raise UserMistake(f"One robot side serves at most {MOST} robots, not {len(words)}.")
+    called = _names(options.name, len(words))
+    return [_one(word, name, options, len(words)) for word, name in zip(words, called, strict=True)]
+
+
+def _one(word: str, called: str, options: argparse.Namespace, count: int) -> One:
+    name, *carried = word.split("+")
+    if options.payloads and count > 1:
+        raise UserMistake(
+            f"--payloads is for one robot; say of each of {count} what it carries, as in sim:patrol+arm+lights,scout."
+        )
+    return One(name, (*carried, *filter(None, options.payloads.split(","))), called)
+
+
+def _names(text: str, count: int) -> list[str]:
+    """One for each of the robots; empty ones when nothing was said."""
+    if not text or count == 1:
+        return [text] * count
+    names = [name.strip() for name in text.split(",")]
+    if len(names) != count:
+        raise UserMistake(f"--name must have {count} names with commas between, not {len(names)}: {text!r}.")
+    for name, times in Counter(names).items():
+        if times > 1:
+            raise UserMistake(f"--name gives {name!r} to {times} robots; each needs one of its own.")
+    return names
+
+
+def configs(options: argparse.Namespace, count: int) -> list[Config]:
+    """The settings of each of the robots; BadConfig or UserMistake with one sentence."""
+    files: list[Path] = options.config
+    if len(files) not in (0, 1, count):
+        raise UserMistake(
+            f"--config is said once, or {count} times for {count} robots, not {len(files)} times."
+        )
+    read = [load(file) for file in files] or [NOTHING_SET]
+    if len(read) == count:
+        return read
+    only = read[0]
+    for what, given in (("name", only.robot.name), ("database", only.database.url)):
+        if given is not None:
+            raise UserMistake(
+                f"{files[0]}: its {what} cannot be that of {count} robots; give each a --config of its own."
+            )
+    return read * count
+
+
+def ports(options: argparse.Namespace, number: int) -> tuple[int, int]:
+    """Of the rosbridge socket and of the web site of the robot of this number, from 0 on."""
+    bridge, http = (port and port + number for port in (options.port, options.http_port))
+    if max(bridge, http) > 65535:
+        raise UserMistake(f"Robot {number + 1} would have port {max(bridge, http)}; a port is 0 to 65535.")
+    return bridge, http
+
+
+def state(options: argparse.Namespace, names: Sequence[str], number: int, world: str) -> Path:
+    """The directory of what the robot of this number keeps; the same whether it is served alone or with others."""
+    before = names[:number].count(names[number])
+    name = f"{names[number]}-{before + 1}" if before else names[number]
+    if options.state is not None:
+        return Path(options.state) / name if len(names) > 1 else Path(options.state)
+    base = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
+    if name.startswith("ros:"):
+        return Path(base) / "pilothouse" / _plain(name)
+    where = str(Path(world).resolve()) if world.endswith(".toml") else world
+    return Path(base) / "pilothouse" / f"sim-{_plain(name)}-{_plain(where)}"
+
+
+def _plain(name: str) -> str:
+    return re.sub(r"[^\w.-]+", "-", name)

@@ -1,0 +1,135 @@
+"""The command line of the robot side: several robots, where each keeps its things, and what is wrong with what was typed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from robotside.config import BadConfig
+from robotside.options import MOST, One, UserMistake, configs, ports, read, robots, state
+
+
+def named(words: str) -> list[One]:
+    return robots(read(words.split()))
+
+
+def test_one_robot_is_what_is_served_when_nothing_is_said() -> None:
+    assert robots(read(["serve"])) == [One("patrol", (), "")]
+
+
+def test_several_robots_are_named_with_commas_and_what_each_carries_with_a_plus() -> None:
+    found = named("--robot sim:patrol,scout+arm+lights,sim:patrol --name Rex,Max,Ada")
+    assert found == [
+        One("patrol", (), "Rex"),
+        One("scout", ("arm", "lights"), "Max"),
+        One("patrol", (), "Ada"),
+    ]
+
+
+def test_payloads_of_the_only_robot_may_be_an_option_of_their_own() -> None:
+    assert named("--robot sim:patrol+arm --payloads lights,laser") == [
+        One("patrol", ("arm", "lights", "laser"), "")
+    ]
+
+
+def test_another_robot_is_served_alone_and_its_name_may_have_a_comma() -> None:
+    options = read(["--robot", "ros:ws://192.0.2.7:9090", "--name", "Rex, the first"])
+    assert robots(options) == [One("ros:ws://192.0.2.7:9090", (), "Rex, the first")]
+
+
+def test_each_robot_has_the_next_ports_and_free_ones_stay_free() -> None:
+    options = read(["--port", "9090", "--http-port", "0"])
+    assert [ports(options, number) for number in (0, 1, 2)] == [(9090, 0), (9091, 0), (9092, 0)]
+
+
+def test_each_robot_keeps_its_own_whether_it_is_alone_or_with_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_STATE_HOME", "/kept")
+    options = read(["serve"])
+    both = [state(options, ["patrol", "patrol"], number, "office") for number in (0, 1)]
+    assert both == [Path("/kept/pilothouse/sim-patrol-office"), Path("/kept/pilothouse/sim-patrol-2-office")]
+    assert state(options, ["patrol"], 0, "office") == both[0]
+    assert state(options, ["patrol"], 0, "/far/my field.toml").name == "sim-patrol--far-my-field.toml"
+    assert state(options, ["ros:ws://192.0.2.7:9090"], 0, "").name == "ros-ws-192.0.2.7-9090"
+
+
+def test_a_directory_that_is_named_is_that_of_the_only_robot_and_holds_those_of_several() -> None:
+    options = read(["--state", "/my"])
+    assert state(options, ["scout"], 0, "office") == Path("/my")
+    names = ["scout", "patrol", "scout"]
+    assert [state(options, names, number, "office").name for number in range(3)] == [
+        "scout",
+        "patrol",
+        "scout-2",
+    ]
+
+
+def test_settings_are_one_file_for_all_or_one_each(tmp_path: Path) -> None:
+    files = []
+    for number in (1, 2):
+        files.append(tmp_path / f"{number}.toml")
+        files[-1].write_text(f"[limits]\nmax_speed = 0.{number}\n")
+    one, two = (("--config", str(file)) for file in files)
+    assert [each.limits.max_speed for each in configs(read(one), 3)] == [0.1, 0.1, 0.1]
+    assert [each.limits.max_speed for each in configs(read([*one, *two]), 2)] == [0.1, 0.2]
+    with pytest.raises(UserMistake, match="--config is said once, or 3 times for 3 robots, not 2 times"):
+        configs(read([*one, *two]), 3)
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [("[robot]\nname = 'Rex'", "name"), ("[database]\nurl = 'sqlite:///kept.db'", "database")],
+)
+def test_what_two_robots_cannot_share_is_refused(tmp_path: Path, text: str, what: str) -> None:
+    file = tmp_path / "robot.toml"
+    file.write_text(text)
+    options = read(["--config", str(file)])
+    assert len(configs(options, 1)) == 1
+    with pytest.raises(
+        UserMistake, match=f"its {what} cannot be that of 2 robots; give each a --config of its own"
+    ):
+        configs(options, 2)
+
+
+def test_a_wrong_file_among_several_is_named(tmp_path: Path) -> None:
+    for name, text in (("a", ""), ("b", "[limits]\nmax_speed = -1")):
+        (tmp_path / name).write_text(text)
+    with pytest.raises(BadConfig, match="b: limits.max_speed must be a number above 0, not -1"):
+        configs(read(["--config", str(tmp_path / "a"), "--config", str(tmp_path / "b")]), 2)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("--robot sim:patrol,,scout", "There is no robot 'sim:patrol,,scout'; simulated ones are written as"),
+        (f"--robot sim:{','.join(['patrol'] * 33)}", f"One robot side serves at most {MOST} robots, not 33."),
+        (
+            "--robot sim:patrol,scout --payloads arm",
+            "--payloads is for one robot; say of each of 2 what it carries",
+        ),
+        (
+            "--robot sim:patrol,scout --name Rex",
+            "--name must have 2 names with commas between, not 1: 'Rex'.",
+        ),
+        (
+            "--robot sim:patrol,scout --name Rex,Rex",
+            "--name gives 'Rex' to 2 robots; each needs one of its own.",
+        ),
+        (
+            "--robot ros:ws://192.0.2.7:9 --world lake",
+            "--world is for simulated robots; a real one has what it has.",
+        ),
+        ("--gui", "--gui needs a display, and DISPLAY is not set."),
+    ],
+)
+def test_what_cannot_be_is_one_sentence(monkeypatch: pytest.MonkeyPatch, words: str, said: str) -> None:
+    monkeypatch.delenv("DISPLAY", raising=False)
+    with pytest.raises(UserMistake) as problem:
+        named(words)
+    assert str(problem.value).startswith(said)
+    assert "\n" not in str(problem.value)
+
+
+def test_ports_end_where_there_are_no_more() -> None:
+    with pytest.raises(UserMistake, match="Robot 2 would have port 65536"):
+        ports(read(["--port", "65535"]), 1)
