@@ -8,11 +8,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import msgspec
+from py_trees.composites import Sequence as Chain
 
 from bridge.msgs.pilothouse_msgs import TASKS, Mission, Place, RobotInfo, TaskOrder, Waypoint
 from robotside.behaviours.course import Course, Span
 from robotside.behaviours.deliver import deliver
 from robotside.behaviours.dock import Dock, before
+from robotside.behaviours.fly import Land, Surface, TakeOff
 from robotside.behaviours.follow_heading import FollowHeading
 from robotside.behaviours.hold import Hold
 from robotside.behaviours.lead import lead
@@ -25,7 +27,7 @@ from robotside.guide import Goal, Guide
 from robotside.tasks import Task
 from robotside.words import plain
 
-__all__ = ["Assignments", "words_for"]
+__all__ = ["Assignments", "tasks_of", "words_for"]
 
 MOST_PLACES = 100
 """That one task may name."""
@@ -42,6 +44,9 @@ LONGEST_TIME = 24 * 3600.0
 NAMED = 8
 """Places that a refusal names."""
 
+LOWEST = 0.3
+"""What flies is sent no lower [m]."""
+
 _WORDS = {
     "patrol": "a patrol",
     "deliver": "a delivery",
@@ -51,12 +56,23 @@ _WORDS = {
     "hold": "holding",
     "follow_heading": "following a heading",
     "dock": "docking",
+    "take_off": "taking off",
+    "land": "landing",
+    "surface": "surfacing",
 }
 
 
 def words_for(task: str) -> str:
     """What a task is called within a sentence."""
     return _WORDS.get(task, task)
+
+
+def tasks_of(info: RobotInfo) -> list[str]:
+    """The tasks that a robot knows, which depend on its kind and its manoeuvres."""
+    unknown = {task for task in ("take_off", "land", "surface") if task not in info.manoeuvres}
+    if info.kind not in ("wheels", ""):
+        unknown.add("dock")
+    return [task for task in TASKS if task not in unknown]
 
 
 class Assignments:
@@ -85,6 +101,9 @@ class Assignments:
             "hold": self._hold,
             "follow_heading": self._follow_heading,
             "dock": self._dock,
+            "take_off": self._take_off,
+            "land": self._land,
+            "surface": self._surface,
         }
 
     def task(self, order: TaskOrder, by: str = "") -> Task:
@@ -92,7 +111,13 @@ class Assignments:
         make = self._makers.get(order.task)
         if make is None:
             raise Refusal(f"There is no task {order.task!r}; there are {', '.join(TASKS)}.")
+        known = tasks_of(self._info)
+        if order.task not in known:
+            raise Refusal(
+                f"{self._info.name} does not know {words_for(order.task)}; it knows {', '.join(known)}."
+            )
         order = _tidy(order)
+        self._check_height(order.height)
         return replace(make(order), order=order, by=by)
 
     def home(self) -> Waypoint | None:
@@ -173,11 +198,14 @@ class Assignments:
             raise Refusal("Home is not set; set it on the map first.")
         self._check("Home", home.x, home.y)
         course, tree = single("Home", home, self._guide, self._situation)
+        if "land" in tasks_of(self._info):
+            down = Land(self._guide, self._situation)
+            tree = Chain("home and down", memory=True, children=[tree, down])
         return Task("go_home", "Way home", tree, course, done=lambda: "Home.")
 
     def _hold(self, order: TaskOrder) -> Task:
         span = self._span(order)
-        tree = Hold(span, self._guide, self._situation)
+        tree = Hold(span, self._guide, self._situation, order.height)
         done = f"Held for {order.duration:.0f} s."
         return Task("hold", "Holding", tree, span, done=lambda: done, moves=False)
 
@@ -188,9 +216,41 @@ class Assignments:
         if not (math.isnan(order.speed) or 0 < order.speed <= most):
             raise Refusal(f"The speed must be above 0 and at most {most:g} m/s, not {order.speed:g} m/s.")
         span = self._span(order)
-        tree = FollowHeading(order.heading, order.speed, span, self._guide, self._situation)
+        if not math.isnan(order.throttle) and not (-1 <= order.throttle <= 1 and order.throttle):
+            raise Refusal(f"The throttle must be a part from -1 to 1 and not 0, not {order.throttle:g}.")
+        tree = FollowHeading(
+            order.heading, order.speed, span, self._guide, self._situation, throttle=order.throttle
+        )
         done = f"Followed the heading for {order.duration:.0f} s."
         return Task("follow_heading", "Following a heading", tree, span, done=lambda: done)
+
+    def _take_off(self, order: TaskOrder) -> Task:
+        tree = TakeOff(self._guide, self._situation, order.height)
+        return Task("take_off", "Take-off", tree, self._moment(), done=lambda: "In the air.")
+
+    def _land(self, _: TaskOrder) -> Task:
+        tree = Land(self._guide, self._situation)
+        return Task("land", "Landing", tree, self._moment(), done=lambda: "Landed.", moves=False)
+
+    def _surface(self, _: TaskOrder) -> Task:
+        tree = Surface(self._guide, self._situation)
+        return Task("surface", "Surfacing", tree, self._moment(), done=lambda: "At the surface.", moves=False)
+
+    def _moment(self) -> Span:
+        """Of a task that visits nothing and takes as long as it takes."""
+        return Span(math.nan, lambda: self._situation.worked)
+
+    def _check_height(self, height: float) -> None:
+        """Refuse a height at which a robot of this kind cannot be."""
+        if math.isnan(height):
+            return
+        name, kind = self._info.name, self._info.kind
+        if kind not in ("quadrotor", "hexapod"):
+            raise Refusal(f"{name} keeps no height; leave it out.")
+        if kind == "quadrotor" and not LOWEST <= height < math.inf:
+            raise Refusal(f"The height must be at least {LOWEST:g} m, not {height:g} m.")
+        if kind == "hexapod" and not -math.inf < height <= 0:
+            raise Refusal(f"The height must be 0 at the surface or negative below it, not {height:g} m.")
 
     def _dock(self, order: TaskOrder) -> Task:
         dock = self._named_dock(order)

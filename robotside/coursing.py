@@ -28,6 +28,9 @@ TURNS_FIRST = 0.6
 SLOW = 0.4
 """The speed at which a boat, which turns only by going, comes about [m/s]."""
 
+BOAT_TURNS = 3.0
+"""Of the bend in which a boat comes about [m]."""
+
 ALIGNED = 0.1
 """It looks to where it should within this [rad]."""
 
@@ -45,6 +48,7 @@ MANNERS = {
 class Coursing:
     """`going.Going` of a robot that keeps courses."""
 
+    keeps_courses = True
     look = 10.0
 
     def __init__(self, robot: Robot) -> None:
@@ -52,6 +56,7 @@ class Coursing:
         self._robot, self._kind = robot, info.kind
         self._manner = MANNERS[info.kind]
         self.cruise, self.clear = min(CRUISE * info.max_speed, FASTEST), info.radius + 0.18
+        self.turning = BOAT_TURNS if info.kind == "boat" else 0.0
         self.height = math.nan
         """To go at, above the map's origin [m]; NaN for the present one. A task sets it."""
         self.aloft = info.kind != "quadrotor"
@@ -102,13 +107,13 @@ class Coursing:
         if abs(bearing) > TURNS_FIRST:
             speed = SLOW if self._kind == "boat" else 0.0
         self._speed = speed if sure else min(speed, UNSURE_SPEED)
-        self._keep(wrap(pose.yaw + bearing), self._speed)
+        self.along(wrap(pose.yaw + bearing), self._speed)
 
     def face(self, pose: Pose2, yaw: float) -> bool:
         """Turn to `yaw`; a boat, which turns only by going, looks wherever it came from."""
         if self._kind == "boat" or abs(wrap(yaw - pose.yaw)) < ALIGNED:
             return True
-        self._keep(yaw, 0.0)
+        self.along(yaw, 0.0)
         return False
 
     def ready(self, pose: Pose2, now: float) -> str:
@@ -127,8 +132,9 @@ class Coursing:
         usual = TAKES_OFF_TO + (0.0 if math.isnan(self.measured) else self.measured)
         self._order(Manoeuvre(kind="take_off", height=usual if math.isnan(told) else told))
 
-    def _keep(self, yaw: float, speed: float) -> None:
-        self._order(Manoeuvre(kind="course", yaw=yaw, speed=speed, throttle=math.nan, height=self.height))
+    def along(self, yaw: float, speed: float, throttle: float = math.nan) -> None:
+        """Keep to `yaw` [rad] at a `speed` [m/s], NaN for what the `throttle`, -1 to 1, gives."""
+        self._order(Manoeuvre(kind="course", yaw=yaw, speed=speed, throttle=throttle, height=self.height))
 
     def _order(self, order: Manoeuvre) -> None:
         if isinstance(self._robot, Manoeuvrable):

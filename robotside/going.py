@@ -19,6 +19,10 @@ UNSURE_SPEED = 0.15
 class Going(Protocol):
     """Goes one way after the other; it stands without one until `plan`, and again after `forget`."""
 
+    keeps_courses: bool
+    """The robot knows manoeuvres that keep a heading, a speed and a height."""
+    turning: float
+    """Of the tightest bend in which it turns [m]; 0 when it turns where it is."""
     cruise: float
     """The speed that it travels with [m/s]."""
     look: float

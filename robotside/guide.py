@@ -141,7 +141,22 @@ class Guide:
         if isinstance(self.going, Coursing):
             self.going.aloft = phase in ("flying", "landing")
 
-    def order(self, manoeuvre: Manoeuvre) -> None:
+    @property
+    def height(self) -> float:
+        """Of the robot above the map's origin [m]; NaN while not known."""
+        return self.going.measured if isinstance(self.going, Coursing) else math.nan
+
+    def keep_height(self, height: float) -> None:
+        """Go at a `height` above the map's origin [m] from now on; NaN for the one that it is at."""
+        if isinstance(self.going, Coursing):
+            self.going.height = height
+
+    def take_off(self, height: float) -> None:
+        """Rise from the ground to a `height` above the map's origin [m], NaN for the usual one."""
+        if isinstance(self.going, Coursing):
+            self.going.take_off(height)
+
+    def command(self, manoeuvre: Manoeuvre) -> None:
         """The same for what a twist does not say, of a robot that knows manoeuvres; others stay as they are."""
         if isinstance(self._robot, Manoeuvrable):
             self._robot.manoeuvre(manoeuvre)

@@ -30,6 +30,7 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from bridge.msgs.std_msgs import Header, Time
 from robotside.agenda import Agenda
+from robotside.assignments import tasks_of
 from robotside.authority import Operator
 from robotside.autonomy import Autonomy
 from robotside.bus import Bus
@@ -93,7 +94,11 @@ class Station:
         """When trouble began or ended last [s]: what was measured before says nothing of the time since."""
         self.keeper = Keeper(config.limits, port_info(robot))
         """Keeps the robot to its limits."""
-        self.info = replace(self.keeper.info, name=name or config.robot.name or robot.info.name)
+        self.info = replace(
+            self.keeper.info,
+            name=name or config.robot.name or robot.info.name,
+            tasks=tasks_of(robot.info),
+        )
         self.bus = Bus()
         self.demand = Demand(robot.want)
         self.options = Options(config.control, records.setting, records.set_setting)
@@ -421,7 +426,7 @@ class Station:
             self.controls,
             self.robot,
             self.autonomy.engine,
-            SafeState(self.info.kind, config.safe_state),
+            SafeState(self.info.kind, config.safe_state, self.info.manoeuvres),
             self.options,
             say=self.events.say,
             clock=self.clock,

@@ -140,6 +140,7 @@ class Engine:
         self._next_progress = self._ticked = now
         self._situation.begin()
         self._situation.now = now
+        self._guide.keep_height(task.order.height)
         course = task.course
         verb = "goes on" if task_id else "started"
         self.status = TaskStatus(

@@ -22,6 +22,8 @@ NOWHERE: Points = np.empty((0, 2))
 class Wheeling:
     """`going.Going` of a robot that turns where it stands."""
 
+    keeps_courses = False
+    turning = 0.0
     look = 6.0
 
     def __init__(self, robot: Robot) -> None:

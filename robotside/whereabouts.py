@@ -45,7 +45,7 @@ TOLD_REACH, TOLD_TURN = 1.0, 0.5
 """How wrong a pose told by an operator's finger may be [m, rad]."""
 
 
-FIX_SPREAD = 2.5
+FIX_SPREAD = 1.0
 """How far a single fix is trusted by a robot that has no laser [m]: its error changes slowly."""
 
 
@@ -173,6 +173,14 @@ class Whereabouts:
         if self._localiser:
             self._localiser.place(pose, spread=0.3, turn=0.2)
             self._search = (pose, TOLD_REACH, TOLD_TURN)
+
+    def put(self, pose: Pose2) -> None:
+        """The robot was put back to `pose`, where its wheels begin to count anew."""
+        self._odom = None
+        self._fixes.clear()
+        if self._localiser:
+            self._localiser.lift()
+        self.told(pose)
 
     def take_odom(self, msg: Odometry) -> None:
         """Move on by the wheels and tell everyone the new pose."""
