@@ -12,6 +12,7 @@ from app.screens.pane_head import PaneHead
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import ControlStatus
 from widgets import OptionList
+from widgets.kit import QuietButton
 
 __all__ = ["SettingsPane"]
 
@@ -23,9 +24,9 @@ Builder.load_string("""
 
 
 class SettingsPane(BoxLayout):
-    """Dispatches `on_close`."""
+    """Dispatches `on_close`, and `on_reset` when the robot shall be put back to where it started."""
 
-    __events__ = ("on_close",)
+    __events__ = ("on_close", "on_reset")
 
     def __init__(self, session: Session, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -33,6 +34,8 @@ class SettingsPane(BoxLayout):
         self.head, self.options = PaneHead(title="The robot's settings"), OptionList()
         self.add_widget(self.head)
         self.add_widget(self.options)
+        self.back = QuietButton(text="Put it back to where it started", icon="replay")
+        self.back.bind(on_release=lambda _: self.dispatch("on_reset"))
         self.head.bind(on_close=lambda _: self.dispatch("on_close"))
         self.options.bind(
             on_command=lambda _, name, value: session.command("setting", name=name, value=value)
@@ -50,6 +53,10 @@ class SettingsPane(BoxLayout):
             self.options.forget()
         self.options.state = "live" if may and session.offers("/settings/set") else "disabled"
         self.head.sentence = self._sentence()
+        possible = session.offer is not None and session.offers("/robot/reset")
+        if possible != (self.back.parent is self):
+            (self.add_widget if possible else self.remove_widget)(self.back)
+        self.back.disabled = not may
 
     def _sentence(self) -> str:
         session = self._session
@@ -64,3 +71,6 @@ class SettingsPane(BoxLayout):
 
     def on_close(self) -> None:
         """A finger asked to go back to the lists."""
+
+    def on_reset(self) -> None:
+        """A finger asked to put the robot back; nobody has confirmed that yet."""

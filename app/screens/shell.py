@@ -21,6 +21,7 @@ from app.screens.control_cards import ControlCards
 from app.screens.notices import BRIEF, LONG, Notices
 from app.screens.placing import put
 from app.screens.rail import Rail
+from app.screens.resetting import Resetting
 from app.screens.top_bar import TopBar
 from app.session import Session
 from app.stopping import silence
@@ -76,6 +77,7 @@ class Shell(FloatLayout):
         for widget in (self._banner, self._stop_banner, self.question, self.notices):
             widget.bind(height=self._place_notices)
         self._greeted = ""
+        self._followers: list[Callable[[str, Post], None]] = []
         self._stands: object = None
         """What was last said of the robot, as of `_look`."""
         self.session.tasking.on_forgotten = self._offer_undo
@@ -83,6 +85,7 @@ class Shell(FloatLayout):
         self._dashboard.bind(self.bar.ids.battery, "/battery_state")
         self._dashboard.bind(self.question, "/task/status", fresh=False)
         self.cards = ControlCards(self.session, self.notices, self._dashboard, self.say)
+        self.reset = Resetting(self.session, self.notices)
         self._dashboard.enter()
         self.session.listeners.append(self._hear)
         self._greet()
@@ -147,6 +150,19 @@ class Shell(FloatLayout):
         screen.enter()
         self._show_rail()
 
+    def replace(self, name: str, screen: Any) -> None:
+        """Take another screen in the place of the one of that name; where that is on the glass its controls rest first."""
+        old, self.screens[name] = self.screens[name], screen
+        old.rest()
+        if self.screen == name:
+            old.leave()
+            self.screen = ""
+            self.go(name)
+
+    def follow(self, hear: Callable[[str, Post], None]) -> None:
+        """Tell `hear` what this frame hears, until it is closed."""
+        self._followers.append(hear)
+
     def _show_rail(self) -> None:
         self.nav.show(
             self.screen,
@@ -182,6 +198,8 @@ class Shell(FloatLayout):
 
     def _hear(self, channel: str, post: Post) -> None:
         self._dashboard.deliver(channel, post.value)
+        for follower in self._followers:
+            follower(channel, post)
         for screen in self.screens.values():
             screen.hear(channel, post)
         if channel in STANDING:
@@ -195,7 +213,7 @@ class Shell(FloatLayout):
         elif channel == EVENT:
             self.unsay(post.value.kind)
             news = self.session.logbook.is_news(post.value, self.session.link.robot_time())
-            if post.value.level == "alarm" and news:
+            if post.value.level == "alarm" and news and not self.reset.take(post.value):
                 self.app.alarm(post.value)
 
     def _look(self) -> None:
@@ -230,6 +248,7 @@ class Shell(FloatLayout):
         elif outcome.phase == "accepted":
             self.unsay(outcome.name)
         self.cards.hear(outcome)
+        self.reset.hear(outcome)
 
     def say(self, text: str, level: str = "info", about: str = "", stay: float = BRIEF) -> None:
         """One sentence over the screen for `stay` [s]; `about` is the command or the kind of event it tells of."""
@@ -251,6 +270,7 @@ class Shell(FloatLayout):
         self._dashboard.tick()
         self._tick_question()
         self.cards.tick(self.screen)
+        self.reset.tick()
         self._show_stop()
         self._tick_stop()
         self._show_rail()

@@ -134,6 +134,7 @@ class TasksScreen(FloatLayout):
         )
         for pane in (self.pane, self.place_pane, self.mission_pane, self.settings_pane):
             pane.bind(on_close=lambda _: self.close())
+        self.settings_pane.bind(on_reset=lambda _: self.app.shell.reset.ask())
         self.place_pane.bind(on_back=lambda _, place: self.edit_place(place))
         self.pane.bind(complete=lambda *_: self.acts.tick())
         self.bind(tab=self._tab_changed, detail=self._lay)

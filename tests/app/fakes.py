@@ -40,6 +40,8 @@ from bridge.msgs.pilothouse_msgs import (
     RobotInfo,
     Schedule,
     ScheduledTask,
+    SetLightsRequest,
+    SetLightsResponse,
     SetMissionRequest,
     SetModeRequest,
     SetModeResponse,
@@ -88,6 +90,8 @@ REQUESTS: dict[str, type[Msg]] = {
     "/events/acknowledge": AcknowledgeEventsRequest,
     "/missions/get": GetMissionsRequest,
     "/mission/recall": RecallMissionRequest,
+    "/lights/set": SetLightsRequest,
+    "/robot/reset": CommandRequest,
 }
 RESPONSES: dict[str, type[CommandResponse]] = {
     "/mode/set": SetModeResponse,
@@ -101,6 +105,7 @@ RESPONSES: dict[str, type[CommandResponse]] = {
     "/events/acknowledge": AcknowledgeEventsResponse,
     "/missions/get": GetMissionsResponse,
     "/mission/recall": RecallMissionResponse,
+    "/lights/set": SetLightsResponse,
 }
 """Of the services that answer with more than a sentence, or in a class of their own."""
 

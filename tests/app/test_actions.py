@@ -1,0 +1,192 @@
+"""Actions of a layout: which a robot has, what each says now, and what a press sends."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from app.actions import ACTIONS, Actions
+from app.commands import COMMANDS, Outcome
+from app.feeds import Feeds, Post
+from app.layout import ACTIONS as OFFERED
+from app.layout import Action as Line
+from app.offer import Offer
+from app.session import Session
+from app.settings import Settings
+from bridge.client import LinkState, Phase
+from bridge.msgs.pilothouse_msgs import ControlStatus, LightState, RobotInfo, TaskStatus
+from widgets.icons import ICONS
+
+SERVICES = frozenset({"/stop", "/task/start", "/task/go_home", "/task/pause", "/lights/set", "/robot/reset"})
+AQUA = RobotInfo(
+    name="Aqua-1", kind="hexapod", tasks=["hold", "surface", "follow_heading", "go_home"], cameras=["front"]
+)
+
+
+class Asked:
+    """What was asked for, and an app without a glass."""
+
+    def __init__(self, folder: Path, services: frozenset[str] = SERVICES) -> None:
+        self.commands: list[tuple[str, dict[str, Any]]] = []
+        link = SimpleNamespace(
+            state=LinkState(Phase.CONNECTED, "", 0, 0.0),
+            silent=False,
+            silence=0.0,
+            robot_time=lambda: 100.0,
+            command=lambda name, **fields: self.commands.append((name, fields)),
+            drive=lambda _: None,
+        )
+        self.session = Session(
+            link,  # type: ignore[arg-type]
+            Feeds(lambda: 100.0),
+            Settings(folder / "settings.json"),
+            now=lambda: 100.0,
+            client_id="me",
+            wants_control=False,
+        )
+        self.resets: list[bool] = []
+        self.records = SimpleNamespace(recorder=None, clock="00:07", frame=None, snapshot=lambda: None)
+        self.recorded: list[bool] = []
+        self.toggle_recording = lambda: self.recorded.append(True)
+        self.shell = SimpleNamespace(reset=SimpleNamespace(ask=lambda: self.resets.append(True)))
+        self.session.offer = Offer(
+            {"/control/status": "pilothouse_msgs/ControlStatus"}, services, rosapi=True
+        )
+        self.actions = Actions([Line(what) for what in ACTIONS], self.session, self)
+        self.tell("/robot/info", AQUA)
+        self.tell("/control/status", ControlStatus(driver="us", driver_id="me"))
+
+    def tell(self, topic: str, message: Any) -> None:
+        self.session.deliver(topic, Post(message, 100.0, 1))
+
+    def __getitem__(self, name: str) -> Any:
+        return next(action for action in self.actions.look() if action.name == name)
+
+    @property
+    def names(self) -> list[str]:
+        return [action.name for action in self.actions.look()]
+
+
+@pytest.fixture
+def asked(tmp_path: Path) -> Asked:
+    return Asked(tmp_path)
+
+
+def test_layouts_may_name_exactly_these_and_each_has_its_icon() -> None:
+    assert set(OFFERED) == set(ACTIONS)
+    assert {icon for _, icon in ACTIONS.values()} <= set(ICONS)
+
+
+def test_only_the_tasks_that_the_robot_knows_are_there(asked: Asked) -> None:
+    tasks = [name for name in asked.names if name.startswith("task.")]
+    assert tasks == ["task.surface", "task.hold", "task.follow_heading", "task.go_home"]
+
+
+def test_what_the_robot_has_not_got_is_not_there(tmp_path: Path) -> None:
+    bare = Asked(tmp_path, frozenset({"/stop"}))
+    assert bare.names == ["record", "snapshot"]
+
+
+def test_a_task_is_started_and_ended_by_the_same_button(asked: Asked) -> None:
+    asked.actions.act("task.surface")
+    ((name, fields),) = asked.commands
+    assert (name, fields["order"].task) == ("start", "surface")
+    before = asked["task.surface"].meaning
+    asked.tell("/task/status", TaskStatus(task_id=1, task="surface", state="RUNNING"))
+    now = asked["task.surface"]
+    assert now.text == "End surfacing"
+    assert now.meaning != before
+    asked.actions.act("task.surface")
+    assert asked.commands[-1] == ("cancel", {})
+
+
+def test_another_task_is_ended_first_and_without_that_nothing_starts(asked: Asked) -> None:
+    asked.tell("/task/status", TaskStatus(task_id=1, task="follow_heading", state="RUNNING"))
+    asked.actions.act("task.surface")
+    assert [name for name, _ in asked.commands] == ["cancel"]
+    asked.session.tasking.answered(Outcome("cancel", "1", "refused"))
+    assert [name for name, _ in asked.commands] == ["cancel"]
+    asked.actions.act("task.surface")
+    asked.session.tasking.answered(Outcome("cancel", "2", "accepted"))
+    assert [name for name, _ in asked.commands] == ["cancel", "cancel", "start"]
+    assert asked.commands[-1][1]["order"].task == "surface"
+
+
+def test_home_is_gone_to_whatever_it_does(asked: Asked) -> None:
+    asked.tell("/task/status", TaskStatus(task_id=1, task="hold", state="RUNNING"))
+    asked.actions.act("task.go_home")
+    assert asked.commands == [("home", {})]
+
+
+@pytest.mark.parametrize(
+    "control", [ControlStatus(driver="Anna", driver_id="other"), ControlStatus(driver_id="me", stopped=True)]
+)
+def test_no_task_is_started_without_control_or_while_stop_is_pressed(
+    asked: Asked, control: ControlStatus
+) -> None:
+    asked.tell("/control/status", control)
+    assert not asked["task.surface"].able
+    asked.actions.act("task.surface")
+    assert asked.commands == []
+
+
+def test_lights_are_switched_to_what_they_are_not(asked: Asked) -> None:
+    assert asked["lights"].said == ""
+    asked.tell("/lights", LightState(brightness=0.0))
+    assert (asked["lights"].said, asked["lights"].icon) == ("off", "lightbulb")
+    asked.actions.act("lights")
+    asked.tell("/lights", LightState(brightness=1.0))
+    assert (asked["lights"].said, asked["lights"].icon) == ("on", "lightbulb_fill")
+    asked.actions.act("lights")
+    assert asked.commands == [("lights", {"brightness": 1.0}), ("lights", {"brightness": 0.0})]
+
+
+def test_cameras_go_round_and_one_alone_has_no_button(asked: Asked) -> None:
+    assert "camera" not in asked.names
+    asked.tell("/robot/info", RobotInfo(cameras=["front", "rear"]))
+    seen = []
+    for _ in range(3):
+        seen.append(asked["camera"].said)
+        asked.actions.act("camera")
+    assert seen == ["front", "rear", "front"]
+    assert asked.session.camera(None) == "rear"
+
+
+def test_a_camera_that_is_gone_gives_way_to_the_first(asked: Asked) -> None:
+    asked.tell("/robot/info", RobotInfo(cameras=["front", "rear"]))
+    asked.actions.act("camera")
+    asked.tell("/robot/info", RobotInfo(cameras=["front"]))
+    assert asked.session.camera(None) == "front"
+
+
+def test_a_reset_is_asked_about_and_not_sent(asked: Asked) -> None:
+    asked.actions.act("reset")
+    assert (asked.resets, asked.commands) == ([True], [])
+    assert COMMANDS["reset"].service == "/robot/reset"
+
+
+def test_a_recording_says_how_long_it_runs(asked: Asked) -> None:
+    assert asked["record"].text == "Start recording"
+    asked.records.recorder = object()
+    assert (asked["record"].text, asked["record"].said) == ("Stop recording", "00:07")
+    asked.actions.act("record")
+    assert asked.recorded == [True]
+
+
+def test_pause_becomes_resume(asked: Asked) -> None:
+    assert not asked["pause"].able
+    asked.tell("/task/status", TaskStatus(task_id=1, task="hold", state="RUNNING"))
+    asked.actions.act("pause")
+    asked.tell("/task/status", TaskStatus(task_id=1, task="hold", state="PAUSED"))
+    assert asked["pause"].text == "Resume"
+    asked.actions.act("pause")
+    assert [name for name, _ in asked.commands] == ["pause", "resume"]
+
+
+def test_a_picture_is_kept_once_there_is_one(asked: Asked) -> None:
+    assert not asked["snapshot"].able
+    asked.records.frame = object()
+    assert asked["snapshot"].able
