@@ -27,7 +27,7 @@ from app.feeds import Feeds, Mailbox, Post
 from app.fleet import Fleet
 from app.garbage import Collector
 from app.inputs import Inputs
-from app.layout import Layout, load
+from app.layout import Layout, choose, load, load_all
 from app.link import Link
 from app.logbook import marks
 from app.mission import MissionEditor
@@ -92,7 +92,7 @@ class PilothouseApp(App):
         url: str | None = None,
         screen: str | None = None,
         theme: str | None = None,
-        layout: str = "patrol",
+        layout: str | None = None,
         settings_dir: Path | str | None = None,
         simulator: Sequence[str] | None = None,
         *,
@@ -103,12 +103,13 @@ class PilothouseApp(App):
     ) -> None:
         """`url` is connected to at once; `screen` is `mission` or `drive`, shown once connected.
 
-        `theme` overrides the remembered one; `simulator` is the command that starts the built-in simulator;
+        `theme` overrides the remembered one, `layout` the one that is made for the robot; `simulator` is the command that starts the built-in simulator;
         `discover` listens to robots saying HELLO; `poll` looks for fingers once more a frame. Raises LayoutError for a layout that cannot be shown.
         """
         super().__init__(**kwargs)
         self._url, self._first_screen, self._theme = url, screen or "mission", theme
-        self.layout_file: Layout = load(layout, CATALOGUE)
+        self._layouts = load_all(CATALOGUE)
+        self._layout = load(layout, CATALOGUE) if layout is not None else None
         self._settings_dir = settings_dir
         self._simulator_command = simulator
         self._discover, self._poll, self._now = discover, poll, now
@@ -426,12 +427,16 @@ class PilothouseApp(App):
         self._keep_address()
         self.connect.say("")
         place = {"size": self.root.size, "pos": self.root.pos}
-        self.shell = robot_shell(self, self.session, self.layout_file, **place)
+        self.shell = robot_shell(self, self.session, self.layout_for, **place)
         self.root.show_page(self.shell)
         for post in self.session.early:
             self.shell.replay(post)
         self.show(self._first_screen)
         self.shell.tick()  # nothing comes onto the glass that says less than is known
+
+    def layout_for(self, model: str, kind: str) -> Layout:
+        """The drive screen for a robot of that model and kind."""
+        return self._layout or choose(self._layouts, model, kind)
 
     def show(self, screen: str) -> None:
         """Put `mission`, `drive`, `tasks` or `topics` on the glass; KeyError for another."""

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
+from app.feeds import Post
 from app.layout import Layout
 from app.screens.drive import DriveScreen
 from app.screens.mission import MissionScreen
@@ -12,15 +14,49 @@ from app.screens.tasks import TasksScreen
 from app.screens.topics import TopicsScreen
 from app.session import Session
 
-__all__ = ["robot_shell"]
+__all__ = ["Profile", "robot_shell"]
+
+DRIVE = {"float": DriveScreen}
+"""The drive screen of each arrangement."""
 
 
-def robot_shell(app: Any, session: Session, layout: Layout, **kwargs: Any) -> Shell:
-    """The frame with every screen in it; `layout` says which instruments the drive screen has."""
+class Profile:
+    """The drive screen that is made for the robot: as soon as that says what it is, and anew when it says something else."""
+
+    def __init__(self, app: Any, session: Session, layout_for: Callable[[str, str], Layout]) -> None:
+        """`layout_for` gives the layout of a robot's model and kind."""
+        self._app, self._session, self._layout_for = app, session, layout_for
+        self.layout = self._wanted()
+        """The one that is on the glass."""
+
+    def _wanted(self) -> Layout:
+        info = self._session.info
+        return self._layout_for(info.model, info.kind)
+
+    def screen(self) -> Any:
+        """Make its screen."""
+        return DRIVE[self.layout.arrangement](self.layout, app=self._app, session=self._session)
+
+    def follow(self, shell: Shell) -> None:
+        """Have `shell` show another one when the robot turns out to be something else."""
+
+        def hear(channel: str, _: Post) -> None:
+            if channel == "/robot/info" and self._wanted() != self.layout:
+                self.layout = self._wanted()
+                shell.replace("drive", self.screen())
+
+        shell.follow(hear)
+
+
+def robot_shell(app: Any, session: Session, layout_for: Callable[[str, str], Layout], **kwargs: Any) -> Shell:
+    """The frame with every screen in it; `layout_for` gives the drive screen of a robot's model and kind."""
+    profile = Profile(app, session, layout_for)
     screens = {
         "mission": MissionScreen(app=app, session=session),
-        "drive": DriveScreen(layout, app=app, session=session),
+        "drive": profile.screen(),
         "tasks": TasksScreen(app=app, session=session),
         "topics": TopicsScreen(app=app, session=session),
     }
-    return Shell(screens, app=app, session=session, **kwargs)
+    shell = Shell(screens, app=app, session=session, **kwargs)
+    profile.follow(shell)
+    return shell

@@ -1,0 +1,226 @@
+"""The controls of a layout as widgets: what they say together drives the robot, and each can do no more than the robot may."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from kivy.event import EventDispatcher
+from kivy.properties import StringProperty
+from kivy.uix.widget import Widget
+
+import widgets
+from app.actions import Actions
+from app.dashboard import Dashboard
+from app.drive_slot import Drive
+from app.layout import SLIDER, Control, Layout
+from app.piloting import Parts, Piloting, Reach
+from app.screens.in_vain import InVain
+from app.screens.instruments import check_shows
+from app.screens.speed_card import SpeedCard, allowed
+from app.session import Session
+from bridge.msgs.geometry_msgs import PoseStamped
+from bridge.msgs.pilothouse_msgs import TaskOrder, Waypoint
+from widgets.stick import Stick
+
+__all__ = ["Hands"]
+
+FIRST = 0.6
+"""Share of the robot's greatest speed that the slider begins with."""
+SAYS = {"RudderThrottle": ("throttle", "steering"), "TiltCircle": ("roll", "pitch")}
+"""Which of `app.piloting.PARTS` a control says; a stick says what its layout says."""
+OWN = Reach()
+"""What the controls mean where the robot does not say what it can."""
+
+
+class Hands(EventDispatcher):
+    """Made once for a screen, which puts the widgets where they belong. Everything here happens in the UI thread."""
+
+    chosen = StringProperty("")
+    """Title of the one that is on the glass, of two controls in one slot; empty where every slot has one."""
+
+    def __init__(
+        self, layout: Layout, session: Session, dashboard: Dashboard, actions: Actions, in_vain: InVain
+    ) -> None:
+        """`actions` does what a slide confirms, `in_vain` tells why a push does nothing. LayoutError when one cannot show its topic."""
+        self._session, self._dashboard = session, dashboard
+        self._actions, self._in_vain = actions, in_vain
+        self.places: dict[str, list[Widget]] = {}
+        """Widgets by slot, in the order of the layout."""
+        self.speed: SpeedCard | None = None
+        """How fast the others are at the end of their way; None where nothing says that."""
+        self._sticks: list[tuple[Stick, Control]] = []
+        self._asking: list[tuple[Any, Control]] = []
+        """Controls that ask for something once."""
+        self._limited = False
+        self.reach = OWN
+        """What the controls mean at the end of their way now."""
+        super().__init__()
+        for one in layout.controls:
+            self._add(one)
+        slots = [one.slot for one in layout.controls]
+        self.choices: dict[str, Widget] = {
+            one.title: widget
+            for one, widget in self._all(layout)
+            if slots.count(one.slot) > 1 and one.slot == "stick"
+        }
+        """Those of which one is on the glass, by what they are called."""
+        self.chosen = next(iter(self.choices), "")
+        self.bind(chosen=lambda *_: self.rest())
+        says = {part for _, one in self._sticks for part in SAYS.get(one.widget, (one.forward, one.left))}
+        self.piloting = Piloting(self._drive, self._kinds, lambda: self.reach, says)
+
+    def _all(self, layout: Layout) -> list[tuple[Control, Widget]]:
+        left = {slot: list(found) for slot, found in self.places.items()}
+        return [(one, left[one.slot].pop(0)) for one in layout.controls]
+
+    def _add(self, one: Control) -> None:
+        widget = self._slider() if one.widget == SLIDER else self._made(one)
+        self.places.setdefault(one.slot, []).append(widget)
+
+    def _slider(self) -> SpeedCard:
+        self.speed = SpeedCard()
+        self.speed.bind(maximum_speed=self._limit)
+        return self.speed
+
+    def _made(self, one: Control) -> Any:
+        kind = getattr(widgets, one.widget)
+        widget = kind()
+        if one.topic:
+            check_shows(kind, (one.topic,))
+            self._dashboard.bind(widget, one.topic, fresh=False)
+        if hasattr(widget, "on_in_vain"):
+            widget.bind(on_in_vain=lambda _: self._in_vain.tell())
+        if isinstance(widget, Stick):
+            self._sticks.append((widget, one))
+            widget.bind(on_command=lambda stick, said: self._pushed(stick, said, one))
+        else:
+            self._asking.append((widget, one))
+            self._wire(widget, one)
+        return widget
+
+    def _wire(self, widget: Any, one: Control) -> None:
+        """What a control that is no stick asks for when it is used."""
+        for name in ("text", "title"):
+            if one.title and hasattr(widget, name):
+                setattr(widget, name, one.title)
+        if hasattr(widget, "on_confirm"):
+            widget.bind(on_confirm=lambda *_: self._actions.act(one.action))
+        elif hasattr(widget, "on_course"):
+            widget.bind(on_course=lambda _, yaw: self._follow(yaw))
+        elif PoseStamped in getattr(widget, "sends", ()):
+            widget.bind(on_command=lambda _, goal: self._go_to(goal))
+
+    # what the fingers do
+
+    def _pushed(self, stick: Stick, said: Drive, one: Control) -> None:
+        if one.widget in SAYS:
+            self.piloting.take(stick, Parts.of(said))
+            return
+        reach = self.reach
+        self.piloting.take(
+            stick,
+            Parts(
+                **{
+                    one.forward: stick.forward * reach.of(one.forward),
+                    one.left: stick.left * reach.of(one.left),
+                }
+            ),
+        )
+
+    def _drive(self, order: Drive) -> None:
+        self._session.link.drive(order)
+
+    def _kinds(self) -> tuple[str, ...]:
+        session = self._session
+        return tuple(session.info.manoeuvres) if session.link.steers else ()
+
+    def _follow(self, yaw: float) -> None:
+        """Hold a course: at the throttle that is given now, else at the robot's own pace."""
+        self._start(TaskOrder(task="follow_heading", heading=yaw))
+
+    def _go_to(self, goal: PoseStamped) -> None:
+        point, yaw = goal.pose.position, goal.pose.orientation.yaw
+        self._start(TaskOrder(task="go_to", goals=[Waypoint(point.x, point.y, yaw)]))
+
+    def _start(self, order: TaskOrder) -> None:
+        session = self._session
+        if not session.may_ask:
+            self._in_vain.tell()
+        elif session.running:
+            session.tasking.start_instead(order)
+        else:
+            session.tasking.start(order)
+
+    # what the screen calls
+
+    @property
+    def sticks(self) -> list[tuple[Stick, str]]:
+        """What drives and is on the glass, each with the stick of a gamepad that pushes it too; empty for none."""
+        return [(stick, one.pad) for stick, one in self._sticks if self.shown(stick)]
+
+    def shown(self, widget: Widget) -> bool:
+        """It is on the glass, and not the other one of its slot."""
+        return widget not in self.choices.values() or self.choices[self.chosen] is widget
+
+    def rest(self) -> None:
+        """Every control lets go."""
+        for widget, _ in (*self._sticks, *self._asking):
+            widget.rest()
+
+    def tick(self) -> None:
+        """Bring up to date what may be used."""
+        session = self._session
+        for stick, _ in self._sticks:
+            stick.state = "live" if session.may_drive else "disabled"
+        able = {action.name: action.able for action in self._actions.look()}
+        asked = session.may_ask and not session.stop_latched
+        for widget, one in self._asking:
+            may = able.get(one.action, False) if one.action else asked
+            widget.state = "live" if may else "disabled"
+
+    def take_limits(self) -> None:
+        """The slider's range is the robot's; where it stood is kept."""
+        limits, info = self._session.feeds.latest("/limits"), self._session.info
+        fastest, _ = allowed(info, limits)
+        if self.speed is not None:
+            self._range(self.speed, fastest)
+        self._limited = self._limited or bool(info.max_speed)
+        self._limit()
+
+    def _range(self, speed: SpeedCard, fastest: float) -> None:
+        limits = self._session.feeds.latest("/limits")
+        speed.speed_limit = limits.max_speed if limits is not None else math.nan
+        speed.turn_limit = limits.max_yaw_rate if limits is not None else math.nan
+        fader = speed.ids.fader
+        if self._limited and fader.maximum == fastest:
+            return
+        fader.minimum, fader.maximum, fader.step = fastest / 10, fastest, 0.0
+        wanted = speed.maximum_speed if self._limited else fastest * FIRST
+        fader.value = min(max(wanted, fader.minimum), fastest)
+        speed.maximum_speed = fader.value
+
+    def _limit(self, *_: object) -> None:
+        """Slow on the slider is slow in everything but turning, which is never below half, and steering, which is whole."""
+        info = self._session.info
+        fastest, turn = allowed(info, self._session.feeds.latest("/limits"))
+        speed = self.speed.maximum_speed if self.speed is not None else fastest
+        share = min(1.0, speed / fastest)
+        self.reach = Reach(
+            speed=speed,
+            yaw_rate=turn * (0.5 + 0.5 * share),
+            climb=info.max_climb * share,
+            tilt=(info.max_tilt or OWN.tilt) * share,
+            steering=info.max_steering or OWN.steering,
+        )
+        ends = {
+            "max_speed": speed,
+            "max_yaw_rate": self.reach.yaw_rate,
+            "max_tilt": self.reach.tilt,
+            "max_steering": self.reach.steering,
+            "most": share,
+        }
+        for stick, _ in self._sticks:
+            for name, end in ends.items():
+                if hasattr(stick, name):
+                    setattr(stick, name, end)
