@@ -109,6 +109,11 @@ class Guarded:
         raise ValueError(f"{self.info.name} has no {payload.replace('_', ' ')} that takes orders.")
 
     @property
+    def equipped(self) -> bool:
+        """Its payloads take orders."""
+        return isinstance(self._robot, Equipped)
+
+    @property
     def resettable(self) -> bool:
         """It can be put back to where it started."""
         return isinstance(self._robot, Resettable)

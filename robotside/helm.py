@@ -128,6 +128,12 @@ class Helm:
             return f"A drive command was dropped: {info.name} cannot {order.kind}."
         return ""
 
+    def put_back(self) -> None:
+        """The robot was put elsewhere, at rest: whatever held or drove it is over, and no stick counts before it was let go."""
+        self._controls.halt()
+        self._safe.leave()
+        self._ran = self._returned = False
+
     def rest(self, now: float) -> None:
         """Nobody drives any more: take the safe state, `now` [s, robot clock]."""
         self._enter(now)
@@ -217,7 +223,10 @@ class Helm:
                 self._say("control", "Nobody drives the robot: it goes home.", "warn")
                 return
             self._safe.cannot_return()
-        if act.twist is not None:
+        if act.order is not None:
+            if before is None or before.order is None or before.order.kind != act.order.kind:
+                self._robot.manoeuvre(act.order)  # once: it may know better, as when its charge ends
+        elif act.twist is not None:
             self._robot.drive(act.twist)
         elif before is None or before.twist is not None:
             self._robot.stop()

@@ -125,6 +125,10 @@ class Localiser:
         self.covariance = np.diag([spread**2, spread**2, turn**2])
         self._bad = 0
 
+    def lift(self) -> None:
+        """Somebody carries the robot elsewhere: what its wheels tell next does not follow from what they told before."""
+        self._odom = None
+
     def hear(self, x: float, y: float, spread: float) -> None:
         """Something else puts it at (x, y) [m], to `spread` [m] (one standard deviation) along each axis."""
         if self.pose is None:

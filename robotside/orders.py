@@ -33,6 +33,7 @@ from robotside.answering import Answering
 from robotside.authority import Operator
 from robotside.commands import Refusal
 from robotside.database import NotRecorded
+from robotside.equipment import equipment_services
 from robotside.keeping import kept_services
 from robotside.permits import Permits
 from robotside.pose2 import Pose2
@@ -63,6 +64,7 @@ def services(station: Station) -> Iterable[Service]:
     )
     yield from kept_services(station, answering)
     yield from control_services(station, answering)
+    yield from equipment_services(station, answering)
     yield _service("/mission/get", "GetMission", GetMissionRequest, GetMissionResponse, orders.mission)
     yield _service("/events/get", "GetEvents", GetEventsRequest, GetEventsResponse, orders.events)
 

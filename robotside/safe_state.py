@@ -7,10 +7,11 @@ dies cannot do any of this: there the robot's own drive has to.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, replace
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
+from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.units import wrap
 from robotside.config import SafeStateSettings
 from robotside.limits import Measured
@@ -26,7 +27,7 @@ DEPTH_GAIN, DEPTH_MOST = 0.8, 0.2
 """Towards the depth or height that is held [1/s, m/s]."""
 RISING, SINKING = 0.2, 0.3
 """How fast it surfaces, and lands [m/s]."""
-SURFACE, GROUND = -0.05, 0.08
+SURFACE, GROUND = -0.10, 0.08
 """From this height on it has surfaced, up to this one it has landed [m]."""
 LONGEST = 120.0
 """Surfacing or landing ends after this at the latest, for one that does not measure its height [s]."""
@@ -46,6 +47,8 @@ class Act:
     """What it is about, as an event tells it: `holds its depth`."""
     home: bool = False
     """It is to go home by a task of its own, if it can."""
+    order: Manoeuvre | None = None
+    """In place of the twist, for a robot that does this better by itself; to be given once."""
 
 
 BRAKE = Act(None, "brakes")
@@ -73,8 +76,12 @@ _USUAL = {
 class SafeState:
     """The safe state of one robot. It is entered when a command has run out, and left when somebody drives or a task begins."""
 
-    def __init__(self, kind: str, settings: SafeStateSettings) -> None:
-        """`settings` go before what robots of a `kind` usually do; an unknown kind brakes."""
+    def __init__(self, kind: str, settings: SafeStateSettings, knows: Collection[str] = ()) -> None:
+        """`settings` go before what robots of a `kind` usually do; an unknown kind brakes.
+
+        `knows` are the manoeuvres that it can be told in place of twists.
+        """
+        self._knows = knows
         usual = _USUAL.get(kind, _USUAL["wheels"])
         self._action = settings.action or usual.action
         self._usual_then = self._then = settings.then or usual.then
@@ -145,26 +152,37 @@ class SafeState:
         return Act(Twist(), "brakes straight")
 
     def _hold_heading(self, _: float, measured: Measured) -> Act:
-        return Act(Twist(angular=Vector3(0.0, 0.0, self._turning(measured))), "idles and holds its heading")
+        twist = Twist(angular=Vector3(0.0, 0.0, self._turning(measured)))
+        return self._by("hover", Act(twist, "idles and holds its heading"))
 
     def _hold_depth(self, _: float, measured: Measured) -> Act:
         twist = Twist(Vector3(0.0, 0.0, self._rising(measured)), self._levelling(measured))
-        return Act(twist, "holds its depth")
+        return self._by("hover", Act(twist, "holds its depth"))
 
     def _hover(self, _: float, measured: Measured) -> Act:
+        if measured.landed:
+            return _AT_REST
         twist = Twist(Vector3(0.0, 0.0, self._rising(measured)), Vector3(0.0, 0.0, self._turning(measured)))
-        return Act(twist, "hovers")
+        return self._by("hover", Act(twist, "hovers"))
 
     def _surface(self, since: float, measured: Measured) -> Act:
         if measured.height >= SURFACE or since >= LONGEST:
             return Act(None, "has surfaced")
-        return Act(Twist(Vector3(0.0, 0.0, RISING), self._levelling(measured)), "surfaces")
+        twist = Twist(Vector3(0.0, 0.0, RISING), self._levelling(measured))
+        return self._by("surface", Act(twist, "surfaces"))
 
     def _land(self, since: float, measured: Measured) -> Act:
-        if measured.height <= GROUND or since >= LONGEST:
-            return Act(None, "has landed")
+        if measured.landed:
+            return _AT_REST if self._held.landed else Act(None, "has landed")
         turn = Vector3(0.0, 0.0, self._turning(measured))
-        return Act(Twist(Vector3(0.0, 0.0, -SINKING), turn), "lands")
+        act = self._by("land", Act(Twist(Vector3(0.0, 0.0, -SINKING), turn), "lands"))
+        if act.order is None and (measured.height <= GROUND or since >= LONGEST):
+            return Act(None, "has landed")  # one that does not say it itself
+        return act
+
+    def _by(self, kind: str, act: Act) -> Act:
+        """`act`, by a manoeuvre where the robot knows it: it holds what it has when it is told."""
+        return replace(act, order=Manoeuvre(kind=kind)) if kind in self._knows else act
 
     def _turning(self, measured: Measured) -> float:
         """Towards the heading at the beginning; 0 when it is not known."""

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from bridge.msgs import Msg
 from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.pilothouse_msgs import FlightState
 from bridge.msgs.sensor_msgs import Imu
 from robotside.limits import Measured
 from robotside.pose2 import Pose2
@@ -72,6 +73,8 @@ class Senses:
         elif isinstance(msg, Imu) and msg.orientation_covariance[0] >= 0:
             turned = msg.orientation
             self._measured = replace(self._measured, roll=turned.roll, pitch=turned.pitch)
+        elif isinstance(msg, FlightState):
+            self._measured = replace(self._measured, landed=msg.phase == "landed")
 
     def measured(self, pose: Pose2 | None) -> Measured:
         """All of it, with the pose in `map` that was made of it."""

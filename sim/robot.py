@@ -153,6 +153,7 @@ class SimRobot:
         """
         self._vehicle.reset()
         self._excess = ""
+        self._unread = deque((entry for entry in self._unread if entry[0] == "/events"), maxlen=UNREAD)
         state = self._vehicle.state()
         return Pose(Point(*state.position), Quaternion(*state.rotation))
 
