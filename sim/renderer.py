@@ -50,27 +50,38 @@ def _context() -> moderngl.Context:
         raise NoRendererError(f"Pictures cannot be drawn by OpenGL here: {fault}.") from fault
 
 
-class _Kind:
-    """All shapes of one kind: the fixed ones as a table, and the buffer from which the visible ones are drawn."""
+class _Solids:
+    """All shapes of one kind, polished or matt: the fixed ones as a table, and the buffer from which the visible ones are drawn."""
 
-    def __init__(
-        self, kind: str, program: moderngl.Program, fixed: Iterable[Shape], context: moderngl.Context
-    ) -> None:
+    def __init__(self, kind: str, fixed: Iterable[Shape], context: moderngl.Context, *, glossy: bool) -> None:
+        self._kind, self._glossy, self._context = kind, glossy, context
         corners, order = mesh(kind)
-        self.fixed = rows(shape for shape in fixed if shape.kind == kind)
+        self.fixed = rows(filter(self._takes, fixed))
         self._reach = _reach(self.fixed)
         self._buffer = context.buffer(reserve=max(len(self.fixed) + 64, 1) * FLOATS * 4)
-        content = [(context.buffer(corners), "3f 3f", "corner", "normal"), (self._buffer, _LAYOUT, *_FIELDS)]
-        self._array = context.vertex_array(program, content, index_buffer=context.buffer(order))
+        self._order = context.buffer(order)
+        self._content = [
+            (context.buffer(corners), "3f 3f", "corner", "normal"),
+            (self._buffer, _LAYOUT, *_FIELDS),
+        ]
+        self._arrays: dict[moderngl.Program, moderngl.VertexArray] = {}
 
-    def draw(self, view: View, moving: NDArray[np.float32]) -> None:
+    def draw(self, program: moderngl.Program, view: View, moving: Sequence[Shape]) -> None:
         table = _nearest_first(self.fixed[_visible(self.fixed, self._reach, view)], view)
-        if len(moving):
-            table = np.concatenate((table, moving))
+        others = rows(filter(self._takes, moving))
+        if len(others):
+            table = np.concatenate((table, others))
         if len(table):
             self._buffer.orphan(max(self._buffer.size, table.nbytes))
             self._buffer.write(np.ascontiguousarray(table))
-            self._array.render(moderngl.TRIANGLES, instances=len(table))
+            if program not in self._arrays:
+                self._arrays[program] = self._context.vertex_array(
+                    program, self._content, index_buffer=self._order
+                )
+            self._arrays[program].render(moderngl.TRIANGLES, instances=len(table))
+
+    def _takes(self, shape: Shape) -> bool:
+        return shape.kind == self._kind and (shape.gloss > 0.0) == self._glossy
 
 
 def _reach(table: NDArray[np.float32]) -> NDArray[Any]:
@@ -117,7 +128,7 @@ class Renderer:
         with self._context:
             drawn, resolved = self._target(view.size)
             drawn.use()
-            self._dive(view)
+            self._under = self._world.water is not None and not view.flat and view.eye[2] < 0.0
             drawn.clear(*(DEEP if self._under else HAZE), 1.0)
             self._draw(view, moving)
             if resolved is not drawn:
@@ -132,27 +143,55 @@ class Renderer:
 
     def _prepare(self, world: World) -> None:
         context = self._context
-        rows_, lines = max(len(world.bays), 1), max(len(world.lines), 1)
-        self._sky, self._solid = self._program("sky"), self._program("solid")
-        self._ground = self._program("ground", ROWS=rows_, LINES=lines)
-        square = context.buffer(
+        self._world, self._under = world, False
+        self._made: dict[tuple[str, tuple[tuple[str, int], ...]], moderngl.Program] = {}
+        self._square = context.buffer(
             np.array([-1, -1, 1, -1, 1, 1, -1, -1, 1, 1, -1, 1], dtype=np.float32).tobytes()
         )
+        self._sky = self._program("sky")
+        corners, order = dome()
         self._sky_array = context.vertex_array(
-            self._sky, [(context.buffer(dome()), "3f 2f", "direction", "mark")]
+            self._sky, [(context.buffer(corners), "3f 2f", "direction", "mark")], context.buffer(order)
         )
-        self._ground_array = context.vertex_array(self._ground, [(square, "2f", "corner")])
-        self._kinds = {kind: _Kind(kind, self._solid, world.visuals, context) for kind in KINDS}
+        self._grounds: dict[moderngl.Program, moderngl.VertexArray] = {}
+        self._solids = [
+            (glossy, _Solids(kind, world.visuals, context, glossy=glossy))
+            for glossy in (False, True)
+            for kind in KINDS
+        ]
         self._load_textures(world)
-        self._set_light(world)
 
     def _program(self, name: str, **constants: int) -> moderngl.Program:
-        vertex, fragment = (
-            (_SHADERS / f"{name}.{stage}.glsl").read_text("utf-8") for stage in ("vert", "frag")
-        )
-        for constant, value in constants.items():
-            fragment = fragment.replace("#version 330", f"#version 330\n#define {constant} {value}", 1)
-        return self._context.program(vertex_shader=vertex, fragment_shader=fragment)
+        """The program of this name with these constants, made when it is first asked for."""
+        key = (name, tuple(constants.items()))
+        if key not in self._made:
+            head = "".join(f"\n#define {constant} {value}" for constant, value in constants.items())
+            vertex, fragment = (
+                _source(f"{name}.{stage}.glsl").replace("#version 330", f"#version 330{head}", 1)
+                for stage in ("vert", "frag")
+            )
+            made = self._context.program(vertex_shader=vertex, fragment_shader=fragment)
+            self._set_constants(made)
+            self._made[key] = made
+        return self._made[key]
+
+    def _set_constants(self, program: moderngl.Program) -> None:
+        """What does not change while this world is drawn."""
+        world = self._world
+        length = float(np.linalg.norm(SUN))
+        for name, value in {
+            "panorama": 2,
+            "markings": 0,
+            "grain": 1,
+            "extent": (world.ground.length, world.ground.width),
+            "sun": tuple(part / length for part in SUN),
+            "zenith": ZENITH,
+            "horizon": HORIZON,
+            "murk": MURK,
+        }.items():
+            _set(program, name, value)
+        if "rows" in program:
+            self._paint(program)
 
     def _load_textures(self, world: World) -> None:
         size, data = markings(world)
@@ -168,39 +207,30 @@ class Renderer:
         self._panorama.repeat_y = False
         self._panorama.use(2)
 
-    def _set_light(self, world: World) -> None:
-        length = float(np.linalg.norm(SUN))
-        self._sky["panorama"] = 2
-        self._ground["markings"], self._ground["grain"] = 0, 1
-        self._ground["extent"] = (world.ground.length, world.ground.width)
-        self._paint(world)
-        self._ground["marked"] = bool(world.bays or world.lines)
-        self._ground["horizon"] = HORIZON
-        self._world, self._under = world, False
-        self._solid["sun"] = tuple(part / length for part in SUN)
-        self._solid["zenith"], self._solid["horizon"] = ZENITH, HORIZON
-
-    def _dive(self, view: View) -> None:
-        """Set what is seen of the ground: from under water its bottom, in a haze."""
+    def _ground(self, view: View) -> moderngl.Program:
+        """Draws what is seen of the ground: from under water its bottom."""
         world = self._world
-        wet = world.water is not None
-        self._under = wet and not view.flat and view.eye[2] < 0.0
-        look = "sand" if self._under else world.ground.look
-        self._ground["look"] = LOOKS.index(look)
+        marked = bool(world.bays or world.lines)
+        program = self._program(
+            "ground",
+            LOOK=LOOKS.index("sand" if self._under else world.ground.look),
+            MURKY=int(self._under),
+            ROWS=max(len(world.bays), 1) if marked else 0,
+            LINES=max(len(world.lines), 1) if marked else 0,
+        )
         # a map shows what lies under water
-        self._ground["level"] = world.bottom if self._under or (wet and view.flat) else 0.0
-        for program in (self._ground, self._solid):
-            program["haze"] = DEEP if self._under else HAZE
-            program["murk"] = MURK if self._under else 0.0
+        _set(program, "level", world.bottom if self._under or (world.water and view.flat) else 0.0)
+        return program
 
-    def _paint(self, world: World) -> None:
-        """Hand the painted lines over; a world without any gets one far away."""
+    def _paint(self, program: moderngl.Program) -> None:
+        """Hand the painted lines over; a world without any of one sort gets one far away."""
+        world = self._world
         rows_ = [(row.x, row.y, row.width, row.depth) for row in world.bays] or [(1e6, 1e6, 1.0, 1.0)]
         lines = [(*line.start, *line.end) for line in world.lines] or [(1e6, 1e6, 1e6 + 1, 1e6)]
-        _fill(self._ground, "rows", rows_)
-        _fill(self._ground, "bays", [row.count for row in world.bays] or [1])
-        _fill(self._ground, "lines", lines)
-        _fill(self._ground, "widths", [line.width for line in world.lines] or [0.1])
+        _fill(program, "rows", rows_)
+        _fill(program, "bays", [row.count for row in world.bays] or [1])
+        _fill(program, "lines", lines)
+        _fill(program, "widths", [line.width for line in world.lines] or [0.1])
 
     def _target(self, size: tuple[int, int]) -> tuple[moderngl.Framebuffer, moderngl.Framebuffer]:
         if size not in self._targets:
@@ -214,25 +244,48 @@ class Renderer:
 
     def _draw(self, view: View, moving: Sequence[Shape]) -> None:
         context = self._context
-        for program in (self._ground, self._solid, self._sky):
-            _fill(program, "view_projection", view.matrix().T)
-            program["eye"] = view.eye
         context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         # The picture is drawn upside down, which turns the triangles round.
         context.front_face = "cw"
-        for kind, solids in self._kinds.items():
-            solids.draw(view, rows(shape for shape in moving if shape.kind == kind))
+        matrix = np.ascontiguousarray(view.matrix().T, dtype=np.float32).tobytes()
+        for glossy, solids in self._solids:
+            program = self._program("solid", GLOSSY=int(glossy), MURKY=int(self._under))
+            self._aim(program, view, matrix)
+            solids.draw(program, view, moving)
         context.enable_only(moderngl.DEPTH_TEST)
-        self._ground["centre"], self._ground["reach"] = view.eye[:2], 390.0
-        self._ground_array.render()
+        ground = self._ground(view)
+        self._aim(ground, view, matrix)
+        ground["centre"], ground["reach"] = view.eye[:2], 390.0
+        if ground not in self._grounds:
+            self._grounds[ground] = context.vertex_array(ground, [(self._square, "2f", "corner")])
+        self._grounds[ground].render()
         if not (view.flat or self._under):
+            self._aim(self._sky, view, matrix)
             # The dome lies at the very end of the depth range.
             context.depth_func = "<="
             self._sky_array.render()
             context.depth_func = "<"
 
+    def _aim(self, program: moderngl.Program, view: View, matrix: bytes) -> None:
+        uniform: Any = program["view_projection"]
+        uniform.write(matrix)
+        program["eye"] = view.eye
+        _set(program, "haze", DEEP if self._under else HAZE)
+
+
+def _source(name: str) -> str:
+    """A shader's text with what it includes."""
+    lines = (_SHADERS / name).read_text("utf-8").splitlines()
+    return "\n".join(_source(line.split('"')[1]) if line.startswith("#include") else line for line in lines)
+
+
+def _set(program: moderngl.Program, name: str, value: Any) -> None:
+    """Set a uniform, if this program looks at it."""
+    if name in program:
+        program[name] = value
+
 
 def _fill(program: moderngl.Program, name: str, values: Any) -> None:
-    """Set a uniform from numbers; a matrix goes column by column."""
+    """Set a uniform from many numbers."""
     uniform: Any = program[name]
     uniform.write(np.ascontiguousarray(values, dtype=np.float32).tobytes())

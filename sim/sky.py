@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -39,17 +38,17 @@ def panorama() -> bytes:
     return picture.convert("RGBA").tobytes()
 
 
-def dome() -> bytes:
-    """Triangles of the dome: float32 direction (3) and place in the panorama (2) a corner."""
+def dome() -> tuple[bytes, bytes]:
+    """Corners of the dome, float32 direction (3) and place in the panorama (2) each, and three indices (int32) a triangle."""
     sectors = np.linspace(0, 1, _SECTORS + 1)
     levels = np.concatenate(([-0.05], np.linspace(0, 0.97, _RINGS)))
-    corners = [[_corner(float(turn), float(level)) for turn in sectors] for level in levels]
-    triangles = []
-    for below, above in pairwise(corners):
-        for i in range(_SECTORS):
-            a, b, c, d = below[i], below[i + 1], above[i + 1], above[i]
-            triangles += [a, b, c, a, c, d]
-    return np.array(triangles, dtype=np.float32).tobytes()
+    corners = [_corner(float(turn), float(level)) for level in levels for turn in sectors]
+    triangles: list[int] = []
+    for below in range(0, _RINGS * (_SECTORS + 1), _SECTORS + 1):
+        for i in range(below, below + _SECTORS):
+            above = i + _SECTORS + 1
+            triangles += [i, i + 1, above + 1, i, above + 1, above]
+    return np.array(corners, dtype=np.float32).tobytes(), np.array(triangles, dtype=np.int32).tobytes()
 
 
 def grain() -> Grey:

@@ -1,5 +1,7 @@
 #version 330
-// The ground with painted lines and baked shadows where the world is, grass round it; or water. ROWS and LINES are set per world.
+// The ground with painted lines and baked shadows where the world is, grass round it; or water.
+// LOOK is 0 asphalt, 1 water, 2 floor, 3 grass, 4 sand; ROWS and LINES are how many there are of each; MURKY is set under
+// water. They are set before the program is made, for a software renderer works out both sides of every question.
 uniform sampler2D markings;   // red: painted signs; green: light that is left by shadows
 uniform sampler2D grain;
 uniform vec2 extent;          // of the lot, centred on the origin [m]
@@ -7,15 +9,17 @@ uniform vec3 eye;
 uniform vec3 haze;
 uniform float murk;           // how much of the haze a metre of water brings; 0 in air
 uniform float level;          // height of this plane [m]
-uniform int look;             // 0 asphalt, 1 water, 2 floor, 3 grass, 4 sand
-uniform bool marked;           // there are lines
 uniform vec3 horizon;
+#if ROWS + LINES > 0
 uniform vec4 rows[ROWS];      // rows of bays: x and y of the south-west corner, breadth of a bay, depth [m]
 uniform float bays[ROWS];     // bays in the row
 uniform vec4 lines[LINES];    // from x, y to x, y [m]
 uniform float widths[LINES];  // [m]
+#endif
 in vec2 place;
 out vec3 colour;
+
+#include "haze.glsl"
 
 const float HALF_LINE = 0.06;
 
@@ -24,6 +28,7 @@ float covered(float at, float size, float low, float high) {
     return clamp((min(at + size, high) - max(at - size, low)) / (2.0 * size), 0.0, 1.0);
 }
 
+#if ROWS + LINES > 0
 // Drawn by formula and not from a picture: a picture seen at this low angle would blur or flicker.
 float lines_here() {
     float most = 0.0;
@@ -46,17 +51,21 @@ float lines_here() {
     }
     return most;
 }
+#endif
 
 // What the ground is made of, without paint.
 vec3 bare(float rough) {
-    if (look == 2) {
-        vec2 tile = abs(fract(place * 1.6667) - 0.5);
-        float joint = smoothstep(0.485, 0.5, max(tile.x, tile.y));
-        return mix(vec3(0.70, 0.69, 0.66) * (0.96 + 0.06 * rough), vec3(0.52, 0.51, 0.49), joint);
-    }
-    if (look == 3) return mix(vec3(0.30, 0.40, 0.19), vec3(0.44, 0.53, 0.28), rough);
-    if (look == 4) return vec3(0.63, 0.60, 0.47) * (0.82 + 0.34 * rough);
+#if LOOK == 2
+    vec2 tile = abs(fract(place * 1.6667) - 0.5);
+    float joint = smoothstep(0.485, 0.5, max(tile.x, tile.y));
+    return mix(vec3(0.70, 0.69, 0.66) * (0.96 + 0.06 * rough), vec3(0.52, 0.51, 0.49), joint);
+#elif LOOK == 3
+    return mix(vec3(0.30, 0.40, 0.19), vec3(0.44, 0.53, 0.28), rough);
+#elif LOOK == 4
+    return vec3(0.63, 0.60, 0.47) * (0.82 + 0.34 * rough);
+#else
     return vec3(0.415, 0.425, 0.44) * (0.87 + 0.26 * rough);
+#endif
 }
 
 // The surface from above: deep where one looks down, the sky's edge where one looks along it.
@@ -66,20 +75,30 @@ vec3 water(vec3 back) {
     return mix(vec3(0.07, 0.24, 0.29) * (0.85 + 0.35 * ripple), horizon, along * 0.75);
 }
 
+vec3 painted(float rough) {
+    vec2 mark = texture(markings, place / extent + 0.5, -1.5).rg;
+    float paint = mark.r;
+#if ROWS + LINES > 0
+    paint = max(paint, lines_here());
+#endif
+    return mix(bare(rough), vec3(0.92, 0.93, 0.92), paint * (0.78 + 0.20 * rough)) * mark.g;
+}
+
 void main() {
     vec3 way = eye - vec3(place, level);
     float away = length(way);
     float rough = texture(grain, place * 0.43).r;
+#if LOOK == 4
+    colour = painted(rough);
+#else
+#if LOOK == 1
+    vec3 inside = water(way / away);
+#else
+    vec3 inside = painted(rough);
+#endif
     vec2 outside = abs(place) - extent * 0.5;
-    if (look == 1 && max(outside.x, outside.y) < 0.0) {
-        colour = water(way / away);
-    } else if (max(outside.x, outside.y) < 0.0 || look == 4) {
-        vec2 mark = texture(markings, place / extent + 0.5, -1.5).rg;
-        float paint = marked ? max(mark.r, lines_here()) : mark.r;
-        colour = mix(bare(rough), vec3(0.92, 0.93, 0.92), paint * (0.78 + 0.20 * rough)) * mark.g;
-    } else {
-        colour = mix(vec3(0.26, 0.37, 0.18), vec3(0.42, 0.53, 0.28), rough);
-    }
-    float far = max(away - 12.0, 0.0) * 0.006;
-    colour = mix(colour, haze, murk > 0.0 ? 1.0 - exp(-away * murk) : far / (1.0 + far));
+    vec3 grass = mix(vec3(0.26, 0.37, 0.18), vec3(0.42, 0.53, 0.28), rough);
+    colour = max(outside.x, outside.y) < 0.0 ? inside : grass;
+#endif
+    colour = mix(colour, haze, hidden(away));
 }

@@ -1,5 +1,5 @@
 #version 330
-// One copy of a unit solid: stretched, tapered towards its top, turned and placed.
+// One copy of a unit solid: stretched, tapered towards its top, turned and placed. GLOSSY is set for what is polished.
 uniform mat4 view_projection;
 in vec3 corner;
 in vec3 normal;
@@ -10,9 +10,16 @@ in vec2 taper;
 in vec3 tint;
 in vec2 finish;       // gloss, glow
 out vec3 place;
+#if GLOSSY
 out vec3 facing;
 flat out vec3 paint;
 flat out vec2 surface;
+#else
+uniform vec3 sun;
+out vec3 light;
+#endif
+
+#include "light.glsl"
 
 vec3 turn(vec4 q, vec3 v) {
     vec3 t = 2.0 * cross(q.xyz, v);
@@ -32,8 +39,14 @@ void main() {
         out_ = vec3(side, dot(side * side, lean));
     }
     place = position + turn(rotation, body);
-    facing = turn(rotation, normalize(out_));
+    vec3 n = turn(rotation, normalize(out_));
+#if GLOSSY
+    facing = n;
     paint = tint;
     surface = finish;
+#else
+    // What is matt is lit at its corners: a pixel costs far more than a corner.
+    light = lit(n, sun, tint, finish.y);
+#endif
     gl_Position = view_projection * vec4(place, 1.0);
 }
