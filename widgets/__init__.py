@@ -11,6 +11,7 @@ from typing import Any
 
 CATALOGUE: dict[str, str] = {
     "ActionColumn": "widgets.action_column",
+    "AckermannView": "widgets.ackermann",
     "ArtificialHorizon": "widgets.horizon",
     "Battery": "widgets.battery",
     "CheckList": "widgets.check_list",
@@ -30,6 +31,7 @@ CATALOGUE: dict[str, str] = {
     "Joystick": "widgets.joystick",
     "LaserScanView": "widgets.laser_scan",
     "LegPanel": "widgets.leg_panel",
+    "LiftLever": "widgets.lift_lever",
     "LineSensorView": "widgets.line_sensor",
     "LinkQuality": "widgets.link_quality",
     "ModeCard": "widgets.mode_card",
