@@ -1,21 +1,201 @@
-from __future__ import annotations
-import math
-from bridge.msgs.pilothouse_msgs import RobotInfo
-from robotside.pose2 import Points
-from robotside.robot import Robot
-from robotside.wheeling import Wheeling
+"""Going with steered front wheels: ways with bends that it can drive, backwards too, and arcs that its long body fits through."""
 
-__all__ = ["Trucking", "girth"]
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import RobotInfo
+from bridge.units import wrap
+from robotside.follow import Follower, Manner
+from robotside.going import CRUISE, UNSURE_SPEED
+from robotside.lattice import Lattice, Piece
+from robotside.planner import Planner, Unreachable, place_sentence
+from robotside.pose2 import Points, Pose2
+from robotside.robot import Robot
+
+__all__ = ["Trucking", "bend_of", "girth"]
+
+FASTEST = 2.0
+"""It goes by itself no faster than this [m/s], however fast it may be driven by hand."""
+
+DISCS, GIRTH = (0.0, 0.39, 0.78), 0.36
+"""The body is covered by three discs so far ahead of the rear axle and so large, as parts of the robot's radius."""
+
+MARGIN = 0.15
+"""Kept between the body and anything on the map [m]."""
+
+GAP = 0.2
+"""Kept between the body and anything that the laser sees [m]."""
+
+SPARE = 0.9
+"""It plans with bends of so much of its tightest, so that it can steer back to its way."""
+
+FACES = 0.35
+"""It looks to where it should within this [rad]."""
+
+HORIZON, STEP = 8.0, 0.25
+"""So far ahead it looks along an arc, and in such steps [m]."""
+
+ENOUGH = 1.0
+"""With less room than this ahead it stands [m]."""
+
+BRAKING = 1.0
+"""Deceleration counted on when something is ahead [m/s2]."""
+
+MANNER = Manner(0.3, 1.0, 1.6, 0.6, 0.6, 0.4, 0.8)
 
 
 def girth(info: RobotInfo) -> float:
-    return 0.36 * info.radius
+    """Of the discs that cover a truck's body [m]."""
+    return GIRTH * info.radius
 
 
-class Trucking(Wheeling):
+def bend_of(info: RobotInfo) -> float:
+    """The tightest bend that it drives [1/m]; by its speeds where it does not say."""
+    return 1.0 / info.min_radius if info.min_radius > 0 else info.max_yaw_rate / info.max_speed
+
+
+class Trucking:
+    """`going.Going` of a robot that turns only by driving, and drives backwards too."""
+
+    keeps_courses = False
+    look = 12.0
+
     def __init__(self, robot: Robot) -> None:
-        super().__init__(robot)
-        self.turning = 4.0
+        info = robot.info
+        self._robot = robot
+        self._bend = bend_of(info)
+        self._discs = tuple(part * info.radius for part in DISCS)
+        self._girth = girth(info)
+        self.turning = 1.0 / (SPARE * self._bend)
+        self.cruise, self.clear = min(CRUISE * info.max_speed, FASTEST), self._girth + MARGIN + 0.1
+        self._pieces: list[Piece] = []
+        self._follower: Follower | None = None
+        self._speed = 0.0
 
-    def free(self, curvature: float, points: Points) -> float:
-        return math.inf
+    @property
+    def under_way(self) -> bool:
+        """It has a way."""
+        return self._follower is not None
+
+    @property
+    def ahead(self) -> Points:
+        """What is left of the way, from beside the robot on, as the front of the body goes it as well."""
+        if self._follower is None:
+            return np.empty((0, 2))
+        return np.concatenate([self._follower.ahead, *(piece.points for piece in self._pieces[1:])])
+
+    def plan(
+        self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
+    ) -> Points:
+        """A way to `goal`; its points. It stands while it looks for one. Unreachable raises."""
+        self._robot.stop()
+        self._speed = 0.0
+        grid = planner.grid.marked(obstacles) if len(obstacles) else planner.grid
+        for place, called in (((pose.x, pose.y), "The robot"), (goal[:2], name)):
+            if not grid.holds(*place):
+                raise Unreachable(f"{place_sentence(called, *place)} is off the map.")
+        lattice = Lattice(grid, SPARE * self._bend, self._discs, self._girth, MARGIN)
+        pieces = lattice.way(pose, goal)
+        if not pieces:
+            raise Unreachable(f"There is no way to {place_sentence(name, *goal[:2])} that it can drive.")
+        self._take(pieces)
+        return np.concatenate([piece.points for piece in pieces])
+
+    def forget(self) -> None:
+        """Have no way any more."""
+        self._pieces, self._follower, self._speed = [], None, 0.0
+
+    def remaining(self, pose: Pose2) -> float:
+        """Along the way to its end [m]."""
+        if self._follower is None:
+            return math.nan
+        rest = (np.hypot(*np.diff(piece.points, axis=0).T).sum() for piece in self._pieces[1:])
+        return self._follower.remaining(pose) + float(sum(rest))
+
+    def arrived(self, pose: Pose2) -> bool:
+        """The way is gone to its end; where it changes over in between, the next piece begins."""
+        if self._follower is None or not (self._follower.arrived(pose) or self._beyond(pose)):
+            return False
+        if len(self._pieces) == 1:
+            return True
+        self._take(self._pieces[1:])
+        return False
+
+    def steer(self, pose: Pose2, points: Points, *, sure: bool) -> None:
+        """Go on, ahead or back as the piece is."""
+        follower = self._follower
+        if follower is None:
+            return
+        way = 1.0 if self._pieces[0].ahead else -1.0
+        looking = pose if way > 0 else Pose2(pose.x, pose.y, wrap(pose.yaw + math.pi))
+        distance, bearing = follower.aim(looking, self._speed)
+        wanted = 2.0 * math.sin(bearing) / max(distance, 0.3)
+        if abs(bearing) > math.pi / 2:
+            wanted = math.copysign(self._bend, bearing)
+        bend = max(-self._bend, min(self._bend, wanted))
+        speed = follower.speed(looking, bearing, distance)
+        speed = min(speed if sure else min(speed, UNSURE_SPEED), self._speed + 0.1)
+        bend, room = self._free_of(bend, way, points)
+        self._speed = min(speed, math.sqrt(2 * BRAKING * max(0.0, room - ENOUGH / 2)))
+        if room < ENOUGH:
+            self._speed = 0.0
+        self._robot.drive(Twist.planar(way * self._speed, self._speed * bend) if self._speed else Twist())
+
+    def face(self, pose: Pose2, yaw: float) -> bool:
+        """It looks where its way has led it: it cannot turn where it stands."""
+        return True
+
+    def ready(self, pose: Pose2, now: float) -> str:
+        """It always is."""
+        return ""
+
+    def free(self, bend: float, points: Points, way: float = 1.0) -> float:
+        """How far its body can go along an arc, ahead or (`way` -1) back, before it touches one of `points` [m]."""
+        return float(self._free(np.array([bend]), points, way)[0])
+
+    def _free_of(self, bend: float, way: float, points: Points) -> tuple[float, float]:
+        """The arc next to `bend` that leads on, and how far. `bend` is to the left of the way that it goes."""
+        tries = np.unique(np.clip(bend + self._bend * np.linspace(-0.6, 0.6, 7), -self._bend, self._bend))
+        tries = np.concatenate(([bend], tries))
+        # seen from the body, a way back that bends to its own left is one of the opposite curvature
+        rooms = self._free(tries * way, points, way)
+        loss = 2.0 * np.clip(ENOUGH + 2.0 - rooms, 0.0, None) + np.abs(tries - bend) / self._bend
+        best = int(loss.argmin())
+        return float(tries[best]), float(rooms[best])
+
+    def _free(self, bends: NDArray[np.float64], points: Points, way: float) -> NDArray[np.float64]:
+        """The same for several arcs of `base_link`."""
+        near = points[np.hypot(points[:, 0], points[:, 1]) < HORIZON + self._discs[-1] + self._girth]
+        if not len(near):
+            return np.full(len(bends), HORIZON)
+        along = np.arange(STEP, HORIZON + STEP / 2, STEP) * way
+        yaw = bends[:, None] * along
+        safe = np.where(np.abs(bends) < 1e-6, 1e-6, bends)[:, None]
+        x, y = np.sin(safe * along) / safe, (1.0 - np.cos(safe * along)) / safe
+        gaps = np.full((*yaw.shape, len(near)), math.inf)
+        at_first = np.full(len(near), math.inf)
+        for disc in self._discs:
+            px, py = x + disc * np.cos(yaw), y + disc * np.sin(yaw)
+            gaps = np.minimum(gaps, np.hypot(px[..., None] - near[:, 0], py[..., None] - near[:, 1]))
+            at_first = np.minimum(at_first, np.hypot(near[:, 0] - disc, near[:, 1]))
+        # from what is too close already it may go away
+        hit = ((gaps < self._girth + GAP) & (gaps < at_first - 0.01)).any(axis=2)
+        first = np.where(hit.any(axis=1), hit.argmax(axis=1), hit.shape[1])
+        return first * STEP
+
+    def _take(self, pieces: list[Piece]) -> None:
+        self._pieces = pieces
+        self._follower = Follower(pieces[0].points, cruise=self.cruise, manner=MANNER)
+        self._speed = 0.0
+
+    def _beyond(self, pose: Pose2) -> bool:
+        """It has passed the end of the piece beside it."""
+        points = self._pieces[0].points
+        (x, y), (bx, by) = points[-1].tolist(), points[max(-4, -len(points))].tolist()
+        over = (pose.x - x) * (x - bx) + (pose.y - y) * (y - by)
+        return over > 0 and pose.distance(x, y) < MANNER.missed
