@@ -85,6 +85,11 @@ def _add_serve(serve: argparse.ArgumentParser) -> None:
     )
     add("--http-port", type=int, default=8080, help="of the web site, likewise")
     add("--payloads", default="", help="what a simulated robot carries besides: arm,laser,…")
+    _add_more(serve)
+
+
+def _add_more(serve: argparse.ArgumentParser) -> None:
+    add = serve.add_argument
     add("--protocols", default="", help="rosbridge and http, which are always up")
     add("--seed", type=int, default=0, help="of the simulation's and the patrol's random numbers")
     add("--speed", type=float, default=1.0, help="simulated seconds per second; commands expire in real time")

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-import re
-import tomllib
+from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Literal
@@ -16,6 +15,7 @@ from sim.props import CAR_MODELS, Prop, block, car, cone, lamp, tree, wall
 from sim.props_people import fruit_tree, person, table
 from sim.props_water import buoy, coral, diver
 from sim.shapes import Shape
+from sim.tables import FileFault, fault, read, text_of
 
 __all__ = ["WORLDS", "World", "WorldError", "load"]
 
@@ -31,10 +31,12 @@ Part = Annotated[float, msgspec.Meta(ge=0, le=1)]
 
 _LOOSE = ("cone", "person", "diver")
 """Kinds that are not always where they are."""
+LONGEST_NAME = 60
+"""Characters of a place's name."""
 
 
 class WorldError(ValueError):
-    """A world that is not there or whose file is wrong; the text names the file, the key and the reason."""
+    """A world that is not there or whose file is wrong; the text names the file, the line, the key and the reason."""
 
 
 class _Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -383,54 +385,54 @@ class World(_Entry, frozen=True, dict=True):
 def load(world: str | Path) -> World:
     """The world of that name, or of that TOML file.
 
-    Raises WorldError when there is no such world, or naming the key and the reason when its file is wrong.
+    Raises WorldError when there is no such world, or naming the line, the key and the reason when its file is wrong.
     """
     path = Path(world) if str(world).endswith(".toml") else _FOLDER / f"{world}.toml"
     if path.parent == _FOLDER and path.stem not in WORLDS:
         raise WorldError(f"There is no world {str(world)!r}; there is {', '.join(WORLDS)}.")
     try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as fault:
-        raise WorldError(f"{path.name}: cannot be read ({fault.strerror}).") from fault
-    return parse(text, path.name)
+        return parse(text_of(path), path.name)
+    except FileFault as problem:
+        raise WorldError(str(problem)) from problem
 
 
 def parse(text: str, source: str) -> World:
     """The world that a TOML `text` describes; `source` is what a fault calls it."""
     try:
-        world = msgspec.convert(tomllib.loads(text), World)
-    except tomllib.TOMLDecodeError as fault:
-        raise WorldError(f"{source}: is not TOML: {fault}.") from fault
-    except msgspec.ValidationError as fault:
-        raise WorldError(f"{source}: {_sentence(str(fault))}.") from fault
-    _check(world, source)
+        world = read(text, World, source)
+    except FileFault as problem:
+        raise WorldError(str(problem)) from problem
+    for where, reason in _faults(world):
+        raise WorldError(fault(text, source, where, reason))
     return world
 
 
-def _sentence(fault: str) -> str:
-    """msgspec's words with the key in front, as in `cars[2].x: expected `float`, got `str``."""
-    missing = re.fullmatch(r"Object missing required field `(.*?)`(?: - at `\$\.?(.*)`)?", fault)
-    if missing:
-        where, key = missing.group(2), missing.group(1)
-        return f"{where + '.' if where else ''}{key}: is missing"
-    unknown = re.fullmatch(r"Object contains unknown field `(.*?)`(?: - at `\$\.?(.*)`)?", fault)
-    if unknown:
-        where, key = unknown.group(2), unknown.group(1)
-        return f"{where + '.' if where else ''}{key}: is not known here"
-    reason, _, key = fault.partition(" - at `$.")
-    return f"{key.rstrip('`')}: {reason[:1].lower()}{reason[1:]}" if key else fault
-
-
-def _check(world: World, source: str) -> None:
-    """Raise WorldError for what types alone cannot say."""
+def _faults(world: World) -> Iterator[tuple[str, str]]:
+    """What types alone cannot say: key and reason of each."""
+    names: set[str] = set()
     for number, place in enumerate(world.places):
         if place.kind not in PLACE_KINDS:
-            allowed = ", ".join(PLACE_KINDS)
-            raise WorldError(f"{source}: places[{number}].kind: {place.kind!r} is not one of {allowed}.")
+            yield f"places[{number}].kind", f"{place.kind!r} is not one of {', '.join(PLACE_KINDS)}"
+        if not place.name.strip() or len(place.name) > LONGEST_NAME:
+            yield (
+                f"places[{number}].name",
+                f"must have 1 to {LONGEST_NAME} characters, not {place.name[:80]!r}",
+            )
+        if place.name.casefold() in names:
+            yield f"places[{number}].name", f"there is a place {place.name!r} already"
+        names.add(place.name.casefold())
     for number, entry in enumerate(world.cars):
         if entry.model not in CAR_MODELS:
-            allowed = ", ".join(CAR_MODELS)
-            raise WorldError(f"{source}: cars[{number}].model: {entry.model!r} is not one of {allowed}.")
+            yield f"cars[{number}].model", f"{entry.model!r} is not one of {', '.join(CAR_MODELS)}"
+    for number, wall_ in enumerate(world.partitions):
+        if wall_.start == wall_.end:
+            yield f"partitions[{number}]", "begins where it ends"
+    if world.water is not None and world.start.z < -world.water.depth:
+        yield "start.z", f"{world.start.z:g} is below the ground, which is {world.water.depth:g} m deep"
+    yield from _off_the_ground(world)
+
+
+def _off_the_ground(world: World) -> Iterator[tuple[str, str]]:
     half_length, half_width = world.ground.length / 2, world.ground.width / 2
     inside: dict[str, tuple[Spot, ...]] = {
         "start": (world.start,),
@@ -450,10 +452,8 @@ def _check(world: World, source: str) -> None:
         for number, spot in enumerate(spots):
             if abs(spot.x) > half_length or abs(spot.y) > half_width:
                 name = key if key == "start" else f"{key}[{number}]"
-                raise WorldError(
-                    f"{source}: {name}: ({spot.x:g}, {spot.y:g}) is off the ground, "
-                    f"which ends at x = ±{half_length:g} and y = ±{half_width:g}."
-                )
+                ends = f"which ends at x = ±{half_length:g} and y = ±{half_width:g}"
+                yield name, f"({spot.x:g}, {spot.y:g}) is off the ground, {ends}"
 
 
 def _partition(entry: Partition) -> Prop:

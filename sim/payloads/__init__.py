@@ -7,11 +7,8 @@ A payload that is not mounted is not made: it costs nothing and says nothing.
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable
 from pathlib import Path
-
-import msgspec
 
 from sim.payloads.arm import ArmParameters, MountedArm
 from sim.payloads.mounted import (
@@ -33,6 +30,7 @@ from sim.payloads.simple import (
     MountedTagReader,
     MountedUltrasound,
 )
+from sim.tables import read, text_of
 from sim.vehicles.model import Vehicle
 from sim.vehicles.parameters import Table
 
@@ -57,11 +55,8 @@ PAYLOADS: tuple[str, ...] = Figures.__struct_fields__
 
 
 def load(path: Path = Path(__file__).parent / "payloads.toml") -> Figures:
-    """The figures in a file; ValueError names the file, the key and what is wrong."""
-    try:
-        return msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), Figures)
-    except (tomllib.TOMLDecodeError, msgspec.ValidationError) as fault:
-        raise ValueError(f"{path.name}: {fault}.") from fault
+    """The figures in a file; ValueError names the file, the line, the key and what is wrong."""
+    return read(text_of(path), Figures, path.name)
 
 
 def mount(vehicle: Vehicle, names: Iterable[str], figures: Figures | None = None) -> dict[str, Mounted]:

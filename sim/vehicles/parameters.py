@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 from typing import Annotated, TypeVar
 
 import msgspec
+
+from sim.tables import read, text_of
 
 __all__ = [
     "CameraParameters",
@@ -134,8 +135,5 @@ P = TypeVar("P", bound=Parameters)
 
 
 def load(path: Path, kind: type[P]) -> P:
-    """The numbers of a `kind` of vehicle in the file at `path`; ValueError names the file, the key and what is wrong."""
-    try:
-        return msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), kind)
-    except (tomllib.TOMLDecodeError, msgspec.ValidationError) as fault:
-        raise ValueError(f"{path.name}: {fault}.") from fault
+    """The numbers of a `kind` of vehicle in the file at `path`; ValueError names the file, the line, the key and what is wrong."""
+    return read(text_of(path), kind, path.name)
