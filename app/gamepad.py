@@ -6,7 +6,7 @@ What they measure comes from SDL (`app.sdl`) or, where that cannot be asked, fro
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Container, Iterable
+from collections.abc import Callable, Collection, Container, Iterable
 from dataclasses import dataclass
 
 from app.sdl import PadState
@@ -19,8 +19,8 @@ SILENT = 0.12
 """A pushed gamepad that measures nothing new for longer drives nothing [s]."""
 REARM = 1.0
 """After a longer silence its stick must be let go before it drives again [s]."""
-AXES, EAST = (0, 1), 1
-"""Axes of the left stick and the button on the right of the four, as most gamepads number them."""
+AXES, RIGHT_AXES, EAST = (0, 1), (2, 3), 1
+"""Axes of the left and of the right stick and the button on the right of the four, as most gamepads number them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,9 +43,13 @@ class _Known:
     """Its stick was let go since it was last forbidden to drive."""
     told_silent: bool = False
 
-    @property
-    def pushed(self) -> bool:
-        return math.hypot(self.state.forward, self.state.left) > DEAD_ZONE
+    def push(self, stick: str) -> tuple[float, float]:
+        """How far its `left` or `right` stick is pushed, as it measures."""
+        return self.state.right if stick == "right" else (self.state.forward, self.state.left)
+
+    def pushed(self, sticks: Collection[str]) -> bool:
+        """One of `sticks` is out of its middle."""
+        return any(math.hypot(*self.push(stick)) > DEAD_ZONE for stick in sticks)
 
 
 class Gamepads:
@@ -62,6 +66,8 @@ class Gamepads:
         """`wired` names those that hang on a cable: they may be silent, since one that is pulled out is gone at once."""
         self._now, self._on_stop, self._on_news = now, on_stop, on_news
         self.wired = wired
+        self.sticks: frozenset[str] = frozenset({"left"})
+        """Those that push something now, of `left` and `right`; the other one is not looked at."""
         self._known: dict[int, _Known] = {}
         self._driver: int | None = None
 
@@ -88,10 +94,16 @@ class Gamepads:
             if state.stop and not known.state.stop:
                 self._on_stop()
             if state.raw != known.state.raw:
-                if self._now() - known.alive > REARM and known.pushed:
+                if self._now() - known.alive > REARM and known.pushed(self.sticks):
                     known.centred = False
                 known.alive = self._now()
             known.state = state
+
+    def use(self, sticks: Collection[str]) -> None:
+        """Look at these sticks from now on, of `left` and `right`; where they are others than before, all must be let go first."""
+        if frozenset(sticks) != self.sticks:
+            self.sticks = frozenset(sticks)
+            self.forbid()
 
     def press(self, number: int, button: int) -> None:
         """A button went down, by Kivy's event: one that is short falls between two looks."""
@@ -111,33 +123,31 @@ class Gamepads:
         for known in self._known.values():
             known.centred = False
 
-    def lean(self) -> tuple[float, float] | None:
-        """Forward and left, each -1 to 1, of the one gamepad that drives; None when none does."""
+    def lean(self) -> dict[str, tuple[float, float]] | None:
+        """Forward and left, each -1 to 1, of each of `sticks` of the one gamepad that drives; None when none does."""
         for number, known in self._known.items():
             self._judge(number, known)
         if self._driver is None:
             return None
-        state = self._known[self._driver].state
-        length = math.hypot(state.forward, state.left)
-        scale = (min(1.0, length) - DEAD_ZONE) / (1.0 - DEAD_ZONE) / length
-        return state.forward * scale, state.left * scale
+        driver = self._known[self._driver]
+        return {stick: _eased(*driver.push(stick)) for stick in self.sticks}
 
     def _judge(self, number: int, known: _Known) -> None:
         """One that is pushed drives if it was let go before, is alive, and no other does."""
-        drives = self._driver == number
-        if not known.pushed:
+        drives, pushed = self._driver == number, known.pushed(self.sticks)
+        if not pushed:
             known.centred, known.told_silent = True, False
-        silent = known.pushed and self._now() - known.alive > SILENT and known.state.name not in self.wired
+        silent = pushed and self._now() - known.alive > SILENT and known.state.name not in self.wired
         if silent and known.centred and not known.told_silent:
             known.told_silent = True
             self._on_news(News("silent", known.state.name))
         if known.told_silent and not silent:
             known.told_silent = False
-        if drives and (silent or not known.pushed or not known.centred):
+        if drives and (silent or not pushed or not known.centred):
             self._driver = None
-        elif self._driver is None and known.pushed and known.centred and not silent:
+        elif self._driver is None and pushed and known.centred and not silent:
             self._driver = number
-        elif known.pushed and not drives and self._driver is not None:
+        elif pushed and not drives and self._driver is not None:
             known.centred = False
 
     def _lose(self, number: int) -> None:
@@ -145,6 +155,15 @@ class Gamepads:
         if drives:
             self._driver = None
         self._on_news(News("unplugged driving" if drives else "unplugged", known.state.name))
+
+
+def _eased(forward: float, left: float) -> tuple[float, float]:
+    """Nothing in the dead zone, the whole at the rim, and no step between."""
+    length = math.hypot(forward, left)
+    if length <= DEAD_ZONE:
+        return 0.0, 0.0
+    scale = (min(1.0, length) - DEAD_ZONE) / (1.0 - DEAD_ZONE) / length
+    return forward * scale, left * scale
 
 
 class Told:
@@ -170,6 +189,7 @@ class Told:
                 stop=False,
                 stop_button=EAST,
                 raw=(self._events[number],),
+                right=(-axes.get(RIGHT_AXES[1], 0.0), -axes.get(RIGHT_AXES[0], 0.0)),
             )
             for number, axes in self._axes.items()
         ]

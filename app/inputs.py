@@ -1,8 +1,9 @@
 """What the operator's hands and the system do to the app as a whole: keys, gamepads, a window that goes away, and the
-life of whatever pushes the stick.
+life of whatever pushes a control.
 
 A resting finger sends no events and drives on. What ends it, since its end may never be told: Kivy or SDL know the touch
-no longer, something came over the stick, the window lost its focus or was turned, and the robot may not be driven.
+no longer, something came over the control, the window lost its focus or was turned, and the robot may not be driven.
+Each control is looked at for itself; whatever takes one away from a gamepad takes all of them from it.
 """
 
 from __future__ import annotations
@@ -100,11 +101,11 @@ class Inputs:
         self._offered: set[str] = set()
         """Gamepads whose silence was told before."""
         self._led = False
-        """A gamepad pushes the stick."""
-        self._hidden = False
-        """Something was over the stick at the last look."""
+        """A gamepad pushes the controls that have no finger."""
+        self._hidden: set[Any] = set()
+        """Controls that something was over at the last look."""
         self._held_under: tuple[frozenset[int], int] | None = None
-        """Devices and turn of the screen while the stick is pushed."""
+        """Devices and turn of the screen while any of them is pushed."""
         self._bound = {
             "on_key_down": self._key_down,
             "on_key_up": self._key_up,
@@ -135,51 +136,74 @@ class Inputs:
         elif self._app.corner.button.robots:
             self._app.corner.press()
 
-    # the stick
+    # the controls
 
     @property
-    def stick(self) -> Any:
-        """The stick of the screen that is on the glass; None on a screen without."""
+    def sticks(self) -> list[tuple[Any, str]]:
+        """The controls that drive on the screen on the glass, each with the stick of a gamepad that pushes it too."""
         shell = self._app.shell
-        return getattr(shell.screens.get(shell.screen), "stick", None) if shell is not None else None
+        return getattr(shell.screens.get(shell.screen), "sticks", []) if shell is not None else []
 
     def look(self) -> None:
-        """Whatever pushes the stick is looked at: is it still there, may it still?"""
+        """Whatever pushes a control is looked at: is it still there, may it still?"""
+        sticks = self.sticks
+        self.gamepads.use({pad for _, pad in sticks if pad})
         self.gamepads.hear(self._source.pads())
-        stick = self.stick
-        if stick is None:
+        controls = [stick for stick, _ in sticks]
+        self._hidden &= set(controls)
+        if not sticks:
             self._forbid()
             return
-        if not self._app.session.may_drive or self._covered(stick) or self._moved_on(stick):
-            stick.rest()
-            self._forbid()
-        elif stick.finger is not None:
-            self._forbid()
-            if self._gone(stick.finger):
+        ended = not self._app.session.may_drive or self._moved_on(controls)
+        covered_ = [stick for stick in controls if self._covered(stick)]
+        for stick in controls:
+            if ended or stick in covered_ or (stick.finger is not None and self._gone(stick.finger)):
                 stick.rest()
-        elif not Window.focus:
-            stick.rest()
-            self._forbid()
+        if ended or not Window.focus:
+            self._let_go(controls)
         else:
-            self._lead(stick)
-        stick.gamepad = self.gamepads.standing
+            self._lead([(stick, pad) for stick, pad in sticks if stick not in covered_], sticks)
+        for stick, pad in sticks:
+            stick.gamepad = self.gamepads.standing if pad else "none"
+
+    def _let_go(self, controls: list[Any]) -> None:
+        """No control may be pushed by anything but a finger, of whose loss the window tells."""
+        for stick in controls:
+            if stick.finger is None:
+                stick.rest()
+        self._forbid()
 
     def _covered(self, stick: Any) -> bool:
-        """Something is over the stick, and was at the last look: what is being laid out is anywhere for a frame."""
-        before, self._hidden = self._hidden, covered(stick)
-        return before and self._hidden
+        """Something is over it, and was at the last look: what is being laid out is anywhere for a frame."""
+        before, now = stick in self._hidden, covered(stick)
+        (self._hidden.add if now else self._hidden.discard)(stick)
+        return before and now
 
-    def _lead(self, stick: Any) -> None:
-        """A gamepad pushes the stick; where something else brought that to rest, it must be let go first."""
-        if self._led and not (stick.forward or stick.left):
+    def _lead(self, open_: list[tuple[Any, str]], all_: list[tuple[Any, str]]) -> None:
+        """A gamepad pushes what no finger has; where something else brought it to rest, it must be let go first."""
+        led = [(stick, pad) for stick, pad in all_ if pad]
+        free = [(stick, pad) for stick, pad in open_ if pad and stick.finger is None]
+        # a finger on one of them takes them all: two hands on one robot would be two drivers
+        if len(free) < len(led) or (self._led and not any(stick.forward or stick.left for stick, _ in led)):
+            self._end_lead(led)
             self._forbid()
+            if len(free) < len(led):
+                return
         lean = self.gamepads.lean()
         if lean is not None:
             self._led = True
-            stick.lean(*lean)
+            for stick, pad in led:
+                stick.lean(*lean[pad])
         elif self._led:
+            self._end_lead(led)
+
+    def _end_lead(self, led: list[tuple[Any, str]]) -> None:
+        """What a gamepad has pushed springs back."""
+        if self._led:
             self._led = False
-            stick.rest()
+            for stick, _ in led:
+                if stick.finger is None:
+                    stick.rest()
 
     def _forbid(self) -> None:
         self._led = False
@@ -190,9 +214,9 @@ class Inputs:
         known = any(touch is other for other in EventLoop.touches)
         return not known or touch.time_end >= 0 or self._source.lifted(touch.device, touch.id)
 
-    def _moved_on(self, stick: Any) -> bool:
-        """The screen was turned, or an input device was taken away, while the stick is pushed."""
-        if not (stick.forward or stick.left):
+    def _moved_on(self, controls: list[Any]) -> bool:
+        """The screen was turned, or an input device was taken away, while a control is pushed."""
+        if not any(stick.forward or stick.left for stick in controls):
             self._held_under = None
             return False
         before, now = self._held_under, (self._devices(), self._turned())
@@ -218,10 +242,10 @@ class Inputs:
             self.rest()
 
     def _touch_down(self, _: object, touch: Any) -> None:
-        """The stick's own touch comes down again: its end was lost, wherever it is now."""
-        stick = self.stick
-        if stick is not None and stick.finger is touch:
-            stick.rest()
+        """A control's own touch comes down again: its end was lost, wherever it is now."""
+        for stick, _ in self.sticks:
+            if stick.finger is touch:
+                stick.rest()
 
     def _key_down(self, _: object, key: int, scancode: int, *__: object) -> bool:
         if not self._is_stop(key, scancode):
@@ -257,7 +281,8 @@ class Inputs:
         if shell is None:
             return
         if news.what == "plugged":
-            shell.say(f"{news.name}: its left stick drives, B is STOP.", "info", about="gamepad")
+            hands = "both its sticks drive" if len(self.gamepads.sticks) > 1 else "its left stick drives"
+            shell.say(f"{news.name}: {hands}, B is STOP.", "info", about="gamepad")
         elif news.what == "unplugged":
             shell.say(f"{news.name} is unplugged.", "info", about="gamepad")
         elif news.what == "unplugged driving":

@@ -20,8 +20,8 @@ RANGE = 32768.0
 """Of an axis on either side of its middle."""
 PART = re.compile(r"(\w+):([-+]?)(a|b)(\d+)(~?)")
 """One entry of SDL's table of gamepads, as in `leftx:a0`, `lefty:a1~`, `b:b1`."""
-LEFT_X, LEFT_Y, EAST = 0, 1, 1
-"""Axes of the left stick and the button on the right of the four where SDL's table does not know the gamepad."""
+LEFT_X, LEFT_Y, RIGHT_X, RIGHT_Y, EAST = 0, 1, 2, 3, 1
+"""Axes of both sticks and the button on the right of the four where SDL's table does not know the gamepad."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +41,8 @@ class PadState:
     """Its number in Kivy's events."""
     raw: tuple[int, ...]
     """Everything that it measures: a gamepad whose `raw` changes is alive."""
+    right: tuple[float, float] = (0.0, 0.0)
+    """How far the right stick is pushed away from the operator and to the left, each -1 to 1."""
 
 
 class _Finger(ctypes.Structure):
@@ -55,6 +57,8 @@ class _Pad:
         entries = {key: (sign + tilde, int(number)) for key, sign, _, number, tilde in PART.findall(mapping)}
         self.x = entries.get("leftx", ("", LEFT_X))
         self.y = entries.get("lefty", ("", LEFT_Y))
+        self.right_x = entries.get("rightx", ("", RIGHT_X))
+        self.right_y = entries.get("righty", ("", RIGHT_Y))
         self.stop_button = entries.get("b", ("", EAST))[1]
 
     def share(self, axis: tuple[str, int], raw: Sequence[int]) -> float:
@@ -170,4 +174,5 @@ class Sdl:
         stop = pad.stop_button < len(buttons) and bool(buttons[pad.stop_button])
         # SDL's axes point right and down
         forward, left = -pad.share(pad.y, axes), -pad.share(pad.x, axes)
-        return PadState(number, pad.name, forward, left, stop, pad.stop_button, (*axes, *buttons))
+        right = -pad.share(pad.right_y, axes), -pad.share(pad.right_x, axes)
+        return PadState(number, pad.name, forward, left, stop, pad.stop_button, (*axes, *buttons), right)

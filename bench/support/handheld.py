@@ -381,8 +381,7 @@ def trust_blindly() -> None:
     from app.inputs import Inputs
 
     def look(self: Any) -> None:
-        stick = self.stick
-        if stick is not None:
+        for stick, _ in self.sticks:
             for state in self._source.pads():
                 stick.lean(state.forward, state.left)
             stick.gamepad = "ready"

@@ -10,6 +10,8 @@ __all__ = ["EAST", "VirtualPad", "kivys_sdl"]
 
 AHEAD, ASIDE = 1, 0
 """Axes of the left stick."""
+RIGHT_AHEAD, RIGHT_ASIDE = 3, 2
+"""Of the right one."""
 EAST = 1
 """The button on the right of the four."""
 
@@ -41,7 +43,14 @@ class VirtualPad:
 
     def push(self, ahead: float, aside: float = 0.0) -> None:
         """Push the left stick ahead and to the left, each -1 to 1."""
-        for axis, share in ((AHEAD, ahead), (ASIDE, aside)):
+        self._move((AHEAD, ahead), (ASIDE, aside))
+
+    def push_right(self, ahead: float, aside: float = 0.0) -> None:
+        """The same with the right stick."""
+        self._move((RIGHT_AHEAD, ahead), (RIGHT_ASIDE, aside))
+
+    def _move(self, *shares: tuple[int, float]) -> None:
+        for axis, share in shares:
             value = ctypes.c_int16(round(-share * 32767))
             self._sdl.SDL_JoystickSetVirtualAxis(self._handle, axis, value)
         self._sdl.SDL_JoystickUpdate()

@@ -13,6 +13,10 @@ BEAT = 0.03
 REST = PadState(1, "Pad", 0.0, 0.0, stop=False, stop_button=1, raw=(0, 0))
 
 
+def left_of(lean: dict[str, tuple[float, float]] | None) -> tuple[float, float] | None:
+    return lean["left"] if lean is not None else None
+
+
 class Desk:
     """Gamepads on a clock that the test moves; a hand trembles unless it is told not to."""
 
@@ -41,7 +45,7 @@ class Desk:
                     for number, state in self.there.items()
                 }
             self.pads.hear(self.there.values())
-            self.leans.append((self.time, self.pads.lean()))
+            self.leans.append((self.time, left_of(self.pads.lean())))
 
     @property
     def lean(self) -> tuple[float, float] | None:
@@ -210,7 +214,36 @@ def test_where_sdl_cannot_be_asked_kivys_events_tell_of_the_stick_and_silence_en
     desk.pads.lean()
     told.axis(3, 1, -32768)
     desk.pads.hear(told.pads())
-    assert desk.pads.lean() == (1.0, 0.0)
+    assert left_of(desk.pads.lean()) == (1.0, 0.0)
     desk.time += SILENT + BEAT
     desk.pads.hear(told.pads())
     assert desk.pads.lean() is None
+
+
+BOTH = ("left", "right")
+
+
+def test_the_right_stick_is_looked_at_only_where_it_pushes_something(desk: Desk) -> None:
+    desk.there[1] = replace(REST, right=(0.0, 1.0))
+    desk.pass_time(0.5)
+    assert desk.lean is None
+    desk.pads.use(BOTH)
+    desk.pass_time(0.5)
+    assert desk.pads.lean() is None, "it was pushed already when it began to count"
+    desk.there[1] = REST
+    desk.pass_time(0.1)
+    desk.there[1] = replace(REST, right=(0.0, 1.0))
+    desk.pass_time(0.1)
+    assert desk.pads.lean() == {"left": (0.0, 0.0), "right": (0.0, 1.0)}
+
+
+def test_one_stick_let_go_the_other_one_drives_on(desk: Desk) -> None:
+    desk.pads.use(BOTH)
+    desk.pass_time(0.1)
+    desk.there[1] = replace(REST, forward=1.0, right=(-1.0, 0.0))
+    desk.pass_time(0.5)
+    desk.there[1] = replace(REST, right=(-1.0, 0.0))
+    desk.pass_time(BEAT)
+    assert desk.pads.lean() == {"left": (0.0, 0.0), "right": (-1.0, 0.0)}
+    desk.pass_time(SILENT + 2 * BEAT, trembles=False)
+    assert desk.pads.lean() is None, "it is silent"

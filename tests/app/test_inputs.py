@@ -100,7 +100,7 @@ class Hands:
         self.root = FloatLayout()
         self.root.add_widget(self.page)
         stage.show(self.root, stage.window.size)
-        screen: Any = type("Screen", (), {"stick": self.stick})
+        screen: Any = type("Screen", (), {"stick": self.stick, "sticks": [(self.stick, "left")]})
         self.shell: Any = Shell(screen, self.stop)
         self.slot = DriveSlot(stage.time)
         self.stick.bind(on_command=lambda _, twist: self.slot.want(twist))

@@ -41,6 +41,9 @@ def test_a_gamepad_that_is_plugged_in_later_is_there_with_its_stick_and_its_butt
     (state,) = sdl.pads()
     assert (state.forward, state.left) == (pytest.approx(0.5, abs=1e-4), pytest.approx(1.0, abs=1e-4))
     assert (state.name, state.stop, state.stop_button) == ("Virtual Controller", False, EAST)
+    assert state.right == (0.0, 0.0)
+    pad.push_right(-0.5, 1.0)
+    assert sdl.pads()[0].right == (pytest.approx(-0.5, abs=1e-4), pytest.approx(1.0, abs=1e-4))
     pad.button(EAST, down=True)
     assert sdl.pads()[0].stop
     assert sdl.pads()[0].raw != state.raw
