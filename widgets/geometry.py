@@ -22,6 +22,7 @@ from bridge.units import heading_from_yaw, yaw_from_heading
 __all__ = [
     "CARDINALS",
     "DASH",
+    "HULL",
     "Trail",
     "View",
     "cover",
@@ -54,6 +55,11 @@ CARDINALS: dict[int, str] = {0: "N", 90: "E", 180: "S", 270: "W"}
 
 DASH = "–"
 """What a value that is not known looks like."""
+
+
+_SIDE = ((0.0, 1.0), (0.2, 0.72), (0.3, 0.3), (0.32, -0.3), (0.26, -0.78))
+HULL = (*_SIDE, *((-across, ahead) for across, ahead in reversed(_SIDE[1:])))
+"""A boat from above from its bow clockwise, in half lengths: to the right, ahead."""
 
 
 @dataclass(frozen=True, slots=True)

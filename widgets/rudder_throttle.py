@@ -18,7 +18,7 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RudderState
 from widgets.gauge import Gauge, wide
-from widgets.geometry import Points, rounded
+from widgets.geometry import HULL, Points, rounded
 from widgets.ink import Word, tint
 from widgets.readout import figure
 from widgets.shapes import Shapes
@@ -27,8 +27,6 @@ from widgets.theme import theme
 
 __all__ = ["RudderThrottle", "samples"]
 
-HULL = ((0.0, 1.0), (0.2, 0.72), (0.3, 0.3), (0.32, -0.3), (0.26, -0.78))
-"""The starboard side from the bow aft, in half lengths: across, ahead."""
 ROOMY = 220
 """From this height on each figure has its name above it [dp]."""
 SCALE = 14
@@ -158,8 +156,7 @@ class RudderThrottle(Stick, Gauge):
     def _boat(self, shapes: Shapes) -> None:
         """From above, as long as the pad is high, with its rudder as it is."""
         (x, y), half = self.middle, self.pad[3] * 0.43
-        side = np.array(HULL) * half
-        hull = np.concatenate([side, side[::-1] * (-1, 1)]) + np.array(self.middle)
+        hull = np.array(HULL) * half + np.array(self.middle)
         shapes.polygon([(a, b) for a, b in hull], tint(theme.muted, 0.2))
         shapes.line(np.concatenate([hull, hull[:1]]), dp(1.5), tint(theme.muted, 0.6))
         stern = np.array([x, y - half * 0.8])
