@@ -194,8 +194,9 @@ class Keeper:
         """The speed from which it comes to rest within `room` [m], reaction included [m/s]; 0 beyond it."""
         if room <= 0:
             return 0.0
-        lag = self._handling.braking * REACTION
-        return math.sqrt(lag * lag + 2 * self._handling.braking * room) - lag
+        braking = self._handling.levelling
+        lag = braking * REACTION
+        return math.sqrt(lag * lag + 2 * braking * room) - lag
 
     def _level(self, twist: Twist, measured: Measured) -> Clamped:
         """Slower where it is steep; too steep, only back to where it came from."""

@@ -29,6 +29,8 @@ RISING, SINKING = 0.2, 0.3
 """How fast it surfaces, and lands [m/s]."""
 SURFACE, GROUND = -0.10, 0.08
 """From this height on it has surfaced, up to this one it has landed [m]."""
+WAVES = 0.3
+"""So much lower than the surface one that floats may be tossed, once it is there [m]."""
 LONGEST = 120.0
 """Surfacing or landing ends after this at the latest, for one that does not measure its height [s]."""
 STANDS = 0.02
@@ -91,6 +93,7 @@ class SafeState:
         self._begun: float | None = None
         self._lost: float | None = None
         self._after: float | None = None
+        self._arrived = False
         self._held = Measured()
         self._acts: dict[str, Callable[[float, Measured], Act]] = {
             "brake": lambda _, __: BRAKE,
@@ -123,6 +126,7 @@ class SafeState:
     def leave(self) -> None:
         """Somebody or something drives it."""
         self._begun = self._lost = self._after = None
+        self._arrived = False
         self._then = self._usual_then
 
     def cannot_return(self) -> None:
@@ -140,7 +144,7 @@ class SafeState:
             return self._acts[self._action](now - self._begun, measured)
         if not lost:
             # somebody is back in mid-way: it stays where it is now
-            self._after, self._begun, self._held = None, now, measured
+            self._after, self._begun, self._held, self._arrived = None, now, measured, False
             return self._acts[self._action](0.0, measured)
         self._after = now if self._after is None else self._after
         return self._afterwards[self._then](now - self._after, measured)
@@ -166,19 +170,25 @@ class SafeState:
         return self._by("hover", Act(twist, "hovers"))
 
     def _surface(self, since: float, measured: Measured) -> Act:
-        if measured.height >= SURFACE or since >= LONGEST:
-            return Act(None, "has surfaced")
-        twist = Twist(Vector3(0.0, 0.0, RISING), self._levelling(measured))
-        return self._by("surface", Act(twist, "surfaces"))
+        act = self._by(
+            "surface", Act(Twist(Vector3(0.0, 0.0, RISING), self._levelling(measured)), "surfaces")
+        )
+        if not (self._arrived or measured.height >= SURFACE or since >= LONGEST):
+            return act
+        self._arrived = True
+        sinks = measured.height < SURFACE - (WAVES if act.order else 0.0) and since < LONGEST
+        return replace(act, phase="has surfaced") if sinks else Act(None, "has surfaced")
 
     def _land(self, since: float, measured: Measured) -> Act:
-        if measured.landed:
-            return _AT_REST if self._held.landed else Act(None, "has landed")
         turn = Vector3(0.0, 0.0, self._turning(measured))
         act = self._by("land", Act(Twist(Vector3(0.0, 0.0, -SINKING), turn), "lands"))
-        if act.order is None and (measured.height <= GROUND or since >= LONGEST):
-            return Act(None, "has landed")  # one that does not say it itself
-        return act
+        low = act.order is None and (
+            measured.height <= GROUND or since >= LONGEST
+        )  # it does not say it itself
+        self._arrived = self._arrived or measured.landed or low
+        if not self._arrived:
+            return act
+        return _AT_REST if self._held.landed else Act(None, "has landed")
 
     def _by(self, kind: str, act: Act) -> Act:
         """`act`, by a manoeuvre where the robot knows it: it holds what it has when it is told."""

@@ -55,13 +55,15 @@ class Handling:
     """It can go in any direction, so that it may slide along a fence."""
     steers: bool = False
     """It turns only by going, in proportion to its speed."""
+    levelling: float = 1.0
+    """Deceleration up and down that can be counted on [m/s2]."""
 
 
 HANDLING = {
     "wheels": Handling(0.8, 2.5),
     "ackermann": Handling(1.5, 1.0, steers=True),
     "boat": Handling(0.15, 0.3),
-    "hexapod": Handling(0.2, 0.6),
+    "hexapod": Handling(0.2, 0.6, levelling=0.08),
     "quadrotor": Handling(1.0, 2.0, sideways=True),
 }
 """By the kind that `/robot/info` tells. The deceleration can be configured, since floors and loads differ."""

@@ -25,6 +25,9 @@ STILL = 0.04
 """Slower ahead, and turning slower than this, it lies still [m/s, rad/s]."""
 _NEAR = 0.1
 """Only nearer than this does what was off add up [m]."""
+LEAD, LEAD_RATE, FARTHEST = 0.05, 2.0, 1.0
+"""How far the height that is held may be ahead of the body [m], and how much farther for a climb [s]: no farther than the
+fins need it, so that it goes no farther when told to climb no more; and how far when it is pushed away from it [m]."""
 DIVING = 0.1
 """From this pitch on it goes up and down by swimming, not by holding its height [rad]."""
 
@@ -41,6 +44,7 @@ class Pilot:
         self._order = Manoeuvre(kind="rest")
         self._roll = self._pitch = self._yaw = self._height = 0.0
         self._sum = 0.0
+        self._climbs = False
 
     def begin(self, order: Manoeuvre, body: SixDof, *, fresh: bool) -> None:
         """Follow `order`; a `fresh` kind begins with what the body does now."""
@@ -97,9 +101,10 @@ class Pilot:
             self._roll = within(self._roll + STEP * turn.x, limits.tilt)
             self._pitch = within(self._pitch + STEP * turn.y, limits.tilt)
         self._yaw = wrap(self._yaw + STEP * within(turn.z, limits.yaw_rate))
-        ahead_of = within(
-            self._height + STEP * within(order.twist.linear.z, limits.climb) - body.position[2], 1.0
-        )
+        climb = within(order.twist.linear.z, limits.climb)
+        lead = LEAD + LEAD_RATE * abs(climb) if climb or self._climbs else FARTHEST
+        self._climbs = climb != 0.0
+        ahead_of = within(self._height + STEP * climb - body.position[2], lead)
         self._height = min(self._afloat, body.position[2] + ahead_of)
 
     def _speed(self) -> float:
