@@ -14,9 +14,10 @@ from typing import NoReturn
 from PIL import Image
 
 from sim.renderer import NoRendererError, Renderer
-from sim.robot import ROBOTS, WORLDS, make, model_of
-from sim.shapes import from_yaw
-from sim.vehicles.model import Model
+from sim.robot import ROBOTS, WORLDS, home_of, make_several, model_of
+from sim.shapes import Shape, from_yaw
+from sim.starts import starts
+from sim.vehicles.model import Model, numbered
 from sim.view import View
 from sim.world import World, load
 
@@ -26,25 +27,31 @@ PIXELS = 1600
 """Breadth of the picture."""
 FRAME = 1 / 60
 """Between two looks at the clock while the window is open [s]."""
+LATE = 0.1
+"""The most that is made good between two looks [s]: a window that is drawn slowly shows slow motion and no jumps."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Do what the arguments ask; 0 done, 2 the user's mistake, 1 a fault."""
     try:
         arguments = _parser().parse_args(argv)
-        world, model = load(arguments.world), model_of(arguments.robot)
-        if arguments.picture:
-            print(picture(world, model, Path(arguments.picture)))
-        elif arguments.gui:
-            show(arguments.world, arguments.robot, clock=time.monotonic, wait=time.sleep)
+        names = [name.strip() for name in arguments.robot.split(",")]
+        world = arguments.world or home_of(names)
+        models = numbered([model_of(name) for name in names])
+        if arguments.gui:
+            show(world, names, clock=time.monotonic, wait=time.sleep)
+        elif arguments.picture:
+            print(picture(load(world), models, Path(arguments.picture)))
         else:
-            print(summary(world))
+            print(summary(load(world)))
     except (ValueError, OSError) as fault:
         print(f"sim: {fault}", file=sys.stderr)
         return 2
-    except NoRendererError as fault:
+    except (NoRendererError, RuntimeError) as fault:
         print(f"sim: {fault}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return 0
     return 0
 
 
@@ -57,8 +64,12 @@ class _Parser(argparse.ArgumentParser):
 
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser("python -m sim", description="Look at a simulated world.")
-    parser.add_argument("--world", default="parking_lot", help=f"{', '.join(WORLDS)} or a TOML file")
-    parser.add_argument("--robot", default="patrol", help=", ".join(ROBOTS))
+    parser.add_argument(
+        "--world", default="", help=f"{', '.join(WORLDS)} or a TOML file; the robot's home if left out"
+    )
+    parser.add_argument(
+        "--robot", default="patrol", help=f"{', '.join(ROBOTS)}, or several with commas between"
+    )
     parser.add_argument("--picture", metavar="FILE", help="draw the world from above into a PNG or JPEG file")
     parser.add_argument("--gui", action="store_true", help="watch it in the physics engine's window")
     return parser
@@ -87,35 +98,43 @@ def summary(world: World) -> str:
     return f"{world.name}: {ground.length:g} x {ground.width:g} m; {water}{things or 'empty'}."
 
 
-def picture(world: World, model: Model, path: Path) -> str:
-    """Draw `world` from above, north up, with a robot of `model` at its start, into `path`; a sentence about it."""
+def picture(world: World, models: Sequence[Model], path: Path) -> str:
+    """Draw `world` from above, north up, with robots of `models` at their starts, into `path`; a sentence about it."""
     if path.suffix.lower() not in Image.registered_extensions():
         raise ValueError(f"{path.name} has no ending of a picture; use .png or .jpg.")
     length, width = world.ground.length + 2 * MARGIN, world.ground.width + 2 * MARGIN
     view = View.from_above(length, width, PIXELS)
-    start = world.start
-    robot = model.looks(model.parameters, (start.x, start.y, 0.0), from_yaw(start.angle))
+    robots: list[Shape] = []
+    for model, start in zip(models, starts(world, models, [None] * len(models)), strict=True):
+        depth = start.z if model.element == "water" else 0.0
+        robots += model.looks(model.parameters, (start.x, start.y, depth), from_yaw(start.angle))
     renderer = Renderer(world, samples=4)
     try:
-        Image.fromarray(renderer.render(view, robot)).save(path)
+        Image.fromarray(renderer.render(view, tuple(robots))).save(path)
     finally:
         renderer.close()
     return f"{path}: {world.name} from above, {PIXELS / length:.1f} pixels a metre, north up."
 
 
-def show(world: str, robot: str, *, clock: Callable[[], float], wait: Callable[[float], None]) -> None:
+def show(
+    world: str, robots: Sequence[str], *, clock: Callable[[], float], wait: Callable[[float], None]
+) -> None:
     """Run in real time in the engine's window until interrupted."""
     if not os.environ.get("DISPLAY"):
         raise ValueError("--gui needs a display, and DISPLAY is not set.")
-    simulated = make(robot, world, gui=True, camera=False)
+    simulated = make_several(robots, world, gui=True, camera=False)
     try:
+        print("The window is open; Ctrl-C closes it.", flush=True)
+        now, last = 0.0, clock()
         while True:
-            simulated.read(clock())
+            before, last = last, clock()
+            now += min(last - before, LATE)
+            for robot in simulated:
+                robot.read(now)
             wait(FRAME)
-    except KeyboardInterrupt:
-        return
     finally:
-        simulated.close()
+        for robot in simulated:
+            robot.close()
 
 
 if __name__ == "__main__":

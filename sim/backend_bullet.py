@@ -31,6 +31,8 @@ _NOTHING = 0.99999
 _EVERYTHING = -1
 _FIRST_GROUP, _GROUPS = 64, 24
 """Collision groups of vehicles, one each, so that a vehicle's own rays look through it; the 25th shares the first's."""
+_WINDOW_AWAY = 7.0
+"""From which the window looks at the robots at first [m]."""
 _MOST_SOLIDS = 16
 """Of a thing; pybullet leaves out what is more, without a word."""
 _PLAIN = 1
@@ -81,7 +83,9 @@ class Bullet:
             physicsClientId=self._client,
         )
         if gui:
-            p.configureDebugVisualizer(p.COV_ENABLE_GUI, 0, physicsClientId=self._client)
+            # each thing that is made waits for a picture while pictures are made
+            for off in (p.COV_ENABLE_GUI, p.COV_ENABLE_SHADOWS, p.COV_ENABLE_RENDERING):
+                p.configureDebugVisualizer(off, 0, physicsClientId=self._client)
         self._below: dict[int, Vec3] = {}
         self._groups: dict[int, int] = {}
         self.ground = -1
@@ -311,6 +315,13 @@ class Bullet:
         picture: Picture = np.array(np.reshape(colours, (height, width, 4))[:, :, :3], dtype=np.uint8)
         picture[np.reshape(depths, (height, width)) >= _NOTHING] = SKY
         return picture
+
+    def show(self, at: Vec3) -> None:
+        """Show in the window, if there is one, what was made so far, from behind and above the place `at` [m]."""
+        if self._gui:
+            client = self._client
+            p.resetDebugVisualizerCamera(_WINDOW_AWAY, 0, -30, at, physicsClientId=client)
+            p.configureDebugVisualizer(p.COV_ENABLE_RENDERING, 1, physicsClientId=client)
 
     def close(self) -> None:
         """Free the world; closing twice does nothing."""

@@ -47,6 +47,7 @@ class Simulation:
             for number, (model, start) in enumerate(placed)
         ]
         self._looks = [model.looks for model, _ in placed]
+        self.backend.show((world.start.x, world.start.y, world.start.z))
         self.steps = 0
         """Physics steps done."""
         for _ in range(SETTLING):

@@ -1,5 +1,13 @@
 from __future__ import annotations
 
+import os
+import shutil
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
 import numpy as np
 import pytest
 from PIL import Image
@@ -62,3 +70,82 @@ def test_a_mistake_is_told_in_one_sentence_with_exit_code_2(arguments, sentence,
 def test_a_picture_that_cannot_be_written_is_a_mistake(tmp_path, capsys):
     assert main(["--picture", str(tmp_path / "no" / "lot.png")]) == 2
     assert "No such file or directory" in capsys.readouterr().err
+
+
+def test_the_picture_shows_all_robots_that_are_asked_for_at_home(tmp_path, capsys):
+    pictures = []
+    for number, names in enumerate(("minnow", "minnow,aqua,ardrone")):
+        file = tmp_path / f"{number}.png"
+        assert main(["--robot", names, "--picture", str(file)]) == 0
+        assert "lake from above" in capsys.readouterr().out
+        with Image.open(file) as picture:
+            pictures.append(np.asarray(picture.convert("RGB")).astype(int))
+    assert (np.abs(pictures[0] - pictures[1]).sum(axis=2) > 60).sum() > 20
+
+
+@pytest.mark.parametrize(
+    ("robots", "sentence"),
+    [
+        (
+            "patrol,minnow",
+            "sim: There is no world for patrol and minnow together: some need dry land, some water.",
+        ),
+        ("patrol,rover", "sim: There is no simulated robot 'rover'; there is patrol"),
+    ],
+)
+def test_robots_that_cannot_be_together_are_a_mistake(robots, sentence, capsys):
+    assert main(["--robot", robots]) == 2
+    assert capsys.readouterr().err.startswith(sentence)
+
+
+EMPTY = """
+name = "empty"
+description = "Nothing"
+ground = {length = 6.0, width = 6.0}
+start = {x = 0.0, y = 0.0}
+datum = {latitude = 45.0, longitude = 9.0}
+"""
+
+
+@pytest.fixture
+def display() -> Iterator[str]:
+    """A display that nobody sees."""
+    server = shutil.which("Xvfb")
+    if server is None:
+        pytest.skip("there is no Xvfb to open a window on")
+    reads, writes = os.pipe()
+    command = [server, "-displayfd", str(writes), "-screen", "0", "640x480x24", "-nolisten", "tcp"]
+    process = subprocess.Popen(command, pass_fds=[writes], stderr=subprocess.DEVNULL)
+    os.close(writes)
+    with os.fdopen(reads) as told:
+        number = told.readline().strip()
+    try:
+        yield f":{number}"
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def test_the_engines_own_window_opens_and_closes(tmp_path, display):
+    (tmp_path / "empty.toml").write_text(EMPTY)
+    command = [
+        sys.executable,
+        "-m",
+        "sim",
+        "--gui",
+        "--robot",
+        "patrol,scout",
+        "--world",
+        str(tmp_path / "empty.toml"),
+    ]
+    environment = {**os.environ, "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1"}
+    root = Path(__file__).parents[2]
+    with subprocess.Popen(command, cwd=root, env=environment, stdout=subprocess.PIPE, text=True) as shown:
+        try:
+            assert shown.stdout is not None
+            assert any("The window is open" in line for line in shown.stdout)
+            shown.send_signal(signal.SIGINT)
+            shown.communicate(timeout=30)
+        finally:
+            shown.kill()
+    assert shown.returncode == 0
