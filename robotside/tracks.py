@@ -64,7 +64,7 @@ HANDLING = {
     "ackermann": Handling(1.5, 1.0, steers=True),
     "boat": Handling(0.15, 0.3),
     "hexapod": Handling(0.2, 0.6, levelling=0.08),
-    "quadrotor": Handling(1.0, 2.0, sideways=True),
+    "quadrotor": Handling(1.0, 2.0, sideways=True, levelling=0.5),
 }
 """By the kind that `/robot/info` tells. The deceleration can be configured, since floors and loads differ."""
 
