@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import RobotInfo
+from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from bridge.units import wrap
 from robotside.follow import Follower, Manner
 from robotside.going import CRUISE, UNSURE_SPEED
 from robotside.lattice import Lattice, Piece
 from robotside.planner import Planner, Unreachable, place_sentence
 from robotside.pose2 import Points, Pose2
-from robotside.robot import Robot
+from robotside.robot import Manoeuvrable, Robot
 
 __all__ = ["Trucking", "bend_of", "girth"]
 
@@ -25,10 +25,10 @@ FASTEST = 2.0
 DISCS, GIRTH = (0.0, 0.39, 0.78), 0.36
 """The body is covered by three discs so far ahead of the rear axle and so large, as parts of the robot's radius."""
 
-MARGIN = 0.15
+MARGIN = 0.2
 """Kept between the body and anything on the map [m]."""
 
-GAP = 0.2
+GAP = 0.12
 """Kept between the body and anything that the laser sees [m]."""
 
 SPARE = 0.9
@@ -46,7 +46,31 @@ ENOUGH = 1.0
 BRAKING = 1.0
 """Deceleration counted on when something is ahead [m/s2]."""
 
-MANNER = Manner(0.3, 1.0, 1.6, 0.6, 0.6, 0.4, 0.8)
+BEYOND = 2.0
+"""It aims at a way that goes on so far beyond its end [m]."""
+
+NEAR, MISSED = 0.15, 1.2
+"""At the end of a way it is so far from it along the way, or past it, and no farther than the second at all [m]."""
+
+SWING, PERIOD = 0.8, 0.05
+"""From straight to the tightest bend the front wheels take so long, and so often they are told [s]."""
+
+SWINGING, CREEP = 0.3, 0.15
+"""No faster than this they are let swing first, and so fast it creeps meanwhile where it cannot stand [m/s]."""
+
+LOCK = 0.5
+"""Of the front wheels, where the robot does not say [rad]."""
+
+TRIES = 2
+"""Ways to come to look where it should, after the first."""
+
+MANNER = Manner(0.0, 0.0, 1.3, 0.5, 0.6, 0.4, 0.8)
+
+
+def _end(points: Points) -> NDArray[np.float64]:
+    """The direction in which a way ends, of length 1."""
+    along = points[-1] - points[max(-4, -len(points))]
+    return np.asarray(along / max(float(np.hypot(*along)), 1e-9))
 
 
 def girth(info: RobotInfo) -> float:
@@ -76,6 +100,9 @@ class Trucking:
         self._pieces: list[Piece] = []
         self._follower: Follower | None = None
         self._speed = 0.0
+        self._tries = 0
+        self._steered = 0.0
+        """About where the front wheels stand, as the bend of the way that it goes [1/m]."""
 
     @property
     def under_way(self) -> bool:
@@ -115,11 +142,11 @@ class Trucking:
         if self._follower is None:
             return math.nan
         rest = (np.hypot(*np.diff(piece.points, axis=0).T).sum() for piece in self._pieces[1:])
-        return self._follower.remaining(pose) + float(sum(rest))
+        return max(0.0, self._follower.remaining(pose) - BEYOND) + float(sum(rest))
 
     def arrived(self, pose: Pose2) -> bool:
         """The way is gone to its end; where it changes over in between, the next piece begins."""
-        if self._follower is None or not (self._follower.arrived(pose) or self._beyond(pose)):
+        if self._follower is None or not self._at_end(pose):
             return False
         if len(self._pieces) == 1:
             return True
@@ -138,17 +165,29 @@ class Trucking:
         if abs(bearing) > math.pi / 2:
             wanted = math.copysign(self._bend, bearing)
         bend = max(-self._bend, min(self._bend, wanted))
-        speed = follower.speed(looking, bearing, distance)
+        left = max(0.0, follower.remaining(looking) - BEYOND)
+        speed = min(
+            follower.speed(looking, bearing, distance),
+            max(MANNER.creep, math.sqrt(2 * MANNER.slowdown * left)),
+        )
         speed = min(speed if sure else min(speed, UNSURE_SPEED), self._speed + 0.1)
         bend, room = self._free_of(bend, way, points)
         self._speed = min(speed, math.sqrt(2 * BRAKING * max(0.0, room - ENOUGH / 2)))
         if room < ENOUGH:
             self._speed = 0.0
-        self._robot.drive(Twist.planar(way * self._speed, self._speed * bend) if self._speed else Twist())
+        if self._swings(bend) and self._speed <= SWINGING:
+            self._swing(bend, way)
+        else:
+            self._robot.drive(Twist.planar(way * self._speed, self._speed * bend) if self._speed else Twist())
 
     def face(self, pose: Pose2, yaw: float) -> bool:
-        """It looks where its way has led it: it cannot turn where it stands."""
-        return True
+        """It cannot turn where it stands: it drives another way to the same place, and then looks where that has led it."""
+        if abs(wrap(yaw - pose.yaw)) < FACES or self._tries >= TRIES:
+            self._tries = 0
+            return True
+        self._tries += 1
+        self.forget()
+        return False
 
     def ready(self, pose: Pose2, now: float) -> str:
         """It always is."""
@@ -188,14 +227,38 @@ class Trucking:
         first = np.where(hit.any(axis=1), hit.argmax(axis=1), hit.shape[1])
         return first * STEP
 
+    def _swings(self, bend: float) -> bool:
+        """The front wheels, which need their time, are far from where this bend has them."""
+        most = self._bend / SWING * PERIOD
+        self._steered += max(-most, min(most, bend - self._steered))
+        return abs(bend - self._steered) > 0.3 * self._bend
+
+    def _swing(self, bend: float, way: float) -> None:
+        """Stand, or creep where that is all that can be told, until the front wheels have swung round."""
+        self._speed = 0.0
+        if isinstance(self._robot, Manoeuvrable) and "steer" in self._robot.info.manoeuvres:
+            lock = self._robot.info.max_steering or LOCK
+            # of the wheels the same angle bends a way back to the other side of it
+            angle = math.atan(math.tan(lock) * bend * way / self._bend)
+            self._robot.manoeuvre(Manoeuvre(kind="steer", speed=0.0, steering=angle))
+        else:
+            self._robot.drive(Twist.planar(way * CREEP, CREEP * bend))
+
     def _take(self, pieces: list[Piece]) -> None:
+        if self._pieces and self._pieces[0].ahead != pieces[0].ahead:
+            self._steered = -self._steered
         self._pieces = pieces
-        self._follower = Follower(pieces[0].points, cruise=self.cruise, manner=MANNER)
+        points = pieces[0].points
+        along = _end(points)
+        # aiming beyond the end it comes there in the direction of the way
+        beyond = points[-1] + np.arange(0.1, BEYOND + 0.05, 0.1)[:, None] * along
+        self._follower = Follower(np.concatenate([points, beyond]), cruise=self.cruise, manner=MANNER)
         self._speed = 0.0
 
-    def _beyond(self, pose: Pose2) -> bool:
-        """It has passed the end of the piece beside it."""
+    def _at_end(self, pose: Pose2) -> bool:
+        """It is beside the end of the piece, or past it."""
         points = self._pieces[0].points
-        (x, y), (bx, by) = points[-1].tolist(), points[max(-4, -len(points))].tolist()
-        over = (pose.x - x) * (x - bx) + (pose.y - y) * (y - by)
-        return over > 0 and pose.distance(x, y) < MANNER.missed
+        x, y = points[-1].tolist()
+        dx, dy = _end(points).tolist()
+        over = (pose.x - x) * dx + (pose.y - y) * dy
+        return over > -NEAR and pose.distance(x, y) < MISSED
