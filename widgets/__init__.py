@@ -12,6 +12,7 @@ from typing import Any
 CATALOGUE: dict[str, str] = {
     "ActionColumn": "widgets.action_column",
     "AckermannView": "widgets.ackermann",
+    "ArmPanel": "widgets.arm_panel",
     "ArtificialHorizon": "widgets.horizon",
     "Battery": "widgets.battery",
     "CheckList": "widgets.check_list",
@@ -48,6 +49,7 @@ CATALOGUE: dict[str, str] = {
     "PlaceList": "widgets.place_list",
     "QuestionCard": "widgets.question_card",
     "Readout": "widgets.readout",
+    "RollPitch": "widgets.roll_pitch",
     "RudderThrottle": "widgets.rudder_throttle",
     "ResetCard": "widgets.reset_card",
     "RotorSpeeds": "widgets.rotor_speeds",
