@@ -164,10 +164,10 @@ def picture() -> float:
             View((0.0, 0.0, 0.4), from_yaw(math.tau * number / VIEWS), (640, 480), 1.2)
             for number in range(VIEWS)
         ]
-        jpeg(renderer.render(views[0]))
+        jpeg(renderer.draw(views[0]))
         started = time.process_time()
         for view in views:
-            jpeg(renderer.render(view))
+            jpeg(renderer.draw(view))
         return (time.process_time() - started) / VIEWS
 
 

@@ -31,7 +31,7 @@ QUALITY = 80
 _log = logging.getLogger(__name__)
 
 Picture = NDArray[np.uint8]
-"""(height, width, 3) RGB, top row first."""
+"""(height, width, 3) RGB, top row first; a fourth byte a pixel means nothing."""
 
 
 class Eye(Protocol):
@@ -39,6 +39,8 @@ class Eye(Protocol):
 
     def show(self, view: View, stamp: float, moving: Sequence[Shape] = ()) -> list[tuple[float, Picture]]:
         """Draw `view` as of `stamp`; gives the pictures that are ready, oldest first, each with its stamp.
+
+        They are good until the next call.
 
         `moving` are the other robots, which one that draws slowly may leave out.
         """
@@ -57,7 +59,7 @@ class _Quick:
         self._renderer = Renderer(world)
 
     def show(self, view: View, stamp: float, moving: Sequence[Shape] = ()) -> list[tuple[float, Picture]]:
-        return [(stamp, self._renderer.render(view, moving))]
+        return [(stamp, self._renderer.draw(view, moving))]
 
     def ready(self) -> list[tuple[float, Picture]]:
         return []
@@ -116,5 +118,10 @@ def _message(picture: Picture, stamp: float) -> CompressedImage:
 def jpeg(picture: Picture) -> bytes:
     """The picture as a JPEG file."""
     file = io.BytesIO()
-    Image.fromarray(picture).save(file, "JPEG", quality=QUALITY)
+    height, width, depth = picture.shape
+    if depth == 4:  # as Pillow keeps it, so that it is not copied
+        image = Image.frombuffer("RGBX", (width, height), picture, "raw", "RGBX", 0, 1)
+    else:
+        image = Image.fromarray(picture)
+    image.save(file, "JPEG", quality=QUALITY)
     return file.getvalue()

@@ -14,7 +14,7 @@ from PIL import Image, ImageDraw
 
 from sim.shapes import Colour
 
-__all__ = ["HORIZON", "SIZE", "ZENITH", "dome", "grain", "panorama"]
+__all__ = ["HORIZON", "SIZE", "ZENITH", "dome", "grain", "panorama", "seen"]
 
 ZENITH: Colour = (0.33, 0.58, 0.86)
 HORIZON: Colour = (0.84, 0.91, 0.96)
@@ -39,16 +39,28 @@ def panorama() -> bytes:
 
 
 def dome() -> tuple[bytes, bytes]:
-    """Corners of the dome, float32 direction (3) and place in the panorama (2) each, and three indices (int32) a triangle."""
-    sectors = np.linspace(0, 1, _SECTORS + 1)
+    """Corners of the dome, float32 direction (3) and place in the panorama (2) each, and three indices (int32) a triangle.
+
+    The triangles go round twice, so that any part of the round lies in one piece, see `seen`.
+    """
+    turns = np.linspace(0, 1, _SECTORS + 1)
     levels = np.concatenate(([-0.05], np.linspace(0, 0.97, _RINGS)))
-    corners = [_corner(float(turn), float(level)) for level in levels for turn in sectors]
-    triangles: list[int] = []
-    for below in range(0, _RINGS * (_SECTORS + 1), _SECTORS + 1):
-        for i in range(below, below + _SECTORS):
-            above = i + _SECTORS + 1
-            triangles += [i, i + 1, above + 1, i, above + 1, above]
-    return np.array(corners, dtype=np.float32).tobytes(), np.array(triangles, dtype=np.int32).tobytes()
+    corners = [_corner(float(turn), float(level)) for turn in turns for level in levels]
+    order: list[int] = []
+    for right in range(0, _SECTORS * len(levels), len(levels)):
+        for a in range(right, right + _RINGS):
+            b, c, d = a + len(levels), a + len(levels) + 1, a + 1
+            order += [a, b, c, a, c, d]
+    return np.array(corners, dtype=np.float32).tobytes(), np.array(order * 2, dtype=np.int32).tobytes()
+
+
+def seen(yaw: float, half: float) -> tuple[int, int]:
+    """First index and number of indices of the dome's triangles that lie at most `half` [rad] beside `yaw` [rad]."""
+    sector = math.tau / _SECTORS
+    first = math.floor((yaw - half + math.pi) / sector)
+    count = min(math.floor((yaw + half + math.pi) / sector) - first + 1, _SECTORS)
+    each = 6 * _RINGS
+    return first % _SECTORS * each, count * each
 
 
 def grain() -> Grey:

@@ -54,6 +54,19 @@ class View:
         back = rotate(self.rotation, (-1.0, 0.0, 0.0))
         return np.array([right, up, back]).T
 
+    @property
+    def round(self) -> tuple[float, float]:
+        """The yaw that it looks towards, and how far to each side it sees at most [rad]."""
+        half_x, half_y = self.half_extent
+        axes = self.axes
+        ahead = -axes[:, 2]
+        corner = math.hypot(half_x, half_y)
+        if math.hypot(ahead[0], ahead[1]) <= corner / math.hypot(1.0, corner):
+            return 0.0, math.pi  # what is right above or below it may be in the picture
+        yaw = math.atan2(ahead[1], ahead[0])
+        rays = [axes @ (x, y, -1.0) for x in (-half_x, half_x) for y in (-half_y, half_y)]
+        return yaw, max(abs(math.remainder(math.atan2(y, x) - yaw, math.tau)) for x, y, _ in rays)
+
     def matrix(self) -> Matrix:
         """From the world to OpenGL's clip space, upside down: row 0 of what is drawn is the picture's top."""
         view = np.eye(4)

@@ -1,7 +1,8 @@
 #version 330
 // The ground with painted lines and baked shadows where the world is, grass round it; or water.
-// LOOK is 0 asphalt, 1 water, 2 floor, 3 grass, 4 sand; ROWS and LINES are how many there are of each; MURKY is set under
-// water. They are set before the program is made, for a software renderer works out both sides of every question.
+// LOOK is 0 asphalt, 1 water, 2 floor, 3 grass, 4 sand; ROWS and LINES are how many there are of each; SIGNS is set where
+// something else is painted, MURKY under water. All are set before the program is made, for a software renderer works out
+// both sides of every question.
 uniform sampler2D markings;   // red: painted signs; green: light that is left by shadows
 uniform sampler2D grain;
 uniform vec2 extent;          // of the lot, centred on the origin [m]
@@ -76,7 +77,11 @@ vec3 water(vec3 back) {
 }
 
 vec3 painted(float rough) {
-    vec2 mark = texture(markings, place / extent + 0.5, -1.5).rg;
+#if SIGNS
+    vec2 mark = texture(markings, place / extent + 0.5, -1.5).rg;  // crisp, however flat one looks at them
+#else
+    vec2 mark = texture(markings, place / extent + 0.5).rg;
+#endif
     float paint = mark.r;
 #if ROWS + LINES > 0
     paint = max(paint, lines_here());
