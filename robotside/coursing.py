@@ -49,6 +49,7 @@ class Coursing:
     """`going.Going` of a robot that keeps courses."""
 
     keeps_courses = True
+    discs = (0.0,)
     look = 10.0
 
     def __init__(self, robot: Robot) -> None:

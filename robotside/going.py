@@ -21,6 +21,8 @@ class Going(Protocol):
 
     keeps_courses: bool
     """The robot knows manoeuvres that keep a heading, a speed and a height."""
+    discs: tuple[float, ...]
+    """So far ahead of `base_link` are the middles of the discs that cover its body [m]."""
     turning: float
     """Of the tightest bend in which it turns [m]; 0 when it turns where it is."""
     cruise: float

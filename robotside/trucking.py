@@ -93,7 +93,7 @@ class Trucking:
         info = robot.info
         self._robot = robot
         self._bend = bend_of(info)
-        self._discs = tuple(part * info.radius for part in DISCS)
+        self.discs: tuple[float, ...] = tuple(part * info.radius for part in DISCS)
         self._girth = girth(info)
         self.turning = 1.0 / (SPARE * self._bend)
         self.cruise, self.clear = min(CRUISE * info.max_speed, FASTEST), self._girth + MARGIN + 0.1
@@ -126,7 +126,7 @@ class Trucking:
         for place, called in (((pose.x, pose.y), "The robot"), (goal[:2], name)):
             if not grid.holds(*place):
                 raise Unreachable(f"{place_sentence(called, *place)} is off the map.")
-        lattice = Lattice(grid, SPARE * self._bend, self._discs, self._girth, MARGIN)
+        lattice = Lattice(grid, SPARE * self._bend, self.discs, self._girth, MARGIN)
         pieces = lattice.way(pose, goal)
         if not pieces:
             raise Unreachable(f"There is no way to {place_sentence(name, *goal[:2])} that it can drive.")
@@ -209,7 +209,7 @@ class Trucking:
 
     def _free(self, bends: NDArray[np.float64], points: Points, way: float) -> NDArray[np.float64]:
         """The same for several arcs of `base_link`."""
-        near = points[np.hypot(points[:, 0], points[:, 1]) < HORIZON + self._discs[-1] + self._girth]
+        near = points[np.hypot(points[:, 0], points[:, 1]) < HORIZON + self.discs[-1] + self._girth]
         if not len(near):
             return np.full(len(bends), HORIZON)
         along = np.arange(STEP, HORIZON + STEP / 2, STEP) * way
@@ -218,7 +218,7 @@ class Trucking:
         x, y = np.sin(safe * along) / safe, (1.0 - np.cos(safe * along)) / safe
         gaps = np.full((*yaw.shape, len(near)), math.inf)
         at_first = np.full(len(near), math.inf)
-        for disc in self._discs:
+        for disc in self.discs:
             px, py = x + disc * np.cos(yaw), y + disc * np.sin(yaw)
             gaps = np.minimum(gaps, np.hypot(px[..., None] - near[:, 0], py[..., None] - near[:, 1]))
             at_first = np.minimum(at_first, np.hypot(near[:, 0] - disc, near[:, 1]))

@@ -23,6 +23,7 @@ class Wheeling:
     """`going.Going` of a robot that turns where it stands."""
 
     keeps_courses = False
+    discs = (0.0,)
     turning = 0.0
     look = 6.0
 

@@ -39,6 +39,9 @@ class DriveTo(Behaviour):
         now, goal = self._situation, self._course.goal
         leg = self._guide.update(now.pose, now.points, now.now)
         self.feedback_message = self._sentence(leg)
+        if self._guide.waits_for:
+            now.tell("taking off", self._guide.waits_for, place=goal.place)
+            return LEG_STATUS[leg]
         now.tell("turning" if self._guide.turning else "driving", self._words(goal), place=goal.place)
         return LEG_STATUS[leg]
 

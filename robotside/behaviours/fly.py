@@ -48,7 +48,7 @@ class _UpAndDown(Behaviour):
                 f"{self.title} took longer than {self.lasts:.0f} s; the robot stays where it is."
             )
             return Status.FAILURE
-        now.tell(self.order.replace("_", " "), f"{self.title}.")
+        now.tell(self.title.lower(), f"{self.title}.", still=math.nan)
         self.tell_robot()
         return Status.RUNNING
 

@@ -142,23 +142,24 @@ class FollowHeading(Behaviour):
         """Free way ahead as the map, fence included, tells [m], up to the horizon."""
         need = self._guide.radius + MARGIN
         along = np.arange(0.0, self._horizon, 0.05)
-        places = self._way(along)
-        room = self._guide.planner.grid.clearance(places)
+        places, yaws = self._way(along)
+        looks = np.column_stack([np.cos(yaws), np.sin(yaws)])
+        grid, discs = self._guide.planner.grid, self._guide.going.discs
+        room = np.min([grid.clearance(places + disc * looks) for disc in discs], axis=0)
         # who stands too close already may go where there is more room
         closed = np.flatnonzero((room < need) & (room < room[0] + 0.01))
         return float(along[closed[0]]) if len(closed) else self._horizon
 
-    def _way(self, along: Points) -> Points:
-        """Places so far along the way [m]: round to the heading, if it has to drive a bend for that, and straight on."""
+    def _way(self, along: Points) -> tuple[Points, Points]:
+        """Places so far along the way [m] and where it looks there [rad]: round to the heading, if it has to drive a bend for that, and straight on."""
         pose, radius = self._situation.pose, self._guide.going.turning
         error = math.remainder(self._heading - pose.yaw, math.tau)
         yaw = np.full(len(along), self._heading)
         if radius:
             yaw = pose.yaw + np.clip(along / radius, 0.0, abs(error)) * math.copysign(1.0, error)
         step = np.diff(along, prepend=0.0)
-        return np.column_stack(
-            [pose.x + np.cumsum(step * np.cos(yaw)), pose.y + np.cumsum(step * np.sin(yaw))]
-        )
+        places = [pose.x + np.cumsum(step * np.cos(yaw)), pose.y + np.cumsum(step * np.sin(yaw))]
+        return np.column_stack(places), yaw
 
     def _thing(self) -> float:
         """Free way ahead as the laser sees it [m], up to the horizon."""

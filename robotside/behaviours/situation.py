@@ -21,7 +21,7 @@ class Doing:
     """What the robot does for its task."""
 
     phase: str = ""
-    """driving, waiting, dwelling, holding, turning, docking or circling; empty when it does none of them."""
+    """driving, waiting, dwelling, holding, turning, docking, circling, taking off, landing or surfacing; empty when it does none of them."""
     text: str = ""
     """One sentence for the operator: what it does and why; empty leaves it to the task."""
     place: str = ""

@@ -1,0 +1,98 @@
+"""A quadrotor at work over the car park: it takes off for what it has to do, and lands at home."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from bridge.msgs.pilothouse_msgs import CommandRequest, Waypoint
+from sim.robot import make
+from tests.robotside.sim_run import Run
+
+HOME = Waypoint(-17.5, -11.0, math.pi / 2)
+POINTS = [Waypoint(-17.5, -5.0), Waypoint(-14.0, -3.0)]
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Iterator[Run]:
+    run = Run(make("ardrone", "parking_lot", seed=2, camera=False), tmp_path)
+    yield run
+    run.station.close()
+
+
+def height(run: Run) -> float:
+    return run.robot.simulation.vehicle.state().position[2]
+
+
+def rotors(run: Run) -> float:
+    return max(run.robot.simulation.vehicle.motors.speeds)  # type: ignore[attr-defined]  # a quadrotor's
+
+
+def test_it_takes_off_for_a_patrol_hovers_after_it_and_lands_at_home(run: Run) -> None:
+    run.patrol(POINTS, home=[HOME])
+    run.wait(0.5)
+    assert (run.task.phase, run.task.reason) == ("taking off", "Taking off.")
+    trail = run.finish()
+    assert run.task.reason == "Patrol done: 2 points visited."
+    for point in POINTS:
+        assert min(math.hypot(x - point.x, y - point.y) for x, y in trail) < 1.0
+    run.wait(2.0)
+    assert height(run) == pytest.approx(2.0, abs=0.3)
+    run.ask("/task/go_home", CommandRequest())
+    run.finish()
+    assert run.task.reason == "Home."
+    assert height(run) < 0.1
+    run.wait(2.0)
+    assert rotors(run) < 1.0
+    assert math.hypot(run.place[0] - HOME.x, run.place[1] - HOME.y) < 1.5
+
+
+def test_take_off_hold_and_land(run: Run) -> None:
+    run.order("take_off", height=1.5)
+    run.finish()
+    assert run.task.reason == "In the air."
+    assert height(run) == pytest.approx(1.5, abs=0.25)
+    begun = run.place
+    run.order("hold", height=2.5, duration=8.0)
+    run.finish()
+    assert height(run) == pytest.approx(2.5, abs=0.2)
+    assert math.dist(begun, run.place) < 0.6
+    run.order("land")
+    run.wait(1.0)
+    run.ask("/task/pause", CommandRequest())
+    run.wait(2.0)
+    waits = height(run)
+    assert waits > 1.0
+    run.ask("/task/resume", CommandRequest())
+    run.finish()
+    assert run.task.reason == "Landed."
+    assert height(run) < 0.1
+
+
+def test_stop_on_the_way_up_keeps_it_in_the_air_and_the_task_waits(run: Run) -> None:
+    run.order("take_off", height=3.0)
+    run.wait(2.5)
+    run.ask("/stop", CommandRequest())
+    run.wait(3.0)
+    before = height(run)
+    run.wait(2.0)
+    assert run.task.state == "PAUSED"
+    assert height(run) == pytest.approx(before, abs=0.15)
+    assert rotors(run) > 100.0
+
+
+def test_it_follows_a_heading_in_the_air(run: Run) -> None:
+    run.order("follow_heading", heading=math.pi / 4, speed=1.0, duration=9.0)
+    run.finish()
+    _, _, yaw = run.robot.simulation.pose()
+    assert run.task.state == "SUCCEEDED"
+    assert yaw == pytest.approx(math.pi / 4, abs=0.1)
+    assert height(run) > 1.5
+
+
+def test_a_height_in_the_ground_is_refused(run: Run) -> None:
+    with pytest.raises(AssertionError, match="must be at least 0.3 m, not 0 m"):
+        run.order("take_off", height=0.0)
