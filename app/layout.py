@@ -56,10 +56,10 @@ class Arrangement:
 
 _FLOATING = {"top_left": 1, "top": 1, "top_right": 1, "readouts": 4, "senses": 3}
 ARRANGEMENTS: Mapping[str, Arrangement] = {
-    "float": Arrangement(_FLOATING, {"stick": 2, "slider": 1}, 3),
+    "float": Arrangement(_FLOATING, {"stick": 2, "slider": 1, "top_right": 1}, 3),
     "two_sticks": Arrangement(_FLOATING, {"stick": 1, "right_stick": 1, "slider": 1, "confirm": 2}, 3),
     "columns": Arrangement(
-        {"left": 3, "corner": 1, "motion": 1, "readouts": 4}, {"stick": 1, "slider": 1, "tilt": 1}, 8
+        {"left": 3, "corner": 1, "motion": 1}, {"stick": 1, "lift": 1, "tilt": 1}, 8
     ),
 }
 """Video behind everything; the same with a control under either thumb; three columns with the video in the middle."""
@@ -128,6 +128,13 @@ class Control:
     action: str = ""
     """Of one that does something once: which of `ACTIONS`."""
     icon: str = ""
+    also: tuple[str, ...] = ()
+    """Further topics that it shows with the first."""
+
+    @property
+    def topics(self) -> tuple[str, ...]:
+        """All topics that it shows."""
+        return ((self.topic,) if self.topic else ()) + self.also
 
 
 @dataclass(frozen=True)
@@ -261,7 +268,7 @@ def _instrument(
 def _control(
     where: str, entry: Mapping[str, Any], widgets: frozenset[str], slots: Mapping[str, int]
 ) -> Control:
-    _check_keys(where, entry, texts=_CONTROL_TEXTS)
+    _check_keys(where, entry, texts=_CONTROL_TEXTS, lists={"also"})
     _one_of(where, "slot", entry.get("slot"), slots)
     _one_of(where, "widget", entry.get("widget"), [*sorted(widgets), SLIDER])
     for key, allowed in (
@@ -273,7 +280,10 @@ def _control(
     ):
         if key in entry:
             _one_of(where, key, entry[key], allowed)
-    return Control(**entry)
+    also = entry.get("also", [])
+    for name in also:
+        _one_of(where, "also", name, _TOLD)
+    return Control(**{**entry, "also": tuple(also)})
 
 
 def _action(where: str, entry: Mapping[str, Any]) -> Action:

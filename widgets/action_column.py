@@ -31,7 +31,7 @@ from widgets.theme import theme
 
 __all__ = ["Action", "ActionColumn"]
 
-TALLEST = 78.0
+TALLEST = 104.0
 """Higher ones say nothing more [dp]."""
 NARROW = 176.0
 """A narrower button has its icon above its words, which say all [dp]."""
@@ -65,12 +65,16 @@ Builder.load_string("""
             text: spaced('Actions') if root.titled else ''
             role: 'muted'
             font_size: sp(12)
+            size_hint_x: None
+            width: sp(76)
             pos_hint: {'center_y': .5}
         Text:
             text: spaced(root.hint) if root.titled else ''
             role: 'muted'
             font_size: sp(12)
             halign: 'right'
+            shorten: True
+            shorten_from: 'right'
             pos_hint: {'center_y': .5}
     Roll:
         id: roll
@@ -86,7 +90,7 @@ Builder.load_string("""
     size_hint_y: None
     height: root.high
     anchor_x: 'left' if root.flow == 'horizontal' else 'center'
-    padding: (dp(14), 0, dp(14) + root.taken, 0) if root.flow == 'horizontal' else (dp(4), 0, dp(4), 0)
+    padding: (dp(14), 0, dp(14) + root.taken + (dp(10) if root.taken else 0), 0) if root.flow == 'horizontal' else (dp(4), 0, dp(4), 0)
     canvas.after:
         Color:
             rgba: theme.warn if root.current else (0, 0, 0, 0)

@@ -18,7 +18,9 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.msgs.sensor_msgs import Imu
+from bridge.units import heading_from_yaw
 from widgets.geometry import dial_point, dial_text, heading_of, heading_text
 from widgets.ink import Drawing, Ink, Word, Words, tint
 from widgets.shapes import Shapes
@@ -28,6 +30,8 @@ __all__ = ["Compass", "samples"]
 
 STEP = 5
 """Between two ticks of the card [deg]."""
+HOLDS = ("course", "hover")
+"""Kinds of manoeuvre that hold a heading."""
 UNKNOWN = 0.5
 """Opacity while the heading is not known, 0 to 1."""
 
@@ -35,7 +39,7 @@ UNKNOWN = 0.5
 class Compass(Drawing):
     """Which way the bow points."""
 
-    accepts: ClassVar = (Imu, Odometry, PoseWithCovarianceStamped)
+    accepts: ClassVar = (Imu, Odometry, PoseWithCovarianceStamped, Manoeuvre)
     drawn_from: ClassVar = ("heading", "wanted", "transparent")
 
     heading = NumericProperty(math.nan)
@@ -73,9 +77,15 @@ class Compass(Drawing):
     def _round(self, *_: object) -> None:
         self.veil_radius = self.side / 2
 
-    def show(self, msg: Imu | Odometry | PoseWithCovarianceStamped) -> None:
-        """Take the heading out of the message; an Imu that measures no orientation gives NaN."""
-        self.heading = heading_of(msg)
+    def show(self, msg: Imu | Odometry | PoseWithCovarianceStamped | Manoeuvre) -> None:
+        """Take the heading out of the message, or out of an order the one to hold.
+
+        An Imu that measures no orientation gives NaN, and so does an order that holds none.
+        """
+        if isinstance(msg, Manoeuvre):
+            self.wanted = heading_from_yaw(msg.yaw) if msg.kind in HOLDS else math.nan
+        else:
+            self.heading = heading_of(msg)
 
     def draw(self) -> None:
         """Turn the card; draw it anew only when its size or colours have changed."""

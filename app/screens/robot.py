@@ -7,6 +7,7 @@ from typing import Any
 
 from app.feeds import Post
 from app.layout import Layout
+from app.screens.dive import DiveScreen
 from app.screens.drive import DriveScreen
 from app.screens.mission import MissionScreen
 from app.screens.shell import Shell
@@ -16,7 +17,7 @@ from app.session import Session
 
 __all__ = ["Profile", "robot_shell"]
 
-DRIVE = {"float": DriveScreen}
+DRIVE: dict[str, Callable[..., Any]] = {"float": DriveScreen, "columns": DiveScreen}
 """The drive screen of each arrangement."""
 
 

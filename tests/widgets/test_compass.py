@@ -5,6 +5,7 @@ import math
 import pytest
 
 from bridge.msgs.geometry_msgs import Pose, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
+from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.msgs.sensor_msgs import Imu
 from widgets.compass import Compass, samples
 
@@ -73,3 +74,11 @@ def test_many_changes_in_one_frame_are_drawn_once(compass, stage, monkeypatch):
 @pytest.mark.parametrize("name", samples())
 def test_every_sample_can_be_shown(stage, name):
     assert stage.show(samples()[name]()).width == 220
+
+
+def test_an_order_that_holds_a_course_says_where_it_should_point():
+    compass = Compass(heading=10.0)
+    compass.show(Manoeuvre(kind="course", yaw=0.0))
+    assert (compass.heading, compass.wanted) == (10.0, 90.0)
+    compass.show(Manoeuvre(kind="twist", yaw=0.0))
+    assert math.isnan(compass.wanted)
