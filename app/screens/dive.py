@@ -131,7 +131,7 @@ class DiveScreen(FloatLayout):
         column.framed = column.titled = wide
         column.inset = (12 if wide else 0) * dp
         column.foot = stop.head - stop.y + 8 * dp if wide else 0
-        column.across = 1 if not form == "tall" else max(1, int(places["actions"].width // (104 * dp)))
+        column.across = 1 if form != "tall" else max(1, int(places["actions"].width // (104 * dp)))
         self.video.corner = 0 if form == "tall" else 14 * dp
         for slot, found in self.places.items():
             for widget in found:
