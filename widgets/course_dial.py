@@ -289,8 +289,9 @@ def samples() -> dict[str, Callable[[], Widget]]:
     def made(size: tuple[float, float] = (176, 176), **more: Any) -> Callable[[], Widget]:
         return lambda: CourseDial(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
 
-    large, usual = (326, 228), {"heading": 38.0, "wanted": 45.0}
-    far = {"heading": 340.0, "wanted": 75.0}
+    large = (326, 228)
+    usual: dict[str, Any] = {"heading": 38.0, "wanted": 45.0}
+    far: dict[str, Any] = {"heading": 340.0, "wanted": 75.0}
     return {
         "never": made(state="never"),
         "no course": made(heading=214.0),

@@ -173,9 +173,8 @@ class RollPitch(Gauge):
         room = left + width - x
         roomy = height >= dp(66)
         scale = min(max(height / dp(84), 1.0), 1.9)
-        lines = (("name", 11, 6), ("figure", 22, 26), ("side", 12.5, 45), ("most", 12, 61))
-        if not roomy:
-            lines = (("name", 11, 6), ("figure", 17, 22), ("side", 12.5, 37))
+        large = (("name", 11, 6), ("figure", 22, 26), ("side", 12.5, 45), ("most", 12, 61))
+        lines = large if roomy else (("name", 11, 6), ("figure", 17, 22), ("side", 12.5, 37))
         texts = {"name": view.name.upper(), "figure": figure, "side": side, "most": self.most(view.name)}
         ink = theme.roles[self.role(view.name)]
         inks = {"figure": ink, "side": ink}
