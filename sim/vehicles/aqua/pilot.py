@@ -21,6 +21,8 @@ SURGE = 16.0
 """Force for a speed that lacks [N s/m]."""
 HEAVE, HEAVE_RATE, HEAVE_SUM, HEAVE_MOST = 55.0, 90.0, 8.0, 6.0
 """Force for a height that is off [N/m], for its rate [N s/m], for what was off so far [N/(m s)], and at most [N]."""
+BRAKING = 2.5
+"""Its fins take its way off it for so long, and are still then: somebody may be near them [s]."""
 STILL = 0.04
 """Slower ahead, and turning slower than this, it lies still [m/s, rad/s]."""
 _NEAR = 0.1
@@ -45,6 +47,7 @@ class Pilot:
         self._roll = self._pitch = self._yaw = self._height = 0.0
         self._sum = 0.0
         self._climbs = False
+        self._braking = 0.0
 
     def begin(self, order: Manoeuvre, body: SixDof, *, fresh: bool) -> None:
         """Follow `order`; a `fresh` kind begins with what the body does now."""
@@ -54,6 +57,7 @@ class Pilot:
             self._roll, self._pitch = within(roll, limit), within(pitch, limit)
             self._yaw, self._height = yaw, body.position[2]
             self._sum = 0.0
+            self._braking = BRAKING
         if order.kind in ("course", "hover", "surface"):
             self._roll = self._pitch = 0.0
             self._yaw = given(order.yaw, self._yaw) if order.kind != "surface" else self._yaw
@@ -84,10 +88,11 @@ class Pilot:
         return (surge + heave * ux, heave * uz), torque
 
     def brakes(self, body: SixDof) -> tuple[tuple[float, float], Vec3] | None:
-        """What takes its way off it; None when it hardly makes any."""
+        """What takes its way off it; None when it hardly makes any, or did not lose it in time: it glides as it rises."""
+        self._braking -= STEP
         u = body.through[0]
         p, q, r = body.turning
-        if abs(u) < STILL and abs(r) < STILL:
+        if self._braking < 0 or (abs(u) < STILL and abs(r) < STILL):
             return None
         return (-2 * SURGE * u, 0.0), (-ROLL[1] * p, -PITCH[1] * q, -YAW[1] * r)
 
