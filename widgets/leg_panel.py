@@ -128,7 +128,7 @@ class LegPanel(Gauge):
         parts = self._figures(leg)
         lines = [parts] if _long(parts, size) <= across - dp(4) else [parts[:2], parts[2:]]
         if len(lines) > 1 and high - 2 * line < dp(36):
-            lines = [[parts[0], parts[2]]]  # the dial says the angle too
+            lines = [[parts[0], parts[-1]]]  # the dial says the angle too
         words = len(lines) * line
         radius = max(min((across - dp(8)) / 2, (high - words - dp(8)) / 2), dp(8))
         over = max(high - words - 2 * radius, 0.0) / 2

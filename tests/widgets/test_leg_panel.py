@@ -119,3 +119,10 @@ def test_the_figures_stay_inside(stage, size):
         assert left >= panel.x, word.text
         assert left + wide(word.text, word.size, bold=word.bold) <= panel.right, word.text
         assert panel.y <= word.y - word.size / 2, word.text
+
+
+@pytest.mark.parametrize("size", [(300, 110), (176, 176), (110, 150), (260, 140), (326, 60)])
+def test_a_small_panel_that_has_heard_nothing_says_so_of_every_leg(stage, size):
+    panel = stage.show(LegPanel(), size=size)
+    stage.frames(2)
+    assert "–" in "".join(panel.texts)
