@@ -6,7 +6,7 @@ makes none anew, so nothing that was entered is lost.
 
 from __future__ import annotations
 
-from app.arrange_drive import drive
+from app.arrange_drive import drive, two_sticks
 from app.rects import Body, Rect, StopPlace, between, crowded, stop_place, stop_tall
 
 __all__ = [
@@ -23,6 +23,7 @@ __all__ = [
     "stop_list",
     "tasks",
     "topics",
+    "two_sticks",
 ]
 
 SELECTION = 310

@@ -4,28 +4,34 @@ from __future__ import annotations
 
 from app.rects import ALL, Rect, StopPlace, between, crowded, stop_place
 
-__all__ = ["drive"]
+__all__ = ["drive", "two_sticks"]
 
 SENSES, SENSES_LEAST = 196, 148
 """Height of the card with the small sensors, and the least that it is still open with [dp]."""
 STRIP = 54
 """Height of the folded card: a finger opens it [dp]."""
+SWITCH = 54
+"""Height of the switch between two controls [dp]."""
+SLIDE = 64
+"""Height of a slide that confirms [dp]."""
 BADGE = 46
 """Height of what says that intruders were found [dp]."""
 CHIP = 200
 """Width of a phone's glass that the picture's size and rate need [dp]."""
 
 
-def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+def drive(body: Rect, shape: str, dp: float = 1.0, *, switch: bool = False) -> dict[str, Rect]:
     """Of the drive screen: `video` behind all, the slots `top_left`, `top`, `top_right`, `readouts`, and the controls.
 
     `badge` says what was found, `senses` is the strip or card of the small sensors and `senses_open` where the strip
-    unfolds. `notice_low` is for what holds on until it is dealt with, from its lower edge upwards.
+    unfolds. `notice_low` is for what holds on until it is dealt with, from its lower edge upwards. `switch` chooses between
+    two controls in the place of `stick`; it has none without.
     """
     if shape == "tall":
-        return _drive_tall(body, dp)
+        return _drive_tall(body, dp, switch)
     wide = shape == "wide"
-    dp = dp * min(1.0, body.height / ((590 if wide else 364) * dp))
+    least = (SWITCH + 12 if switch else 0) + 590 if wide else 364
+    dp = dp * min(1.0, body.height / (least * dp))
     gap = (16 if wide else 10) * dp
     room = Rect(
         body.right - gap - (210 if wide else 150) * dp, body.y + gap, *_pair(wide, (210, 180), (150, 156), dp)
@@ -58,13 +64,30 @@ def drive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
         readouts = Rect(right.x - gap - readouts_size[0], right.y, *readouts_size)
         tape = Rect(left.right + gap, tape.y, readouts.x - gap - left.right - gap, 52 * dp)
     places |= {"top": tape, "top_right": right, "readouts": readouts}
-    return places | (_senses_wide(places, dp) if wide else _senses_short(places, dp))
+    if switch and wide:
+        places["switch"] = Rect(stick.x, stick.top + 12 * dp, slider.right - stick.x, SWITCH * dp)
+    places |= _senses_wide(places, dp) if wide else _senses_short(places, dp)
+    if switch and wide:
+        room, left = places["notice"], max(tape.x, places["switch"].right + 12 * dp)
+        places["notice"] = between(left, room.y, tape.right, room.top)
+    return places | _switch_short(places, dp) if switch and not wide else places
+
+
+def _switch_short(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
+    """Over what is said beside the slider, or over the instrument in the corner where that is too narrow."""
+    low, card = places["notice_low"], places["top_left"]
+    if low.width >= 180 * dp:
+        chosen = Rect(low.x, low.top - SWITCH * dp, low.width, SWITCH * dp)
+        return {"switch": chosen, "notice_low": between(low.x, low.y, low.right, chosen.y - 8 * dp)}
+    chosen = Rect(card.x, card.top - SWITCH * dp, card.width, SWITCH * dp)
+    smaller = between(card.x, card.y, card.right, chosen.y - 8 * dp)
+    return {"switch": chosen, "top_left": smaller}
 
 
 def _senses_wide(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
     """A card under the laser, or a strip where there is no height for one."""
     laser, stick, tape, slider = places["top_left"], places["stick"], places["top"], places["slider"]
-    free = laser.y - stick.top - 24 * dp
+    free = laser.y - places.get("switch", stick).top - 24 * dp
     height = min(free, SENSES * dp) if free >= SENSES_LEAST * dp else STRIP * dp
     senses = Rect(laser.x, laser.y - 12 * dp - height, laser.width, height)
     badge = Rect(tape.x, tape.y - 8 * dp - BADGE * dp, tape.width, BADGE * dp)
@@ -107,7 +130,9 @@ def _pair(
     return width * dp, height * dp
 
 
-def _drive_tall(body: Rect, dp: float) -> dict[str, Rect]:
+def _drive_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
+    least = SENSES_LEAST * dp
+    dp *= min(1.0, body.height / (640 * dp)) if switch else 1.0
     gap = 12 * dp
     picture = min(body.width * 0.75, body.height * 0.42)
     video = Rect(body.x, body.top - picture, body.width, picture)
@@ -118,11 +143,18 @@ def _drive_tall(body: Rect, dp: float) -> dict[str, Rect]:
     width = min(spare, 240 * dp)
     room = Rect(body.right - gap - width, body.y + gap, width, stick)
     stop, across, low = StopPlace(room.x, room.y, width, stick), body.width - 2 * gap, controls.top + gap
+    chosen = {}
+    if switch:
+        chosen = {"switch": Rect(controls.x, low, slider.right - controls.x, SWITCH * dp)}
+        low += (SWITCH + 12) * dp
     if crowded(body):  # in a row with what is done once, so that STOP keeps its size
         stop = StopPlace(room.x, room.y, width, stick, Rect(room.x, low, width, ALL * dp))
         across -= width + gap
     actions = Rect(body.x + gap, low, across, (ALL if crowded(body) else 52) * dp)
     cards_low = actions.top + gap
+    if switch:
+        picture = min(picture, body.top - cards_low - gap - 90 * dp)
+        video = Rect(body.x, body.top - picture, body.width, picture)
     cards = Rect(body.x + gap, cards_low, body.width - 2 * gap, video.y - gap - cards_low)
     side = min(cards.height, cards.width * 0.52)
     left = Rect(cards.x, cards.top - side, side, side)
@@ -141,12 +173,14 @@ def _drive_tall(body: Rect, dp: float) -> dict[str, Rect]:
         ),
         "readouts": Rect(right.x, right.y, right.width, readouts_height),
         "top": tape,
-        **_senses_tall(video, cards, tape, gap, dp),
+        **chosen,
+        **_senses_tall(video, cards, tape, least, dp),
     }
 
 
-def _senses_tall(video: Rect, cards: Rect, tape: Rect, gap: float, dp: float) -> dict[str, Rect]:
-    """Over the edges of the picture; the strip unfolds over the instruments, never over what is touched to drive."""
+def _senses_tall(video: Rect, cards: Rect, tape: Rect, least: float, dp: float) -> dict[str, Rect]:
+    """Over the edges of the picture; the strip unfolds, to no less than `least` high [px], never over what is touched to drive."""
+    gap = 12 * dp
     strip = Rect(video.x + gap, video.y + 8 * dp, video.width - 2 * gap, STRIP * dp)
     left = video.x + CHIP * dp
     badge = Rect(left, tape.y - 8 * dp - BADGE * dp, video.right - gap - left, BADGE * dp)
@@ -154,7 +188,99 @@ def _senses_tall(video: Rect, cards: Rect, tape: Rect, gap: float, dp: float) ->
     return {
         "badge": badge,
         "senses": strip,
-        "senses_open": Rect(cards.x, cards.y, cards.width, max(cards.height, SENSES_LEAST * dp)),
+        "senses_open": Rect(cards.x, cards.y, cards.width, max(cards.height, least)),
         "notice_low": Rect(strip.x, strip.top + 8 * dp, strip.width, max(room - 8 * dp, 8 * dp)),
         "notice": between(cards.x, cards.y, cards.right, badge.y - 8 * dp),
+    }
+
+
+def two_sticks(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+    """As `drive`, with a control under the right thumb as well: `right_stick`, left of STOP, and `confirm` for slides."""
+    if shape == "tall":
+        return _two_tall(body, dp)
+    return _two_wide(body, dp) if shape == "wide" else _two_short(body, dp)
+
+
+def _two_wide(body: Rect, dp: float) -> dict[str, Rect]:
+    """The slides above the right control and STOP, what is done once in the middle."""
+    scale = dp * min(1.0, body.height / (690 * dp))
+    places, gap = drive(body, "wide", scale), 16 * scale
+    stop, slider, stick = places["stop"], places["slider"], places["stick"]
+    right = Rect(stop.x - gap - stick.width, stick.y, stick.width, stick.height)
+    confirm = Rect(right.x, right.top + 12 * scale, body.right - gap - right.x, SLIDE * scale)
+    width = min(150 * scale, right.x - slider.right - 4 * gap)
+    actions = Rect((slider.right + right.x - width) / 2, stick.y, width, places["actions"].height)
+    badge, tape = places["badge"], places["top"]
+    low = max(actions.top, slider.top, confirm.top) + 8 * scale
+    return places | {
+        "right_stick": right,
+        "confirm": confirm,
+        "actions": actions,
+        "notice": between(tape.x, low, tape.right, badge.y - 32 * scale),
+        "notice_low": between(slider.right + gap, actions.top + 12 * scale, right.x - gap, confirm.top),
+    }
+
+
+def _two_short(body: Rect, dp: float) -> dict[str, Rect]:
+    """The slides between the thumbs, what is done once in a row below the tape."""
+    scale = dp * min(1.0, body.height / (364 * dp))
+    places, gap = drive(body, "short", scale), 10 * scale
+    stop, slider, stick, tape = places["stop"], places["slider"], places["stick"], places["top"]
+    right = Rect(stop.x - gap - stick.width, stick.y, stick.width, stick.height)
+    left, width = slider.right + gap, right.x - slider.right - 2 * gap
+    slides = Rect(left, stick.y, width, 2 * 56 * scale + 8 * scale)
+    strip = Rect(left, slides.top + 8 * scale, width, STRIP * scale)
+    actions = Rect(tape.x, tape.y - 8 * scale - STRIP * scale, tape.width, STRIP * scale)
+    middle = between(tape.x, strip.top + 8 * scale, tape.right, actions.y - 8 * scale)
+    card = places["top_right"]
+    return places | {
+        "badge": between(stop.x, stop.top + 8 * scale, body.right - gap, card.y - 8 * scale),
+        "right_stick": right,
+        "confirm": slides,
+        "actions": actions,
+        "senses": strip,
+        "notice": middle,
+        "notice_low": between(left, strip.top + 4 * scale, left + width, middle.top),
+    }
+
+
+def _two_tall(body: Rect, dp: float) -> dict[str, Rect]:
+    """Both thumbs above a row with the slider, the figures and STOP; above them the slides, and what is done once."""
+    scale = dp * min(1.0, body.height / (740 * dp))
+    gap = 12 * scale
+    picture = min(body.width * 0.75, body.height * 0.24)
+    video = Rect(body.x, body.top - picture, body.width, picture)
+    row, across = 130 * scale, body.width - 2 * gap
+    slider = Rect(body.x + gap, body.y + gap, 80 * scale, row)
+    wide = min(max(158 * scale, body.width * 0.3), 240 * scale)
+    stop = stop_place(Rect(body.right - gap - wide, slider.y, wide, row), body, dp)
+    figures = between(slider.right + gap, slider.y, stop.left - gap, slider.top)
+    size = min((across - gap) / 2, body.height * 0.23)
+    stick = Rect(body.x + gap, slider.top + gap, size, size)
+    right = Rect(body.right - gap - size, stick.y, size, size)
+    confirm = Rect(stick.x, stick.top + gap, across, 56 * scale)
+    actions = Rect(stick.x, confirm.top + gap, across, 52 * scale)
+    cards = between(stick.x, actions.top + gap, stick.x + across, video.y - gap)
+    side = (cards.width - gap) / 2
+    tape = Rect(body.x + body.width * 0.1, body.top - gap - 52 * scale, body.width * 0.8, 52 * scale)
+    places = {
+        "video": video,
+        "stop": stop,
+        "stick": stick,
+        "right_stick": right,
+        "slider": slider,
+        "actions": actions,
+        "confirm": confirm,
+        "top": tape,
+        "top_left": Rect(cards.x, cards.y, side, cards.height),
+        "top_right": Rect(cards.right - side, cards.y, side, cards.height),
+        "readouts": figures,
+    }
+    places |= _senses_tall(video, cards, tape, SENSES_LEAST * dp, scale)
+    strip = places["senses"]
+    beside = 0.55 * strip.width
+    return places | {
+        "senses": Rect(strip.x, strip.y, beside, strip.height),
+        "badge": between(strip.x + beside + gap, strip.y, strip.right, strip.top),
+        "notice_low": between(strip.x, strip.top + 4 * scale, strip.right, tape.y - 4 * scale),
     }

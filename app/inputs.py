@@ -144,13 +144,22 @@ class Inputs:
         shell = self._app.shell
         return getattr(shell.screens.get(shell.screen), "sticks", []) if shell is not None else []
 
+    @property
+    def grips(self) -> list[Any]:
+        """What a finger may hold on that screen and does not drive."""
+        shell = self._app.shell
+        return getattr(shell.screens.get(shell.screen), "grips", []) if shell is not None else []
+
     def look(self) -> None:
         """Whatever pushes a control is looked at: is it still there, may it still?"""
-        sticks = self.sticks
+        sticks, grips = self.sticks, self.grips
+        self._hidden &= {*grips, *(stick for stick, _ in sticks)}
+        for grip in grips:
+            if grip.finger is not None and (self._gone(grip.finger) or self._covered(grip)):
+                grip.rest()
         self.gamepads.use({pad for _, pad in sticks if pad})
         self.gamepads.hear(self._source.pads())
         controls = [stick for stick, _ in sticks]
-        self._hidden &= set(controls)
         if not sticks:
             self._forbid()
             return

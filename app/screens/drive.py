@@ -119,6 +119,11 @@ class DriveScreen(FloatLayout):
         return self.hands.sticks
 
     @property
+    def grips(self) -> list[Any]:
+        """What a finger may hold besides."""
+        return self.hands.grips
+
+    @property
     def speed(self) -> Any:
         """How fast the others are at the end of their way; None where nothing says that."""
         return self.hands.speed
@@ -192,9 +197,8 @@ class DriveScreen(FloatLayout):
     def hear(self, channel: str, post: Post) -> None:
         """A message came."""
         self.dashboard.deliver(channel, post.value)
-        if channel in ("/robot/info", "/limits"):
-            self.hands.take_limits()
-        elif channel == OFFER:
+        self.hands.hear(channel, post)
+        if channel == OFFER:
             self.instruments.name_sources(self.session.offer)
 
     def enter(self) -> None:

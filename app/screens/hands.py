@@ -10,10 +10,13 @@ from kivy.properties import StringProperty
 from kivy.uix.widget import Widget
 
 import widgets
-from app.actions import Actions
+from app.actions import ACTIONS, Actions
+from app.commands import Outcome
 from app.dashboard import Dashboard
 from app.drive_slot import Drive
+from app.feeds import Post
 from app.layout import SLIDER, Control, Layout
+from app.link import OUTCOME
 from app.piloting import Parts, Piloting, Reach
 from app.screens.in_vain import InVain
 from app.screens.instruments import check_shows
@@ -52,6 +55,8 @@ class Hands(EventDispatcher):
         self._sticks: list[tuple[Stick, Control]] = []
         self._asking: list[tuple[Any, Control]] = []
         """Controls that ask for something once."""
+        self._asked: tuple[Any, str] | None = None
+        """The control that asked last, and for which task; None once that is answered."""
         self._limited = False
         self.reach = OWN
         """What the controls mean at the end of their way now."""
@@ -86,9 +91,9 @@ class Hands(EventDispatcher):
     def _made(self, one: Control) -> Any:
         kind = getattr(widgets, one.widget)
         widget = kind()
-        if one.topic:
-            check_shows(kind, (one.topic,))
-            self._dashboard.bind(widget, one.topic, fresh=False)
+        check_shows(kind, one.topics)
+        for topic in one.topics:
+            self._dashboard.bind(widget, topic, fresh=False)
         if hasattr(widget, "on_in_vain"):
             widget.bind(on_in_vain=lambda _: self._in_vain.tell())
         if isinstance(widget, Stick):
@@ -101,15 +106,16 @@ class Hands(EventDispatcher):
 
     def _wire(self, widget: Any, one: Control) -> None:
         """What a control that is no stick asks for when it is used."""
-        for name in ("text", "title"):
-            if one.title and hasattr(widget, name):
-                setattr(widget, name, one.title)
+        words = ACTIONS.get(one.action, ("", ""))
+        for name, value in (("text", one.title or words[0]), ("icon", one.icon or words[1])):
+            if value and hasattr(widget, name):
+                setattr(widget, name, value)
         if hasattr(widget, "on_confirm"):
-            widget.bind(on_confirm=lambda *_: self._actions.act(one.action))
+            widget.bind(on_confirm=lambda _: self._act(widget, one.action))
         elif hasattr(widget, "on_course"):
-            widget.bind(on_course=lambda _, yaw: self._follow(yaw))
+            widget.bind(on_course=lambda _, yaw: self._follow(widget, yaw))
         elif PoseStamped in getattr(widget, "sends", ()):
-            widget.bind(on_command=lambda _, goal: self._go_to(goal))
+            widget.bind(on_command=lambda _, goal: self._go_to(widget, goal))
 
     # what the fingers do
 
@@ -135,19 +141,20 @@ class Hands(EventDispatcher):
         session = self._session
         return tuple(session.info.manoeuvres) if session.link.steers else ()
 
-    def _follow(self, yaw: float) -> None:
-        """Hold a course: at the throttle that is given now, else at the robot's own pace."""
-        self._start(TaskOrder(task="follow_heading", heading=yaw))
+    def _act(self, widget: Any, what: str) -> None:
+        self._asked = widget, what.removeprefix("task.")
+        self._actions.act(what)
 
-    def _go_to(self, goal: PoseStamped) -> None:
+    def _follow(self, widget: Any, yaw: float) -> None:
+        self._start(widget, TaskOrder(task="follow_heading", heading=yaw))
+
+    def _go_to(self, widget: Any, goal: PoseStamped) -> None:
         point, yaw = goal.pose.position, goal.pose.orientation.yaw
-        self._start(TaskOrder(task="go_to", goals=[Waypoint(point.x, point.y, yaw)]))
+        self._start(widget, TaskOrder(task="go_to", goals=[Waypoint(point.x, point.y, yaw)]))
 
-    def _start(self, order: TaskOrder) -> None:
-        session = self._session
-        if not session.may_ask:
-            self._in_vain.tell()
-        elif session.running:
+    def _start(self, widget: Any, order: TaskOrder) -> None:
+        session, self._asked = self._session, (widget, order.task)
+        if session.running:
             session.tasking.start_instead(order)
         else:
             session.tasking.start(order)
@@ -158,6 +165,30 @@ class Hands(EventDispatcher):
     def sticks(self) -> list[tuple[Stick, str]]:
         """What drives and is on the glass, each with the stick of a gamepad that pushes it too; empty for none."""
         return [(stick, one.pad) for stick, one in self._sticks if self.shown(stick)]
+
+    @property
+    def grips(self) -> list[Any]:
+        """What a finger may hold besides and is on the glass."""
+        return [widget for widget, _ in self._asking if self.shown(widget)]
+
+    def hear(self, channel: str, post: Post) -> None:
+        """A message came: what the robot may, and what became of what was asked for."""
+        if channel in ("/robot/info", "/limits"):
+            self.take_limits()
+        elif channel == OUTCOME and self._asked is not None:
+            self._answer(post.value)
+
+    def _answer(self, outcome: Outcome) -> None:
+        """Tell the control that asked; the end of the task before is asked for first, and is told only when it is refused."""
+        widget, task = self._asked or (None, "")
+        order = outcome.fields.get("order")
+        ours = outcome.name == "start" and order is not None and order.task == task
+        if not ours and not (outcome.name == "cancel" and outcome.phase in ("refused", "no_reply")):
+            return
+        if hasattr(widget, "answer"):
+            widget.answer(outcome.phase)
+        if outcome.phase != "sent":
+            self._asked = None
 
     def shown(self, widget: Widget) -> bool:
         """It is on the glass, and not the other one of its slot."""
@@ -173,11 +204,14 @@ class Hands(EventDispatcher):
         session = self._session
         for stick, _ in self._sticks:
             stick.state = "live" if session.may_drive else "disabled"
-        able = {action.name: action.able for action in self._actions.look()}
+        able = {action.name: action for action in self._actions.look()}
         asked = session.may_ask and not session.stop_latched
         for widget, one in self._asking:
-            may = able.get(one.action, False) if one.action else asked
+            action = able.get(one.action)
+            may = (action is not None and action.able) if one.action else asked
             widget.state = "live" if may else "disabled"
+            if action is not None and not one.title and hasattr(widget, "text"):
+                widget.text = action.text
 
     def take_limits(self) -> None:
         """The slider's range is the robot's; where it stood is kept."""

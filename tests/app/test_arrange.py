@@ -6,7 +6,7 @@ import itertools
 
 import pytest
 
-from app.arrange import Rect, connect_columns, drive, form, mission, shell, topics
+from app.arrange import Rect, connect_columns, drive, form, mission, shell, topics, two_sticks
 
 SIZES = [(412, 892), (892, 412), (1280, 800), (1920, 1200), (800, 1280), (360, 640), (640, 360), (1024, 600)]
 MAY_LIE_ON = {"video", "map", "side"}
@@ -19,18 +19,21 @@ def screens(width: int, height: int) -> dict[str, dict[str, Rect]]:
         "mission": mission(body, shape),
         "sheet": mission(body, shape, sheet_open=True),
         "drive": drive(body, shape),
+        "switch": drive(body, shape, switch=True),
+        "two": two_sticks(body, shape),
         "topics": topics(body, shape),
     }
 
 
-CASES = [(size, name) for size in SIZES for name in ("mission", "drive")]
-NOTICES = [(size, name) for size in SIZES for name in ("mission", "sheet", "drive", "topics")]
+DRIVES = ("drive", "switch", "two")
+CASES = [(size, name) for size in SIZES for name in ("mission", *DRIVES)]
+NOTICES = [(size, name) for size in SIZES for name in ("mission", "sheet", *DRIVES, "topics")]
 
 
 @pytest.mark.parametrize(("size", "name"), CASES)
 def test_nothing_overlaps(size: tuple[int, int], name: str) -> None:
     places = screens(*size)[name]
-    ground = MAY_LIE_ON if name == "drive" else MAY_LIE_ON - {"video"}
+    ground = MAY_LIE_ON if name in DRIVES else MAY_LIE_ON - {"video"}
     # a notice comes and goes, as does the unfolded strip; a bar for the selected point may lie under it on the smallest phone
     things = {key: rect for key, rect in places.items() if key not in {*ground, "notice", "senses_open"}}
     for (one, first), (two, second) in itertools.combinations(things.items(), 2):
@@ -49,14 +52,16 @@ def test_the_room_for_notices_leaves_stop_and_what_is_above_it_free(size: tuple[
 @pytest.mark.parametrize(("size", "name"), CASES)
 def test_a_notice_covers_nothing_that_can_be_touched(size: tuple[int, int], name: str) -> None:
     places = screens(*size)[name]
-    for key in {"stop", "stick", "slider", "actions", "modes", "tools", "panel", "tasks"} & places.keys():
+    touched = {"stop", "stick", "slider", "actions", "modes", "tools", "panel", "tasks"}
+    for key in (touched | {"switch", "right_stick", "confirm"}) & places.keys():
         assert not places["notice"].overlaps(places[key]), key
 
 
+@pytest.mark.parametrize("name", DRIVES)
 @pytest.mark.parametrize("size", SIZES)
-def test_the_unfolded_sensors_cover_nothing_that_drives_or_stops(size: tuple[int, int]) -> None:
-    places = screens(*size)["drive"]
-    for key in ("stop", "stick", "slider", "actions"):
+def test_the_unfolded_sensors_cover_nothing_that_drives_or_stops(size: tuple[int, int], name: str) -> None:
+    places = screens(*size)[name]
+    for key in {"stop", "stick", "slider", "actions", "right_stick", "confirm"} & places.keys():
         assert not places["senses_open"].overlaps(places[key]), key
     assert places["senses_open"].height >= 126, "three sensors need so much"
 
@@ -78,7 +83,7 @@ def test_nothing_leaves_the_screen(size: tuple[int, int], name: str) -> None:
 
 
 @pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("name", ["mission", "sheet", "drive"])
+@pytest.mark.parametrize("name", ["mission", "sheet", *DRIVES])
 def test_stop_keeps_the_lower_right_corner(size: tuple[int, int], name: str) -> None:
     stop, body = screens(*size)[name]["stop"], shell(*size)["body"]
     assert body.right - stop.right <= 16
