@@ -76,8 +76,10 @@ class Hand:
             self.station.hear(self.anna, topic, order, None)
             self.wait(0.1)
 
-    def ask(self, service: str, request: CommandRequest | None = None) -> CommandResponse:
-        answer = self.services[service].call(self.anna, request or CommandRequest())  # type: ignore[arg-type]
+    def ask(
+        self, service: str, request: CommandRequest | None = None, by: FakeClient | None = None
+    ) -> CommandResponse:
+        answer = self.services[service].call(by or self.anna, request or CommandRequest())  # type: ignore[arg-type]
         assert isinstance(answer, CommandResponse)
         return answer
 

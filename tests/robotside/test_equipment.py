@@ -119,7 +119,7 @@ def test_who_has_no_control_moves_nothing(hand: Make, service: str, request_: Co
     run = hand("patrol", "arm", "lights")
     bert = FakeClient("bert", run.now)
     run.station.controls.introduce(bert, "tablet-bert", "Bert")
-    assert run.services["/control/acquire"].call(bert, CommandRequest()).success  # type: ignore[union-attr]  # answers at once
+    assert run.ask("/control/acquire", by=bert).success
     answer = run.ask(service, request_)
     assert not answer.success
     assert answer.message.startswith("Bert has control")
