@@ -20,7 +20,7 @@ from bridge.msgs.pilothouse_msgs import MotorArray
 from widgets.gauge import Gauge, first_fitting, wide
 from widgets.geometry import DASH, Points
 from widgets.icons import icon
-from widgets.ink import Word
+from widgets.ink import Word, tint
 from widgets.map_marks import arrow
 from widgets.readout import figure
 from widgets.shapes import Shapes
@@ -123,7 +123,7 @@ class RotorSpeeds(Gauge):
         role = self.role(speed, warmth)
         thick = max(dp(4), radius * 0.13)
         shapes.disc(x, y, radius, theme.raised)
-        shapes.line(_arc(x, y, radius - thick / 2, 1.0), thick, theme.line)
+        shapes.line(_arc(x, y, radius - thick / 2, 1.0), thick, tint(theme.muted, 0.3))
         share = min(abs(speed) / self.full, 1.0) if math.isfinite(speed) else 0.0
         if share > 0.005:
             shapes.line(_arc(x, y, radius - thick / 2, share), thick, theme.roles[role])
