@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -25,6 +26,8 @@ DEEP: Colour = (0.09, 0.33, 0.38)
 """What everything fades to under water."""
 MURK = 0.16
 """How much of it a metre of water brings."""
+GRAIN = 0.43
+"""Of the ground, how often it is repeated in a metre; `ground.frag.glsl` has it, too."""
 LOOKS = ("asphalt", "water", "floor", "grass", "sand")
 """As `ground.frag.glsl` numbers them."""
 
@@ -202,6 +205,8 @@ class Renderer:
 
     def _load_textures(self, world: World) -> None:
         size, data = markings(world)
+        if _grained(world):
+            data = _with_grain(world, size, data)
         self._markings = self._context.texture(size, 2, data, alignment=1)
         self._markings.repeat_x = self._markings.repeat_y = False
         # Mesa's software renderer looks four bytes up quicker than one.
@@ -225,6 +230,7 @@ class Renderer:
             LOOK=LOOKS.index("sand" if self._under else world.ground.look),
             MURKY=int(self._under),
             SIGNS=int(bool(world.arrows)),
+            GRAINED=int(_grained(world)),
             ROWS=max(len(world.bays), 1) if marked else 0,
             LINES=max(len(world.lines), 1) if marked else 0,
         )
@@ -236,11 +242,21 @@ class Renderer:
         """Hand the painted lines over; a world without any of one sort gets one far away."""
         world = self._world
         rows_ = [(row.x, row.y, row.width, row.depth) for row in world.bays] or [(1e6, 1e6, 1.0, 1.0)]
-        lines = [(*line.start, *line.end) for line in world.lines] or [(1e6, 1e6, 1e6 + 1, 1e6)]
+        lines = [(*line.start, *line.end, line.width) for line in world.lines] or [
+            (1e6, 1e6, 1e6 + 1, 1e6, 0.1)
+        ]
+        lengths = [math.hypot(c - a, d - b) for a, b, c, d, _ in lines]
         _fill(program, "rows", rows_)
-        _fill(program, "bays", [row.count for row in world.bays] or [1])
-        _fill(program, "lines", lines)
-        _fill(program, "widths", [line.width for line in world.lines] or [0.1])
+        _fill(program, "bays", [(row.count, 1 / row.width) for row in world.bays] or [(1.0, 1.0)])
+        _fill(
+            program,
+            "lines",
+            [
+                (a, b, (c - a) / way, (d - b) / way)
+                for (a, b, c, d, _), way in zip(lines, lengths, strict=True)
+            ],
+        )
+        _fill(program, "widths", [(line[4] / 2, way) for line, way in zip(lines, lengths, strict=True)])
 
     def _target(self, size: tuple[int, int]) -> tuple[moderngl.Framebuffer, moderngl.Framebuffer]:
         if size not in self._targets:
@@ -280,8 +296,26 @@ class Renderer:
     def _aim(self, program: moderngl.Program, view: View, matrix: bytes) -> None:
         uniform: Any = program["view_projection"]
         uniform.write(matrix)
-        program["eye"] = view.eye
+        _set(program, "eye", view.eye)
         _set(program, "haze", DEEP if self._under else HAZE)
+
+
+def _grained(world: World) -> bool:
+    """The grain of the ground is fine enough on the picture of its shadows, which has room for it."""
+    return world.ground.look == "floor" and not world.arrows
+
+
+def _with_grain(world: World, size: tuple[int, int], data: bytes) -> bytes:
+    """The `markings` with the grain in place of the signs, of which there are none."""
+    pattern = grain()
+    soft = (pattern + np.roll(pattern, 1, 0) + np.roll(pattern, 1, 1) + np.roll(pattern, (1, 1), (0, 1))) / 4
+    columns, lines = (
+        (((np.arange(count) + 0.5) / count - 0.5) * extent * GRAIN % 1.0 * len(soft)).astype(int)
+        for count, extent in zip(size, (world.ground.length, world.ground.width), strict=True)
+    )
+    both = np.frombuffer(data, dtype=np.uint8).reshape(size[1], size[0], 2).copy()
+    both[:, :, 0] = soft[np.ix_(lines, columns)] * 255
+    return both.tobytes()
 
 
 def _source(name: str) -> str:

@@ -7,3 +7,12 @@ float hidden(float away) {
     return far / (1.0 + far);
 #endif
 }
+
+// How far away this pixel is [m]; ahead is enough in air, and costs less.
+float distance_here(vec3 eye, vec3 place) {
+#if MURKY
+    return length(eye - place);
+#else
+    return 1.0 / gl_FragCoord.w;
+#endif
+}

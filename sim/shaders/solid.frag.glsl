@@ -20,10 +20,8 @@ out vec3 colour;
 #include "haze.glsl"
 
 void main() {
-    vec3 back = eye - place;
-    float away = length(back);
 #if GLOSSY
-    back /= away;
+    vec3 back = normalize(eye - place);
     vec3 n = normalize(facing);
     colour = lit(n, sun, paint, surface.y);
     vec3 mirrored = reflect(-back, n);
@@ -34,5 +32,5 @@ void main() {
 #else
     colour = light;
 #endif
-    colour = mix(colour, haze, hidden(away));
+    colour = mix(colour, haze, hidden(distance_here(eye, place)));
 }
