@@ -98,7 +98,8 @@ class BridgeServer:
         """Where it listens; 0 until started."""
         self.sessions: set[Session] = set()
         """The clients connected now; who only watches a camera is none."""
-        self._switchboard = Switchboard(topics, on_demand, reduce=reduce, now=now)
+        cameras = None if cameras is None else list(cameras)
+        self._switchboard = Switchboard(topics, on_demand, reduce=reduce, now=now, cameras=cameras or ())
         by_name = {service.name: service for service in services}
         acts = {action.name: action for action in actions}
         exchange = Exchange(by_name, acts)

@@ -15,12 +15,11 @@ from bridge.msgs import TYPES, Msg, ros1_name
 from bridge.outgoing import Outgoing, Reduce
 from bridge.protocol import Subscribed
 from bridge.protocol.merging import MOST_FIELDS
-from bridge.topics import Topic
+from bridge.topics import CAMERA as CAMERA_TOPIC
+from bridge.topics import Topic, camera_topics
 
 __all__ = ["CAMERA_TOPIC", "MOST_TOPICS", "Channel", "Listener", "Switchboard", "Watcher"]
 
-CAMERA_TOPIC = "/camera/image/compressed"
-"""Counts as wanted while somebody watches a camera."""
 MOST_TOPICS = 2000
 """So many topics of clients may there be at a time."""
 MOST_LATCHED = 67_108_864
@@ -104,9 +103,11 @@ class Switchboard:
         *,
         reduce: Reduce | None = None,
         now: Callable[[], float] = float,
+        cameras: Iterable[str] = (),
     ) -> None:
         """`on_demand(topic, wanted)` hears that the first one came who wants `topic`, or that the last one left.
 
+        Who watches one of `cameras` wants its topic, and who watches any other that of the first.
         `reduce` makes less of messages for who wants less; `now` is the operators' clock [s].
         """
         self.topics = {entry.name: entry for entry in topics}
@@ -118,6 +119,7 @@ class Switchboard:
         self._on_demand = on_demand
         self._reduce = reduce
         self._now = now
+        self._cameras = camera_topics(cameras)
         self._watchers: dict[str, set[Watcher]] = {}
         self._latched: dict[object, int] = {}
 
@@ -206,8 +208,9 @@ class Switchboard:
 
     def watch(self, watcher: Watcher, camera: str) -> None:
         """`watcher` wants the frames of `camera` from now on."""
-        if not self.wanted(CAMERA_TOPIC):
-            self._on_demand(CAMERA_TOPIC, True)
+        topic = self._topic_of(camera)
+        if not self.wanted(topic):
+            self._on_demand(topic, True)
         self._watchers.setdefault(camera, set()).add(watcher)
 
     def unwatch(self, watcher: Watcher, camera: str) -> None:
@@ -215,7 +218,10 @@ class Switchboard:
         self._watchers[camera].discard(watcher)
         if not self._watchers[camera]:
             del self._watchers[camera]
-        self._left(CAMERA_TOPIC)
+        self._left(self._topic_of(camera))
+
+    def _topic_of(self, camera: str) -> str:
+        return self._cameras.get(camera, CAMERA_TOPIC)
 
     def publish_frame(self, camera: str, picture: Picture) -> None:
         """Pass a picture on to whoever watches `camera`."""
@@ -226,7 +232,7 @@ class Switchboard:
         """Whether anybody wants `topic`."""
         channel = self.channels.get(topic)
         subscribed = channel is not None and bool(channel.streams)
-        return subscribed or (topic == CAMERA_TOPIC and bool(self._watchers))
+        return subscribed or any(self._topic_of(camera) == topic for camera in self._watchers)
 
     def _latch(self, channel: Channel, message: Outgoing, publisher: object) -> None:
         """Keep a message for later subscribers in the place of the publisher's last one; the robot's own are not counted."""

@@ -5,6 +5,7 @@ Liveness, throttling, recording and the documentation are derived from it.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from bridge.msgs import (
@@ -18,7 +19,7 @@ from bridge.msgs import (
     vision_msgs,
 )
 
-__all__ = ["SONARS", "TOPICS", "Topic", "topic"]
+__all__ = ["CAMERA", "SONARS", "TOPICS", "Topic", "camera_topics", "topic"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,6 +182,16 @@ TOPICS: tuple[Topic, ...] = (
 )
 
 _BY_NAME = {entry.name: entry for entry in TOPICS}
+
+
+CAMERA = "/camera/image/compressed"
+"""Pictures of a robot's first camera."""
+
+
+def camera_topics(cameras: Iterable[str]) -> dict[str, str]:
+    """Name of each camera to the topic of its pictures, in the order in which the robot tells them."""
+    named = {name: f"/camera/{name}/image/compressed" for name in cameras}
+    return {name: one if number else CAMERA for number, (name, one) in enumerate(named.items())}
 
 
 def topic(name: str) -> Topic:

@@ -13,7 +13,7 @@ from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, R
 from starlette.routing import Route
 
 from bridge.errors import BridgeError
-from bridge.topics import TOPICS
+from bridge.topics import CAMERA, TOPICS, camera_topics
 from robotside.authority import LONGEST_NAME
 from robotside.station import Station
 from robotside.streams import MEDIA_TYPE, BadViewError, FullError, Streams, View, view_of
@@ -123,7 +123,8 @@ def _view(request: Request, station: Station) -> View:
         names = ", ".join(cameras) or "none"
         raise HTTPException(404, f"This robot has no such camera; there is: {names}.")
     try:
-        return view_of(request.query_params)
+        topic = camera_topics(cameras).get(request.path_params["name"], CAMERA)
+        return view_of(request.query_params)._replace(topic=topic)
     except BadViewError as problem:
         raise HTTPException(422, str(problem)) from problem
 

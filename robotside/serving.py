@@ -15,9 +15,8 @@ from bridge.errors import BridgeError
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.server import BridgeServer
-from bridge.topics import TOPICS
+from bridge.topics import TOPICS, camera_topics
 from robotside.apart import Apart
-from robotside.autonomy import CAMERA
 from robotside.clock import RobotClock
 from robotside.goals import actions
 from robotside.http import site
@@ -98,7 +97,10 @@ class Serving:
         kinds = {service.name: service.type for service in offered}
         streams = Streams(station.bus, station.demand, self._pictures)
         self._site = site(station, lambda: addresses.bridge, kinds, streams)
-        self._frames = 0
+        self._cameras = {topic: name for name, topic in camera_topics(station.info.cameras).items()}
+        """Name of each camera by the topic of its pictures."""
+        self._frames: dict[str, int] = {}
+        """So many pictures of each camera were taken."""
 
     async def run(self, ready: Callable[[Addresses], None]) -> None:
         """Serve until `end`; `ready` is called once everything listens. BridgeError when a port is taken."""
@@ -137,13 +139,14 @@ class Serving:
     def _publish(self, topic: str, msg: Msg) -> None:
         if topic in self._told:
             self.server.publish(topic, msg)
-        if topic == CAMERA and isinstance(msg, CompressedImage) and self.station.info.cameras:
+        camera = self._cameras.get(topic)
+        if camera is not None and isinstance(msg, CompressedImage):
             width, height = jpeg_size(msg.data)
-            self._frames += 1
+            self._frames[camera] = number = self._frames.get(camera, 0) + 1
             # real time, so that a handheld can tell the picture's age whatever the robot's clock does
             stamp = self._clock.real(msg.header.stamp.seconds)
-            frame = frames.pack(self._frames, stamp, msg.data, width, height)
-            self.server.publish_frame(self.station.info.cameras[0], frame)
+            frame = frames.pack(number, stamp, msg.data, width, height)
+            self.server.publish_frame(camera, frame)
 
     def _hello(self) -> Hello:
         info, driver = self.station.info, self.station.controls.driver

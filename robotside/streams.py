@@ -54,6 +54,8 @@ class View(NamedTuple):
     """Of the JPEG, 1 to 95; None as it comes from the camera."""
     rate: float = math.inf
     """At most so many pictures a second [Hz]."""
+    topic: str = CAMERA
+    """Of the camera's pictures."""
 
 
 _LIMITS = {"width": (16, 4096), "quality": (1, 95), "rate": (0.1, 60)}
@@ -89,7 +91,7 @@ class Streams:
 
     async def picture(self, view: View, patience: float) -> bytes | None:
         """The next picture that is taken; None when none comes within `patience` [s]. BridgeError for a broken one."""
-        with self.looking() as newest:
+        with self.looking(view.topic) as newest:
             try:
                 async with asyncio.timeout(patience):
                     return await self.made(await newest.next(), view, patient=True)
@@ -103,15 +105,15 @@ class Streams:
         return _Viewer(self, view)
 
     @contextmanager
-    def looking(self) -> Iterator[_Newest]:
-        """Somebody looks: the camera works, and the newest picture is at hand."""
-        newest, asker = _Newest(self._bus.last(CAMERA)), f"viewer {next(self._numbers)}"
-        leave = self._bus.subscribe(CAMERA, newest.take)
-        self._demand.set(CAMERA, asker, True)
+    def looking(self, topic: str = CAMERA) -> Iterator[_Newest]:
+        """Somebody looks: the camera of that topic works, and its newest picture is at hand."""
+        newest, asker = _Newest(self._bus.last(topic)), f"viewer {next(self._numbers)}"
+        leave = self._bus.subscribe(topic, newest.take)
+        self._demand.set(topic, asker, True)
         try:
             yield newest
         finally:
-            self._demand.set(CAMERA, asker, False)
+            self._demand.set(topic, asker, False)
             leave()
 
     async def made(self, jpeg: bytes, view: View, *, patient: bool = False) -> bytes:
@@ -175,7 +177,7 @@ class _Viewer:
         await send({"type": "http.response.body", "body": f"--{BOUNDARY}\r\n".encode(), "more_body": True})
         clock, period = asyncio.get_running_loop().time, 1.0 / self._view.rate
         due = clock()
-        with self._streams.looking() as newest:
+        with self._streams.looking(self._view.topic) as newest:
             while True:
                 await asyncio.sleep(due - clock())
                 due = max(due, clock() - period) + period

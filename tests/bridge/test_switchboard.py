@@ -84,6 +84,18 @@ def test_watching_a_camera_counts_as_wanting_its_pictures(board, demands):
     assert demands[1:] == [(CAMERA_TOPIC, False)]
 
 
+def test_only_the_camera_that_is_watched_works(demands):
+    board = Switchboard(
+        TOPICS, lambda topic, wanted: demands.append((topic, wanted)), cameras=["front", "rear"]
+    )
+    rear, front = Ear(), Ear()
+    board.watch(rear, "rear")
+    board.watch(front, "front")
+    board.unwatch(rear, "rear")
+    behind = "/camera/rear/image/compressed"
+    assert demands == [(behind, True), (CAMERA_TOPIC, True), (behind, False)]
+
+
 def test_a_frame_reaches_who_watches_that_camera(board):
     front, back = Ear(), Ear()
     board.watch(front, "front")

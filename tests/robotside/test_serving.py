@@ -186,6 +186,18 @@ async def test_a_picture_is_made_for_whoever_asks_and_only_then(tmp_path: Path) 
         assert robot.wanted == {"/camera/image/compressed": False}
 
 
+async def test_each_camera_shows_its_own_pictures(tmp_path: Path) -> None:
+    robot = Photographer()
+    robot.info = msgspec.structs.replace(robot.info, cameras=["front", "rear"])
+    async with serving(tmp_path, robot) as serves, httpx.AsyncClient(base_url=serves.addresses.http) as web:
+        sent: list[str] = []
+        serves.server.publish_frame = lambda camera, _: sent.append(camera)  # type: ignore[method-assign]
+        robot.show = lambda topic, _: serves.station.bus.publish(topic, CompressedImage(data=topic.encode()))
+        shown = [(await web.get(f"/snapshot/{name}.jpg")).content for name in robot.info.cameras]
+        assert shown == [b"/camera/image/compressed", b"/camera/rear/image/compressed"]
+        assert sent == ["front", "rear"]
+
+
 async def test_a_port_that_is_taken_is_said_and_nothing_is_left_open(tmp_path: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]
