@@ -12,6 +12,7 @@ import logging
 import math
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from kivy.base import EventLoop
@@ -38,6 +39,8 @@ BACK = 27
 ESCAPE = 41
 """Scan code of Escape, which Back has not."""
 SPACE = 32
+SWITCHES = {9: "Tab", 13: "Enter"}
+"""Key codes that two switches send, on to the next action and do it, by their names."""
 ROUND = 0.96
 """Of a stick's width and height is its round, less an edge that a neighbour may touch."""
 BARE = (FloatLayout, BoxLayout, AnchorLayout, GridLayout, Widget)
@@ -97,7 +100,7 @@ class Inputs:
             now, on_stop=self.stop, on_news=self._tell, wired=app.settings.get("wired_gamepads") or ()
         )
         self._keys: set[int] = set()
-        """STOP's keys that are down: a held one repeats."""
+        """Keys that are down and mean something here: a held one repeats."""
         self._offered: set[str] = set()
         """Gamepads whose silence was told before."""
         self._led = False
@@ -257,12 +260,25 @@ class Inputs:
                 stick.rest()
 
     def _key_down(self, _: object, key: int, scancode: int, *__: object) -> bool:
-        if not self._is_stop(key, scancode):
+        if self._is_stop(key, scancode):
+            act: Callable[[], object] = self.stop
+        elif key in SWITCHES and self._switched is not None and not _typing():
+            act = partial(self._switched, SWITCHES[key])
+        else:
             return False
         if key not in self._keys:
             self._keys.add(key)
-            self.stop()
+            act()
         return True
+
+    @property
+    def _switched(self) -> Callable[[str], object] | None:
+        """What takes the keys of two switches on the screen on the glass; None where nothing does."""
+        shell = self._app.shell
+        press: Callable[[str], object] | None = (
+            getattr(shell.screens.get(shell.screen), "press_switch", None) if shell is not None else None
+        )
+        return press
 
     def _key_up(self, _: object, key: int, *__: object) -> None:
         self._keys.discard(key)

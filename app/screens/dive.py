@@ -110,8 +110,13 @@ class DiveScreen(FloatLayout):
         """What drives and is on the glass, each with the stick of a gamepad that pushes it too."""
         return self.hands.sticks
 
-    def switch(self, key: str) -> None:
-        """One of `SWITCHES` was pressed; the first press of any shows where it stands."""
+    @property
+    def grips(self) -> list[Any]:
+        """What a finger may hold besides."""
+        return self.hands.grips
+
+    def press_switch(self, key: str) -> None:
+        """`Tab` or `Enter` was pressed: on to the next action, or do it. The first press of any shows which is the next."""
         column = self.column
         if not column.switches:
             column.switches = list(SWITCHES)
@@ -165,19 +170,20 @@ class DiveScreen(FloatLayout):
     def hear(self, channel: str, post: Post) -> None:
         """A message came."""
         self.dashboard.deliver(channel, post.value)
-        if channel in ("/robot/info", "/limits"):
+        self.hands.hear(channel, post)
+        if channel == "/robot/info":
             self._meet()
         elif channel == OFFER:
             self.instruments.name_sources(self.session.offer)
 
     def _meet(self) -> None:
-        self.hands.take_limits()
         for widget in self.instruments.places.get("motion", ()):
             if hasattr(widget, "under_water"):
                 widget.under_water = self.session.info.kind == "hexapod"
 
     def enter(self) -> None:
         """Come onto the glass."""
+        self.hands.take_limits()
         self._meet()
         self.instruments.name_sources(self.session.offer)
         self.dashboard.enter()

@@ -22,6 +22,8 @@ AQUA = RobotInfo(
     tasks=["hold", "surface", "go_home"],
     manoeuvres=["twist", "course", "tilt", "hover", "surface", "rest"],
 )
+TAB, ENTER = 9, 13
+"""Key codes."""
 
 
 @pytest.fixture
@@ -59,13 +61,13 @@ def test_its_hands_make_one_order_of_all_that_they_say(driving: Glass, robot: Fa
 def test_two_switches_reach_every_action_and_the_robot_hears_of_it(
     driving: Glass, robot: FakeRobot, diving: Any
 ) -> None:
-    diving.switch("Enter")
+    driving.stage.key(ENTER)
     assert not any(name == "/task/start" for name, _ in robot.asked)
     assert diving.column.current == "task.surface"
-    diving.switch("Tab")
+    driving.stage.key(TAB)
     assert diving.column.current == "task.hold"
     driving.stage.run_for(0.6)
-    diving.switch("Enter")
+    driving.stage.key(ENTER)
     driving.until(lambda: any(name == "/task/start" for name, _ in robot.asked), "not asked")
     (request,) = (request for name, request in robot.asked if name == "/task/start")
     assert request.order.task == "hold"
