@@ -67,6 +67,7 @@ def test_a_drag_that_is_broken_off_sets_no_course(stage, dial, how):
         dial.x = 50
     finger.touch_up()
     assert (dial.courses, dial.dragged) == ([], False)
+    assert math.isnan(dial.aim)
 
 
 def test_what_is_asked_for_becomes_the_course_only_when_the_robot_follows_it(stage, dial):
@@ -89,7 +90,7 @@ def test_a_course_that_was_not_taken_goes_from_the_dial(stage, dial, outcome, sa
 
 def test_a_robot_that_follows_no_course_shows_none(dial):
     dial.show(course(45))
-    dial.show(Manoeuvre(kind="steer", throttle=0.5))
+    dial.show(Manoeuvre(kind="hover", yaw=1.0))
     assert math.isnan(dial.wanted)
 
 

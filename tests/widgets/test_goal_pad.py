@@ -92,6 +92,20 @@ def test_a_held_button_goes_on_moving_the_goal_until_it_is_let_go(stage, pad):
     assert pad.wanted[0] == moved
 
 
+@pytest.mark.parametrize("before", [0.1, 0.6])
+def test_what_was_held_before_does_not_go_on_counting_with_the_next_press(stage, pad, before):
+    pad.show(pose(0.0, 0.0))
+    finger = stage.touch(*middle(pad, "east"))
+    finger.touch_down()
+    stage.run_for(before)
+    finger.touch_up()
+    stage.run_for(1.0)
+    moved = pad.wanted[0]
+    stage.touch(*middle(pad, "east")).touch_down()
+    stage.run_for(0.4)
+    assert pad.wanted[0] == moved + pad.step
+
+
 @pytest.mark.parametrize("how", ["rest", "disabled"])
 def test_at_rest_a_held_button_moves_nothing_more(stage, pad, how):
     pad.show(pose(0.0, 0.0))

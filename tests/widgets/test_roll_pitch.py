@@ -68,6 +68,7 @@ def test_a_clock_that_was_set_back_forgets_what_was(lie):
 
 
 def test_an_angle_that_is_not_measured_leaves_the_past_alone(lie):
+    lie.show(told(math.nan, math.nan))
     lie.show(told(9.0, 2.0))
     lie.show(told(math.nan, math.nan, 101.0))
     assert (lie.words("roll"), lie.most("roll")) == (("–", ""), "most 9°")

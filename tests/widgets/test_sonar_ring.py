@@ -61,10 +61,11 @@ def test_a_contact_is_said_before_any_distance(stage, view):
     view.show(Bumper(pressed=True, bearing=-math.pi / 2))
     stage.frames(2)
     assert view.texts[-1] == "bump 90° right"
-    view.show(Bumper())
+    view.show(Bumper(bearing=1.0))
     stage.frames(2)
     assert view.texts[-1] == "0.33 m 90° left"
     assert view.bump == "no contact"
+    assert math.isnan(view.contact)
 
 
 def test_a_contact_of_which_nobody_knows_where_is_said_all_the_same(view):
