@@ -56,8 +56,8 @@ class Arrangement:
 
 _FLOATING = {"top_left": 1, "top": 1, "top_right": 1, "readouts": 4, "senses": 3}
 ARRANGEMENTS: Mapping[str, Arrangement] = {
-    "float": Arrangement(_FLOATING, {"stick": 2, "slider": 1, "top_right": 1}, 3),
-    "two_sticks": Arrangement(_FLOATING, {"stick": 1, "right_stick": 1, "slider": 1, "confirm": 2}, 3),
+    "float": Arrangement(_FLOATING, {"stick": 2, "slider": 1, "top_right": 1}, 4),
+    "two_sticks": Arrangement(_FLOATING, {"stick": 1, "right_stick": 1, "slider": 1, "confirm": 2}, 4),
     "columns": Arrangement(
         {"left": 3, "corner": 1, "motion": 1}, {"stick": 1, "lift": 1, "tilt": 1}, 8
     ),

@@ -16,6 +16,8 @@ __all__ = ["ActionButtons"]
 
 NARROW = 110
 """On a narrower button the icon is above the word [dp]."""
+MOST = 3
+"""So many have room for a finger: of a robot that has something for more the layout's first ones are on the glass."""
 TASKS = ("pause", "task.")
 """How actions begin that a robot without tasks has not."""
 
@@ -48,7 +50,7 @@ class ActionButtons(GridLayout):
             button = self.buttons[name]
             button.text, button.icon, button.disabled = action.text, action.icon, not action.able
             button.meaning = action.meaning or action.text
-        wanted: list[Widget] = [button for name, button in self.buttons.items() if name in found]
+        wanted: list[Widget] = [button for name, button in self.buttons.items() if name in found][:MOST]
         # instead of buttons that can never be pressed stands why
         if any(name.startswith(TASKS) for name in self.buttons) and not any(
             name.startswith(TASKS) for name in found

@@ -28,14 +28,13 @@ from app.screens.senses import Senses
 from app.screens.sight import Sight
 from app.session import Session
 from bridge.msgs.vision_msgs import Detection2DArray
-from widgets import Video
+from widgets import SlideToConfirm, Video
+from widgets.choices import Segmented
 from widgets.kit import Card
 from widgets.stick import Stick
 
 __all__ = ["DriveScreen"]
 
-ARRANGED = {"float": arrange.drive}
-"""Where everything sits, by the arrangement of the layout."""
 HIDES = ("top_left", "top_right", "readouts", "top")
 """Places that may lie under the unfolded sensors, or under what is said."""
 
@@ -52,7 +51,7 @@ class DriveScreen(FloatLayout):
         self._arranged: dict[str, Rect] = {}
         self._cover: Rect | None = None
         self._strip = Rect(0, 0, 0, 0)
-        self._arrange = ARRANGED[layout.arrangement]
+        self._two = layout.arrangement == "two_sticks"
         self.dashboard = Dashboard(self.session.feeds)
         self.video = Video(fit="cover", corner=0)
         self.in_vain = InVain(self.session, self.app)
@@ -92,6 +91,11 @@ class DriveScreen(FloatLayout):
             for slot, those in found.items():
                 for widget in those:
                     self._place(slot, widget)
+        if self.hands.choices:
+            self.switch = Segmented(options=list(self.hands.choices), value=self.hands.chosen)
+            self.switch.bind(on_choose=lambda _, title: setattr(self.hands, "chosen", title))
+            self.hands.bind(chosen=self._choose)
+            self._place("switch", self.switch)
         self.add_widget(self.sight)
         for gauge, topics in self.instruments.senses:
             self.senses.add(gauge, topics)
@@ -138,8 +142,9 @@ class DriveScreen(FloatLayout):
         """Put everything into its place; returns where STOP goes."""
         places = self._arranged = self._arrange(body, form, dp)
         for slot, found in self.places.items():
-            for widget in found:
-                put(widget, places[slot])
+            for widget, place in zip(found, _beside(places[slot], found, dp), strict=True):
+                put(widget, place)
+        self._choose()
         tall = self.actions.tall = form == "tall"
         self.actions.tick()
         roomy = form == "wide" or places["readouts"].width >= 330 * dp
@@ -155,6 +160,19 @@ class DriveScreen(FloatLayout):
         aside = max(0.0, body.right - self.notice.right - 8 * dp)
         self.video.insets = [self.notice.x - 8 * dp - body.x, 0, aside, body.top - chip]
         return places["stop"]
+
+    def _arrange(self, body: Rect, form: str, dp: float) -> dict[str, Rect]:
+        if self._two:
+            return arrange.two_sticks(body, form, dp)
+        return arrange.drive(body, form, dp, switch=bool(self.hands.choices))
+
+    def _choose(self, *_: object) -> None:
+        """Of two controls in one place one is on the glass."""
+        place = self._arranged.get("stick")
+        for widget in self.hands.choices.values():
+            if place is not None:
+                shown = self.hands.shown(widget)
+                put(widget, place if shown else Rect(AWAY, place.y, place.width, place.height))
 
     def clear(self, cover: Rect | None) -> None:
         """Take away what would be seen only in part behind what is said over the screen."""
@@ -231,3 +249,17 @@ class DriveScreen(FloatLayout):
         """A decoded camera frame; `rate` [Hz] and `latency` [s] are said on it, NaN for unknown."""
         self.video.show_frame(picture.width, picture.height, picture.rgba, picture.taken)
         self.video.rate, self.video.latency = rate, latency
+
+
+def _beside(place: Rect, found: list[Widget], dp: float) -> list[Rect]:
+    """The places of slides that share one: side by side, or one above the other where that is narrow; else each has all of it."""
+    if len(found) < 2 or not all(isinstance(widget, SlideToConfirm) for widget in found):
+        return [place] * len(found)
+    gap, count = 12 * dp, len(found)
+    if place.width < 3 * place.height:
+        high = (place.height - gap * (count - 1)) / count
+        return [
+            Rect(place.x, place.top - (n + 1) * high - n * gap, place.width, high) for n in range(count)
+        ]
+    wide = (place.width - gap * (count - 1)) / count
+    return [Rect(place.x + n * (wide + gap), place.y, wide, place.height) for n in range(count)]

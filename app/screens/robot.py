@@ -17,7 +17,11 @@ from app.session import Session
 
 __all__ = ["Profile", "robot_shell"]
 
-DRIVE: dict[str, Callable[..., Any]] = {"float": DriveScreen, "columns": DiveScreen}
+DRIVE: dict[str, Callable[..., Any]] = {
+    "float": DriveScreen,
+    "two_sticks": DriveScreen,
+    "columns": DiveScreen,
+}
 """The drive screen of each arrangement."""
 
 

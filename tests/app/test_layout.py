@@ -53,7 +53,7 @@ def control(**changes: str) -> str:
         ("for = 'patrol'", "for is a list of models and kinds of robots, not 'patrol'"),
         ("arrangement = 'columns'\n" + one(), "instrument 1: slot is one of left, .*, not 'top'"),
         ("[control]", r"lists its controls as \[\[control\]\] tables"),
-        (control(slot="top"), "control 1: slot is one of stick, slider, not 'top'"),
+        (control(slot="top"), "control 1: slot is one of stick, slider, top_right, not 'top'"),
         (control(widget="Lever"), "widget is one of Compass, .*, SpeedCard, not 'Lever'"),
         (control(forward="up"), "forward is one of ahead, aside, climb, .*, not 'up'"),
         (control(pad="middle"), "pad is one of , left, right, not 'middle'"),
@@ -61,7 +61,7 @@ def control(**changes: str) -> str:
         (control(colour="red"), "key is one of .*, not 'colour'"),
         (control() * 3, "3 controls into stick, where 2 fit"),
         ("[[action]]\nwhat = 'jump'", "action 1: what is one of task.surface, .*, not 'jump'"),
-        ("[[action]]\nwhat = 'pause'\n" * 4, "4 actions into the buttons, where 3 fit"),
+        ("[[action]]\nwhat = 'pause'\n" * 5, "5 actions into the buttons, where 4 fit"),
     ],
 )
 def test_a_mistake_is_one_sentence(text: str, sentence: str) -> None:
