@@ -48,6 +48,8 @@ THERE = 0.3, math.radians(20)
 """A robot that is no farther from its goal has reached it [m], [rad]."""
 REPEAT_AFTER, REPEAT_EVERY = 0.45, 0.12
 """A held button goes on moving the goal [s]."""
+CELL = 53
+"""Least side of a button for which a picture or a table may take room from the buttons [dp]."""
 GAP = 3
 """Between the buttons [dp]."""
 
@@ -226,17 +228,18 @@ class GoalPad(Grip, Gauge):
     @property
     def layout(self) -> tuple[Box, Box | None, Box | None]:
         """Of the pad, of the picture and of the figures; None for what has no room: the figures are in corners then."""
-        edge, least = dp(5), 3 * theme.target + 2 * dp(GAP)
+        # a whole target each where there is room; nine of them would fill half a phone, so on a small card less
+        edge, least, wanted = dp(5), 3 * dp(CELL) + 2 * dp(GAP), 3 * theme.target + 2 * dp(GAP)
         left, low = self.x + edge, self.y + edge
         width, height = self.width - 2 * edge, self.height - 2 * edge
         gap, table = dp(10), sp(62)
         if width >= least + gap + dp(116) and height < 2 * least + table:
-            wide = min(max(least, width * 0.54), height * 1.1, width - gap - dp(116))
+            wide = min(max(wanted, width * 0.54), max(height * 1.1, wanted), width - gap - dp(116))
             rest = left + dp(5), low + dp(4), width - wide - gap, height - dp(8)
             figures = rest[0], rest[1], rest[2], table
             picture = rest[0], rest[1] + table + dp(6), rest[2], rest[3] - table - dp(6)
             return (left + width - wide, low, wide, height), picture, figures
-        pad = min(max(least, min(width * 0.75, height * 0.45)), height - table - dp(10))
+        pad = min(max(wanted, min(width * 0.75, height * 0.45)), height - table - dp(10))
         if pad < least:
             return (left, low, width, height), None, None
         figures = left + dp(6), low + height - table - dp(4), width - dp(12), table

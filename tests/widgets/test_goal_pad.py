@@ -189,6 +189,27 @@ def test_no_goal_is_farther_than_a_map_can_be(pad):
     assert pad.wanted[0] == FARTHEST
 
 
+@pytest.fixture
+def handheld():
+    """A glass on which 14 mm are 88 dp, as they are where a dp is a 160th of an inch."""
+    before = theme.target
+    theme.target = 88
+    yield
+    theme.target = before
+
+
+@pytest.mark.usefixtures("handheld")
+@pytest.mark.parametrize(("size", "pictured"), [((326, 228), True), ((480, 320), True), ((176, 176), False)])
+def test_on_a_handhelds_glass_the_buttons_leave_room_for_the_picture_and_are_no_smaller_than_needed(
+    stage, size, pictured
+):
+    pad = stage.show(GoalPad(), size=size)
+    stage.frames(2)
+    assert (pad.layout[1] is not None) == pictured
+    sides = [side for name in BUTTONS for side in pad.button(name)[2:]]
+    assert min(sides) >= (88 if size[0] > 400 else 53)
+
+
 @pytest.mark.parametrize("size", [(176, 176), (242, 242), (326, 228), (420, 470), (420, 190)])
 def test_every_button_is_as_large_as_a_finger_and_inside_at_every_size(stage, size):
     pad = stage.show(GoalPad(), size=size)
