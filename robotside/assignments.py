@@ -207,7 +207,7 @@ class Assignments:
         span = self._span(order)
         tree = Hold(span, self._guide, self._situation, order.height)
         done = f"Held for {order.duration:.0f} s."
-        return Task("hold", "Holding", tree, span, done=lambda: done, moves=False)
+        return Task("hold", "Holding", tree, span, done=lambda: done, moves=self._info.kind == "quadrotor")
 
     def _follow_heading(self, order: TaskOrder) -> Task:
         if math.isinf(order.heading):

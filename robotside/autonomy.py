@@ -35,7 +35,7 @@ from robotside.database import Records
 from robotside.demand import Demand
 from robotside.events import Events
 from robotside.grid import Grid
-from robotside.guide import CRUISE, Guide
+from robotside.guide import Guide
 from robotside.laser import Laser
 from robotside.pose2 import Points, Pose2
 from robotside.robot import Robot
@@ -115,7 +115,7 @@ class Autonomy:
             progress=lambda progress: bus.publish("/task/progress", progress),
             say=events.say,
             clock=clock,
-            cruise=CRUISE * info.max_speed,
+            cruise=self.guide.cruise,
         )
         self.assignments = Assignments(
             self.guide, self.situation, info, say=events.say, rng=rng, records=records, fault=fault

@@ -34,9 +34,6 @@ BOAT_TURNS = 3.0
 ALIGNED = 0.1
 """It looks to where it should within this [rad]."""
 
-PATIENCE = 15.0
-"""To take off [s]."""
-
 MANNERS = {
     "boat": Manner(1.5, 3.0, 4.0, 1.0, 0.2, 0.3, 0.4),
     "hexapod": Manner(0.4, 0.8, 1.2, 1.0, 0.15, 0.1, 0.2),
@@ -60,13 +57,12 @@ class Coursing:
         self.turning = BOAT_TURNS if info.kind == "boat" else 0.0
         self.height = math.nan
         """To go at, above the map's origin [m]; NaN for the present one. A task sets it."""
-        self.aloft = info.kind != "quadrotor"
-        """It is where it moves: what flies is in the air. Whoever hears that sets it."""
+        self.aloft = "take_off" not in info.manoeuvres
+        """It is where it moves: what takes off is in the air. Whoever hears that sets it."""
         self.measured = math.nan
         """Its height now, above the map's origin [m]; NaN while not known. Whoever measures it sets it."""
         self._follower: Follower | None = None
         self._speed = 0.0
-        self._rises_since = math.nan
 
     @property
     def under_way(self) -> bool:
@@ -88,7 +84,7 @@ class Coursing:
 
     def forget(self) -> None:
         """Have no way any more."""
-        self._follower, self._speed, self._rises_since = None, 0.0, math.nan
+        self._follower, self._speed = None, 0.0
 
     def remaining(self, pose: Pose2) -> float:
         """Along the way to its end [m]."""
@@ -117,14 +113,11 @@ class Coursing:
         self.along(yaw, 0.0)
         return False
 
-    def ready(self, pose: Pose2, now: float) -> str:
+    def ready(self) -> str:
         """What stands on the ground takes off first."""
         if self.aloft:
-            self._rises_since = math.nan
             return ""
-        if math.isnan(self._rises_since):
-            self._rises_since = now
-            self.take_off()
+        self.take_off()
         return "Taking off."
 
     def take_off(self, height: float = math.nan) -> None:

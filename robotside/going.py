@@ -60,5 +60,5 @@ class Going(Protocol):
     def face(self, pose: Pose2, yaw: float) -> bool:
         """At the end: turn to `yaw` [rad]; True when it looks there, or never will."""
 
-    def ready(self, pose: Pose2, now: float) -> str:
-        """Get ready to go; why it is not yet, as one sentence, empty when it is."""
+    def ready(self) -> str:
+        """Get ready to go, if it has to; why it is not yet, as one sentence, empty when it is."""

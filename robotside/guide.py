@@ -28,6 +28,9 @@ REPLAN = 1.0
 STUCK = 10.0
 """Without getting 0.1 m nearer or turning for this long, the way is blocked [s]."""
 
+PATIENCE = 20.0
+"""To get ready to go [s]."""
+
 GIVE_UP = 3
 """Times stuck on one leg before it is given up."""
 
@@ -94,6 +97,7 @@ class Guide:
         self.sure = True
         """The position is trusted; otherwise it creeps."""
         self._turning = False
+        self._waits_since = math.inf
         self._planned = self._moved = -math.inf
         self._best = math.inf
         self._stuck = 0
@@ -165,12 +169,14 @@ class Guide:
         """Begin a new leg; the path is planned with the next `update`."""
         self._goal, self.reason = goal, ""
         self.going.forget()
+        self._waits_since = math.inf
         self._stuck, self._left, self._moved = 0, math.nan, -math.inf
 
     def rest(self) -> None:
         """Stand still and forget the path; a leg that goes on later is planned from wherever it is then."""
         self._robot.stop()
         self.going.forget()
+        self._waits_since = math.inf
         self._left = math.nan
         self._moved = -math.inf
 
@@ -187,9 +193,9 @@ class Guide:
         if goal is None:
             return Leg.ARRIVED
         going = self.going
-        self.waits_for = going.ready(pose, now)
+        self.waits_for = self.ready(now)
         if self.waits_for:
-            return Leg.UNDER_WAY
+            return Leg.BLOCKED if self.reason else Leg.UNDER_WAY
         if not going.under_way and not self._plan(pose, goal, now):
             return Leg.BLOCKED
         if going.arrived(pose):
@@ -201,6 +207,17 @@ class Guide:
             self._replan(pose, now)
         going.steer(pose, points, sure=self.sure)
         return Leg.UNDER_WAY
+
+    def ready(self, now: float) -> str:
+        """Get ready to go: what it does for that, as one sentence, empty when it goes. After too long there is a `reason`."""
+        waits = self.going.ready()
+        if not waits:
+            self._waits_since = math.inf
+            return ""
+        self._waits_since = min(self._waits_since, now)
+        if now - self._waits_since > PATIENCE:
+            self.reason = f"{waits[:-1]} took longer than {PATIENCE:.0f} s; the robot stays where it is."
+        return waits
 
     def _plan(self, pose: Pose2, goal: Goal, now: float) -> bool:
         self._planned = now

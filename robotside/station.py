@@ -97,7 +97,7 @@ class Station:
         self.info = replace(
             self.keeper.info,
             name=name or config.robot.name or robot.info.name,
-            tasks=tasks_of(robot.info),
+            tasks=tasks_of(self.keeper.info),
         )
         self.bus = Bus()
         self.demand = Demand(robot.want)

@@ -189,7 +189,7 @@ class Trucking:
         self.forget()
         return False
 
-    def ready(self, pose: Pose2, now: float) -> str:
+    def ready(self) -> str:
         """It always is."""
         return ""
 

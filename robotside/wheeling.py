@@ -86,6 +86,6 @@ class Wheeling:
         self._robot.drive(Twist.planar(0.0, rate))
         return False
 
-    def ready(self, pose: Pose2, now: float) -> str:
+    def ready(self) -> str:
         """It always is."""
         return ""

@@ -65,6 +65,7 @@ class FollowHeading(Behaviour):
     def initialise(self) -> None:
         """Take the direction."""
         self._guide.finish()
+        self._guide.reason = ""
         self._span.begin()
         if math.isnan(self._heading):
             self._heading = self._situation.pose.yaw
@@ -75,10 +76,10 @@ class FollowHeading(Behaviour):
         if self._span.over:
             return Status.SUCCESS
         now = self._situation
-        waits = self._guide.going.ready(now.pose, now.now)
+        waits = self._guide.ready(now.now)
         if waits:
             now.tell("taking off", waits)
-            return Status.RUNNING
+            return Status.FAILURE if self._guide.reason else Status.RUNNING
         error = math.remainder(self._heading - now.pose.yaw, math.tau)
         degrees = math.degrees(self._heading) % 360.0
         bends = self._guide.going.turning > 0

@@ -1,0 +1,90 @@
+"""Tasks of robots of every kind that know nothing but twists, as those behind somebody else's bridge do."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from bridge.msgs.pilothouse_msgs import (
+    FlightState,
+    Manoeuvre,
+    RobotInfo,
+    StartTaskRequest,
+    TaskOrder,
+    Waypoint,
+)
+from robotside.assignments import tasks_of
+from tests.fakes import FakeRobot
+from tests.robotside.scene import Scene
+
+EVERYWHERE = ["patrol", "deliver", "guide", "go_to", "go_home", "hold", "follow_heading"]
+
+
+class Agile(FakeRobot):
+    """One that is told manoeuvres and does none of them."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.orders: list[str] = []
+
+    def manoeuvre(self, order: Manoeuvre) -> None:
+        self.orders.append(order.kind)
+
+
+def scene(kind: str, state: Path, *manoeuvres: str) -> Scene:
+    robot = Agile() if manoeuvres else FakeRobot()
+    robot.info = msgspec.structs.replace(robot.info, kind=kind, manoeuvres=list(manoeuvres))
+    scene = Scene(robot, state)
+    scene.run(3.5)  # until it knows where it is
+    return scene
+
+
+@pytest.mark.parametrize(
+    ("kind", "near"), [("ackermann", 0.8), ("boat", 3.1), ("hexapod", 0.9), ("quadrotor", 0.7)]
+)
+def test_it_patrols_by_twists_alone(kind: str, near: float, tmp_path: Path) -> None:
+    run = scene(kind, tmp_path)
+    run.set(Waypoint(5.0, 0.0), laps=1)
+    run.start()
+    assert run.run_task().reason == "Patrol done: 1 point visited."
+    assert math.dist(run.robot.pose[:2], (5.0, 0.0)) < near
+
+
+def test_which_tasks_there_are_depends_on_kind_and_manoeuvres() -> None:
+    def known(kind: str, *manoeuvres: str) -> list[str]:
+        return tasks_of(RobotInfo(kind=kind, manoeuvres=list(manoeuvres)))
+
+    assert known("wheels", "twist") == [*EVERYWHERE, "dock"]
+    assert known("ackermann", "twist", "steer") == EVERYWHERE
+    assert known("hexapod", "course", "surface") == [*EVERYWHERE, "surface"]
+    assert known("quadrotor", "hover", "take_off", "land") == [*EVERYWHERE, "take_off", "land"]
+
+
+def test_the_tasks_are_told_with_the_robots_information(tmp_path: Path) -> None:
+    info = scene("boat", tmp_path).station.bus.last("/robot/info")
+    assert isinstance(info, RobotInfo)
+    assert info.tasks == EVERYWHERE
+
+
+def test_a_height_is_refused_by_what_keeps_none(tmp_path: Path) -> None:
+    run = scene("wheels", tmp_path)
+    order = TaskOrder(task="hold", height=1.0)
+    assert (
+        run.refused("/task/start", StartTaskRequest(order=order)) == "Fake-1 keeps no height; leave it out."
+    )
+
+
+def test_who_does_not_come_off_the_ground_gives_up_and_says_so(tmp_path: Path) -> None:
+    run = scene("quadrotor", tmp_path, "take_off")
+    run.robot.more.append(("/flight", FlightState(phase="landed")))
+    run.ask("/task/start", StartTaskRequest(order=TaskOrder(task="follow_heading")))
+    run.run(1.0)
+    assert run.task.phase == "taking off"
+    status = run.run_task(30.0)
+    assert status.state == "FAILED"
+    assert status.reason == "Taking off took longer than 20 s; the robot stays where it is."
+    assert isinstance(run.robot, Agile)
+    assert set(run.robot.orders) == {"take_off"}
