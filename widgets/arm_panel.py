@@ -315,7 +315,8 @@ class ArmPanel(Control, Gauge):
         points = side_points(tuple(self.angles), self.links) * scale + (x, y)
         draw_arm(shapes, points, scale, opening=self.gripper, touching=self.touching)
         yield from self._figures((left, low, width, height), roomy)
-        yield from self._turn(shapes, left, low + height, roomy)
+        if height >= dp(62):
+            yield from self._turn(shapes, left, low + height, roomy)
 
     def _standing(self) -> tuple[tuple[str, ...], str]:
         """What it does, or what became of an order, longest first, and the role of that."""
@@ -373,68 +374,64 @@ def _said(name: str) -> str:
     return name.replace("_", " ").capitalize()
 
 
+POSES = {
+    "rest": (0.0, -1.6, 1.25, 0.35),
+    "home": (0.0, -1.05, 0.35, 0.70),
+    "stretch": (0.0, 0.9, -0.55, -0.35),
+    "look_down": (0.0, -0.6, 0.2, 1.6),
+}
+"""Of the samples."""
+SMALL = (176.0, 176.0)
+
+
+def _state(pose: str, **figures: Any) -> ArmState:
+    """In that pose, or as `figures` have it."""
+    angles = figures.get("angles", POSES[pose])
+    return ArmState(
+        angles=Float64Array(angles),
+        wanted=Float64Array(figures.get("wanted", angles)),
+        gripper=figures.get("gripper", 0.04),
+        pose="" if "angles" in figures else pose,
+        poses=figures.get("poses", list(POSES)),
+        tip=Point(0.29, 0.05, 0.21),
+        touching=figures.get("touching", False),
+    )
+
+
 def samples() -> dict[str, Callable[[], Widget]]:
     """The states of the panel by name."""
-    poses = {
-        "rest": (0.0, -1.6, 1.25, 0.35),
-        "home": (0.0, -1.05, 0.35, 0.70),
-        "stretch": (0.0, 0.9, -0.55, -0.35),
-        "look_down": (0.0, -0.6, 0.2, 1.6),
-    }
 
     def made(
-        pose: str = "home",
-        size: tuple[float, float] = (326, 228),
-        *,
-        outcome: str = "ready",
-        choosing: bool = False,
-        **state: Any,
+        msg: ArmState | None, size: tuple[float, float] = (326.0, 228.0), **more: Any
     ) -> Callable[[], Widget]:
-        parts = {
-            name: state.pop(name)
-            for name in ("angles", "wanted", "gripper", "touching", "poses")
-            if name in state
-        }
-
         def build() -> ArmPanel:
-            panel = ArmPanel(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **state)
-            if pose:
-                angles = parts.get("angles", poses.get(pose, ()))
-                told = ArmState(
-                    angles=Float64Array(angles),
-                    wanted=Float64Array(parts.get("wanted", angles)),
-                    gripper=parts.get("gripper", 0.04),
-                    pose="" if "angles" in parts else pose,
-                    poses=parts.get("poses", list(poses)),
-                    tip=Point(0.29, 0.05, 0.21),
-                    touching=parts.get("touching", False),
-                )
-                panel.show(told)
-            panel.outcome, panel.choosing = outcome, choosing
+            panel = ArmPanel(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
+            if msg is not None:
+                panel.show(msg)
             return panel
 
         return build
 
-    way = {"angles": (0.4, -0.5, 0.1, 0.3), "wanted": poses["stretch"]}
-    many = [*poses, "pick", "place", "wave"]
-    small = (176, 176)
+    home, stretch = _state("home"), _state("stretch")
+    moving = _state("home", angles=(0.4, -0.5, 0.1, 0.3), wanted=POSES["stretch"])
+    many = _state("home", poses=[*POSES, "pick", "place", "wave"])
     return {
-        "never": made("", state="never"),
-        "live": made(),
-        "moving": made(**way),
-        "touching": made("stretch", gripper=0.02, touching=True),
-        "look down": made("look_down", gripper=0.075),
-        "refused": made(outcome="refused"),
-        "many poses": made(poses=many),
-        "small": made(size=small),
-        "small moving": made(size=small, **way),
-        "small poses": made(size=small, choosing=True),
-        "small many poses": made(size=small, choosing=True, poses=many),
-        "small never": made("", size=small, state="never"),
-        "tall": made("stretch", size=(228, 330)),
-        "large": made("home", size=(520, 330)),
-        "not known": made(angles=(0.0, math.nan, 0.0, 0.0)),
-        "stale": made(state="stale", age=2.0),
-        "alarm": made(state="alarm"),
-        "disabled": made(state="disabled"),
+        "never": made(None, state="never"),
+        "live": made(home),
+        "moving": made(moving),
+        "touching": made(_state("stretch", gripper=0.02, touching=True)),
+        "look down": made(_state("look_down", gripper=0.075)),
+        "refused": made(home, outcome="refused"),
+        "many poses": made(many),
+        "small": made(home, SMALL),
+        "small moving": made(moving, SMALL),
+        "small poses": made(home, SMALL, choosing=True),
+        "small many poses": made(many, SMALL, choosing=True),
+        "small never": made(None, SMALL, state="never"),
+        "tall": made(stretch, (228.0, 330.0)),
+        "large": made(home, (520.0, 330.0)),
+        "not known": made(_state("home", angles=(0.0, math.nan, 0.0, 0.0))),
+        "stale": made(home, state="stale", age=2.0),
+        "alarm": made(home, state="alarm"),
+        "disabled": made(home, state="disabled"),
     }

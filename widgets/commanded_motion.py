@@ -187,7 +187,7 @@ class CommandedMotion(Gauge):
         """Of the values' type in so much room, the same for all [px]."""
         size = min(sp(30), high * 0.42)
         widest = max(wide(told.text, size, bold=True) + _unit_wide(told, size) for told in self.figures)
-        return max(min(size, size * room / widest), sp(12))
+        return max(min(size, size * room / widest), float(dp(11)))
 
     def _cell(self, told: Figure, place: tuple[float, float], size: float, room: float) -> Iterator[Word]:
         left, y = place
@@ -210,7 +210,7 @@ class CommandedMotion(Gauge):
 
 
 def _unit_size(size: float) -> float:
-    return max(size * 0.5, float(sp(11)))
+    return max(size * 0.5, min(float(sp(11)), size * 0.75))
 
 
 def _unit_wide(told: Figure, size: float) -> float:

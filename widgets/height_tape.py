@@ -134,10 +134,12 @@ class HeightTape(Gauge):
         size = sp(18 if room >= dp(84) else 15)
         yield Word(told, left + shift, y, size, theme.text, bold=True, anchor=(0, 0.5))
         if told != DASH:
-            behind = left + shift + wide(told, size, bold=True) + dp(3)
-            yield Word(
-                "m/s", behind, y - dp(1), sp(12 if room >= dp(84) else 11), theme.muted, anchor=(0, 0.5)
+            behind, small = (
+                left + shift + wide(told, size, bold=True) + dp(3),
+                sp(12 if room >= dp(84) else 11),
             )
+            unit = first_fitting(("m/s",), small, left + room + dp(4) - behind)
+            yield Word(unit, behind, y - dp(1), small, theme.muted, anchor=(0, 0.5))
 
     def _tape(self, shapes: Shapes, box: tuple[float, float, float, float]) -> Iterator[Word]:
         left, bottom, room, high = box

@@ -129,6 +129,8 @@ class LegPanel(Gauge):
         lines = [parts] if _long(parts, size) <= across - dp(4) else [parts[:2], parts[2:]]
         if len(lines) > 1 and high - 2 * line < dp(36):
             lines = [[parts[0], parts[-1]]]  # the dial says the angle too
+        longest = max(_long(row, size) for row in lines)
+        size *= min(1.0, (across - dp(4)) / longest)
         words = len(lines) * line
         radius = max(min((across - dp(8)) / 2, (high - words - dp(8)) / 2), dp(8))
         over = max(high - words - 2 * radius, 0.0) / 2

@@ -17,6 +17,7 @@ from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.widget import Widget
 
+from widgets.base import fitting_size
 from widgets.gauge import Gauge, first_fitting, wide
 from widgets.grip import Grip
 from widgets.icons import icon
@@ -167,8 +168,8 @@ class SlideToConfirm(Grip, Gauge):
         taken = wide(whole, size, bold=True)
         if taken > room:
             yield Word("slide to", middle, y + sp(9), sp(12), tint(theme.muted, strength))
-            said = first_fitting((self.text,), sp(14), room, bold=True)
-            yield Word(said, middle, y - sp(8), sp(14), tint(theme.text, strength), bold=True)
+            size = fitting_size([self.text], sp(14), room, bold=True)
+            yield Word(self.text, middle, y - sp(8), size, tint(theme.text, strength), bold=True)
             return
         yield Word(whole, middle, y, size, tint(theme.text, strength), bold=True)
         free = (room - taken) / 2
