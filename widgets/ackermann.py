@@ -135,13 +135,14 @@ class AckermannView(Gauge):
         yield Word(first_fitting((turn, brief), size, room), right, y, size, theme.muted, anchor=(1, 0.5))
 
     def _column(self, box: tuple[float, float, float, float]) -> Iterator[Word]:
-        """Three figures under their names."""
+        """Three figures under their names, or as many as there is height for."""
         left, low, width, height = box
-        step = height / 3
+        lines = min(3, max(1, int(height / sp(35))))
+        step = height / lines
         size = sp(22 if height >= dp(170) else 17)
         turned = self.alarmed and dp(16)  # an alarm has its sign in the corner
         figures = (("Speed", self.speed_words), ("Steer", self.steer_words), ("Radius", self.radius_words))
-        for number, (name, text) in enumerate(figures):
+        for number, (name, text) in enumerate(figures[:lines]):
             top = low + height - number * step
             value, _, unit = text.partition(" ") if text[0] not in "sn" else (text, "", "")
             yield Word(name.upper(), left, top - sp(6), sp(11.5), theme.muted, anchor=(0, 0.5))

@@ -249,14 +249,18 @@ class CourseDial(Grip, Gauge):
         left, top = x + radius + dp(14), self.top - self.edge
         room = self.right - self.edge - left
         course, said = self.course
-        high = (self.height - 2 * self.edge) / 3
+        free = self.height - 2 * self.edge
+        lines = 3 if free >= 3 * sp(38) else 2
+        high = free / lines
         large = sp(28 if high > dp(58) else 18)
         told = said or self.off_words
+        first = said.upper() if said and lines == 2 else "COURSE"
         for row, (name, value, ink) in enumerate(
-            (("COURSE", course, theme.plan), ("HEADING", self.heading, theme.accent))
+            ((first, course, theme.plan), ("HEADING", self.heading, theme.accent))
         ):
             up = top - row * high
-            yield Word(name, left, up - sp(6), sp(11.5), ink, bold=True, anchor=(0, 0.5))
+            small = fitting_size([name], sp(11.5), room, bold=True)
+            yield Word(name, left, up - sp(6), small, ink, bold=True, anchor=(0, 0.5))
             size = fitting_size([heading_text(value)], large, room, bold=True)
             yield Word(
                 heading_text(value),
@@ -267,8 +271,9 @@ class CourseDial(Grip, Gauge):
                 bold=True,
                 anchor=(0, 0.5),
             )
-        size = fitting_size([told], sp(13), room)
-        yield Word(told, left, top - 2 * high - sp(8), size, self._said_ink(said), anchor=(0, 0.5))
+        if lines == 3:
+            size = fitting_size([told], sp(13), room)
+            yield Word(told, left, top - 2 * high - sp(8), size, self._said_ink(said), anchor=(0, 0.5))
         if math.isnan(self.heading):
             yield Word(DASH, x, y, radius * 0.3, theme.muted)
 

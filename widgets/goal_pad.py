@@ -50,6 +50,8 @@ REPEAT_AFTER, REPEAT_EVERY = 0.45, 0.12
 """A held button goes on moving the goal [s]."""
 CELL = 53
 """Least side of a button for which a picture or a table may take room from the buttons [dp]."""
+LEAST_WORDS = 46
+"""Lower buttons have their icon only [sp]."""
 GAP = 3
 """Between the buttons [dp]."""
 
@@ -286,6 +288,8 @@ class GoalPad(Grip, Gauge):
         if self.pressed == name:
             self._ground(shapes, box, tint(ink, 0.18), ink)
         words, sign = self.says if name == "go" else (AXES.get(name, ""), BUTTONS[name][2])
+        if height < sp(LEAST_WORDS):
+            words = ""
         shift = sp(9) if words else 0
         yield Word(icon(sign), x, y + shift, sp(24), ink, font=theme.icons)
         if words:
@@ -308,6 +312,10 @@ class GoalPad(Grip, Gauge):
             if column == 0:
                 fill = tint(theme.accent, 0.25) if self.pressed == "here" else theme.raised
                 self._ground(shapes, box, fill, theme.line)
+            if height < sp(LEAST_WORDS):
+                sign, ink = icon("my_location") if column == 0 else "", theme.text
+                yield Word(sign, left + width / 2, low + height / 2, sp(24), ink, font=theme.icons)
+                continue
             y, step = low + height - sp(9), (height - sp(18)) / 3
             most = sp(15 if height >= dp(68) else 12)
             yield Word(name, left + width / 2, y, sp(10), colour, bold=True)

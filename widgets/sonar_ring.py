@@ -235,13 +235,19 @@ class SonarRingView(Gauge):
         y, size = top - sp(34 if large else 30), sp(24 if large else 18)
         size = fitting_size([self.figure], size, room, bold=True)
         yield Word(self.figure, left, y, size, theme.roles[self.nearest_role], bold=True, anchor=(0, 0.5))
+        if self.touched and self.height < dp(112):
+            yield Word(
+                "bump", left, y - size * 0.5 - sp(11), sp(13), theme.danger, bold=True, anchor=(0, 0.5)
+            )
+            return
         where = first_fitting((self.where, self.where.replace("all ", "")), sp(13), room)
         yield Word(where, left, y - size * 0.5 - sp(11), sp(13), theme.muted, anchor=(0, 0.5))
         y = self.y + self.edge + sp(8)
         ink = theme.danger if self.touched else theme.muted
         room += place.radius * 0.25 - sp(20)
-        words = first_fitting((self.bump, self.bump.split(" ")[0]), sp(13), room, bold=self.touched)
-        if words:
+        brief = "bump" if self.touched else ""
+        words = first_fitting((self.bump, brief), sp(13), room, bold=self.touched)
+        if words and self.height >= dp(112):
             sign = icon("warning" if self.touched else "check")
             yield Word(sign, left, y, sp(16), ink, font=theme.icons, anchor=(0, 0.5))
             yield Word(words, left + sp(20), y, sp(13), ink, bold=self.touched, anchor=(0, 0.5))

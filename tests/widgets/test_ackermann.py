@@ -103,3 +103,11 @@ def test_the_way_bends_to_the_left_when_it_steers_left_and_keeps_its_width():
     assert np.hypot(*(right - left).T) == pytest.approx(40.0)
     straight = _bent(along, 0.0, 5.0)
     assert straight[-1] == pytest.approx([5.0, 100.0])
+
+
+def test_where_it_is_low_and_wide_there_are_as_many_figures_as_fit(stage):
+    view = stage.show(AckermannView(state="live"), size=(174, 96))
+    view.show(state())
+    stage.frames(2)
+    assert "SPEED" in view.texts
+    assert "RADIUS" not in view.texts

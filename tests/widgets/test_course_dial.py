@@ -128,3 +128,14 @@ def test_where_it_is_wide_the_figures_stand_beside_the_dial(stage):
     dial.show(course(75))
     stage.frames(2)
     assert dial.texts[-5:] == ["COURSE", "075°", "HEADING", "340°", "95° right"]
+
+
+def test_where_it_is_low_what_became_of_a_course_takes_the_place_of_its_name(stage):
+    dial = stage.show(CourseDial(), size=(174, 96))
+    dial.show(Compass(heading=340.0))
+    dial.show(course(75))
+    stage.frames(2)
+    assert dial.texts[-4:] == ["COURSE", "075°", "HEADING", "340°"]
+    stage.tap(*at(dial, 120))
+    stage.frames(2)
+    assert dial.texts[-4:] == ["SENT", "120°", "HEADING", "340°"]

@@ -222,3 +222,10 @@ def test_every_button_is_as_large_as_a_finger_and_inside_at_every_size(stage, si
         assert left >= 0 <= low
         assert left + width <= size[0] >= low + height - max(0, size[1] - size[0])
     assert {"ROBOT", "GOAL", "x", "y"} <= set(pad.texts)
+
+
+def test_low_buttons_have_their_icon_only(stage):
+    pad = stage.show(GoalPad(), size=(128, 128))
+    pad.show(pose(1.0, 2.0))
+    stage.frames(2)
+    assert not {"Go", "ROBOT", "x+"} & set(pad.texts)

@@ -112,3 +112,14 @@ def test_a_sonar_without_a_bearing_is_left_out(stage, view):
     view.show(ring(0.2, 1.0, bearings=[math.nan, 0.5]))
     stage.frames(2)
     assert view.figure == "1.0 m"
+
+
+def test_where_it_is_wide_and_low_a_contact_takes_the_place_of_the_direction(stage):
+    view = stage.show(SonarRingView(state="live"), size=(174, 96))
+    view.show(ring(2.0, 0.33, 1.4, 3.0))
+    view.show(Bumper())
+    stage.frames(2)
+    assert view.texts[-1] == "90° left"
+    view.show(Bumper(pressed=True, bearing=0.0))
+    stage.frames(2)
+    assert view.texts[-1] == "bump"
