@@ -66,9 +66,7 @@ class RotorSpeeds(Gauge):
         ]
         fastest = max((abs(speed) for _, speed, _ in told if math.isfinite(speed)), default=0.0)
         self.full = max(self.full, fastest)
-        # NaN is unlike itself, and would be drawn anew each time
-        if repr(told) != repr(self.rotors[:]):
-            self.rotors = told
+        self.rotors = told
 
     def stands(self, speed: float) -> bool:
         """A rotor of this speed [rad/s] stands still while another turns."""

@@ -34,8 +34,8 @@ def test_salt_water_presses_more(gauge):
 
 
 def test_above_the_water_it_is_not_less_than_nothing(gauge):
-    gauge.show(at(-0.02))
-    assert gauge.words == "0.0"
+    gauge.show(at(-0.3))
+    assert (gauge.depth, gauge.words) == (0.0, "0.0")
 
 
 @pytest.mark.parametrize("pressure", [math.nan, math.inf])

@@ -59,9 +59,17 @@ def test_the_tape_runs_past_the_pointer(stage, tape):
     assert "3" not in tape.texts
 
 
+def test_noise_below_what_is_read_is_not_drawn_anew(stage, tape):
+    fly(tape, stage, height=1.241)
+    drawn = []
+    tape.bind(own_height=lambda *_: drawn.append(1))
+    fly(tape, stage, height=1.243)
+    assert not drawn
+
+
 def test_the_ground_is_not_written_below(stage, tape):
     fly(tape, stage, height=0.4)
-    assert not [text for text in tape.texts if text.startswith("−")]
+    assert not [text for text in tape.texts if text.startswith(("-", "−"))]
 
 
 @pytest.mark.parametrize(("phase", "words"), [("flying", ["1.2", " m high"]), ("landed", ["Landed"])])
