@@ -272,7 +272,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "level": made((0.2, -0.3), state="live"),
         "steep": made((4.0, 3.0), (-27.0, 22.0), state="live"),
         "capsizing": made((4.0, 3.0), (52.0, 5.0), state="live"),
-        "not measured": made((math.nan, math.nan), state="live"),
+        "not measured": made(*waves, (math.nan, math.nan), state="live"),
         "large": made(*waves, size=large, state="live"),
         "large never": made(size=large),
         "short": made(*waves, size=(212, 148), state="live"),
