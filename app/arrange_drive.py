@@ -134,7 +134,7 @@ def _drive_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
     least = SENSES_LEAST * dp
     dp *= min(1.0, body.height / (640 * dp)) if switch else 1.0
     gap = 12 * dp
-    picture = min(body.width * 0.75, body.height * 0.42)
+    picture = min(body.width * 0.75, body.height * (0.33 if switch else 0.42))
     video = Rect(body.x, body.top - picture, body.width, picture)
     stick = min(176 * dp, body.width * 0.42)
     controls = Rect(body.x + gap, body.y + gap, stick, stick)
@@ -248,14 +248,14 @@ def _two_tall(body: Rect, dp: float) -> dict[str, Rect]:
     """Both thumbs above a row with the slider, the figures and STOP; above them the slides, and what is done once."""
     scale = dp * min(1.0, body.height / (740 * dp))
     gap = 12 * scale
-    picture = min(body.width * 0.75, body.height * 0.24)
+    picture = min(body.width * 0.75, body.height * 0.23)
     video = Rect(body.x, body.top - picture, body.width, picture)
-    row, across = 130 * scale, body.width - 2 * gap
+    row, across = 150 * scale, body.width - 2 * gap
     slider = Rect(body.x + gap, body.y + gap, 80 * scale, row)
     wide = min(max(158 * scale, body.width * 0.3), 240 * scale)
     stop = stop_place(Rect(body.right - gap - wide, slider.y, wide, row), body, dp)
     figures = between(slider.right + gap, slider.y, stop.left - gap, slider.top)
-    size = min((across - gap) / 2, body.height * 0.23)
+    size = min((across - gap) / 2, body.height * 0.22)
     stick = Rect(body.x + gap, slider.top + gap, size, size)
     right = Rect(body.right - gap - size, stick.y, size, size)
     confirm = Rect(stick.x, stick.top + gap, across, 56 * scale)

@@ -23,12 +23,13 @@ TASKS = ("pause", "task.")
 
 
 class ActionButtons(GridLayout):
-    """One above the other, or in a row where the screen is `tall`."""
+    """One above the other, or in a row where they are `across`."""
 
     def __init__(self, layout: Layout, actions: Actions, **kwargs: Any) -> None:
         super().__init__(**{"cols": 1, "spacing": "10dp", **kwargs})
         self._actions = actions
-        self.tall = False
+        self.across = False
+        """They are in a row."""
         self.buttons: dict[str, QuietButton] = {}
         """By what they do, in the order of the layout."""
         for one in layout.actions:
@@ -64,8 +65,8 @@ class ActionButtons(GridLayout):
 
     def _flow(self) -> None:
         count = max(1, len(self.children))
-        self.cols = count if self.tall else 1
-        narrow = self.tall and self.width < NARROW * Metrics.density * count
+        self.cols = count if self.across else 1
+        narrow = self.across and self.width < NARROW * Metrics.density * count
         for button in self.buttons.values():
             button.flow = "vertical" if narrow else "horizontal"
             button.padding = (4 * Metrics.density, 0) if narrow else (10 * Metrics.density, 0)

@@ -145,10 +145,13 @@ class DriveScreen(FloatLayout):
             for widget, place in zip(found, _beside(places[slot], found, dp), strict=True):
                 put(widget, place)
         self._choose()
-        tall = self.actions.tall = form == "tall"
+        tall, row = form == "tall", places["actions"]
+        self.actions.across = row.width > 2 * row.height
         self.actions.tick()
-        roomy = form == "wide" or places["readouts"].width >= 330 * dp
-        self.readouts.cols = 1 if form == "short" else 4 if roomy and tall else 2
+        figures = places["readouts"]
+        roomy = form == "wide" or figures.width >= 330 * dp
+        narrow = form == "short" or figures.width < 160 * dp
+        self.readouts.cols = 1 if narrow else 4 if roomy and tall else 2
         self._trim(roomy)
         self.notice, low = places["notice"], places["notice_low"]
         self.low.pos, self.low.width, self.low.height = (low.x, low.y), low.width, self.low.minimum_height
@@ -258,8 +261,6 @@ def _beside(place: Rect, found: list[Widget], dp: float) -> list[Rect]:
     gap, count = 12 * dp, len(found)
     if place.width < 3 * place.height:
         high = (place.height - gap * (count - 1)) / count
-        return [
-            Rect(place.x, place.top - (n + 1) * high - n * gap, place.width, high) for n in range(count)
-        ]
+        return [Rect(place.x, place.top - (n + 1) * high - n * gap, place.width, high) for n in range(count)]
     wide = (place.width - gap * (count - 1)) / count
     return [Rect(place.x + n * (wide + gap), place.y, wide, place.height) for n in range(count)]

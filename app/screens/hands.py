@@ -107,7 +107,7 @@ class Hands(EventDispatcher):
     def _wire(self, widget: Any, one: Control) -> None:
         """What a control that is no stick asks for when it is used."""
         words = ACTIONS.get(one.action, ("", ""))
-        for name, value in (("text", one.title or words[0]), ("icon", one.icon or words[1])):
+        for name, value in (("text", one.title or _within(words[0])), ("icon", one.icon or words[1])):
             if value and hasattr(widget, name):
                 setattr(widget, name, value)
         if hasattr(widget, "on_confirm"):
@@ -211,7 +211,7 @@ class Hands(EventDispatcher):
             may = (action is not None and action.able) if one.action else asked
             widget.state = "live" if may else "disabled"
             if action is not None and not one.title and hasattr(widget, "text"):
-                widget.text = action.text
+                widget.text = _within(action.text)
 
     def take_limits(self) -> None:
         """The slider's range is the robot's; where it stood is kept."""
@@ -258,3 +258,8 @@ class Hands(EventDispatcher):
             for name, end in ends.items():
                 if hasattr(stick, name):
                     setattr(stick, name, end)
+
+
+def _within(words: str) -> str:
+    """Words as they are written within a sentence."""
+    return words[:1].lower() + words[1:]
