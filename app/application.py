@@ -17,7 +17,6 @@ from kivy.core.window import Window
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.widget import Widget
 
-from app import simulator as simulators
 from app.camera import PICTURE, Camera
 from app.commands import Commands
 from app.device import device_name, is_android, own_folder
@@ -35,10 +34,12 @@ from app.nearby import HELLO, LATENCY, Nearby
 from app.pictures import Pictures
 from app.records import Records
 from app.screens.connect import THEMES, ConnectScreen
-from app.screens.dialogs import AddressDialog
+from app.screens.dialogs import AddressDialog, Question
 from app.screens.stop_corner import StopCorner
 from app.session import Session
 from app.settings import Settings
+from app.simulating import CHANNEL as SIMULATED
+from app.simulating import Simulating
 from bridge.frames import Frame
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.network import NetworkThread
@@ -111,12 +112,11 @@ class PilothouseApp(App):
         self._layouts = load_all(CATALOGUE)
         self._layout = load(layout, CATALOGUE) if layout is not None else None
         self._settings_dir = settings_dir
-        self._simulator_command = simulator
+        self.simulating = Simulating(self, simulator, self._say, now)
         self._discover, self._poll, self._now = discover, poll, now
         self.session: Session | None = None
         self.shell: Any = None
         """The frame round the robot's screens; None on the connect screen."""
-        self.simulator: simulators.Simulator | None = None
         self._pictures = Pictures(now)
         self._unproven = ""
         """The address that was typed last, until something answers there."""
@@ -160,9 +160,7 @@ class PilothouseApp(App):
         self.client_id = self._identity()
         self.client_name = str(self.settings.get("client_name") or device_name())
         self.robots = Robots(self._now, self.settings.get("robots") or ())
-        self.connect = ConnectScreen(
-            app=self, can_simulate=bool(self._simulator_command) or simulators.available()
-        )
+        self.connect = ConnectScreen(app=self, can_simulate=self.simulating.possible)
         self.fleet = Fleet(client_id=self.client_id, client_name=self.client_name, now=self._now)
         self.corner = StopCorner(self, self.fleet, self._say)
         root = Root()
@@ -216,8 +214,7 @@ class PilothouseApp(App):
         self.nearby.close()
         self.camera.close()
         self.network.close()
-        if self.simulator is not None:
-            self.simulator.close()
+        self.simulating.close()
         self.settings.close()
         self.collector.close()
 
@@ -240,7 +237,7 @@ class PilothouseApp(App):
 
     def back(self) -> bool:
         """Back closes a question, then leaves the robot; on the connect screen it is left to the system."""
-        dialogs = [child for child in self.root.children if isinstance(child, AddressDialog)]
+        dialogs = [child for child in self.root.children if isinstance(child, Question)]
         if dialogs:
             dialogs[0].close()
             return True
@@ -273,8 +270,8 @@ class PilothouseApp(App):
             self.robots.measured(*post.value)
         elif channel == PICTURE:
             self._pictures.show(post.value, post.received, self.shell, self.session)
-        elif channel.startswith("simulator"):
-            self._simulator_said(*post.value)
+        elif channel.startswith(SIMULATED):
+            self.simulating.hear(*post.value)
         elif self.session is not None:
             self.session.deliver(channel, post)
             self.records.put(channel, post.value)
@@ -355,32 +352,6 @@ class PilothouseApp(App):
         """Go on to the next theme and remember it."""
         theme.name = THEMES[theme.name][2]
         self.settings.set("theme", theme.name)
-
-    # the simulator
-
-    def start_simulator(self) -> None:
-        """Start the built-in simulator; it is on the list when it serves, and connected to at once."""
-        if self.simulator is not None:
-            self.simulator.close()
-        said = lambda what, text: self.mailbox.queue("simulator", (what, text), self._now())  # noqa: E731
-        self.simulator = simulators.Simulator(
-            self._simulator_command or simulators.command(),
-            lambda url: said("ready", url),
-            lambda sentence: said("failed", sentence),
-        )
-        self.connect.simulating, self.connect.simulator_text = True, "Starting the simulator …"
-        self.connect.say("")
-        self.simulator.start()
-
-    def _simulator_said(self, what: str, text: str) -> None:
-        self.connect.simulating = what == "ready"
-        self.connect.simulator_text = (
-            "The simulator runs" if what == "ready" else "Start the built-in simulator"
-        )
-        if what == "failed":
-            self._say(text, "danger")
-        elif self.session is None:
-            self.open(text)
 
     # a robot
 

@@ -195,7 +195,7 @@ Builder.load_string("""
                     width: root.action_width
                     disabled: not root.can_simulate or root.simulating
                     opacity: 1 if root.can_simulate else 0
-                    on_release: root.app.start_simulator()
+                    on_release: root.app.simulating.ask()
             Widget:
 """)
 

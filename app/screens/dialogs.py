@@ -11,16 +11,18 @@ from kivy.uix.floatlayout import FloatLayout
 
 import widgets.kit  # noqa: F401 - its rules draw what is used here
 
-__all__ = ["AddressDialog"]
+__all__ = ["AddressDialog", "Question"]
 
 Builder.load_string("""
-<AddressDialog>:
+<Question>:
     canvas.before:
         Color:
             rgba: theme.shade[:3] + [.6]
         Rectangle:
             pos: self.pos
             size: self.size
+
+<AddressDialog>:
     Card:
         id: card
         size_hint: None, None
@@ -60,10 +62,31 @@ Builder.load_string("""
 """)
 
 
-class AddressDialog(FloatLayout):
-    """Asks for an address; `on_answer` may raise ValueError, whose sentence is shown, and what was typed stays."""
+class Question(FloatLayout):
+    """Lies over everything else until it is answered or cancelled; its rule has a `card`."""
 
     __events__ = ("on_close",)
+
+    def close(self) -> None:
+        """Leave the glass."""
+        if self.parent is not None:
+            self.parent.remove_widget(self)
+            self.dispatch("on_close")
+
+    def on_close(self) -> None:
+        """It was answered or cancelled."""
+
+    def on_touch_down(self, touch: Any) -> bool:
+        """Nothing behind the question gets a finger; one beside the card cancels."""
+        if not self.ids.card.collide_point(*touch.pos):
+            self.close()
+        else:
+            super().on_touch_down(touch)
+        return True
+
+
+class AddressDialog(Question):
+    """Asks for an address; `on_answer` may raise ValueError, whose sentence is shown, and what was typed stays."""
 
     problem = StringProperty("")
 
@@ -81,19 +104,6 @@ class AddressDialog(FloatLayout):
             self.close()
 
     def close(self) -> None:
-        """Leave the glass."""
+        """Leave the glass, and the keyboard with it."""
         self.ids.field.focus = False
-        if self.parent is not None:
-            self.parent.remove_widget(self)
-            self.dispatch("on_close")
-
-    def on_close(self) -> None:
-        """It was answered or cancelled."""
-
-    def on_touch_down(self, touch: Any) -> bool:
-        """Nothing behind the question gets a finger; one beside the card cancels."""
-        if not self.ids.card.collide_point(*touch.pos):
-            self.close()
-        else:
-            super().on_touch_down(touch)
-        return True
+        super().close()

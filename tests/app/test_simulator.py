@@ -7,6 +7,7 @@ import os
 import queue
 import subprocess
 import sys
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -125,3 +126,32 @@ def test_the_command_takes_free_ports() -> None:
     assert arguments[1:4] == ["-m", "robotside", "serve"]
     assert arguments[arguments.index("--world") + 1] == "office"
     assert arguments[arguments.index("--port") + 1] == "0"
+    assert "--world" not in command("sim:minnow")
+
+
+def test_several_robots_are_ready_when_the_last_one_is(run: Run) -> None:
+    simulator = Simulator(
+        [],
+        lambda url: run.told.put(("ready", url)),
+        lambda sentence: run.told.put(("failed", sentence)),
+        robots=2,
+    )
+    simulator._take("robotside: ready bridge=ws://a:1 http=x", threading.Timer(1, print))
+    assert (simulator.url, run.told.empty()) == ("", True)
+    simulator._take("robotside: ready bridge=ws://b:2 http=x", threading.Timer(1, print))
+    assert run.next() == ("ready", "ws://a:1")
+
+
+def test_the_next_one_starts_when_the_last_one_has_ended(run: Run) -> None:
+    first = run.python(f"{SERVES}; {WAITS}")
+    run.next()
+    second = Simulator(
+        [sys.executable, "-c", f"import psutil; print(psutil.pid_exists({first._process.pid}), flush=True)"],
+        lambda url: run.told.put(("ready", url)),
+        lambda sentence: run.told.put(("failed", sentence)),
+        after=first,
+    )
+    run.simulators.append(second)
+    second.start()
+    assert run.next() == ("failed", "The simulator did not start: False.")
+    assert first._process.returncode is not None
