@@ -164,8 +164,6 @@ class SafeState:
         return self._by("hover", Act(twist, "holds its depth"))
 
     def _hover(self, _: float, measured: Measured) -> Act:
-        if measured.landed:
-            return _AT_REST
         twist = Twist(Vector3(0.0, 0.0, self._rising(measured)), Vector3(0.0, 0.0, self._turning(measured)))
         return self._by("hover", Act(twist, "hovers"))
 

@@ -6,10 +6,12 @@ import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
+from bridge.msgs.std_msgs import Header, Time
 from robotside.config import Config, LimitSettings, Ring
 from robotside.manoeuvres import Order
 from tests.robotside.hand import Hand, steer, tilt
@@ -135,6 +137,11 @@ def test_a_late_manoeuvre_is_dropped_like_a_late_twist(hand: Make) -> None:
     order = steer(0.2, throttle=0.5)
     run.station.hear(run.anna, "/cmd_manoeuvre", order, run.now - 0.5)
     assert "it came 0.5 s late" in run.events[-1]
+    said = len(run.events)
+    run.wait(3.2)
+    stamped = msgspec.structs.replace(order, header=Header(Time.at(run.now - 0.4)))
+    run.station.hear(run.anna, "/cmd_manoeuvre", stamped, None)
+    assert "it came 0.4 s late" in run.events[said]
     run.station.hear(run.anna, "/cmd_manoeuvre", order, run.now)
     run.wait(0.1)
     assert run.robot.simulation.vehicle.order.kind == "steer"  # type: ignore[attr-defined]  # the drive's

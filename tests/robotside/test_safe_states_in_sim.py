@@ -126,6 +126,16 @@ def test_a_drone_that_lands_for_want_of_charge_is_not_kept_up_by_its_safe_state(
     assert vehicle(run).pilot.phase == "landed"
 
 
+def test_what_holds_it_is_told_once_so_that_it_may_know_better(
+    hand: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = flying(hand, 2.0)
+    told: list[str] = []
+    monkeypatch.setattr(run.robot, "manoeuvre", lambda order: told.append(order.kind))
+    run.wait(6.0, heard=False)
+    assert told == ["hover", "land"]
+
+
 def test_a_drone_on_the_ground_stays_there_and_says_nothing(hand: Make) -> None:
     run = hand("ardrone", 2.0)
     run.push(tilt(), 0.5)

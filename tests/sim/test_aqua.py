@@ -173,6 +173,19 @@ def test_after_the_twist_it_stays_at_the_depth_and_heading_that_it_has(aqua):
     assert aqua.simulation.pose()[2] == pytest.approx(yaw, abs=0.02)
 
 
+def test_told_to_sink_no_more_it_goes_no_farther_than_its_way_takes_it(aqua):
+    aqua.drive(Twist(Vector3(0.0, 0.0, -PARAMETERS.limits.climb)))
+    until(aqua, 5.0)
+    before = height(aqua)
+    lowest = before
+    aqua.drive(Twist())
+    for _ in range(60):
+        until(aqua, 0.1)
+        lowest = min(lowest, height(aqua))
+    assert before - lowest < 0.25
+    assert height(aqua) == pytest.approx(lowest, abs=0.1)
+
+
 def test_held_nose_down_it_swims_down(aqua):
     aqua.manoeuvre(Manoeuvre(kind="tilt", speed=0.4, pitch=0.4, roll=0.3))
     until(aqua, 6.0)

@@ -248,8 +248,8 @@ def test_its_battery_carries_it_for_about_a_quarter_of_an_hour_and_then_it_lands
     assert spent == pytest.approx(10 * (6.0 + shaft / 0.75 + copper), rel=0.01)
     assert 10 * 60 < (1 - 0.05) * 1.5 * 3600 * 11.1 / (spent / 10) < 18 * 60
     vehicle.battery.charge = 0.04
-    for _ in range(120):
-        until(drone, 0.1)
+    for _ in range(600):
+        until(drone, 1 / 60)
         drone.manoeuvre(Manoeuvre(kind="hover"))  # whoever flies it cannot keep it up until it falls
     assert vehicle.pilot.phase == "landed"
 
