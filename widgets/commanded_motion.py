@@ -164,7 +164,9 @@ class CommandedMotion(Gauge):
             return
         columns, rows, size = self._grid(top - bottom)
         across, high = (self.width - 2 * self.edge) / columns, (top - bottom) / rows
-        shown = [*self.figures[: columns * rows - 1], self.figures[-1]][: columns * rows]
+        shown, cells = list(self.figures), columns * rows
+        if len(shown) > cells:
+            shown[cells - 1 :] = shown[-1:]
         for number, told in enumerate(shown):
             row, column = divmod(number, columns)
             left = self.x + self.edge + column * across
@@ -185,7 +187,7 @@ class CommandedMotion(Gauge):
 
     def _size(self, room: float, high: float) -> float:
         """Of the values' type in so much room, the same for all [px]."""
-        size = min(sp(30), high * 0.42)
+        size = min(sp(30), (high - sp(13)) / 1.4)
         widest = max(wide(told.text, size, bold=True) + _unit_wide(told, size) for told in self.figures)
         return max(min(size, size * room / widest), float(dp(11)))
 

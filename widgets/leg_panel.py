@@ -132,7 +132,7 @@ class LegPanel(Gauge):
         longest = max(_long(row, size) for row in lines)
         size *= min(1.0, (across - dp(4)) / longest)
         words = len(lines) * line
-        radius = max(min((across - dp(8)) / 2, (high - words - dp(8)) / 2), dp(8))
+        radius = max(min((across - dp(8)) / 2, (high - words - dp(8 if high >= dp(60) else 3)) / 2), dp(8))
         over = max(high - words - 2 * radius, 0.0) / 2
         y = top - over - radius
         self._dial(shapes, leg, (x, y, radius))

@@ -207,7 +207,7 @@ class TiltCircle(Stick, Gauge):
         size = sp(13)
         word = Word(first_fitting(words, size, room), x, y, size, theme.text if told else theme.muted)
         if not self.card and word.text:
-            ground(shapes, word, tint(theme.surface, 0.88))
+            ground(shapes, word, tint(theme.bg, 0.7))
         yield word
 
     def _idle_words(self) -> tuple[str, ...]:
