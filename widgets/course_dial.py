@@ -42,6 +42,7 @@ WIDE = 1.25
 """A card this many times broader than high has its figures beside the dial."""
 ON_COURSE = 2.5
 """A heading that is no farther off is on course [deg]."""
+INVITES = "drag to set"
 OUTCOMES = {
     "": "",
     "sent": "sent",
@@ -107,12 +108,13 @@ class CourseDial(Grip, Gauge):
 
     @property
     def course(self) -> tuple[float, str]:
-        """The course that is shown in figures [deg] and what it is: `let go to set`, `sent`, or nothing."""
+        """The course that is shown in figures [deg] and what it is: `let go to set`, `sent`, `drag to set`, or nothing."""
         if self.dragged:
             return (self.aim, "let go to set") if math.isfinite(self.aim) else (self.wanted, "no change")
         if math.isfinite(self.asked):
             return self.asked, OUTCOMES[self.outcome] or "asked"
-        return self.wanted, OUTCOMES[self.outcome]
+        free = math.isnan(self.wanted) and math.isfinite(self.heading) and not self.disabled
+        return self.wanted, OUTCOMES[self.outcome] or (INVITES if free else "")
 
     @property
     def place(self) -> tuple[float, float, float]:
@@ -254,7 +256,7 @@ class CourseDial(Grip, Gauge):
         high = free / lines
         large = sp(28 if high > dp(58) else 18)
         told = said or self.off_words
-        first = said.upper() if said and lines == 2 else "COURSE"
+        first = said.upper() if said not in ("", INVITES) and lines == 2 else "COURSE"
         for row, (name, value, ink) in enumerate(
             ((first, course, theme.plan), ("HEADING", self.heading, theme.accent))
         ):

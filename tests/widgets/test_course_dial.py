@@ -122,6 +122,17 @@ def test_no_letter_stands_under_a_knob(stage, dial):
     assert "N" in dial.texts
 
 
+def test_while_the_robot_follows_no_course_it_says_how_to_set_one(dial):
+    assert dial.course[1] == ""
+    dial.show(Compass(heading=340.0))
+    assert dial.course[1] == "drag to set"
+    dial.show(course(75))
+    assert dial.course[1] == ""
+    dial.show(Manoeuvre(kind="rest"))
+    dial.state = "disabled"
+    assert dial.course[1] == ""
+
+
 def test_where_it_is_wide_the_figures_stand_beside_the_dial(stage):
     dial = stage.show(CourseDial(), size=(326, 228))
     dial.show(Compass(heading=340.0))
