@@ -170,12 +170,16 @@ class DriveScreen(FloatLayout):
         return arrange.drive(body, form, dp, switch=bool(self.hands.choices))
 
     def _choose(self, *_: object) -> None:
-        """Of two controls in one place one is on the glass."""
-        place = self._arranged.get("stick")
+        """Of two controls in one place one is on the glass; what is no stick needs no slider and takes its room too."""
+        if not (self._arranged and self.hands.choices):
+            return
+        stick, slider = self._arranged["stick"], self._arranged["slider"]
+        alone = not self.sticks
+        whole = Rect(stick.x, stick.y, slider.right - stick.x, stick.height) if alone else stick
         for widget in self.hands.choices.values():
-            if place is not None:
-                shown = self.hands.shown(widget)
-                put(widget, place if shown else Rect(AWAY, place.y, place.width, place.height))
+            put(widget, whole if self.hands.shown(widget) else _off(whole))
+        for widget in self.places.get("slider", ()):
+            put(widget, _off(slider) if alone else slider)
 
     def clear(self, cover: Rect | None) -> None:
         """Take away what would be seen only in part behind what is said over the screen."""
@@ -195,14 +199,14 @@ class DriveScreen(FloatLayout):
             for widget in self.places.get(slot, ()):
                 widget.opacity = 0 if hidden else 1
                 # what has a shader of its own knows nothing of opacity
-                put(widget, Rect(AWAY, place.y, place.width, place.height) if hidden else place)
+                put(widget, _off(place) if hidden else place)
         low, cover = self.low, self._cover
         under = cover is not None and cover.overlaps(Rect(*low.pos, *low.size))
         low.opacity, low.disabled = float(not under), under
         self.sight.covered = cover is not None and cover.overlaps(self._arranged["badge"])
         strip = self._arranged["senses"]
         if cover is not None and cover.overlaps(strip) and self.senses.folded:
-            strip = Rect(AWAY, strip.y, strip.width, strip.height)
+            strip = _off(strip)
         if strip != self._strip:
             self._strip = strip
             self.senses.place(strip, self._arranged["senses_open"])
@@ -252,6 +256,11 @@ class DriveScreen(FloatLayout):
         """A decoded camera frame; `rate` [Hz] and `latency` [s] are said on it, NaN for unknown."""
         self.video.show_frame(picture.width, picture.height, picture.rgba, picture.taken)
         self.video.rate, self.video.latency = rate, latency
+
+
+def _off(place: Rect) -> Rect:
+    """As large, off the glass."""
+    return Rect(AWAY, place.y, place.width, place.height)
 
 
 def _beside(place: Rect, found: list[Widget], dp: float) -> list[Rect]:

@@ -145,6 +145,8 @@ def test_a_scout_is_driven_by_a_stick_or_sent_to_a_goal(
     assert stick.forward == 0.0, "it rests when the other one comes"
     assert screen.sticks == [], "a gamepad has nothing to push"
     assert stick.right < 0 < pad.x
+    assert screen.speed.right < 0, "it says nothing of a goal, which takes its room"
+    assert pad.width > 300
     pose = Pose()
     pad.show(PoseWithCovarianceStamped(pose=PoseWithCovariance(pose)))
     pad.press("north")
@@ -155,6 +157,7 @@ def test_a_scout_is_driven_by_a_stick_or_sent_to_a_goal(
     driving.until(lambda: pad.outcome == "accepted", "the pad does not say what became of it")
     screen.switch.choose("Stick")
     assert [one for one, _ in screen.sticks] == [stick]
+    assert pad.right < 0 < screen.speed.x
 
 
 def test_the_screen_of_before_rests_and_is_heard_no_longer(
