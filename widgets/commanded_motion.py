@@ -193,7 +193,7 @@ class CommandedMotion(Gauge):
 
     def _cell(self, told: Figure, place: tuple[float, float], size: float, room: float) -> Iterator[Word]:
         left, y = place
-        rise = size * 0.5
+        rise = max(size * 0.5, sp(9.5))
         names = (told.name, told.name.split()[-1])
         name = first_fitting([text.upper() for text in names], sp(11.5), room)
         yield Word(name, left, y + rise + sp(1), sp(11.5), theme.muted, anchor=(0, 0.5))

@@ -29,6 +29,8 @@ PHASES = {"landed": "muted", "taking_off": "accent", "flying": "accent", "landin
 """Phase of a flight to the role of the colour of its word."""
 SPANS = ((8.0, 4.0), (40.0, 12.0), (math.inf, 40.0))
 """Up to which height how much of it the tape shows [m]."""
+TIGHT = 130
+"""Lower than this the phase stands where else its name is [dp]."""
 STEADY = 0.05
 """Climbing or sinking slower than this is neither [m/s]."""
 
@@ -85,10 +87,14 @@ class HeightTape(Gauge):
         scale = max(room * 0.36, dp(60))
         bottom, top = self.y + self.edge, self.top - self.edge
         left = self.x + self.edge
-        yield Word(self.title.upper(), left, top - sp(6), sp(11.5), theme.muted, anchor=(0, 0.5))
+        brief = bool(self.phase) and self.height < dp(TIGHT)
+        name = "" if brief else self.title.upper()
+        yield Word(name, left, top - sp(6), sp(11.5), theme.muted, anchor=(0, 0.5))
         scale_top = top - dp(18) if self.alarmed else top
         yield from self._tape(shapes, (self.right - self.edge - scale, bottom, scale, scale_top - bottom))
-        yield from self._figures(shapes, (left, bottom, room - scale - dp(8), top - sp(16) - bottom))
+        yield from self._figures(
+            shapes, (left, bottom, room - scale - dp(8), top - sp(0 if brief else 16) - bottom)
+        )
 
     def _figures(self, shapes: Shapes, box: tuple[float, float, float, float]) -> Iterator[Word]:
         left, bottom, room, high = box
@@ -99,9 +105,9 @@ class HeightTape(Gauge):
             (self.phase_words, self.phase_words.split()[-1] if self.phase else ""), size, room, bold=True
         )
         yield Word(said, left, y, size, theme.roles[role], bold=True, anchor=(0, 0.5))
-        size = min(sp(44), high * 0.3)
+        size = min(sp(44), high * 0.34)
         size = min(size, size * room / (wide(self.words, size, bold=True) + size * 0.85))
-        middle = bottom + high * 0.5
+        middle = bottom + high * 0.49
         yield Word(self.words, left, middle, size, theme.text, bold=True, anchor=(0, 0.5))
         if self.words != DASH:
             behind = left + wide(self.words, size, bold=True) + size * 0.14
@@ -264,6 +270,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "large": made(wanted=1.5, size=(326, 228), state="live"),
         "large never": made("", size=(326, 228)),
         "tall": made(wanted=1.5, size=(160, 330), state="live"),
+        "phone": made(wanted=1.5, size=(188, 97), state="live"),
         "low": made(size=(128, 44), state="live"),
         "low landed": made("landed", 0.05, 0.0, size=(128, 44), state="live"),
         "narrow": made(size=(72, 54), state="live", card=False),
