@@ -15,10 +15,10 @@ LARGEST = 1.45
 """How much larger at most."""
 
 
-def dive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+def dive(body: Rect, shape: str, dp: float = 1.0) -> tuple[dict[str, Rect], StopPlace]:
     """Of the dive screen: what is seen of the robot in `legs`, `compass` and `horizon` on their `panel`, the `video` with
-    `corner` and `motion`, `stick`, `lift` and `tilt`, which have a card `hands` on a tablet, and the column of `actions`
-    with STOP.
+    `corner` and `motion`, `stick`, `lift` and `tilt`, which have a card `hands` on a tablet, and the column of `actions`;
+    and where STOP is, at the foot of the column.
 
     `notice` is for what is said, `notice_low` for what holds on until it is dealt with.
     """
@@ -27,7 +27,7 @@ def dive(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     return _wide(body, dp) if shape == "wide" else _short(body, dp)
 
 
-def _wide(body: Rect, dp: float) -> dict[str, Rect]:
+def _wide(body: Rect, dp: float) -> tuple[dict[str, Rect], StopPlace]:
     """As on a tablet: three columns, the hands under the picture."""
     scale = min(LARGEST, max(0.8, min(body.width / (USUAL[0] * dp), body.height / (USUAL[1] * dp))))
     unit, gap = dp * scale, 14 * dp
@@ -45,14 +45,14 @@ def _wide(body: Rect, dp: float) -> dict[str, Rect]:
     stick = Rect(hands.x + 12 * dp, low + 12 * dp, size, size)
     lift = Rect(stick.right + 1.5 * gap, stick.y, 72 * unit, size)
     tilt = between(lift.right + 1.5 * gap, stick.y, hands.right - 12 * dp, stick.top)
-    places = {"legs": legs, "panel": panel, "video": video, "motion": motion, "actions": right, "stop": stop}
+    places = {"legs": legs, "panel": panel, "video": video, "motion": motion, "actions": right}
     places |= {"hands": hands, "stick": stick, "lift": lift, "tilt": tilt} | _stacked(panel, 14 * dp)
     places["corner"] = Rect(video.x + gap, video.top - gap - 150 * unit, 176 * unit, 150 * unit)
     free = between(video.x, video.y, video.right, places["corner"].y)
-    return places | _notices(free, dp)
+    return places | _notices(free, dp), stop
 
 
-def _short(body: Rect, dp: float) -> dict[str, Rect]:
+def _short(body: Rect, dp: float) -> tuple[dict[str, Rect], StopPlace]:
     """A phone on its side: what is commanded lies on the picture."""
     gap = 10 * dp
     low, top = body.y + gap, body.top - gap
@@ -69,13 +69,14 @@ def _short(body: Rect, dp: float) -> dict[str, Rect]:
     lift = Rect((stick.right + tilt.x) / 2 - 31 * dp, low, 62 * dp, size)
     video = between(middle.x, low + size + gap, middle.right, top)
     actions = between(right.x, stop.head + gap, right.right, top)
-    places = {"legs": legs, "panel": panel, "video": video, "actions": actions, "stop": stop}
+    places = {"legs": legs, "panel": panel, "video": video, "actions": actions}
     places |= {"stick": stick, "lift": lift, "tilt": tilt} | _stacked(panel, 6 * dp)
     seen = _on_video(video, dp)
-    return places | seen | _notices(between(video.x, seen["motion"].top - 4 * dp, video.right, video.top), dp)
+    free = between(video.x, seen["motion"].top - 4 * dp, video.right, video.top)
+    return places | seen | _notices(free, dp), stop
 
 
-def _tall(body: Rect, dp: float) -> dict[str, Rect]:
+def _tall(body: Rect, dp: float) -> tuple[dict[str, Rect], StopPlace]:
     """A phone held upright: the picture on top, the hands at its foot beside STOP."""
     gap = 12 * dp
     stop, strip = stop_tall(body, gap, dp)
@@ -93,10 +94,11 @@ def _tall(body: Rect, dp: float) -> dict[str, Rect]:
     tilt_size = min(across * 0.4, seen.y - gap - second)
     tilt = Rect(seen.x, seen.y - gap - tilt_size, tilt_size, tilt_size)
     actions = between(tilt.right + gap, second, seen.right, seen.y - gap)
-    places = {"legs": legs, "panel": panel, "video": video, "actions": actions, "stop": stop}
+    places = {"legs": legs, "panel": panel, "video": video, "actions": actions}
     places |= {"stick": stick, "lift": lift, "tilt": tilt} | _stacked(panel, 8 * dp)
-    seen = _on_video(video, dp)
-    return places | seen | _notices(between(video.x, seen["motion"].top, video.right, seen["corner"].y), dp)
+    shown = _on_video(video, dp)
+    free = between(video.x, shown["motion"].top, video.right, shown["corner"].y)
+    return places | shown | _notices(free, dp), stop
 
 
 def _stacked(panel: Rect, edge: float) -> dict[str, Rect]:

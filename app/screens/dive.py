@@ -129,8 +129,8 @@ class DiveScreen(FloatLayout):
 
     def arrange(self, body: Rect, form: str, dp: float) -> StopPlace:
         """Put everything into its place; returns where STOP goes."""
-        places = self._arranged = dive(body, form, dp)
-        stop = places["stop"]
+        places, stop = dive(body, form, dp)
+        self._arranged = places
         wide = form == "wide"
         column, self.notice = self.column, places["notice"]
         column.framed = column.titled = wide

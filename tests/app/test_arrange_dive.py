@@ -18,16 +18,17 @@ HOLDS = {"panel": ("compass", "horizon"), "hands": ("stick", "lift", "tilt"), "a
 """Cards to what lies on them."""
 
 
-def places(size: tuple[int, int], *, crowded: bool) -> tuple[Rect, dict[str, Rect]]:
+def places(size: tuple[int, int], *, crowded: bool) -> tuple[Body, dict[str, Rect], StopPlace]:
     room = arrange.shell(*size)["body"]
     body = Body(room.x, room.y, room.width, room.height, crowded)
-    return body, dive(body, arrange.form(*size))
+    found, stop = dive(body, arrange.form(*size))
+    return body, found | {"stop": stop}, stop
 
 
 @pytest.mark.parametrize("crowded", [False, True], ids=["alone", "with STOP ALL"])
 @pytest.mark.parametrize("size", SIZES, ids=str)
 def test_nothing_lies_over_anything_else(size: tuple[int, int], crowded: bool) -> None:
-    body, found = places(size, crowded=crowded)
+    body, found, _ = places(size, crowded=crowded)
     for name, place in found.items():
         assert body.holds(place), name
     for (one, place), (other, that) in combinations(found.items(), 2):
@@ -45,9 +46,7 @@ def test_nothing_lies_over_anything_else(size: tuple[int, int], crowded: bool) -
 def test_everything_that_is_touched_is_large_enough_and_stop_large(
     size: tuple[int, int], crowded: bool
 ) -> None:
-    _, found = places(size, crowded=crowded)
-    stop = found["stop"]
-    assert isinstance(stop, StopPlace)
+    _, found, stop = places(size, crowded=crowded)
     for name in ("stick", "lift", "tilt", "stop", "actions"):
         assert min(found[name].width, found[name].height) >= TARGET, name
     assert stop.width * stop.height >= 1.4 * 2 * TARGET * TARGET
@@ -56,6 +55,6 @@ def test_everything_that_is_touched_is_large_enough_and_stop_large(
 
 @pytest.mark.parametrize("size", SIZES, ids=str)
 def test_what_is_said_covers_nothing_that_is_touched(size: tuple[int, int]) -> None:
-    _, found = places(size, crowded=False)
+    _, found, _ = places(size, crowded=False)
     for name in ("stick", "lift", "tilt", "stop", "actions"):
         assert not found["notice"].overlaps(found[name])

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
+from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo, StartTaskRequest
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 
@@ -70,6 +70,7 @@ def test_two_switches_reach_every_action_and_the_robot_hears_of_it(
     driving.stage.key(ENTER)
     driving.until(lambda: any(name == "/task/start" for name, _ in robot.asked), "not asked")
     (request,) = (request for name, request in robot.asked if name == "/task/start")
+    assert isinstance(request, StartTaskRequest)
     assert request.order.task == "hold"
 
 
@@ -77,4 +78,4 @@ def test_the_next_camera_is_watched(driving: Glass, diving: Any) -> None:
     watched: list[Any] = []
     diving.session.link.watch = watched.append
     driving.tap(next(key for key in diving.column.grid.children if key.name == "Camera"))
-    driving.until(lambda: watched == ["rear"], watched)
+    driving.until(lambda: watched == ["rear"], "not watched")
