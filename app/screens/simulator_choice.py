@@ -6,12 +6,14 @@ from collections.abc import Callable
 from typing import Any
 
 from kivy.lang import Builder
+from kivy.metrics import dp
 from kivy.properties import BooleanProperty, NumericProperty, ObjectProperty, StringProperty
 from kivy.uix.gridlayout import GridLayout
 
 import widgets.kit  # noqa: F401 - its rules draw what is used here
 from app.screens.dialogs import Question
 from app.simulated import Choice, Offered
+from widgets.labels import Icon
 from widgets.rows import ListRow
 
 __all__ = ["SimulatorChoice"]
@@ -28,14 +30,14 @@ ASKING = "Looking which robots and worlds there are …"
 
 Builder.load_string("""
 <SimulatorChoice>:
-    columns: 1 if root.width < dp(560) else 2 if root.width < dp(1000) else 3
+    columns: 1 if root.width < dp(560) else 2 if root.width < dp(800) else 3
     Card:
         id: card
         size_hint: None, None
-        width: min(dp(940), root.width - dp(28))
+        width: min(dp(940), root.width - dp(20))
         height: min(root.height - dp(24), head.height + column.height + foot.height + 2 * self.spacing + self.padding[1] + self.padding[3])
-        center: root.center
-        padding: dp(18)
+        pos_hint: {'center_x': .5, 'center_y': .5}
+        padding: dp(14)
         spacing: dp(12)
         BoxLayout:
             id: head
@@ -60,6 +62,7 @@ Builder.load_string("""
                 size_hint_y: None
                 height: self.minimum_height if root.offered else 0
                 opacity: 1 if root.offered else 0
+                padding: 0, 0, dp(7), 0
                 spacing: dp(8)
                 SectionLabel:
                     title: 'Robots'
@@ -71,7 +74,7 @@ Builder.load_string("""
                     spacing: dp(8)
                     size_hint_y: None
                     height: self.minimum_height
-                    row_default_height: theme.target + dp(10)
+                    row_default_height: max(theme.target, root.robot_height)
                     row_force_default: True
                 SectionLabel:
                     title: 'World'
@@ -83,7 +86,7 @@ Builder.load_string("""
                     spacing: dp(8)
                     size_hint_y: None
                     height: self.minimum_height
-                    row_default_height: theme.target + dp(10)
+                    row_default_height: max(theme.target, root.world_height)
                     row_force_default: True
         BoxLayout:
             id: foot
@@ -113,6 +116,10 @@ class SimulatorChoice(Question):
     running = BooleanProperty(False)
     """There is a simulator already, which ends."""
     columns = NumericProperty(1)
+    robot_height = NumericProperty(0)
+    """What the words of the longest row need, so that all are alike [px]."""
+    world_height = NumericProperty(0)
+    """The same of the worlds [px]."""
     sentence = StringProperty(ASKING)
     action = StringProperty("Start")
 
@@ -135,17 +142,29 @@ class SimulatorChoice(Question):
         worlds.clear_widgets()
         for robot in offered.robots:
             icon = ICONS.get(robot.kind, "smart_toy_fill")
-            row = ListRow(icon=icon, title=robot.title, detail=robot.description)
+            row = self._add(robots, "robot", robot.name, icon, robot.title)
+            row.detail = robot.description
             row.bind(on_release=lambda _, name=robot.name: self.tap(name))
-            self._rows["robot", robot.name] = row
-            robots.add_widget(row)
         for world in offered.worlds:
-            row = ListRow(icon=WORLD, title=world.title, detail=world.description)
+            row = self._add(worlds, "world", world.name, WORLD, world.title)
             row.bind(on_release=lambda _, name=world.name: self.move(name))
-            self._rows["world", world.name] = row
-            worlds.add_widget(row)
         self.offered = offered
         self._tell()
+
+    def _add(self, grid: GridLayout, what: str, name: str, icon: str, title: str) -> ListRow:
+        row = self._rows[what, name] = ListRow(icon=icon, title=title, whole=True, size_hint_y=1)
+        mark = Icon(name="check_circle", role="accent", font_size="18sp", pos_hint={"center_y": 0.5})
+        row.bind(chosen=lambda _, chosen: setattr(mark, "opacity", int(chosen)))
+        mark.opacity = 0
+        row.add_widget(mark)
+        row.ids.words.bind(height=lambda *_: self._fit(what))
+        grid.add_widget(row)
+        return row
+
+    def _fit(self, what: str) -> None:
+        """Make all rows as high as the one with most words."""
+        heights = [row.ids.words.height for (kind, _), row in self._rows.items() if kind == what]
+        setattr(self, f"{what}_height", max(heights) + dp(18))
 
     def row(self, what: str, name: str) -> ListRow:
         """What stands for the `robot` or the `world` of that name."""
@@ -169,15 +188,17 @@ class SimulatorChoice(Question):
 
     def _tell(self, *_: object) -> None:
         count = len(self.choice.robots)
-        self.action = f"Start {count} robots" if count > 1 else "Start"
+        self.action = f"Start {count} robots" if count > 1 and self.offered else "Start"
         if self.problem or self.offered is None:
             self.sentence = self.problem or ASKING
             return
         ends = " The one that runs now ends." if self.running else ""
         self.sentence = f"One robot, or several that meet in one world.{ends}"
         fitting = {world.name for world in self.offered.fitting(self.choice.robots)}
+        for world in self.offered.worlds:
+            row = self.row("world", world.name)
+            row.disabled = row.faded = world.name not in fitting
+            row.detail = "Not for the robots that are chosen." if row.disabled else world.description
         for (what, name), row in self._rows.items():
             row.chosen = name in self.choice.robots if what == "robot" else name == self.choice.world
             row.role = "accent" if row.chosen else "muted"
-            row.disabled = row.faded = what == "world" and name not in fitting
-            row.aside = "not for them" if row.disabled else ""
