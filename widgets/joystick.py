@@ -11,17 +11,34 @@ from collections.abc import Callable
 from typing import Any, ClassVar
 
 import numpy as np
-from kivy.metrics import dp
-from kivy.properties import AliasProperty, NumericProperty
+from kivy.graphics.texture import Texture
+from kivy.lang import Builder
+from kivy.metrics import dp, sp
+from kivy.properties import AliasProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import Twist
+from widgets.base import text_texture
 from widgets.ink import tint
 from widgets.shapes import Shapes
 from widgets.stick import DEAD, Stick
 from widgets.theme import theme
 
 __all__ = ["DEAD", "Joystick"]
+
+BELOW = 0.48
+"""From the middle down to the caption, of the radius: between the knob at rest and the inner ring."""
+
+Builder.load_string("""
+<Joystick>:
+    canvas.after:
+        Color:
+            rgba: theme.muted if root.caption else (0, 0, 0, 0)
+        Rectangle:
+            texture: root.words
+            size: root.words.size
+            pos: root.words_pos
+""")
 
 
 class Joystick(Stick):
@@ -34,6 +51,22 @@ class Joystick(Stick):
     """Forward speed at the rim [m/s], 0 or more."""
     max_yaw_rate = NumericProperty(1.0)
     """Yaw rate at the rim [rad/s], 0 or more."""
+
+    caption = StringProperty("")
+    """What pushing it means, where that is not to drive and to turn, as in `climb · turn`."""
+
+    def _words(self) -> Texture:
+        return text_texture(self.caption, sp(13), theme.font)
+
+    words = AliasProperty(_words, bind=["caption"], cache=True)
+    """The caption."""
+
+    def _words_pos(self) -> tuple[float, float]:
+        down = BELOW * min(self.size) / 2
+        return self.center_x - self.words.width / 2, self.center_y - down - self.words.height / 2
+
+    words_pos = AliasProperty(_words_pos, bind=["words", "pos", "size"], cache=True)
+    """[px]"""
 
     def _reach(self) -> float:
         return max(1.0, min(self.size) / 2 - self.knob_radius - dp(6))
@@ -130,6 +163,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "ahead to the right": make(0.8, -0.35),
         "back": make(-0.6, 0.0),
         "disabled": make(state="disabled"),
+        "climbs": make(caption="climb · turn"),
         "gamepad there": make(gamepad="ready"),
         "gamepad drives": make(0.7, 0.2, gamepad="drives"),
         "gamepad silent": make(gamepad="silent"),

@@ -98,6 +98,8 @@ class Hands(EventDispatcher):
             widget.bind(on_in_vain=lambda _: self._in_vain.tell())
         if isinstance(widget, Stick):
             self._sticks.append((widget, one))
+            if one.forward != "ahead" and hasattr(widget, "caption"):
+                widget.caption = f"{one.forward} · {one.left}"
             widget.bind(on_command=lambda stick, said: self._pushed(stick, said, one))
         else:
             self._asking.append((widget, one))
