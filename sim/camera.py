@@ -23,7 +23,7 @@ from sim.vehicles.parameters import CameraParameters
 from sim.view import View
 from sim.world import World
 
-__all__ = ["Camera"]
+__all__ = ["Camera", "Studio"]
 
 QUALITY = 80
 """Of the JPEG."""
@@ -55,8 +55,8 @@ class Eye(Protocol):
 class _Quick:
     """Draws by OpenGL, at once."""
 
-    def __init__(self, world: World) -> None:
-        self._renderer = Renderer(world)
+    def __init__(self, renderer: Renderer) -> None:
+        self._renderer = renderer
 
     def show(self, view: View, stamp: float, moving: Sequence[Shape] = ()) -> list[tuple[float, Picture]]:
         return [(stamp, self._renderer.draw(view, moving))]
@@ -65,24 +65,40 @@ class _Quick:
         return []
 
     def close(self) -> None:
-        self._renderer.close()
+        pass  # it is the studio's
 
 
-def _eye(world: World) -> Eye:
-    try:
-        return _Quick(world)
-    except NoRendererError as fault:
-        _log.warning("%s The camera gives 320 x 240 pictures instead.", fault)
-        return TinyRenderer(world)
+class Studio:
+    """What the cameras of one world draw with: made when the first of them is, for it takes 100 MB, and theirs together."""
+
+    def __init__(self, world: World) -> None:
+        """Of `world`; nothing is made yet."""
+        self._world = world
+        self._renderer: Renderer | None = None
+
+    def eye(self) -> Eye:
+        """Draws for one camera; where OpenGL cannot draw without a window slowly and smaller, and the log says so."""
+        try:
+            self._renderer = self._renderer or Renderer(self._world)
+        except NoRendererError as fault:
+            _log.warning("%s The camera gives 320 x 240 pictures instead.", fault)
+            return TinyRenderer(self._world)
+        return _Quick(self._renderer)
+
+    def close(self) -> None:
+        """Free everything; closing twice does nothing."""
+        if self._renderer is not None:
+            self._renderer.close()
+            self._renderer = None
 
 
 class Camera:
     """Looks out from its place on the vehicle."""
 
-    def __init__(self, world: World, parameters: CameraParameters, *, first: int = 0) -> None:
-        """A camera in `world`, from the `first` step on; where OpenGL cannot draw without a window it is a smaller one, and the log says so."""
+    def __init__(self, eye: Eye, parameters: CameraParameters, *, first: int = 0) -> None:
+        """A camera that sees by `eye`, which it closes, from the `first` step on."""
         self._parameters = parameters
-        self._eye = _eye(world)
+        self._eye = eye
         self._schedule, self._first = Schedule({"camera": parameters.rate}), first
         down = (0.0, math.sin(parameters.pitch / 2), 0.0, math.cos(parameters.pitch / 2))
         self._turned = compose(from_yaw(parameters.yaw), down)

@@ -16,7 +16,7 @@ CAMERA_TOPIC = "/camera/image/compressed"
 
 
 class Cameras:
-    """The main camera is ready at once, the others when somebody first wants them."""
+    """Each is made when somebody first wants its pictures, and kept."""
 
     def __init__(self, simulation: Simulation, number: int) -> None:
         """Of the vehicle of this number."""
@@ -25,15 +25,13 @@ class Cameras:
         names = [CAMERA_TOPIC, *(f"/camera/{camera.name}/image/compressed" for camera in every[1:])]
         self._parameters = dict(zip(names, every, strict=False))
         self._made: dict[str, Camera] = {}
-        if every:
-            self._made[CAMERA_TOPIC] = Camera(simulation.world, every[0])
 
     def shoot(self, wanted: AbstractSet[str], stamp: float) -> Iterator[tuple[str, Msg]]:
         """Pictures that are due after this step of those that are `wanted`, taken at `stamp` [s]."""
         simulation = self._simulation
         for topic, parameters in self._parameters.items():
             if topic in wanted and topic not in self._made:
-                self._made[topic] = Camera(simulation.world, parameters, first=simulation.steps)
+                self._made[topic] = Camera(simulation.studio.eye(), parameters, first=simulation.steps)
         for topic, camera in self._made.items():
             if camera.due(simulation.steps) and topic in wanted:
                 others = simulation.looks(but=self._number)

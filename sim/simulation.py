@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from sim.backend_bullet import STEPS_PER_SECOND, Bullet
+from sim.camera import Studio
 from sim.scene import Scene
 from sim.sensors.noise import Noise
 from sim.shapes import Shape, yaw_of
@@ -39,6 +40,8 @@ class Simulation:
         self.backend.add_ground(world.bottom)
         for prop in world.props:
             self.backend.add_static(prop.solids)
+        self.studio = Studio(world)
+        """What the robots' cameras draw with."""
         self.weather = Weather(world, Noise(seed, "gusts", on=noise))
         self.vehicles: list[Vehicle] = [
             model.build(
@@ -95,7 +98,8 @@ class Simulation:
         self.steps += 1
 
     def close(self) -> None:
-        """Free the physics."""
+        """Free the physics, and what cameras draw with."""
+        self.studio.close()
         self.backend.close()
 
     def _push(self) -> None:

@@ -46,6 +46,28 @@ def test_no_picture_is_taken_before_somebody_wants_one(robot):
     assert images(robot.read(1.0)) == []
 
 
+def test_nothing_is_made_to_draw_with_before_somebody_wants_a_picture_and_then_one_for_all_cameras(
+    monkeypatch,
+):
+    made = []
+
+    class Counted(camera.Renderer):
+        def __init__(self, world):
+            made.append(world)
+            super().__init__(world)
+
+    monkeypatch.setattr(camera, "Renderer", Counted)
+    robot = make("commander", "parking_lot")
+    robot.read(0.0)
+    assert made == []
+    for topic in (TOPIC, "/camera/rear/image/compressed"):
+        robot.want(topic, True)
+    taken = {topic for topic, _ in robot.read(0.1) if topic.startswith("/camera")}
+    robot.close()
+    assert len(taken) == 2
+    assert made == [robot.simulation.world]
+
+
 def test_pictures_come_at_fifteen_hertz_with_the_stamp_of_their_moment(robot):
     robot.want(TOPIC, True)
     robot.read(50.0)
@@ -93,7 +115,9 @@ def test_without_egl_the_log_says_what_happens(monkeypatch, caplog):
         raise NoRendererError("Pictures cannot be drawn by OpenGL here: found 0 devices.")
 
     monkeypatch.setattr(camera, "Renderer", fail)
+    robot = make("patrol", "parking_lot")
+    robot.want(TOPIC, True)
     with caplog.at_level(logging.WARNING):
-        robot = make("patrol", "parking_lot")
+        robot.read(0.0)
     robot.close()
     assert "found 0 devices. The camera gives 320 x 240 pictures instead." in caplog.text
