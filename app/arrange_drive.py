@@ -67,10 +67,9 @@ def drive(body: Rect, shape: str, dp: float = 1.0, *, switch: bool = False) -> d
     if switch and wide:
         places["switch"] = Rect(stick.x, stick.top + 12 * dp, slider.right - stick.x, SWITCH * dp)
     places |= _senses_wide(places, dp) if wide else _senses_short(places, dp)
-    if switch and wide:
-        room, left = places["notice"], max(tape.x, places["switch"].right + 12 * dp)
-        places["notice"] = between(left, room.y, tape.right, room.top)
-    return places | _switch_short(places, dp) if switch and not wide else places
+    if switch:
+        places |= (_switch_wide if wide else _switch_short)(places, dp)
+    return places
 
 
 def _switch_short(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
@@ -245,23 +244,24 @@ def _two_short(body: Rect, dp: float) -> dict[str, Rect]:
 
 
 def _two_tall(body: Rect, dp: float) -> dict[str, Rect]:
-    """Both thumbs above a row with the slider, the figures and STOP; above them the slides, and what is done once."""
+    """Both thumbs with the slider between them, the slides and STOP below, what is done once above."""
     scale = dp * min(1.0, body.height / (740 * dp))
     gap = 12 * scale
     picture = min(body.width * 0.75, body.height * 0.23)
     video = Rect(body.x, body.top - picture, body.width, picture)
-    row, across = 150 * scale, body.width - 2 * gap
-    slider = Rect(body.x + gap, body.y + gap, 80 * scale, row)
+    row, across, left = 150 * scale, body.width - 2 * gap, body.x + gap
     wide = min(max(158 * scale, body.width * 0.3), 240 * scale)
-    stop = stop_place(Rect(body.right - gap - wide, slider.y, wide, row), body, dp)
-    figures = between(slider.right + gap, slider.y, stop.left - gap, slider.top)
-    size = min((across - gap) / 2, body.height * 0.22)
-    stick = Rect(body.x + gap, slider.top + gap, size, size)
+    stop = stop_place(Rect(body.right - gap - wide, body.y + gap, wide, row), body, dp)
+    confirm = between(left, stop.y, stop.left - gap, stop.y + 2 * 56 * scale + gap)
+    size = min((across - 80 * scale - 2 * gap) / 2, body.height * 0.24)
+    low, high = body.y + 2 * gap + row, max(size, 186 * scale)
+    stick = Rect(left, low + (high - size) / 2, size, size)
     right = Rect(body.right - gap - size, stick.y, size, size)
-    confirm = Rect(stick.x, stick.top + gap, across, 56 * scale)
-    actions = Rect(stick.x, confirm.top + gap, across, 52 * scale)
-    cards = between(stick.x, actions.top + gap, stick.x + across, video.y - gap)
-    side = (cards.width - gap) / 2
+    slider = Rect(body.x + (body.width - 80 * scale) / 2, low, 80 * scale, high)
+    actions = Rect(left, low + high + gap, across, 52 * scale)
+    cards = between(left, actions.top + gap, left + across, video.y - gap)
+    figures = min(116 * scale, across * 0.3)
+    side = (cards.width - figures - 2 * gap) / 2
     tape = Rect(body.x + body.width * 0.1, body.top - gap - 52 * scale, body.width * 0.8, 52 * scale)
     places = {
         "video": video,
@@ -273,8 +273,8 @@ def _two_tall(body: Rect, dp: float) -> dict[str, Rect]:
         "confirm": confirm,
         "top": tape,
         "top_left": Rect(cards.x, cards.y, side, cards.height),
-        "top_right": Rect(cards.right - side, cards.y, side, cards.height),
-        "readouts": figures,
+        "top_right": Rect(cards.x + side + gap, cards.y, side, cards.height),
+        "readouts": Rect(cards.right - figures, cards.y, figures, cards.height),
     }
     places |= _senses_tall(video, cards, tape, SENSES_LEAST * dp, scale)
     strip = places["senses"]
@@ -284,3 +284,9 @@ def _two_tall(body: Rect, dp: float) -> dict[str, Rect]:
         "badge": between(strip.x + beside + gap, strip.y, strip.right, strip.top),
         "notice_low": between(strip.x, strip.top + 4 * scale, strip.right, tape.y - 4 * scale),
     }
+
+
+def _switch_wide(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
+    """What is said begins right of the switch."""
+    room, left = places["notice"], max(places["top"].x, places["switch"].right + 12 * dp)
+    return {"notice": between(left, room.y, room.right, room.top)}

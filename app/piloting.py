@@ -104,11 +104,12 @@ def order(parts: Parts, kinds: Collection[str], reach: Reach, says: Collection[s
     # a flying robot whose circle is let go stands still in the air by a twist; a swimming one that goes ahead shall be level
     if "tilt" in kinds and (parts.roll or parts.pitch or (parts.ahead and "pitch" in says)):
         turning = Twist(Vector3(0.0, 0.0, parts.climb), Vector3(0.0, 0.0, parts.turn))
-        way = {"speed": parts.ahead} if parts.ahead else {}
-        return Manoeuvre(kind="tilt", twist=turning, roll=parts.roll, pitch=parts.pitch, **way)
+        speed = parts.ahead or math.nan
+        return Manoeuvre(kind="tilt", twist=turning, roll=parts.roll, pitch=parts.pitch, speed=speed)
     if "steer" in kinds and not {"steering", "throttle"}.isdisjoint(says):
-        way = {"throttle": parts.throttle} if parts.throttle else {"speed": parts.ahead}
-        return Manoeuvre(kind="steer", steering=parts.steering, **way)
+        throttle = parts.throttle or math.nan
+        speed = math.nan if parts.throttle else parts.ahead
+        return Manoeuvre(kind="steer", steering=parts.steering, speed=speed, throttle=throttle)
     return _twist(parts, reach)
 
 

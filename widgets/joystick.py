@@ -36,7 +36,7 @@ Builder.load_string("""
             rgba: theme.muted if root.caption else (0, 0, 0, 0)
         Rectangle:
             texture: root.words
-            size: root.words.size
+            size: root.words_size
             pos: root.words_pos
 """)
 
@@ -60,6 +60,12 @@ class Joystick(Stick):
 
     words = AliasProperty(_words, bind=["caption"], cache=True)
     """The caption."""
+
+    def _words_size(self) -> tuple[float, float]:
+        return self.words.size  # type: ignore[no-any-return]
+
+    words_size = AliasProperty(_words_size, bind=["words"], cache=True)
+    """[px]; kv does not see a texture's size change."""
 
     def _words_pos(self) -> tuple[float, float]:
         down = BELOW * min(self.size) / 2

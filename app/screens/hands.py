@@ -177,12 +177,14 @@ class Hands(EventDispatcher):
         """A message came: what the robot may, and what became of what was asked for."""
         if channel in ("/robot/info", "/limits"):
             self.take_limits()
-        elif channel == OUTCOME and self._asked is not None:
+        elif channel == OUTCOME:
             self._answer(post.value)
 
     def _answer(self, outcome: Outcome) -> None:
         """Tell the control that asked; the end of the task before is asked for first, and is told only when it is refused."""
-        widget, task = self._asked or (None, "")
+        if self._asked is None:
+            return
+        widget, task = self._asked
         order = outcome.fields.get("order")
         ours = outcome.name == "start" and order is not None and order.task == task
         if not ours and not (outcome.name == "cancel" and outcome.phase in ("refused", "no_reply")):
