@@ -69,7 +69,7 @@ class DiveScreen(FloatLayout):
         self._fill()
         self.low = BoxLayout(orientation="vertical", spacing="8dp", size_hint=(None, None))
         """For cards that hold on until they are dealt with, each with a height of its own; they grow upwards."""
-        self.low.bind(minimum_height=self.low.setter("height"))
+        self.low.bind(minimum_height=self.low.setter("height"), height=self._uncover)
         self.add_widget(self.low)
         self.checks = CheckCard(session, self.dashboard, brief=True, pos_hint={"center_x": 0.5})
         self.low.add_widget(self.checks)
@@ -145,7 +145,7 @@ class DiveScreen(FloatLayout):
         self.video.insets = [corner.right - self.video.x, 0, 0, 0]
         low = places["notice_low"]
         self.low.pos, self.low.width = (low.x, low.y), low.width
-        self.checks.wide, self.checks.room = min(low.width, 340 * dp), low.height
+        self.checks.wide, self.checks.room = min(low.width, 340 * dp), self.video.top - 8 * dp - low.y
         self._uncover()
         return stop
 
@@ -154,18 +154,20 @@ class DiveScreen(FloatLayout):
         self._cover = cover
         self._uncover()
 
-    def _uncover(self) -> None:
+    def _uncover(self, *_: object) -> None:
+        """What lies under what is said, or under what holds on, is not seen, not even at its corners."""
         if not self._arranged:
             return
-        cover = self._cover
+        cover, low = self._cover, Rect(*self.low.pos, *self.low.size)
+        under = cover is not None and cover.overlaps(low)
+        self.low.opacity, self.low.disabled = float(not under), under
+        lids = [lid for lid in (cover, None if under else low) if lid is not None]
         for slot in HIDES:
             place = self._arranged[slot]
-            hidden = cover is not None and cover.overlaps(place)
+            hidden = any(lid.overlaps(place) for lid in lids)
             for widget in self.places.get(slot, ()):
                 widget.opacity = 0 if hidden else 1
                 put(widget, Rect(AWAY, place.y, place.width, place.height) if hidden else place)
-        under = cover is not None and cover.overlaps(Rect(*self.low.pos, *self.low.size))
-        self.low.opacity, self.low.disabled = float(not under), under
 
     def hear(self, channel: str, post: Post) -> None:
         """A message came."""

@@ -93,6 +93,7 @@ class TaskActs(ActButtons):
         waiting = len(screen.events.waiting)
         buttons["seen_all"].disabled = not waiting or not screen.events.log.acts
         buttons["seen_all"].text = f"All seen ({waiting})" if waiting else "All seen"
+        buttons["go"].disabled = not session.knows("go_to")
         located = math.isfinite(screen.places.robot[0])
         buttons["here"].disabled = not mine or not located
 

@@ -6,9 +6,11 @@ from typing import Any
 
 import pytest
 
+from app.rects import Rect
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo, StartTaskRequest
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
+from widgets.order_form import FormRow
 
 AQUA = RobotInfo(
     name="Aqua-1",
@@ -35,11 +37,16 @@ def diving(driving: Glass, robot: FakeRobot) -> Any:
     return screen
 
 
-def test_a_swimmer_has_three_columns_with_what_it_knows(diving: Any) -> None:
+def test_a_swimmer_has_three_columns_with_what_it_knows_and_nothing_is_half_seen(diving: Any) -> None:
     assert [action.name for action in diving.column.actions] == [
         *("task.surface", "task.hold", "lights", "record", "camera", "snapshot", "task.go_home")
     ]
     assert diving.instruments.places["motion"][0].under_water
+    (depth,) = diving.places["corner"]
+    diving.clear(Rect(depth.x + 5, depth.y + 5, 50, 50))
+    assert (depth.opacity, depth.right < 0) == (0, True)
+    diving.clear(None)
+    assert (depth.opacity, depth.x > 0) == (1, True)
 
 
 def test_its_hands_make_one_order_of_all_that_they_say(driving: Glass, robot: FakeRobot, diving: Any) -> None:
@@ -58,7 +65,7 @@ def test_its_hands_make_one_order_of_all_that_they_say(driving: Glass, robot: Fa
     assert not any(part for part in (stick.forward, lift.forward, tilt.left))
 
 
-def test_two_switches_reach_every_action_and_the_robot_hears_of_it(
+def test_two_switches_and_fingers_reach_the_actions_and_the_robot_hears_of_it(
     driving: Glass, robot: FakeRobot, diving: Any
 ) -> None:
     driving.stage.key(ENTER)
@@ -73,9 +80,18 @@ def test_two_switches_reach_every_action_and_the_robot_hears_of_it(
     assert isinstance(request, StartTaskRequest)
     assert request.order.task == "hold"
 
-
-def test_the_next_camera_is_watched(driving: Glass, diving: Any) -> None:
     watched: list[Any] = []
     diving.session.link.watch = watched.append
     driving.tap(next(key for key in diving.column.grid.children if key.name == "Camera"))
     driving.until(lambda: watched == ["rear"], "not watched")
+
+
+def test_its_tasks_screen_offers_what_it_knows_and_asks_for_a_depth(driving: Glass, diving: Any) -> None:
+    driving.app.show("tasks")
+    tasks = driving.app.screens["tasks"]
+    driving.until(lambda: len(tasks.pane.chooser.tasks) == 3, "all tasks are offered")
+    assert list(tasks.pane.chooser.tasks) == ["go_home", "hold", "surface"]
+    tasks.begin("hold")
+    driving.stage.frames(2)
+    assert next(row.title for row in tasks.pane.form.walk() if isinstance(row, FormRow)) == "Depth"
+    assert tasks.ids["go"].disabled
