@@ -7,6 +7,7 @@ from collections.abc import Set as AbstractSet
 
 from bridge.msgs import Msg
 from sim.camera import Camera
+from sim.renderer import paint
 from sim.simulation import Simulation
 
 __all__ = ["CAMERA_TOPIC", "Cameras"]
@@ -25,6 +26,10 @@ class Cameras:
         names = [CAMERA_TOPIC, *(f"/camera/{camera.name}/image/compressed" for camera in every[1:])]
         self._parameters = dict(zip(names, every, strict=False))
         self._made: dict[str, Camera] = {}
+        if every:
+            paint(
+                simulation.world
+            )  # now, for whoever first wants a picture would hold up a robot that is driven
 
     def shoot(self, wanted: AbstractSet[str], stamp: float) -> Iterator[tuple[str, Msg]]:
         """Pictures that are due after this step of those that are `wanted`, taken at `stamp` [s]."""

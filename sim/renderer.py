@@ -13,13 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.ground import SUN, markings
+from sim.mipmaps import add_mipmaps
 from sim.shapes import Colour, Shape
 from sim.sky import HORIZON, SIZE, ZENITH, dome, grain, panorama, seen
 from sim.solids import FLOATS, KINDS, mesh, rows
 from sim.view import View
 from sim.world import World
 
-__all__ = ["NoRendererError", "Renderer"]
+__all__ = ["NoRendererError", "Renderer", "paint"]
 
 HAZE: Colour = (0.72, 0.78, 0.80)
 DEEP: Colour = (0.09, 0.33, 0.38)
@@ -51,6 +52,12 @@ def _context() -> moderngl.Context:
     except Exception as fault:
         # glcontext raises plain Exception for every cause.
         raise NoRendererError(f"Pictures cannot be drawn by OpenGL here: {fault}.") from fault
+
+
+def paint(world: World) -> None:
+    """Paint the pictures of ground and sky beforehand, which takes most of the time that a Renderer of `world` takes."""
+    markings(world)
+    panorama()
 
 
 class _Solids:
@@ -212,11 +219,10 @@ class Renderer:
         # Mesa's software renderer looks four bytes up quicker than one.
         pattern = np.repeat((grain() * 255).astype(np.uint8).reshape(-1, 1), 4, axis=1).tobytes()
         self._grain = self._context.texture((256, 256), 4, pattern)
-        for unit, texture in enumerate((self._markings, self._grain)):
-            texture.build_mipmaps()
+        for unit, (texture, its) in enumerate(((self._markings, data), (self._grain, pattern))):
+            add_mipmaps(texture, its, unit)
             # Both are soft: one level of detail gives way to the next unseen, and a look-up costs half.
             texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
-            texture.use(unit)
         self._panorama = self._context.texture(SIZE, 4, panorama())
         self._panorama.repeat_y = False
         self._panorama.use(2)
