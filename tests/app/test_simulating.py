@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
-import sys
+import json
+from pathlib import Path
 
 import pytest
 
 from app import simulator
 from app.screens.simulator_choice import SimulatorChoice
 from app.simulated import Choice
+from sim.catalogue import catalogue
 from tests.app.glass import Glass
 
-SERVES = "import time; [print(f'robotside: ready bridge=ws://127.0.0.1:{4711 + n} http=x robot=R', flush=True) for n in range(%d)]; time.sleep(600)"
-FAILS = "import sys; sys.exit('The world is flooded.')"
+FAILS = ["sh", "-c", "echo 'The world is flooded.' >&2; exit 2"]
+
+
+@pytest.fixture(autouse=True)
+def offered(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """What there is to choose from is told by a program that is quick."""
+    (tmp_path / "offer.json").write_text(json.dumps(catalogue()))
+    monkeypatch.setattr(simulator, "inquiry", lambda: ["cat", str(tmp_path / "offer.json")])
 
 
 @pytest.fixture
@@ -22,7 +30,11 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, str]]:
 
     def command(robot: str = "sim:patrol", world: str = "") -> list[str]:
         calls.append((robot, world))
-        return [sys.executable, "-c", SERVES % (robot.count(",") + 1)]
+        ready = "".join(
+            f"echo robotside: ready bridge=ws://127.0.0.1:{4711 + number} http=x robot=R;"
+            for number in range(robot.count(",") + 1)
+        )
+        return ["sh", "-c", f"{ready} exec sleep 600"]
 
     monkeypatch.setattr(simulator, "command", command)
     return calls
@@ -75,7 +87,7 @@ def test_one_robot_is_connected_to_as_soon_as_it_is_served(
 def test_one_that_does_not_start_is_said_and_another_can_be_started(
     glass: Glass, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(simulator, "command", lambda *_: [sys.executable, "-c", FAILS])
+    monkeypatch.setattr(simulator, "command", lambda *_: FAILS)
     glass.app.simulating.start(Choice(("patrol",), "lake"))
     glass.until(lambda: not glass.app.connect.simulating, "it did not fail")
     assert glass.app.connect._banner.text == "The simulator did not start: The world is flooded."
@@ -84,7 +96,7 @@ def test_one_that_does_not_start_is_said_and_another_can_be_started(
 
 
 def test_what_cannot_be_asked_is_said_in_the_question(glass: Glass, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(simulator, "inquiry", lambda: [sys.executable, "-c", FAILS])
+    monkeypatch.setattr(simulator, "inquiry", lambda: FAILS)
     dialog = asked(glass)
     assert dialog.sentence == "What can be simulated could not be asked: The world is flooded."
     assert dialog.ids.start.disabled
@@ -95,7 +107,7 @@ def test_what_cannot_be_asked_is_said_in_the_question(glass: Glass, monkeypatch:
 def test_an_answer_that_is_not_to_be_understood_is_said_too(
     glass: Glass, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(simulator, "inquiry", lambda: [sys.executable, "-c", "print('hello')"])
+    monkeypatch.setattr(simulator, "inquiry", lambda: ["echo", "hello"])
     assert asked(glass).problem == "What the simulator offers is not to be understood."
 
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
 
+from robotside.__main__ import main
 from robotside.config import BadConfig
 from robotside.options import MOST, One, UserMistake, configs, ports, read, robots, state
+from sim.world import WORLDS
 
 
 def named(words: str) -> list[One]:
@@ -133,3 +136,12 @@ def test_what_cannot_be_is_one_sentence(monkeypatch: pytest.MonkeyPatch, words: 
 def test_ports_end_where_there_are_no_more() -> None:
     with pytest.raises(UserMistake, match="Robot 2 would have port 65536"):
         ports(read(["--port", "65535"]), 1)
+
+
+def test_what_can_be_simulated_is_told_to_people_and_to_programs(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["offer"]) == 0
+    told = capsys.readouterr().out
+    assert "minnow       Boat with rudder and throttle; at home in lake" in told
+    assert "for minnow, aqua, ardrone" in told
+    assert main(["offer", "--json"]) == 0
+    assert [world["name"] for world in json.loads(capsys.readouterr().out)["worlds"]] == list(WORLDS)
