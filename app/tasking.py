@@ -64,7 +64,10 @@ class Tasking:
             self._robot.command("start", order=order)
 
     def start_instead(self, order: TaskOrder) -> None:
-        """End the task that is under way and start this one; where its end is not accepted nothing starts."""
+        """End the task that is under way and start this one; without an answer to the first nothing starts.
+
+        One that has just ended by itself cannot be ended: the robot says so, and is asked to start this one all the same.
+        """
         self._waits_for_end = order
         self._robot.command("cancel")
 
@@ -107,7 +110,7 @@ class Tasking:
             self._go_on(accepted)
         elif outcome.name == "cancel":
             order, self._waits_for_end = self._waits_for_end, None
-            if accepted and order is not None:
+            if outcome.phase in ("accepted", "refused") and order is not None:
                 self._robot.command("start", order=order)
         elif outcome.name in ("place_delete", "schedule_delete"):
             key = outcome.name, outcome.fields["id"]
