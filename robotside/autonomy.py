@@ -37,6 +37,7 @@ from robotside.events import Events
 from robotside.grid import Grid
 from robotside.guide import Guide
 from robotside.laser import Laser
+from robotside.movers import Movers
 from robotside.pose2 import Points, Pose2
 from robotside.robot import Robot
 from robotside.senses import needed
@@ -93,7 +94,7 @@ class Autonomy:
         self._kind = info.kind
         self._heard: dict[str, float] = {}
         self._laser = Laser(Pose2(info.laser_x, 0.0, 0.0))
-        self._sonars = Sonars()
+        self._sonars, self._movers = Sonars(), Movers()
         self._points: Points = np.empty((0, 2))
         self._swept: Pose2 | None = None
         self._bumped = False
@@ -262,7 +263,12 @@ class Autonomy:
             return None
         placed = self._swept.apply(points)
         if self.engine.active:
-            self.guide.obstacles.see(placed, self._now, vague=vague)
+            obstacles = self.guide.obstacles
+            fresh, moved = obstacles.fresh(placed, vague=vague), self._movers.moving(placed, stamp)
+            obstacles.see(placed[~moved], self._now, vague=vague)
+            # sonars are too coarse to tell what moves: whatever is not on the map may
+            moving = fresh if vague else fresh & moved
+            self._points = np.concatenate([points, self._movers.nearer(points[moving])])
         return placed
 
     def _image(self, image: CompressedImage) -> None:

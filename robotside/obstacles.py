@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from robotside.grid import Grid
 from robotside.pose2 import Points
@@ -31,10 +32,13 @@ class Obstacles:
 
     def see(self, points: Points, now: float, *, vague: bool = False) -> None:
         """Take in one sweep's end points, in `map`; `vague` when they may as well be somewhat aside."""
-        apart, lasts = VAGUE if vague else (UNKNOWN, FADES)
-        fresh = points[self._grid.clearance(points) > apart]
-        for x, y in set(map(tuple, np.round(fresh / CELL).astype(int).tolist())):
+        lasts, fresh = VAGUE[1] if vague else FADES, self.fresh(points, vague=vague)
+        for x, y in set(map(tuple, np.round(points[fresh] / CELL).astype(int).tolist())):
             self._until[x, y] = max(now + lasts, self._until.get((x, y), now))
+
+    def fresh(self, points: Points, *, vague: bool = False) -> NDArray[np.bool_]:
+        """Which `points`, in `map`, are of something that the map does not know."""
+        return np.asarray(self._grid.clearance(points) > (VAGUE[0] if vague else UNKNOWN))
 
     def points(self, now: float) -> Points:
         """What is remembered, shape (n, 2) [m]."""

@@ -13,6 +13,9 @@ __all__ = ["NEAR", "Sonars"]
 NEAR = 1.5
 """Beyond this a cone is too wide to say where something stands [m]."""
 
+TOUCHING = 0.7
+"""What is too close to be measured is supposed to be at this part of the shortest range."""
+
 FAR = 4.0
 """Beyond this an echo says nothing of where the robot is [m]."""
 
@@ -44,6 +47,7 @@ def _ends(ring: SonarRing, least: float, most: float, across: Points) -> NDArray
     bearings = np.asarray(ring.bearings, dtype=np.float64)[: len(ranges)]
     ranges = ranges[: len(bearings)]
     met = (ranges >= least) & (ranges < min(ring.range_max, most))  # not NaN
-    reach = (ring.radius + np.maximum(ranges[met], ring.range_min))[:, None]
+    measured = np.maximum(ranges[met], TOUCHING * ring.range_min)
+    reach = (ring.radius + measured)[:, None]
     angles = bearings[met][:, None] + ring.field_of_view * across
     return np.stack([reach * np.cos(angles), reach * np.sin(angles)], axis=-1)

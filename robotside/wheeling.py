@@ -16,6 +16,12 @@ from robotside.robot import Robot
 
 __all__ = ["Wheeling"]
 
+STANDS = 0.03
+"""Slower than this it gets nowhere [m/s]."""
+
+PATIENCE, BACKS, BACK = 80, 50, 0.12
+"""After so many times of getting nowhere it goes back for so many, at this speed [m/s]; there are about twenty a second."""
+
 NOWHERE: Points = np.empty((0, 2))
 
 
@@ -34,6 +40,8 @@ class Wheeling:
         self.cruise, self.clear = CRUISE * info.max_speed, info.radius + 0.18
         self._follower: Follower | None = None
         self._speed = 0.0
+        self._stood = 0
+        """Times that it was to go on and could not, of late."""
 
     @property
     def under_way(self) -> bool:
@@ -55,7 +63,7 @@ class Wheeling:
 
     def forget(self) -> None:
         """Have no way any more."""
-        self._follower, self._speed = None, 0.0
+        self._follower, self._speed, self._stood = None, 0.0, 0
 
     def remaining(self, pose: Pose2) -> float:
         """Along the way to its end [m]."""
@@ -75,7 +83,18 @@ class Wheeling:
         speed = cruise if sure else min(cruise, UNSURE_SPEED)
         way = self._avoidance.choose(distance, bearing, min(speed, self._speed + 0.08), points)
         self._speed = way.twist.linear.x
+        self._stood = self._stood + 1 if self._speed < STANDS else max(self._stood - 2, 0)
+        if self._stood > PATIENCE and self._backs(points):
+            self._robot.drive(Twist.planar(-BACK, 0.0))
+            return
         self._robot.drive(way.twist)
+
+    def _backs(self, points: Points) -> bool:
+        """It makes room again where it has stood for a while, as long as there is some behind it."""
+        if self._stood > PATIENCE + BACKS:
+            self._stood = 0
+        behind = points[(points[:, 0] < 0.0) & (np.abs(points[:, 1]) < self.clear)]
+        return not len(behind) or float(-behind[:, 0].max()) > self.clear + 0.1
 
     def face(self, pose: Pose2, yaw: float) -> bool:
         """Turn to `yaw` where it stands."""
