@@ -11,6 +11,7 @@ from kivy.properties import BooleanProperty, NumericProperty, ObjectProperty, St
 from kivy.uix.gridlayout import GridLayout
 
 import widgets.kit  # noqa: F401 - its rules draw what is used here
+from app.screens.connect import KINDS
 from app.screens.dialogs import Question
 from app.simulated import Choice, Offered
 from widgets.labels import Icon
@@ -18,13 +19,6 @@ from widgets.rows import ListRow
 
 __all__ = ["SimulatorChoice"]
 
-ICONS = {
-    "wheels": "smart_toy_fill",
-    "ackermann": "agriculture",
-    "boat": "sailing",
-    "hexapod": "scuba_diving",
-    "quadrotor": "mode_fan",
-}
 WORLD = "map"
 ASKING = "Looking which robots and worlds there are …"
 
@@ -141,7 +135,7 @@ class SimulatorChoice(Question):
         robots.clear_widgets()
         worlds.clear_widgets()
         for robot in offered.robots:
-            icon = ICONS.get(robot.kind, "smart_toy_fill")
+            icon, _ = KINDS.get(robot.kind, ("smart_toy_fill", ""))
             row = self._add(robots, "robot", robot.name, icon, robot.title)
             row.detail = robot.description
             row.bind(on_release=lambda _, name=robot.name: self.tap(name))
