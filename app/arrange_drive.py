@@ -43,19 +43,23 @@ def drive(body: Rect, shape: str, dp: float = 1.0, *, switch: bool = False) -> d
     actions = Rect(
         room.x - 16 * dp - (150 if wide else 132) * dp, room.y, (150 if wide else 132) * dp, room.height
     )
+    places = {"video": body, "stop": stop, "stick": stick, "slider": slider, "actions": actions}
+    places |= _instruments(body, gap, dp, wide=wide)
+    if switch and wide:
+        places["switch"] = Rect(stick.x, stick.top + 12 * dp, slider.right - stick.x, SWITCH * dp)
+    places |= _senses_wide(places, dp) if wide else _senses_short(places, dp)
+    if switch:
+        places |= (_switch_wide if wide else _switch_short)(places, dp)
+    return places
+
+
+def _instruments(body: Rect, gap: float, dp: float, *, wide: bool) -> dict[str, Rect]:
+    """Along the upper edge."""
     left = Rect(
         body.x + gap, body.top - gap - (228 if wide else 148) * dp, *_pair(wide, (326, 228), (212, 148), dp)
     )
     right_size = _pair(wide, (194, 194), (128, 128), dp)
     right = Rect(body.right - gap - right_size[0], body.top - gap - right_size[1], *right_size)
-    places = {
-        "video": body,
-        "stop": stop,
-        "stick": stick,
-        "slider": slider,
-        "actions": actions,
-        "top_left": left,
-    }
     tape_width = min((420 if wide else 260) * dp, 2 * (body.x + body.width / 2 - left.right - gap))
     tape = Rect(body.x + (body.width - tape_width) / 2, body.top - gap - 52 * dp, tape_width, 52 * dp)
     readouts_size = _pair(wide, (194, 116), (116, 128), dp)
@@ -63,13 +67,7 @@ def drive(body: Rect, shape: str, dp: float = 1.0, *, switch: bool = False) -> d
     if not wide:
         readouts = Rect(right.x - gap - readouts_size[0], right.y, *readouts_size)
         tape = Rect(left.right + gap, tape.y, readouts.x - gap - left.right - gap, 52 * dp)
-    places |= {"top": tape, "top_right": right, "readouts": readouts}
-    if switch and wide:
-        places["switch"] = Rect(stick.x, stick.top + 12 * dp, slider.right - stick.x, SWITCH * dp)
-    places |= _senses_wide(places, dp) if wide else _senses_short(places, dp)
-    if switch:
-        places |= (_switch_wide if wide else _switch_short)(places, dp)
-    return places
+    return {"top_left": left, "top": tape, "top_right": right, "readouts": readouts}
 
 
 def _switch_short(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
@@ -155,10 +153,6 @@ def _drive_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
         picture = min(picture, body.top - cards_low - gap - 90 * dp)
         video = Rect(body.x, body.top - picture, body.width, picture)
     cards = Rect(body.x + gap, cards_low, body.width - 2 * gap, video.y - gap - cards_low)
-    side = min(cards.height, cards.width * 0.52)
-    left = Rect(cards.x, cards.top - side, side, side)
-    right = Rect(left.right + gap, cards.y, cards.right - left.right - gap, cards.height)
-    readouts_height = min(64 * dp, cards.height * 0.34)
     tape = Rect(body.x + body.width * 0.1, body.top - gap - 52 * dp, body.width * 0.8, 52 * dp)
     return {
         "video": video,
@@ -166,14 +160,22 @@ def _drive_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
         "stick": controls,
         "slider": slider,
         "actions": actions,
-        "top_left": left,
-        "top_right": Rect(
-            right.x, right.y + readouts_height + gap, right.width, right.height - readouts_height - gap
-        ),
-        "readouts": Rect(right.x, right.y, right.width, readouts_height),
         "top": tape,
         **chosen,
+        **_cards_tall(cards, gap, dp),
         **_senses_tall(video, cards, tape, least, dp),
+    }
+
+
+def _cards_tall(cards: Rect, gap: float, dp: float) -> dict[str, Rect]:
+    """A square, and beside it the other instrument above the figures."""
+    side = min(cards.height, cards.width * 0.52)
+    left = Rect(cards.x, cards.top - side, side, side)
+    x, figures = left.right + gap, min(64 * dp, cards.height * 0.34)
+    return {
+        "top_left": left,
+        "top_right": between(x, cards.y + figures + gap, cards.right, cards.top),
+        "readouts": Rect(x, cards.y, cards.right - x, figures),
     }
 
 
@@ -231,9 +233,9 @@ def _two_short(body: Rect, dp: float) -> dict[str, Rect]:
     strip = Rect(left, slides.top + 8 * scale, width, STRIP * scale)
     actions = Rect(tape.x, tape.y - 8 * scale - STRIP * scale, tape.width, STRIP * scale)
     middle = between(tape.x, strip.top + 8 * scale, tape.right, actions.y - 8 * scale)
-    card = places["top_right"]
+    card, room = places["top_right"], Rect(stop.x, stick.y, body.right - gap - stop.x, 156 * scale)
     return places | {
-        "badge": between(stop.x, stop.top + 8 * scale, body.right - gap, card.y - 8 * scale),
+        "badge": between(room.x, room.top + 8 * scale, body.right - gap, card.y - 8 * scale),
         "right_stick": right,
         "confirm": slides,
         "actions": actions,
@@ -247,8 +249,6 @@ def _two_tall(body: Rect, dp: float) -> dict[str, Rect]:
     """Both thumbs with the slider between them, the slides and STOP below, what is done once above."""
     scale = dp * min(1.0, body.height / (740 * dp))
     gap = 12 * scale
-    picture = min(body.width * 0.75, body.height * 0.23)
-    video = Rect(body.x, body.top - picture, body.width, picture)
     row, across, left = 150 * scale, body.width - 2 * gap, body.x + gap
     wide = min(max(158 * scale, body.width * 0.3), 240 * scale)
     stop = stop_place(Rect(body.right - gap - wide, body.y + gap, wide, row), body, dp)
@@ -259,6 +259,9 @@ def _two_tall(body: Rect, dp: float) -> dict[str, Rect]:
     right = Rect(body.right - gap - size, stick.y, size, size)
     slider = Rect(body.x + (body.width - 80 * scale) / 2, low, 80 * scale, high)
     actions = Rect(left, low + high + gap, across, 52 * scale)
+    spare = body.top - actions.top - 2 * gap - 260 * scale
+    picture = min(body.width * 0.75, max(body.height * 0.23, spare))
+    video = Rect(body.x, body.top - picture, body.width, picture)
     cards = between(left, actions.top + gap, left + across, video.y - gap)
     figures = min(116 * scale, across * 0.3)
     side = (cards.width - figures - 2 * gap) / 2

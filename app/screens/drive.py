@@ -152,7 +152,7 @@ class DriveScreen(FloatLayout):
         roomy = form == "wide" or figures.width >= 330 * dp
         narrow = form == "short" or figures.width < 160 * dp
         self.readouts.cols = 1 if narrow else 4 if roomy and tall else 2
-        self._trim(roomy)
+        self._trim(roomy or figures.height >= 200 * dp)
         self.notice, low = places["notice"], places["notice_low"]
         self.low.pos, self.low.width, self.low.height = (low.x, low.y), low.width, self.low.minimum_height
         self.checks.wide, self.checks.room = min(low.width, 340 * dp), places["top"].y - 8 * dp - low.y

@@ -6,7 +6,18 @@ import itertools
 
 import pytest
 
-from app.arrange import Rect, connect_columns, drive, form, mission, shell, topics, two_sticks
+from app.arrange import (
+    Body,
+    Rect,
+    StopPlace,
+    connect_columns,
+    drive,
+    form,
+    mission,
+    shell,
+    topics,
+    two_sticks,
+)
 
 SIZES = [(412, 892), (892, 412), (1280, 800), (1920, 1200), (800, 1280), (360, 640), (640, 360), (1024, 600)]
 MAY_LIE_ON = {"video", "map", "side"}
@@ -138,3 +149,21 @@ def test_a_dense_phone_is_still_a_phone() -> None:
 @pytest.mark.parametrize(("width", "columns"), [(412, 1), (892, 2), (1280, 3), (1920, 4)])
 def test_cards_stand_side_by_side_where_there_is_room(width: int, columns: int) -> None:
     assert connect_columns(width) == columns
+
+
+@pytest.mark.parametrize("size", [size for size in SIZES if min(size) > 360])
+@pytest.mark.parametrize("name", ["drive", "switch", "two"])
+def test_stop_all_beside_stop_covers_nothing(size: tuple[int, int], name: str) -> None:
+    room, shape = shell(*size)["body"], form(*size)
+    body = Body(room.x, room.y, room.width, room.height, crowded=True)
+    made = {
+        "drive": drive(body, shape),
+        "switch": drive(body, shape, switch=True),
+        "two": two_sticks(body, shape),
+    }
+    stop = made[name]["stop"]
+    assert isinstance(stop, StopPlace)
+    assert stop.other is not None
+    for key, place in made[name].items():
+        if key not in {"stop", "video", "notice", "senses_open"}:
+            assert not stop.other.overlaps(place), key
