@@ -2,27 +2,35 @@
 
 CPU time of the whole process, without sockets and, but for the cameras' own figure, without cameras: each vehicle drives by itself with all its sensors, then one of
 each together over the lake's model of water, then one to twenty patrol robots in one car park. A beam's cost is the
-difference of two sweeps of the truck's laser. The shares of a core are at 240 steps a second, in real time.
+difference of two sweeps of the truck's laser. The shares of a core are at 240 steps a second, in real time. Memory is the
+resident set of a robot side that serves one patrol robot to nobody, and once somebody looks through its camera, which
+takes the software GL with its compiler. Runs are told apart by the hash of all that the robots of every kind measured in two
+processes.
 """
 
 from __future__ import annotations
 
 import math
+import subprocess
+import sys
 import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from dataclasses import replace
 
 import msgspec
+import psutil
 
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
+from bench.support.station import serving
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
+from bridge.remote import RemoteRobot
 from sim.backend_bullet import STEPS_PER_SECOND
 from sim.camera import jpeg
 from sim.renderer import Renderer
-from sim.robot import ROBOTS
+from sim.robot import CAMERA_TOPIC, ROBOTS
 from sim.sensors.laser import Laser
 from sim.sensors.noise import Noise
 from sim.shapes import from_yaw
@@ -54,6 +62,14 @@ FIGURES = (
         "of a core: five cameras of 640 x 480 at 15 Hz in the office, JPEG included",
         target=35,
     ),
+    Figure("memory", "MB", "resident: the robot side with one patrol robot, nobody looks", target=120),
+    Figure("watched", "MB", "the same while somebody looks through its camera"),
+    Figure(
+        "differing",
+        "",
+        "robots of six that went another way in a second process with the same seed",
+        target=0,
+    ),
     Figure("beam", "µs", "each more of a laser's beams"),
     Figure("half beams", "µs", "the same in the upper half of the beams: equal where the cost is linear"),
 )
@@ -83,6 +99,29 @@ height = 0.05
 period = 2.5
 """
 
+SETTLED = 2.0
+"""A robot side has all that it needs after this [s]."""
+RUN = """
+import hashlib
+from bridge.msgs.geometry_msgs import Twist, Vector3
+from bridge.msgs.pilothouse_msgs import Manoeuvre
+from sim.robot import ROBOTS, make
+
+for name, model in ROBOTS.items():
+    robot = make(name, "lake" if model.element == "water" else "parking_lot", seed=7, camera=False)
+    robot.want("/sim/ground_truth", True)
+    if "take_off" in robot.info.manoeuvres:
+        robot.manoeuvre(Manoeuvre(kind="take_off"))
+    digest = hashlib.sha256()
+    for tick in range(60):
+        if tick == 30:
+            robot.drive(Twist(Vector3(0.5, 0.0, 0.0), Vector3(0.0, 0.0, 0.4)))
+        for topic, message in robot.read(tick * 0.1):
+            digest.update(topic.encode() + repr(message).encode())
+    robot.close()
+    print(digest.hexdigest())
+"""
+
 
 @contextmanager
 def prepare(_: Context) -> Iterator[Sides]:
@@ -99,6 +138,8 @@ def ours() -> dict[str, float]:
         values[f"patrols {count}"] = 1 / (step * STEPS_PER_SECOND)
     values["added patrol"] = (crowds[-1] - crowds[0]) / (CROWDS[-1] - CROWDS[0]) * 1e6
     values["cameras"] = picture() * CAMERAS * CAMERA_RATE * 100
+    values["memory"], values["watched"] = memory()
+    values["differing"] = float(sum(a != b for a, b in zip(*(hashes() for _ in range(2)), strict=True)))
     few, half, all_ = (sweep(beams) for beams in (90, 540, 1080))
     values["beam"] = (half - few) / 450 * 1e6
     values["half beams"] = (all_ - half) / 540 * 1e6
@@ -169,6 +210,29 @@ def picture() -> float:
         for view in views:
             jpeg(renderer.draw(view))
         return (time.process_time() - started) / VIEWS
+
+
+def memory() -> tuple[float, float]:
+    """Resident set of a robot side with one patrol robot before and while somebody gets its pictures [MB]."""
+    with serving() as side:
+        process = psutil.Process(side.child.process.pid)
+        time.sleep(SETTLED)
+        alone = process.memory_info().rss
+        with RemoteRobot(side.url) as robot:
+            robot.wait()
+            stop = robot.on(CAMERA_TOPIC, lambda _: None)
+            time.sleep(SETTLED)
+            watched = process.memory_info().rss
+            stop()
+    return alone / 1e6, watched / 1e6
+
+
+def hashes() -> list[str]:
+    """What the robots of all kinds measured in a process of its own, as hashes."""
+    done = subprocess.run(
+        [sys.executable, "-c", RUN], capture_output=True, text=True, check=True, timeout=120
+    )
+    return done.stdout.split()
 
 
 def sweep(beams: int) -> float:
