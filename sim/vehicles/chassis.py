@@ -55,6 +55,8 @@ class Chassis(Generic[P]):
         """What tells how far it has come."""
         home = scene.backend.state(body)
         self._home = home.position, home.rotation
+        self.raft = -1
+        """Number of what it stands on where there is no ground, and which is no obstacle; -1 for nothing."""
         self.grounded = False
         """Its shell touches the ground or something else."""
         self._step = 0
@@ -102,7 +104,7 @@ class Chassis(Generic[P]):
         self._step += 1
         backend = self.scene.backend
         touched = backend.touching(self.body)
-        contacts = [contact for contact in touched if contact.body != backend.ground]
+        contacts = [contact for contact in touched if contact.body not in (backend.ground, self.raft)]
         self.grounded = bool(touched)
         self.bumper.update(self._step, contacts, self.state() if contacts else None)
 

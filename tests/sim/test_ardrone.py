@@ -11,6 +11,7 @@ import pytest
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from sim.backend_bullet import GRAVITY
+from sim.robot import make
 from sim.vehicles.ardrone import ARDRONE, PARAMETERS, Ardrone
 from sim.vehicles.model import Model
 from tests.sim.rooms import alone, plain, room, until
@@ -280,3 +281,15 @@ def test_tumbled_it_cuts_its_rotors_and_does_not_start_again():
     until(robot, 2.0)
     robot.close()
     assert vehicle.pilot.phase == "landed"
+
+
+def test_the_raft_that_it_stands_on_in_the_water_is_no_obstacle():
+    robot = make("ardrone", "lake", camera=False)
+    robot.read(0.0)
+    told = [message for topic, message in robot.read(0.5) if topic == "/bumper"]
+    stands = robot.simulation.vehicle.grounded
+    bumps = robot.simulation.contacts
+    robot.close()
+    assert told
+    assert not any(message.pressed for message in told)
+    assert (stands, bumps) == (True, 0)

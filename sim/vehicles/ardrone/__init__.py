@@ -58,7 +58,7 @@ class Ardrone(Chassis[QuadrotorParameters]):
         super().__init__(scene, parameters, body)
         if scene.world.water:
             raft = Shape("box", (1.0, 1.0, 0.2), (start.x, start.y, -0.1), from_yaw(start.angle))
-            scene.backend.add_static([raft])
+            self.raft = scene.backend.add_static([raft])
         self.dynamics = SixDof(scene.backend, body, Inertia(own.mass, (0.0, 0.0, 0.0), own.inertia))
         self.rotors = Rotors(parameters.rotors)
         self.pilot = Pilot(parameters, at)
