@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from bridge.msgs.geometry_msgs import Twist
-from robotside.avoidance import Avoidance
+from robotside.avoidance import Avoidance, free_lengths
 from robotside.follow import Follower
 from robotside.going import CRUISE, UNSURE_SPEED
 from robotside.planner import Planner
@@ -21,6 +21,9 @@ STANDS = 0.03
 
 PATIENCE, BACKS, BACK = 80, 50, 0.12
 """After so many times of getting nowhere it goes back for so many, at this speed [m/s]; there are about twenty a second."""
+
+CLOSE, ROOM = 0.04, 0.4
+"""It goes back where it passes everything by this, and has so much room [m]."""
 
 NOWHERE: Points = np.empty((0, 2))
 
@@ -93,8 +96,8 @@ class Wheeling:
         """It makes room again where it has stood for a while, as long as there is some behind it."""
         if self._stood > PATIENCE + BACKS:
             self._stood = 0
-        behind = points[(points[:, 0] < 0.0) & (np.abs(points[:, 1]) < self.clear)]
-        return not len(behind) or float(-behind[:, 0].max()) > self.clear + 0.1
+        behind = points * np.array([-1.0, -1.0])
+        return float(free_lengths(np.zeros(1), behind, self._robot.info.radius + CLOSE)[0]) > ROOM
 
     def face(self, pose: Pose2, yaw: float) -> bool:
         """Turn to `yaw` where it stands."""
