@@ -34,6 +34,7 @@ from bridge.msgs.geometry_msgs import (
 )
 from bridge.msgs.pilothouse_msgs import ControlStatus, Mission, RobotInfo, TaskStatus
 from bridge.msgs.std_msgs import Header, Time
+from bridge.msgs.vision_msgs import Detection2DArray
 from widgets.task_words import known
 
 __all__ = ["Session"]
@@ -165,6 +166,15 @@ class Session:
         shown = self.camera(None)
         if shown in cameras:
             self._chosen = cameras[(cameras.index(shown) + 1) % len(cameras)]
+
+    @property
+    def shows_first_camera(self) -> bool:
+        """What is shown is of the robot's first camera: the one that it searches and whose field of view it tells."""
+        return not self._chosen or self._chosen == next(iter(self.info.cameras), "")
+
+    def found_in_picture(self, found: Detection2DArray) -> Detection2DArray:
+        """What was found in the picture that is shown; nothing in another than the one that is searched."""
+        return found if self.shows_first_camera else Detection2DArray()
 
     def knows(self, task: str) -> bool:
         """Whether the robot can be asked for that task, as `task_words.known` says."""

@@ -73,7 +73,13 @@ class DiveScreen(FloatLayout):
         self.add_widget(self.low)
         self.checks = CheckCard(session, self.dashboard, brief=True, pos_hint={"center_x": 0.5})
         self.low.add_widget(self.checks)
-        self.dashboard.bind(self.video, "/detections", fresh=False, empty=Detection2DArray())
+        self.dashboard.bind(
+            self.video,
+            "/detections",
+            lambda found: self.video.show(session.found_in_picture(found)),
+            fresh=False,
+            empty=Detection2DArray(),
+        )
         self.ids.update({"video": self.video, "column": self.column})
 
     def _fill(self) -> None:

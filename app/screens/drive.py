@@ -74,7 +74,13 @@ class DriveScreen(FloatLayout):
         self.add_widget(self.low)
         self.checks = CheckCard(self.session, self.dashboard, brief=True, pos_hint={"center_x": 0.5})
         self.low.add_widget(self.checks)
-        self.dashboard.bind(self.video, "/detections", fresh=False, empty=Detection2DArray())
+        self.dashboard.bind(
+            self.video,
+            "/detections",
+            lambda found: self.video.show(self.session.found_in_picture(found)),
+            fresh=False,
+            empty=Detection2DArray(),
+        )
         self.ids.update({"video": self.video, **self._named()})
 
     def _fill(self) -> None:

@@ -161,7 +161,13 @@ class MissionScreen(FloatLayout):
         bind(self.map, "/task/status", self._show_task, fresh=False)
         bind(self.map, "/limits", lambda _: self._show_draft(), fresh=False)
         bind(self.compass, "/pose")
-        bind(self.video, "/detections", fresh=False, empty=Detection2DArray())
+        bind(
+            self.video,
+            "/detections",
+            lambda found: self.video.show(self.session.found_in_picture(found)),
+            fresh=False,
+            empty=Detection2DArray(),
+        )
 
     def change_map(self) -> None:
         """Change between the robot's own map and the aerial pictures; what is drawn on it stays."""

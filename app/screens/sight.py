@@ -49,9 +49,10 @@ class Sight(IntruderBadge):
         self._show()
         self.seen = len(self._video.boxes)
         self._grow_old(feeds)
-        fov = self._session.info.camera_fov
-        self._video.field_of_view = fov if fov > 0 else math.nan
+        fov, first = self._session.info.camera_fov, self._session.shows_first_camera
+        self._video.field_of_view = fov if fov > 0 and first else math.nan
         placed = self.told and self.count > 0 and feeds.state(POSE) == "live" and math.isfinite(self.angle)
+        placed = placed and first
         marks = [(f"{self.number} · {away_text(self.away)}", self.angle)] if placed else []
         if marks != self._video.marks:
             self._video.marks = marks

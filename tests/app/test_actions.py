@@ -18,6 +18,7 @@ from app.session import Session
 from app.settings import Settings
 from bridge.client import LinkState, Phase
 from bridge.msgs.pilothouse_msgs import ControlStatus, LightState, RobotInfo, TaskStatus
+from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
 from widgets.icons import ICONS
 
 SERVICES = frozenset({"/stop", "/task/start", "/task/go_home", "/task/pause", "/lights/set", "/robot/reset"})
@@ -160,6 +161,14 @@ def test_cameras_go_round_and_one_alone_has_no_button(asked: Asked) -> None:
         asked.actions.act("camera")
     assert seen == ["front", "rear", "front"]
     assert asked.session.camera(None) == "rear"
+
+
+def test_what_was_found_is_drawn_only_into_the_picture_that_is_searched(asked: Asked) -> None:
+    found = Detection2DArray(detections=[Detection2D()])
+    asked.tell("/robot/info", RobotInfo(cameras=["front", "rear"]))
+    assert asked.session.found_in_picture(found) is found
+    asked.actions.act("camera")
+    assert asked.session.found_in_picture(found).detections == []
 
 
 def test_a_camera_that_is_gone_gives_way_to_the_first(asked: Asked) -> None:
