@@ -6,6 +6,7 @@ points = side_points((0.0, -1.05, 0.35, 0.70), Links())
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ from widgets.geometry import Points
 from widgets.shapes import Shapes
 from widgets.theme import theme
 
-__all__ = ["Links", "draw_arm", "draw_deck", "side_points"]
+__all__ = ["Links", "Side", "draw_aim", "draw_arm", "draw_deck", "moved_tip", "side_points"]
 
 FINGER = 0.055
 """Length of a finger of the gripper [m]."""
@@ -32,6 +33,46 @@ class Links(NamedTuple):
     """From there to the fourth joint [m]."""
     hand: float = 0.126
     """From there to the tip [m]."""
+
+
+class Side(NamedTuple):
+    """How the plane in which an arm bends lies on the glass."""
+
+    x: float
+    """Of the foot [px]."""
+    y: float
+    """The same."""
+    scale: float
+    """Pixels to a metre."""
+    box: tuple[float, float, float, float]
+    """Left, low, right and top edge of the picture [px]."""
+
+    def at(self, place: Sequence[float]) -> tuple[float, float]:
+        """Where a place ahead of and above the foot [m] is on the glass [px]."""
+        return self.x + place[0] * self.scale, self.y + place[1] * self.scale
+
+    def point(self, at: Sequence[float]) -> tuple[float, float]:
+        """How far ahead of and above the foot [m] a place on the glass [px] is; one beyond the picture is at its edge."""
+        left, low, right, top = self.box
+        x, y = min(max(at[0], left), right), min(max(at[1], low), top)
+        return (x - self.x) / self.scale, (y - self.y) / self.scale
+
+
+def moved_tip(
+    tip: Sequence[float], angles: tuple[float, ...], aim: tuple[float, float], links: Links
+) -> tuple[float, float, float]:
+    """Where the tip, which is at `tip` in `base_link` [m] with the joints at `angles` [rad], is to go in there.
+
+    `aim` is ahead of and above the foot in the plane of the arm [m].
+    """
+    out, up = side_points(angles, links)[-1]
+    more = aim[0] - float(out)
+    turn = angles[0]
+    return (
+        tip[0] + more * math.cos(turn),
+        tip[1] + more * math.sin(turn),
+        tip[2] + aim[1] - float(up),
+    )
 
 
 def side_points(angles: tuple[float, ...], links: Links) -> Points:
@@ -83,3 +124,13 @@ def draw_arm(shapes: Shapes, points: Points, scale: float, *, opening: float, to
         shapes.line(np.array([start, start + ahead * FINGER * scale]), dp(3), role)
     shapes.discs(points[1:4], thick * 0.72, theme.text)
     shapes.discs(points[1:4], thick * 0.34, theme.surface)
+
+
+def draw_aim(shapes: Shapes, tip: Sequence[float], aim: tuple[float, float], colour: Sequence[float]) -> None:
+    """Where the tip is wanted, and the way there [px]."""
+    x, y = aim
+    shapes.dashes(np.array([[tip[0], tip[1]], [x, y]]), dp(2), colour, period=dp(8), dash=dp(4))
+    shapes.ring(x, y, dp(9), dp(2), colour)
+    for across, up in ((1.0, 0.0), (0.0, 1.0)):
+        reach = np.array([across, up]) * dp(14)
+        shapes.line(np.array([aim - reach, aim + reach]), dp(1.5), colour)

@@ -7,7 +7,9 @@ import pytest
 from bridge.msgs.arrays import Float64Array
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import ArmState
-from widgets.arm_panel import CHOICE, TOLD, ArmPanel
+from widgets.arm_keys import CHOICE
+from widgets.arm_panel import TOLD, ArmPanel
+from widgets.arm_picture import side_points
 from widgets.theme import theme
 
 POSES = ["rest", "home", "stretch", "look_down"]
@@ -157,3 +159,82 @@ def test_disabled_it_takes_no_finger(stage, panel):
     panel.state = "disabled"
     stage.tap(*key(panel, "Rest").center)
     assert panel.orders == []
+
+
+def tip_of(panel):
+    return panel.side.at(side_points(tuple(panel.angles), panel.links)[-1])
+
+
+def drag(stage, panel, start, way, lift=True):
+    """A finger comes down at `start` [px] and goes `way` from there."""
+    touch = stage.touch(*start)
+    touch.touch_down()
+    for share in (0.3, 0.7, 1.0):
+        touch.touch_move(start[0] + share * way[0], start[1] + share * way[1])
+        stage.frames(1)
+    if lift:
+        touch.touch_up()
+        stage.frames(1)
+    return touch
+
+
+@pytest.mark.parametrize("turned", [0.0, 1.2, -2.0])
+def test_the_tip_is_sent_as_far_as_the_finger_went_in_the_plane_of_the_arm(stage, panel, turned):
+    tell(panel, stage, angles=(turned, *HOME[1:]), wanted=(turned, *HOME[1:]), pose="")
+    metre = panel.side.scale
+    drag(stage, panel, (tip_of(panel)[0] + 5, tip_of(panel)[1] - 5), (-0.1 * metre, 0.05 * metre))
+    (order,) = panel.orders
+    assert (order.pose, len(order.angles)) == ("", 0)
+    assert order.point.x == pytest.approx(0.3 - 0.1 * math.cos(turned), abs=0.003)
+    assert order.point.y == pytest.approx(-0.1 * math.sin(turned), abs=0.003)
+    assert order.point.z == pytest.approx(0.25, abs=0.003)
+
+
+def test_nothing_is_asked_for_before_the_finger_is_lifted_nor_by_one_that_only_touched(stage, panel):
+    drag(stage, panel, tip_of(panel), (2, 2))
+    touch = drag(stage, panel, tip_of(panel), (-30, 20), lift=False)
+    assert panel.aim
+    assert any(text.startswith("to ") for text in panel.texts)
+    panel.rest()
+    touch.touch_up()
+    assert (panel.orders, panel.aim) == ([], [])
+
+
+def test_a_finger_on_the_picture_beside_the_tip_moves_nothing(stage, panel):
+    x, y = tip_of(panel)
+    drag(stage, panel, (x - 2 * theme.target, y - theme.target), (20, 20))
+    assert panel.orders == []
+
+
+def test_where_it_was_sent_is_shown_until_it_is_there(stage, panel):
+    drag(stage, panel, tip_of(panel), (-20, 10))
+    assert panel.aim
+    panel.answer("accepted")
+    tell(panel, stage, wanted=(0.0, -1.2, 0.5, 0.6))
+    assert panel.aim
+    there = (0.0, -1.0, 0.2, 0.7)
+    panel.aim = [float(value) for value in side_points(there, panel.links)[-1]]
+    tell(panel, stage, angles=there, wanted=there)
+    assert panel.aim == []
+
+
+def test_where_it_does_not_reach_is_shown_as_long_as_the_refusal(stage, panel):
+    drag(stage, panel, tip_of(panel), (20, 40))
+    panel.answer("refused")
+    tell(panel, stage)
+    assert panel.aim
+    stage.run_for(TOLD + 0.1)
+    assert panel.aim == []
+
+
+def test_the_hand_of_the_dial_turns_the_foot_and_leaves_the_other_joints(stage, panel):
+    x, y, radius = panel._dial()
+    drag(stage, panel, (x, y + radius / 2), (-60, -radius / 2))
+    (order,) = panel.orders
+    assert list(order.angles) == pytest.approx([math.pi / 2, *HOME[1:]], abs=0.02)
+
+
+def test_disabled_its_tip_is_not_dragged(stage, panel):
+    panel.state = "disabled"
+    drag(stage, panel, tip_of(panel), (-40, 20))
+    assert (panel.orders, panel.aim) == ([], [])
