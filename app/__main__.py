@@ -31,15 +31,18 @@ class _Parser(argparse.ArgumentParser):
 def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser = _Parser(prog="main.py", description="Pilothouse: supervise and drive robots.")
     parser.add_argument("url", nargs="?", help="robot to connect to, as in ws://192.168.1.7:9090")
-    parser.add_argument("--layout", help=f"drive screen, whatever the robot is: {', '.join(layouts.names())}")
+    parser.add_argument(
+        "--layout", help=f"drive screen, whatever the robot is: a .toml file, {', '.join(layouts.names())}"
+    )
     parser.add_argument("--screen", default="mission", choices=SCREENS, help="screen to show once connected")
     parser.add_argument("--theme", choices=THEMES, help="look; the last one unless given")
     parser.add_argument("--size", help="of the window [px], as in 412x892")
     arguments = parser.parse_args(argv)
     if arguments.url is not None:
         arguments.url = check_address(arguments.url)
-    if arguments.layout is not None and arguments.layout not in layouts.names():
-        raise ValueError(f"There is no layout {arguments.layout!r}; there are: {', '.join(layouts.names())}.")
+    layout = arguments.layout
+    if layout is not None and not layout.endswith(".toml") and layout not in layouts.names():
+        raise ValueError(f"There is no layout {layout!r}; there are: {', '.join(layouts.names())}.")
     if arguments.size is not None and not SIZE.fullmatch(arguments.size):
         raise ValueError(f"A size is written as 412x892, not {arguments.size!r}.")
     return arguments

@@ -58,9 +58,7 @@ _FLOATING = {"top_left": 1, "top": 1, "top_right": 1, "readouts": 4, "senses": 3
 ARRANGEMENTS: Mapping[str, Arrangement] = {
     "float": Arrangement(_FLOATING, {"stick": 2, "slider": 1, "top_right": 1}, 4),
     "two_sticks": Arrangement(_FLOATING, {"stick": 1, "right_stick": 1, "slider": 1, "confirm": 2}, 4),
-    "columns": Arrangement(
-        {"left": 3, "corner": 1, "motion": 1}, {"stick": 1, "lift": 1, "tilt": 1}, 8
-    ),
+    "columns": Arrangement({"left": 3, "corner": 1, "motion": 1}, {"stick": 1, "lift": 1, "tilt": 1}, 8),
 }
 """Video behind everything; the same with a control under either thumb; three columns with the video in the middle."""
 
@@ -170,7 +168,15 @@ def names(folder: Path = FOLDER) -> list[str]:
 
 
 def load(name: str, widgets: Iterable[str], folder: Path = FOLDER) -> Layout:
-    """The layout of that name; `widgets` are the names of the catalogue. LayoutError with a sentence."""
+    """The layout of that name, or in the file of that name where it ends in `.toml`; `widgets` are the names of the catalogue.
+
+    LayoutError with a sentence.
+    """
+    if name.endswith(".toml"):
+        try:
+            return parse(name, Path(name).read_text(encoding="utf-8"), widgets)
+        except (OSError, UnicodeDecodeError) as error:
+            raise LayoutError(f"Layout {name} cannot be read: {error}.") from error
     if name not in names(folder):
         raise LayoutError(f"There is no layout {name!r}; there are: {', '.join(names(folder))}.")
     return parse(name, (folder / f"{name}.toml").read_text(encoding="utf-8"), widgets)

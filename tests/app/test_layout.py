@@ -111,3 +111,14 @@ def test_a_layout_says_how_it_is_driven() -> None:
     assert parse("x", text, WIDGETS).controls[0].forward == "climb"
     actions = parse("x", "[[action]]\nwhat = 'lights'\ntext = 'Lamp'", WIDGETS).actions
     assert [(one.what, one.text, one.icon) for one in actions] == [("lights", "Lamp", "")]
+
+
+def test_a_layout_of_ones_own_is_a_file(tmp_path: Path) -> None:
+    own = tmp_path / "own.toml"
+    own.write_text("title = 'Mine'\n" + one())
+    assert load(str(own), WIDGETS).title == "Mine"
+    own.write_text(one(slot="middle"))
+    with pytest.raises(LayoutError, match=r"own.toml, instrument 1: slot is one of"):
+        load(str(own), WIDGETS)
+    with pytest.raises(LayoutError, match=r"none.toml cannot be read: .*No such file"):
+        load(str(tmp_path / "none.toml"), WIDGETS)
