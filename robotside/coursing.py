@@ -46,7 +46,7 @@ class Coursing:
     """`going.Going` of a robot that keeps courses."""
 
     keeps_courses = True
-    discs = (0.0,)
+    discs: tuple[float, ...] = (0.0,)
     look = 10.0
 
     def __init__(self, robot: Robot) -> None:

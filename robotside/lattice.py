@@ -116,7 +116,7 @@ class Lattice:
         cost[row, column] = 1.0
         # what stands too close already has to come away
         costs = np.where(np.isfinite(cost), cost, 8.0 * (room > 0) + 1e3 * (room <= 0))
-        left, _ = MCP_Geometric(costs).find_costs([(row, column)])  # type: ignore[no-untyped-call]
+        left, _ = MCP_Geometric(costs).find_costs([(row, column)])
         rows, columns = left.shape
         step = grid.resolution * factor
         table = (left * step).tolist()

@@ -37,7 +37,7 @@ SPARE = 0.9
 FACES = 0.35
 """It looks to where it should within this [rad]."""
 
-HORIZON, STEP = 8.0, 0.25
+HORIZON, STEP = 6.4, 0.4
 """So far ahead it looks along an arc, and in such steps [m]."""
 
 ENOUGH = 1.0
@@ -49,8 +49,8 @@ BRAKING = 1.0
 BEYOND = 2.0
 """It aims at a way that goes on so far beyond its end [m]."""
 
-NEAR, MISSED = 0.15, 1.2
-"""At the end of a way it is so far from it along the way, or past it, and no farther than the second at all [m]."""
+NEAR, MISSED = 0.15, 0.6
+"""At the end of a way it is so far from it along the way, or past it; farther away than the second it has missed it [m]."""
 
 SWING, PERIOD = 0.8, 0.05
 """From straight to the tightest bend the front wheels take so long, and so often they are told [s]."""
@@ -148,6 +148,9 @@ class Trucking:
         """The way is gone to its end; where it changes over in between, the next piece begins."""
         if self._follower is None or not self._at_end(pose):
             return False
+        if pose.distance(*self._pieces[0].points[-1].tolist()) > MISSED:
+            self.forget()  # it came out beside it: the next way begins here
+            return False
         if len(self._pieces) == 1:
             return True
         self._take(self._pieces[1:])
@@ -223,9 +226,10 @@ class Trucking:
             gaps = np.minimum(gaps, np.hypot(px[..., None] - near[:, 0], py[..., None] - near[:, 1]))
             at_first = np.minimum(at_first, np.hypot(near[:, 0] - disc, near[:, 1]))
         # from what is too close already it may go away
-        hit = ((gaps < self._girth + GAP) & (gaps < at_first - 0.01)).any(axis=2)
+        touches: NDArray[np.bool_] = (gaps < self._girth + GAP) & (gaps < at_first - 0.01)
+        hit: NDArray[np.bool_] = np.logical_or.reduce(touches, axis=2)
         first = np.where(hit.any(axis=1), hit.argmax(axis=1), hit.shape[1])
-        return first * STEP
+        return np.asarray(first * STEP, dtype=np.float64)
 
     def _swings(self, bend: float) -> bool:
         """The front wheels, which need their time, are far from where this bend has them."""
@@ -256,9 +260,9 @@ class Trucking:
         self._speed = 0.0
 
     def _at_end(self, pose: Pose2) -> bool:
-        """It is beside the end of the piece, or past it."""
+        """It is beside the end of the piece, or past it; not before a loop that leads by there."""
         points = self._pieces[0].points
         x, y = points[-1].tolist()
         dx, dy = _end(points).tolist()
         over = (pose.x - x) * dx + (pose.y - y) * dy
-        return over > -NEAR and pose.distance(x, y) < MISSED
+        return over > -NEAR and pose.distance(x, y) < BEYOND

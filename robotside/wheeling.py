@@ -32,7 +32,7 @@ class Wheeling:
     """`going.Going` of a robot that turns where it stands."""
 
     keeps_courses = False
-    discs = (0.0,)
+    discs: tuple[float, ...] = (0.0,)
     turning = 0.0
     look = 6.0
 

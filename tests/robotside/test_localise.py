@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
@@ -15,6 +16,10 @@ from robotside.laser import Laser
 from robotside.localise import UNSURE_AFTER, Localiser
 from robotside.pose2 import Points, Pose2
 from tests.fakes import Box, FakeRobot, Pillar
+
+EAST, NORTH = 4.0, 3.0
+HALL = Grid(np.pad(np.zeros((60, 80), dtype=np.bool_), 10, constant_values=True), 0.1, -5.0, -4.0)
+"""From -EAST to EAST and from -NORTH to NORTH, and nothing in it."""
 
 BOXES = [Box(-4.0, 2.0, -2.0, 4.0), Box(3.0, -4.0, 4.0, -2.0), Box(5.0, 3.0, 7.0, 3.5)]
 
@@ -109,3 +114,45 @@ def test_before_the_first_guess_there_is_no_pose() -> None:
     localiser.correct(sweep(FakeRobot()))
     assert localiser.pose is None
     assert not localiser.sure
+
+
+def test_a_compass_turns_it_little_by_little_and_by_no_more_than_it_is_trusted() -> None:
+    localiser = Localiser(HALL)
+    localiser.place(Pose2(0.0, 0.0, 0.0), spread=0.1, turn=0.2)
+    localiser.face(0.3, 0.2)
+    assert localiser.pose is not None
+    assert localiser.pose.yaw == pytest.approx(0.15)
+    for _ in range(200):
+        localiser.face(0.3, 0.2)
+    assert localiser.pose.yaw == pytest.approx(0.3, abs=0.01)
+
+
+def test_echoes_put_it_right_by_the_place_on_each_arc_that_meets_a_surface() -> None:
+    localiser, true = Localiser(HALL), Pose2(1.0, -0.5, 0.1)
+    localiser.place(Pose2(1.12, -0.6, 0.05), spread=0.3, turn=0.1)
+    for _ in range(4):
+        localiser.echo(arcs(true))
+    assert localiser.pose is not None
+    assert localiser.pose.distance(true.x, true.y) < 0.06
+    assert localiser.pose.yaw == pytest.approx(true.yaw, abs=0.03)
+
+
+def test_echoes_of_what_the_map_does_not_know_and_too_few_change_nothing() -> None:
+    localiser, start = Localiser(HALL), Pose2(0.0, 0.0, 0.0)
+    localiser.place(start, spread=0.3, turn=0.1)
+    localiser.echo(np.full((30, 3, 2), 0.8))
+    localiser.echo(arcs(Pose2(0.3, 0.0, 0.01))[:5])
+    assert localiser.pose == start
+
+
+def arcs(pose: Pose2, count: int = 24) -> NDArray[np.float64]:
+    """Ends of cones all round, each as far as the nearest wall of the hall in it, in the frame of `pose`."""
+    ends = []
+    for bearing in np.linspace(-3.1, 3.1, count):
+        angles = bearing + np.linspace(-0.2, 0.2, 8)
+        c, s = np.cos(angles + pose.yaw), np.sin(angles + pose.yaw)
+        to_x = np.where(c > 0, EAST - pose.x, -EAST - pose.x) / c
+        to_y = np.where(s > 0, NORTH - pose.y, -NORTH - pose.y) / s
+        reach = np.minimum(to_x, to_y).min()
+        ends.append(np.column_stack([reach * np.cos(angles), reach * np.sin(angles)]))
+    return np.array(ends)

@@ -17,7 +17,7 @@ from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import LineSensor
 from bridge.msgs.sensor_msgs import Imu, LaserScan, Range
 from robotside.pose2 import Pose2
-from robotside.senses import PATIENCE, Senses
+from robotside.senses import PATIENCE, Senses, needed
 from robotside.tracks import Moving
 
 MOVING = Twist(Vector3(0.3, 0.1), Vector3(0.0, 0.0, 0.2))
@@ -71,3 +71,19 @@ def test_small_sensors_that_fell_silent_are_named() -> None:
     for topic, message in (("/odom", ODOM), ("/scan", LaserScan())):
         senses.take(topic, message, 2.0)
     assert senses.silent(2.0) == ["line sensor", "rear ultrasound"]
+
+
+def test_which_sensors_it_needs_depends_on_its_kind_and_on_what_it_has() -> None:
+    assert list(needed("wheels", ())) == ["/odom", "/scan"]
+    assert list(needed("wheels", ("/odom", "/sonar"))) == ["/odom", "/sonar"]
+    assert list(needed("ackermann", ("/sonar", "/scan"))) == ["/odom", "/scan"]
+    for kind in ("boat", "hexapod", "quadrotor"):
+        assert list(needed(kind, ("/odom",))) == ["/odom"]
+    assert list(needed("boat", ("/scan",))) == ["/odom", "/scan"]
+
+
+def test_a_boat_misses_no_laser() -> None:
+    senses = Senses("boat")
+    assert senses.silent(0.0) == ["odometry"]
+    senses.take("/odom", ODOM, 0.0)
+    assert senses.silent(PATIENCE) == []
