@@ -60,6 +60,6 @@ class Flooding:
 
 
 if __name__ == "__main__":
-    make = sim.robot.make
-    sim.robot.make = lambda *args, **kwargs: Flooding(make(*args, **kwargs))  # type: ignore[assignment]
+    make = sim.robot.make_several
+    sim.robot.make_several = lambda *args, **kwargs: [Flooding(robot) for robot in make(*args, **kwargs)]  # type: ignore[assignment,return-value,misc]
     sys.exit(main())
