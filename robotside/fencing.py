@@ -17,6 +17,8 @@ GAP = 0.10
 """Kept between the body and the fence on the way of a command that is obeyed at once [m]."""
 SLACK = 0.02
 """Kept on the way that the robot takes from how it moves now [m]: it lags behind what it was told before."""
+RETURN = 1.0
+"""What slides along nearer than GAP goes inward for what lacks of that [1/s]: it would be pushed out bit by bit."""
 _HALVINGS = 6
 
 
@@ -42,7 +44,7 @@ class Fencing:
         if test(wanted):
             return wanted
         steers = self._handling.steers
-        if self._handling.sideways and (slid := self._slid(pose, wanted, test)) is not None:
+        if self._handling.sideways and (slid := self._slid(pose, wanted, room, test)) is not None:
             return slid
         if not test(wanted.scaled(0.0, 0.0 if steers else 1.0)):
             return REST
@@ -65,18 +67,23 @@ class Fencing:
             and kept(moving, command, SLACK, swings=True)
         )
 
-    def _slid(self, pose: Pose2, wanted: Moving, test: Callable[[Moving], bool]) -> Moving | None:
+    def _slid(
+        self, pose: Pose2, wanted: Moving, room: float, test: Callable[[Moving], bool]
+    ) -> Moving | None:
         """As much of the part towards the fence as can be, and all of the part along it; None when that is too much."""
         x, y = self._fence.inward(pose.x, pose.y)
         c, s = math.cos(pose.yaw), math.sin(pose.yaw)
         in_x, in_y = c * x + s * y, c * y - s * x
         out = min(0.0, wanted.x * in_x + wanted.y * in_y)
+        back = RETURN * max(0.0, GAP - room)
 
         def less(part: float) -> Moving:
-            spare = (1.0 - part) * out
+            spare = (1.0 - part) * out - back
             return Moving(wanted.x - spare * in_x, wanted.y - spare * in_y, wanted.turn)
 
-        return _greatest(less, test) if test(less(0.0)) else None
+        if not test(less(0.0)):
+            return None
+        return less(0.0) if back else _greatest(less, test)
 
 
 def _greatest(command: Callable[[float], Moving], test: Callable[[Moving], bool]) -> Moving:

@@ -146,7 +146,9 @@ def kept(order: Manoeuvre, leads: Twist, may: Twist, info: RobotInfo) -> Order:
             moved = abs(v.x - leads.linear.x) > _EXACT or abs(v.y - leads.linear.y) > _EXACT
             return may if moved else replace(order, twist=climbing)
         case "tilt":
-            return replace(order, speed=v.x, throttle=math.nan, twist=climbing)
+            held = replace(order, speed=v.x, throttle=math.nan, twist=climbing)
+            # level, its fins carry it no farther than it may
+            return replace(held, roll=0.0, pitch=0.0) if v.x == 0.0 != leads.linear.x else held
         case "steer":
             if at_rest(may):
                 return may

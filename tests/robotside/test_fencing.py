@@ -122,6 +122,13 @@ def test_one_that_can_go_sideways_slides_along_the_fence() -> None:
     assert slid.y == pytest.approx(0.5)
 
 
+def test_what_slides_along_a_fence_that_it_came_too_near_to_goes_inward_a_little() -> None:
+    fencing = Fencing(YARD, RADIUS, HANDLING["quadrotor"])
+    slid = fencing.slowed(Pose2(-4.0 + RADIUS - 0.05, 0.0, math.pi), REST, Moving(0.5, 0.5, 0.0))
+    assert slid.x == pytest.approx(-0.15, abs=0.03)
+    assert slid.y == pytest.approx(0.5)
+
+
 def test_one_that_steers_goes_slower_on_the_same_arc() -> None:
     fencing = Fencing(YARD, RADIUS, HANDLING["ackermann"])
     slowed = fencing.slowed(Pose2(-3.4, 0.0, math.pi), REST, Moving(2.0, 0.0, 0.5))

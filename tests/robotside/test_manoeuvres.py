@@ -175,6 +175,14 @@ def test_a_fence_ahead_makes_a_throttle_less_and_level_flight_a_brake() -> None:
     assert keep(DRONE, away, slower, keep_in=(SQUARE,)).order is away
 
 
+def test_a_swimmer_at_its_fence_lies_level_and_may_still_rise() -> None:
+    at = Measured(Pose2(3.64, 0.0, 0.0), Moving(0.1, 0.0, 0.0), height=-2.0)
+    done = keep(AQUA, tilt(roll=0.3, pitch=0.3, throttle=1.0, z=0.1), at, keep_in=(SQUARE,)).order
+    assert isinstance(done, Manoeuvre)
+    assert (done.speed, done.roll, done.pitch) == (0.0, 0.0, 0.0)
+    assert done.twist.linear.z == pytest.approx(0.1, abs=0.01)
+
+
 def test_a_climb_is_held_at_the_greatest_height_however_it_leans() -> None:
     high = Measured(HERE, Moving(2.0, 0.0, 0.0), height=4.98, pitch=0.3)
     done, why = keep(DRONE, tilt(pitch=0.3, z=1.0), high, max_height=5.0)
