@@ -15,7 +15,7 @@ import json
 import math
 import sys
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from websockets.asyncio.server import ServerConnection, serve
@@ -51,10 +51,12 @@ class Port(Probe):
             yield topic, msg
 
 
-def make(model: str, world: str, **options: Any) -> Robot:
-    """The simulated robot of that name behind a port that tells; one that flies is in the air."""
-    robot = simulated(model, world, **options)
-    return Port(Aloft(robot) if "take_off" in robot.info.manoeuvres else robot)
+def make(robots: Sequence[str], world: str, **options: Any) -> list[Robot]:
+    """The simulated robots of these names behind ports that tell; those that fly are in the air."""
+    return [
+        Port(Aloft(robot) if "take_off" in robot.info.manoeuvres else robot)
+        for robot in simulated(robots, world, **options)
+    ]
 
 
 async def relay(robot: Robot) -> None:
@@ -78,9 +80,9 @@ async def relay(robot: Robot) -> None:
 
 
 if __name__ == "__main__":
-    simulated = sim.robot.make
+    simulated = sim.robot.make_several
     if "--relay" in sys.argv:
         named, world = (sys.argv[sys.argv.index(option) + 1] for option in ("--robot", "--world"))
-        asyncio.run(relay(make(named.removeprefix("sim:"), world)))
-    sim.robot.make = make  # type: ignore[assignment]
+        asyncio.run(relay(make([named.removeprefix("sim:")], world)[0]))
+    sim.robot.make_several = make  # type: ignore[assignment]
     sys.exit(main())

@@ -66,6 +66,6 @@ def tell(*values: object) -> None:
 
 
 if __name__ == "__main__":
-    make = sim.robot.make
-    sim.robot.make = lambda *args, **kwargs: Probe(make(*args, **kwargs))  # type: ignore[assignment,return-value]
+    make = sim.robot.make_several
+    sim.robot.make_several = lambda *args, **kwargs: [Probe(robot) for robot in make(*args, **kwargs)]  # type: ignore[assignment,return-value,misc]
     sys.exit(main())
