@@ -18,12 +18,13 @@ from app.feeds import Post
 from app.layout import SLIDER, Control, Layout
 from app.link import OUTCOME
 from app.piloting import Parts, Piloting, Reach
+from app.screens.arm_hand import ARM, ArmHand
 from app.screens.in_vain import InVain
 from app.screens.instruments import check_shows
 from app.screens.speed_card import SpeedCard, allowed
 from app.session import Session
 from bridge.msgs.geometry_msgs import PoseStamped
-from bridge.msgs.pilothouse_msgs import TaskOrder, Waypoint
+from bridge.msgs.pilothouse_msgs import FlightState, TaskOrder, Waypoint
 from widgets.stick import Stick
 
 __all__ = ["Hands"]
@@ -32,6 +33,8 @@ FIRST = 0.6
 """Share of the robot's greatest speed that the slider begins with."""
 SAYS = {"RudderThrottle": ("throttle", "steering"), "TiltCircle": ("roll", "pitch")}
 """Which of `app.piloting.PARTS` a control says; a stick says what its layout says."""
+STICK = "Stick"
+"""What drives, where the layout has no word for it and it has to be told from an arm."""
 OWN = Reach()
 """What the controls mean where the robot does not say what it can."""
 
@@ -60,20 +63,30 @@ class Hands(EventDispatcher):
         self._limited = False
         self.reach = OWN
         """What the controls mean at the end of their way now."""
+        self.arm = ArmHand(session, dashboard, in_vain)
         super().__init__()
         for one in layout.controls:
             self._add(one)
         slots = [one.slot for one in layout.controls]
-        self.choices: dict[str, Widget] = {
-            one.title: widget
-            for one, widget in self._all(layout)
-            if slots.count(one.slot) > 1 and one.slot == "stick"
+        self._own: dict[str, Widget] = {
+            one.title or STICK: widget for one, widget in self._all(layout) if one.slot == "stick"
         }
-        """Those of which one is on the glass, by what they are called."""
+        self.choices: dict[str, Widget] = self._own if slots.count("stick") > 1 else {}
+        """Those of which one is on the glass, by what they are called; an arm that the robot carries is one more."""
         self.chosen = next(iter(self.choices), "")
         self.bind(chosen=lambda *_: self.rest())
         says = {part for _, one in self._sticks for part in SAYS.get(one.widget, (one.forward, one.left))}
         self.piloting = Piloting(self._drive, self._kinds, lambda: self.reach, says)
+
+    def take_up(self) -> bool:
+        """Take up the arm where the robot has one, and put it away where it has none any more; True when that changed."""
+        if self.arm.carried == (ARM in self.choices):
+            return False
+        own = self._own if len(self._own) > 1 else {}
+        self.choices = self._own | {ARM: self.arm.panel} if self.arm.carried else own
+        if self.chosen not in self.choices:
+            self.chosen = next(iter(self.choices), "")
+        return True
 
     def _all(self, layout: Layout) -> list[tuple[Control, Widget]]:
         left = {slot: list(found) for slot, found in self.places.items()}
@@ -171,7 +184,8 @@ class Hands(EventDispatcher):
     @property
     def grips(self) -> list[Any]:
         """What a finger may hold besides and is on the glass."""
-        return [widget for widget, _ in self._asking if self.shown(widget)]
+        arm = [self.arm.panel] if self.chosen == ARM else []
+        return [*(widget for widget, _ in self._asking if self.shown(widget)), *arm]
 
     def hear(self, channel: str, post: Post) -> None:
         """A message came: what the robot may, and what became of what was asked for."""
@@ -202,6 +216,7 @@ class Hands(EventDispatcher):
         """Every control lets go."""
         for widget, _ in (*self._sticks, *self._asking):
             widget.rest()
+        self.arm.rest()
 
     def tick(self) -> None:
         """Bring up to date what may be used."""
@@ -213,9 +228,18 @@ class Hands(EventDispatcher):
         for widget, one in self._asking:
             action = able.get(one.action)
             may = (action is not None and action.able) if one.action else asked
+            may = may and (not one.action or one.action != self._vain())
             widget.state = "live" if may else "disabled"
             if action is not None and not one.title and hasattr(widget, "text"):
                 widget.text = _within(action.text)
+        self.arm.tick()
+
+    def _vain(self) -> str:
+        """The action that is done already: what flies need not take off, and what stands need not land."""
+        flight: FlightState | None = self._session.feeds.latest("/flight")
+        if flight is None or self._session.feeds.state("/flight") != "live":
+            return ""
+        return {"landed": "task.land", "flying": "task.take_off"}.get(flight.phase, "")
 
     def take_limits(self) -> None:
         """The slider's range is the robot's; where it stood is kept."""

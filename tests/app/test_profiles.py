@@ -8,9 +8,10 @@ from typing import Any
 
 import pytest
 
+from app.feeds import Post
 from app.screens.drive import DriveScreen
 from bridge.msgs.geometry_msgs import Pose, PoseWithCovariance, PoseWithCovarianceStamped, Twist
-from bridge.msgs.pilothouse_msgs import Compass, Manoeuvre, RobotInfo
+from bridge.msgs.pilothouse_msgs import Compass, FlightState, Manoeuvre, RobotInfo
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 
@@ -125,6 +126,10 @@ def test_a_drone_is_flown_with_two_thumbs_and_takes_off_by_a_slide(
     up, down = screen.hands.places["confirm"]
     assert (up.text, down.text) == ("take off", "land")
     assert not up.collide_widget(down)
+    for phase, states in (("landed", ("live", "disabled")), ("flying", ("disabled", "live"))):
+        screen.session.feeds.put("/flight", Post(FlightState(phase=phase), screen.session.now(), 1))
+        screen.tick()
+        assert (up.state, down.state) == states, phase
     up.dispatch("on_confirm")
     driving.until(lambda: orders(robot), "it was not asked to take off")
     assert orders(robot)[-1].task == "take_off"
