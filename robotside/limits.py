@@ -27,7 +27,7 @@ from robotside.tracks import HANDLING, REACTION, REST, Handling, Moving
 
 __all__ = ["GOAL_ROOM", "PATH_ROOM", "Clamped", "Keeper", "Kept", "Measured", "turned_over"]
 
-GOAL_ROOM = 0.35
+GOAL_ROOM = 0.4
 """Kept between the body and the fence at a goal [m]: following a path is not exact."""
 PATH_ROOM = 0.15
 """Of the map, what is nearer than this to the fence is no place to plan through [m]."""
