@@ -195,17 +195,17 @@ def _senses_tall(video: Rect, cards: Rect, tape: Rect, least: float, dp: float) 
     }
 
 
-def two_sticks(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+def two_sticks(body: Rect, shape: str, dp: float = 1.0, *, switch: bool = False) -> dict[str, Rect]:
     """As `drive`, with a control under the right thumb as well: `right_stick`, left of STOP, and `confirm` for slides."""
     if shape == "tall":
-        return _two_tall(body, dp)
-    return _two_wide(body, dp) if shape == "wide" else _two_short(body, dp)
+        return _two_tall(body, dp, switch)
+    return _two_wide(body, dp, switch) if shape == "wide" else _two_short(body, dp, switch)
 
 
-def _two_wide(body: Rect, dp: float) -> dict[str, Rect]:
+def _two_wide(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
     """The slides above the right control and STOP, what is done once in the middle."""
     scale = dp * min(1.0, body.height / (690 * dp))
-    places, gap = drive(body, "wide", scale), 16 * scale
+    places, gap = drive(body, "wide", scale, switch=switch), 16 * scale
     stop, slider, stick = places["stop"], places["slider"], places["stick"]
     right = Rect(stop.x - gap - stick.width, stick.y, stick.width, stick.height)
     confirm = Rect(right.x, right.top + 12 * scale, body.right - gap - right.x, SLIDE * scale)
@@ -213,16 +213,17 @@ def _two_wide(body: Rect, dp: float) -> dict[str, Rect]:
     actions = Rect((slider.right + right.x - width) / 2, stick.y, width, places["actions"].height)
     badge, tape = places["badge"], places["top"]
     low = max(actions.top, slider.top, confirm.top) + 8 * scale
+    left = max(tape.x, places["switch"].right + gap) if switch else tape.x
     return places | {
         "right_stick": right,
         "confirm": confirm,
         "actions": actions,
-        "notice": between(tape.x, low, tape.right, badge.y - 32 * scale),
+        "notice": between(left, low, tape.right, badge.y - 32 * scale),
         "notice_low": between(slider.right + gap, actions.top + 12 * scale, right.x - gap, confirm.top),
     }
 
 
-def _two_short(body: Rect, dp: float) -> dict[str, Rect]:
+def _two_short(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
     """The slides between the thumbs, what is done once in a row below the tape."""
     scale = dp * min(1.0, body.height / (364 * dp))
     places, gap = drive(body, "short", scale), 10 * scale
@@ -234,6 +235,13 @@ def _two_short(body: Rect, dp: float) -> dict[str, Rect]:
     actions = Rect(tape.x, tape.y - 8 * scale - STRIP * scale, tape.width, STRIP * scale)
     middle = between(tape.x, strip.top + 8 * scale, tape.right, actions.y - 8 * scale)
     card, room = places["top_right"], Rect(stop.x, stick.y, body.right - gap - stop.x, 156 * scale)
+    if switch:  # above the thumb; the instrument over it is lower
+        seen = places["top_left"]
+        chosen = Rect(seen.x, stick.top + 8 * scale, seen.width, SWITCH * scale)
+        places |= {
+            "switch": chosen,
+            "top_left": between(seen.x, chosen.top + 8 * scale, seen.right, seen.top),
+        }
     return places | {
         "badge": between(room.x, room.top + 8 * scale, body.right - gap, card.y - 8 * scale),
         "right_stick": right,
@@ -245,9 +253,9 @@ def _two_short(body: Rect, dp: float) -> dict[str, Rect]:
     }
 
 
-def _two_tall(body: Rect, dp: float) -> dict[str, Rect]:
+def _two_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
     """Both thumbs with the slider between them, the slides and STOP below, what is done once above."""
-    scale = dp * min(1.0, body.height / (740 * dp))
+    scale = dp * min(1.0, body.height / ((740 + (SWITCH + 12 if switch else 0)) * dp))
     gap = 12 * scale
     row, across, left = 150 * scale, body.width - 2 * gap, body.x + gap
     wide = min(max(158 * scale, body.width * 0.3), 240 * scale)
@@ -258,7 +266,8 @@ def _two_tall(body: Rect, dp: float) -> dict[str, Rect]:
     stick = Rect(left, low + (high - size) / 2, size, size)
     right = Rect(body.right - gap - size, stick.y, size, size)
     slider = Rect(body.x + (body.width - 80 * scale) / 2, low, 80 * scale, high)
-    actions = Rect(left, low + high + gap, across, 52 * scale)
+    chosen = Rect(left, low + high + gap, slider.right - left, SWITCH * scale)
+    actions = Rect(left, (chosen.top if switch else low + high) + gap, across, 52 * scale)
     spare = body.top - actions.top - 2 * gap - 260 * scale
     picture = min(body.width * 0.75, max(body.height * 0.23, spare))
     video = Rect(body.x, body.top - picture, body.width, picture)
@@ -275,6 +284,7 @@ def _two_tall(body: Rect, dp: float) -> dict[str, Rect]:
         "actions": actions,
         "confirm": confirm,
         "top": tape,
+        **({"switch": chosen} if switch else {}),
         "top_left": Rect(cards.x, cards.y, side, cards.height),
         "top_right": Rect(cards.x + side + gap, cards.y, side, cards.height),
         "readouts": Rect(cards.right - figures, cards.y, figures, cards.height),

@@ -97,15 +97,29 @@ class DriveScreen(FloatLayout):
             for slot, those in found.items():
                 for widget in those:
                     self._place(slot, widget)
-        if self.hands.choices:
-            self.switch = Segmented(options=list(self.hands.choices), value=self.hands.chosen)
-            self.switch.bind(on_choose=lambda _, title: setattr(self.hands, "chosen", title))
-            self.hands.bind(chosen=self._choose)
-            self._place("switch", self.switch)
+        self.switch = Segmented()
+        self.switch.bind(on_choose=lambda _, title: setattr(self.hands, "chosen", title))
+        self.hands.bind(chosen=self._choose)
         self.add_widget(self.sight)
         for gauge, topics in self.instruments.senses:
             self.senses.add(gauge, topics)
         self.add_widget(self.senses)
+
+    def _take_up(self) -> None:
+        """Put the arm that the robot carries on the glass, or take it off, and a switch where there is something to choose."""
+        self.hands.take_up()
+        choices, arm = self.hands.choices, self.hands.arm.made
+        wanted = {self.switch: "switch"} | dict.fromkeys(choices.values(), "stick") if choices else {}
+        for widget in (self.switch, arm):
+            if widget is not None and widget.parent is not None and widget not in wanted:
+                self.remove_widget(widget)
+                for found in self.places.values():
+                    found[:] = [one for one in found if one is not widget]
+        for widget, slot in wanted.items():
+            if widget.parent is None:
+                self.places.setdefault(slot, []).append(widget)
+                self.add_widget(widget, self.children.index(self.senses) + 1)
+        self.switch.options, self.switch.value = list(choices), self.hands.chosen
 
     def _named(self) -> dict[str, Widget]:
         """Buttons and controls by short names."""
@@ -146,6 +160,7 @@ class DriveScreen(FloatLayout):
 
     def arrange(self, body: Rect, form: str, dp: float) -> Rect:
         """Put everything into its place; returns where STOP goes."""
+        self._take_up()
         places = self._arranged = self._arrange(body, form, dp)
         for slot, found in self.places.items():
             for widget, place in zip(found, _beside(places[slot], found, dp), strict=True):
@@ -172,7 +187,7 @@ class DriveScreen(FloatLayout):
 
     def _arrange(self, body: Rect, form: str, dp: float) -> dict[str, Rect]:
         if self._two:
-            return arrange.two_sticks(body, form, dp)
+            return arrange.two_sticks(body, form, dp, switch=bool(self.hands.choices))
         return arrange.drive(body, form, dp, switch=bool(self.hands.choices))
 
     def _choose(self, *_: object) -> None:
@@ -180,8 +195,9 @@ class DriveScreen(FloatLayout):
         if not (self._arranged and self.hands.choices):
             return
         stick, slider = self._arranged["stick"], self._arranged["slider"]
-        alone = not self.sticks
-        whole = Rect(stick.x, stick.y, slider.right - stick.x, stick.height) if alone else stick
+        alone = not isinstance(self.hands.choices[self.hands.chosen], Stick)
+        low, top = min(stick.y, slider.y), max(stick.top, slider.top)
+        whole = Rect(stick.x, low, slider.right - stick.x, top - low) if alone else stick
         for widget in self.hands.choices.values():
             put(widget, whole if self.hands.shown(widget) else _off(whole))
         for widget in self.places.get("slider", ()):
@@ -231,6 +247,8 @@ class DriveScreen(FloatLayout):
         self.hands.hear(channel, post)
         if channel == OFFER:
             self.instruments.name_sources(self.session.offer)
+            if self.hands.take_up():
+                self.app.shell.settle()
 
     def enter(self) -> None:
         """Come onto the glass."""

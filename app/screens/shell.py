@@ -173,6 +173,10 @@ class Shell(FloatLayout):
 
     # places
 
+    def settle(self) -> None:
+        """Put everything into its place anew: what is on the glass of a screen is another."""
+        self._arrange()
+
     def _arrange(self, *_: object) -> None:
         dp = Metrics.density
         self.form = arrange.form(self.width, self.height, dp)

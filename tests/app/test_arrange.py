@@ -32,11 +32,12 @@ def screens(width: int, height: int) -> dict[str, dict[str, Rect]]:
         "drive": drive(body, shape),
         "switch": drive(body, shape, switch=True),
         "two": two_sticks(body, shape),
+        "two_switch": two_sticks(body, shape, switch=True),
         "topics": topics(body, shape),
     }
 
 
-DRIVES = ("drive", "switch", "two")
+DRIVES = ("drive", "switch", "two", "two_switch")
 CASES = [(size, name) for size in SIZES for name in ("mission", *DRIVES)]
 NOTICES = [(size, name) for size in SIZES for name in ("mission", "sheet", *DRIVES, "topics")]
 
@@ -160,6 +161,7 @@ def test_stop_all_beside_stop_covers_nothing(size: tuple[int, int], name: str) -
         "drive": drive(body, shape),
         "switch": drive(body, shape, switch=True),
         "two": two_sticks(body, shape),
+        "two_switch": two_sticks(body, shape, switch=True),
     }
     stop = made[name]["stop"]
     assert isinstance(stop, StopPlace)
