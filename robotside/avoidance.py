@@ -30,9 +30,6 @@ BRAKING = 0.4
 CURVATURES = np.concatenate([np.linspace(-3.0, -0.25, 12), [0.0], np.linspace(0.25, 3.0, 12)])
 """Arcs that are tried beside the wanted one [1/m]; positive to the left."""
 
-TO_THE_LEFT = 1.25
-"""So much dearer it is to evade to the left: two that meet give way to the same hand."""
-
 ENOUGH = 0.35
 """An arc with less free length than this leads nowhere [m]."""
 
@@ -101,7 +98,7 @@ class Avoidance:
         self, curvatures: NDArray[np.float64], free: NDArray[np.float64], wanted: float, needed: float
     ) -> int:
         shortfall = np.clip(needed - free, 0.0, None) / needed
-        away = np.abs(curvatures - wanted) * np.where(curvatures > wanted, TO_THE_LEFT, 1.0)
+        away = np.abs(curvatures - wanted)
         swing = np.abs(curvatures - self._last)
         best = int(np.argmin(6.0 * shortfall + 0.5 * away + 0.1 * swing))
         self._last = float(curvatures[best])

@@ -28,7 +28,7 @@ def height(run: Run) -> float:
 
 
 def rotors(run: Run) -> float:
-    return max(run.robot.simulation.vehicle.motors.speeds)  # type: ignore[attr-defined]  # a quadrotor's
+    return float(max(run.robot.simulation.vehicle.motors.speeds))  # type: ignore[attr-defined]  # a quadrotor's
 
 
 def test_it_takes_off_for_a_patrol_hovers_after_it_and_lands_at_home(run: Run) -> None:

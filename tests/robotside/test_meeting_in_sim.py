@@ -48,7 +48,7 @@ class Meeting:
     def send(self, number: int, goal: Waypoint) -> None:
         offered = {service.name: service for service in services(self.stations[number])}
         order = StartTaskRequest(order=TaskOrder(task="go_to", goals=[goal]))
-        answer = offered["/task/start"].call(self.anna, order)
+        answer = offered["/task/start"].call(self.anna, order)  # type: ignore[arg-type]
         assert answer.success, answer.message  # type: ignore[union-attr]
 
     def finish(self, limit: float) -> None:

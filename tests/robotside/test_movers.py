@@ -10,7 +10,7 @@ WALL = np.column_stack([np.linspace(-3.0, 3.0, 60), np.full(60, 2.0)])
 
 
 def test_who_comes_nearer_moves_and_the_wall_does_not() -> None:
-    movers, moving = Movers(), np.empty(0)
+    movers, moving = Movers(), np.zeros(0, dtype=np.bool_)
     for step in range(8):
         person = np.array([[2.0 - 0.08 * step, 0.0]])
         moving = movers.moving(np.concatenate([WALL, person]), 0.1 * step)
