@@ -290,12 +290,17 @@ def _two_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
         "readouts": Rect(cards.right - figures, cards.y, figures, cards.height),
     }
     places |= _senses_tall(video, cards, tape, SENSES_LEAST * dp, scale)
-    strip = places["senses"]
-    beside = 0.55 * strip.width
-    return places | {
-        "senses": Rect(strip.x, strip.y, beside, strip.height),
-        "badge": between(strip.x + beside + gap, strip.y, strip.right, strip.top),
-        "notice_low": between(strip.x, strip.top + 4 * scale, strip.right, tape.y - 4 * scale),
+    return places | _badge_beside(places, gap)
+
+
+def _badge_beside(places: dict[str, Rect], gap: float) -> dict[str, Rect]:
+    """What was found beside the strip of a low picture, and what is said between them and the tape."""
+    strip, tape = places["senses"], places["top"]
+    wide = 0.55 * strip.width
+    return {
+        "senses": Rect(strip.x, strip.y, wide, strip.height),
+        "badge": between(strip.x + wide + gap, strip.y, strip.right, strip.top),
+        "notice_low": between(strip.x, strip.top + gap / 3, strip.right, tape.y - gap / 3),
     }
 
 
