@@ -47,7 +47,7 @@ class ArmKeys(Grip, Gauge):
     """Which of the poses are shown where there is no room for all."""
 
     def _beside(self) -> bool:
-        return bool(self.width >= WIDE * self.height and self.width >= dp(260))
+        return bool(self.width >= WIDE * self.height and self.width >= dp(300))
 
     beside = AliasProperty(_beside, bind=["size"], cache=True)
     """There is room for the poses beside the picture."""

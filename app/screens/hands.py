@@ -192,6 +192,7 @@ class Hands(EventDispatcher):
         if channel in ("/robot/info", "/limits"):
             self.take_limits()
         elif channel == OUTCOME:
+            self.arm.hear(post.value)
             self._answer(post.value)
 
     def _answer(self, outcome: Outcome) -> None:
