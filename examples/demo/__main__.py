@@ -1,4 +1,4 @@
-"""`python -m examples.demo`: the main job by script, in the real app, against a simulated robot.
+"""`python -m examples.demo`: what an operator does with each kind of robot, by script, in the real app, against simulated ones.
 
 Every tap and drag is a touch in Kivy's own input loop; every command goes over a real socket; what the robot did is
 measured by a second client that knows the simulation's truth. Pictures, summary.json and run.mcap go to `--out`.
@@ -12,7 +12,6 @@ import shutil
 import sys
 import tempfile
 import time
-from collections.abc import Generator
 from pathlib import Path
 from typing import Any
 
@@ -32,14 +31,19 @@ def _prepare(size: str, *, window: bool) -> None:
     os.environ["KIVY_CLOCK"] = "free_all"
     from kivy.config import Config
 
-    width, height = size.split("x")
-    for key, value in {"width": width, "height": height, "multisamples": "0", "maxfps": "60"}.items():
+    width, height = map(int, size.split("x"))
+    if not window:
+        # what is drawn without a display never grows beyond its first size
+        width, height = max(width, LARGEST), max(height, LARGEST)
+    for key, value in {"width": str(width), "height": str(height), "multisamples": "0", "maxfps": "30"}.items():
         Config.set("graphics", key, value)
     for key, _ in Config.items("input"):
         Config.remove_option("input", key)
     quieten()
 
 
+LARGEST = 900
+"""Either side of the sizes that a story changes to is at most this [px]."""
 GUIDE = {"connect-screen": "connect", "watching": "mission", "driving": "drive"}
 """Pictures of the demo that the guide shows, and their names there."""
 
@@ -52,56 +56,27 @@ def _keep_pictures(out: Path, folder: Path) -> None:
             shutil.copyfile(picture, folder / f"{name}-tablet.png")
 
 
-def _errand(scene: Any) -> Generator[None, None, None]:
-    """Places, a delivery, a queue, other people and a power cut, step by step."""
-    from examples.demo import errand, others
-
-    yield from errand.arrive(scene)
-    yield from errand.make_places(scene)
-    yield from errand.deliver(scene)
-    yield from others.hand_over(scene)
-    yield from others.lose_power(scene)
-
-
-def _patrol(scene: Any, app: Any, record: Path) -> Generator[None, None, None]:
-    """The main job, step by step."""
-    from examples.demo import patrol, prepare
-
-    yield from prepare.connect(scene)
-    record.unlink(missing_ok=True)
-    app.start_recording(record)
-    yield from prepare.initialise(scene)
-    yield from prepare.tap_points(scene)
-    yield from prepare.edit_points(scene)
-    yield from prepare.set_home_and_motion(scene)
-    yield from prepare.send(scene)
-    since = scene.witness.now
-    yield from patrol.start(scene)
-    yield from patrol.pause_and_resume(scene)
-    yield from patrol.watch(scene, since)
-    yield from patrol.stop_and_release(scene)
-    yield from patrol.go_home(scene)
-    yield from patrol.drive(scene)
-
-
 def _play(arguments: argparse.Namespace, robot: Any, settings: Path) -> int:
     """Run the app with the story in it; returns the exit code."""
     from kivy.base import EventLoop
     from kivy.clock import Clock
+    from kivy.core.window import Window
 
     from app.application import PilothouseApp
     from examples.demo.fingers import Hand
     from examples.demo.glass import Glass, Unseen
     from examples.demo.report import Report
     from examples.demo.scene import Enough, Scene
+    from examples.demo.stories import tell, topics
     from examples.demo.witness import Witness
 
+    Window.size = tuple(map(int, arguments.size.split("x")))
     report, hand = Report(arguments.out), Hand()
     app = PilothouseApp(settings_dir=settings, theme=arguments.theme)
-    witness = Witness(robot.url)
+    witness = Witness(robot.url, topics(arguments.story))
     scene = Scene(Glass(hand), witness, report, robot.url, arguments.speed, arguments.until, robot.power_cut)
     record = arguments.out / "run.mcap"
-    story = _errand(scene) if arguments.story == "errand" else _patrol(scene, app, record)
+    story = tell(arguments.story, scene, lambda: app.start_recording(record))
 
     def turn(_: float) -> None:
         try:
@@ -112,6 +87,7 @@ def _play(arguments: argparse.Namespace, robot: Any, settings: Path) -> int:
             report.fault = f"{report.steps[-1].name if report.steps else 'start'}: {problem}"
             app.stop()
 
+    record.unlink(missing_ok=True)
     EventLoop.add_input_provider(hand)
     Clock.schedule_interval(turn, 0)
     started = time.monotonic()
@@ -121,7 +97,7 @@ def _play(arguments: argparse.Namespace, robot: Any, settings: Path) -> int:
         witness.close()
     seconds = round(time.monotonic() - started, 1)
     recording = {"file": record.name, "bytes": record.stat().st_size} if record.exists() else None
-    return report.write(robot=robot.url, speed=arguments.speed, seconds=seconds, recording=recording)
+    return report.write(robot=arguments.robot, url=robot.url, world=arguments.world, speed=arguments.speed, seconds=seconds, recording=recording)
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -135,7 +111,8 @@ def main(argv: list[str] | None = None) -> int:
     from examples.demo.robot import Restarting
 
     folder = Path(tempfile.mkdtemp(prefix="pilothouse-demo-"))
-    command = ["--robot", "sim:patrol", "--world", "parking_lot", "--speed", str(arguments.speed)]
+    command = ["--robot", f"sim:{arguments.robot}", "--world", arguments.world]
+    command += ["--speed", str(arguments.speed)]
     if arguments.story == "errand":
         command += ["--config", str(Path(__file__).with_name("errand.toml"))]
     arguments.out.mkdir(parents=True, exist_ok=True)

@@ -94,7 +94,7 @@ def deliver(scene: Scene) -> Wait:
         yield from glass.pause(0.3)
         scene.report.snapshot("order")
         yield from glass.press("Start", kind="PushButton")
-        runs = yield from glass.soon(lambda: _is(scene, "RUNNING", "deliver"), 5)
+        runs = yield from glass.soon(lambda: scene.task("deliver"), 5)
         check("the robot delivers", bool(runs), bool(runs))
         yield from scene.robot_time(2)
     for step, place in (("picked-up", GATE), ("handed-over", _places(scene)[DOCK])):
@@ -115,7 +115,7 @@ def deliver(scene: Scene) -> Wait:
             if step == "picked-up":
                 yield from plan_ahead(scene)
     with scene.step("delivered") as check:
-        done = yield from glass.soon(lambda: _is(scene, "RUNNING", "hold"), LONGEST / scene.speed)
+        done = yield from glass.soon(lambda: scene.task("hold"), LONGEST / scene.speed)
         check("then it does what is next in the queue", bool(done), bool(done))
         yield from glass.press("Log", kind="Segment")
         yield from glass.press("Tasks", kind="Segment")
@@ -163,8 +163,3 @@ def _queue(scene: Scene) -> list[str]:
 def _asks(scene: Scene) -> bool:
     status = scene.witness["/task/status"]
     return bool(status is not None and status.asks)
-
-
-def _is(scene: Scene, state: str, task: str) -> bool:
-    status = scene.witness["/task/status"]
-    return status is not None and (status.task, status.state) == (task, state)

@@ -24,18 +24,13 @@ LONGEST = 400.0
 """What the patrol may take of the robot's time [s]."""
 
 
-def _status(scene: Scene, state: str, task: str = "patrol") -> bool:
-    status = scene.witness["/task/status"]
-    return status is not None and (status.task, status.state) == (task, state)
-
-
 def start(scene: Scene) -> Wait:
     """Start the patrol."""
     with scene.step("started") as check:
         yield from scene.glass.reach("TaskButtons")
         started = time.monotonic()
         yield from scene.glass.press("Start")
-        runs = yield from scene.glass.soon(lambda: _status(scene, "RUNNING"), 5)
+        runs = yield from scene.glass.soon(lambda: scene.task("patrol"), 5)
         check("the robot has started its patrol [s]", time.monotonic() - started, bool(runs))
         shown = yield from scene.glass.soon(lambda: scene.glass.shows("AUTO"), 2)
         check("the app says AUTO", bool(shown), bool(shown))
@@ -57,7 +52,7 @@ def pause_and_resume(scene: Scene) -> Wait:
         yield from scene.robot_time(4)
     with scene.step("paused") as check:
         yield from scene.glass.press("Pause")
-        paused = yield from scene.glass.soon(lambda: _status(scene, "PAUSED"), 5)
+        paused = yield from scene.glass.soon(lambda: scene.task("patrol", "PAUSED"), 5)
         check("the robot says PAUSED", bool(paused), bool(paused))
         yield from scene.rest(5)
         since = witness.now
@@ -69,7 +64,7 @@ def pause_and_resume(scene: Scene) -> Wait:
         )
     with scene.step("resumed") as check:
         yield from scene.glass.press("Resume")
-        runs = yield from scene.glass.soon(lambda: _status(scene, "RUNNING"), 5)
+        runs = yield from scene.glass.soon(lambda: scene.task("patrol"), 5)
         check("the patrol goes on", bool(runs), bool(runs))
         moves = yield from scene.glass.soon(lambda: scene.witness.speed() > 0.1, 10)
         check("the robot moves again", bool(moves), bool(moves))
@@ -121,20 +116,15 @@ def stop_and_release(scene: Scene) -> Wait:
         yield from scene.rest(5)
         check("at rest after STOP [s, robot clock]", witness.now - started, witness.speed() < 0.01)
         shown = yield from glass.soon(lambda: button.phase == "stopped", 3)
-        check("the button says STOPPED because the robot does", button.phase, bool(shown) and _stopped(scene))
+        check("the button says STOPPED because the robot does", button.phase, bool(shown) and scene.stopped)
         yield from glass.pause(0.3)
     with scene.step("released") as check:
         finger = scene.hand.down(middle(button))
-        free = yield from glass.soon(lambda: not _stopped(scene), 6)  # frames that take long count less
+        free = yield from glass.soon(lambda: not scene.stopped, 6)  # frames that take long count less
         scene.hand.up(finger)
         check("a hold releases it", bool(free), bool(free))
         yield from scene.robot_time(2)
         check("nothing moves by that alone [m/s]", witness.speed(), witness.speed() < 0.01)
-
-
-def _stopped(scene: Scene) -> bool:
-    status = scene.witness["/control/status"]
-    return bool(status is not None and status.stopped)
 
 
 def go_home(scene: Scene) -> Wait:
@@ -143,12 +133,12 @@ def go_home(scene: Scene) -> Wait:
         yield from scene.glass.press(
             "Home" if not scene.glass.labelled("Go home") else "Go home", kind="PushButton"
         )
-        runs = yield from scene.glass.soon(lambda: _status(scene, "RUNNING", "go_home"), 5)
+        runs = yield from scene.glass.soon(lambda: scene.task("go_home"), 5)
         check("it is on its way home", bool(runs), bool(runs))
         yield from scene.robot_time(5)
     with scene.step("at-home") as check:
         done = yield from scene.glass.soon(
-            lambda: _status(scene, "SUCCEEDED", "go_home"), LONGEST / scene.speed
+            lambda: scene.task("go_home", "SUCCEEDED"), LONGEST / scene.speed
         )
         yield from scene.rest(5)
         check("it says that it is home", bool(done), bool(done))
@@ -190,7 +180,7 @@ def drive(scene: Scene) -> Wait:
         still = yield from scene.rest(3)
         check("at rest, with the stick still pushed", bool(still), bool(still))
         stopped = yield from glass.soon(
-            lambda: _stopped(scene) and glass.all("StopButton")[0].phase == "stopped", 3
+            lambda: scene.stopped and glass.all("StopButton")[0].phase == "stopped", 3
         )
         check("STOP by a second finger wins over the stick", bool(stopped), bool(stopped))
         scene.hand.up(finger)

@@ -1,45 +1,19 @@
-"""The first half of the story: find the robot, tell it where it is, set points and home, send them."""
+"""The first half of the story: tell the robot where it is, set points and home, send them."""
 
 from __future__ import annotations
 
 import math
-import time
 from typing import Any
 
 from examples.demo.ground import EXTRA, HOME, MISPLACED, PATROL
 from examples.demo.scene import Scene, Wait
 
-__all__ = ["connect", "edit_points", "initialise", "send", "set_home_and_motion", "tap_points"]
+__all__ = ["edit_points", "initialise", "send", "set_home_and_motion", "tap_points"]
 
-LISTED, LIVE = 3.0, 2.0
-"""The robot is on the list, and every widget lives, within these [s]."""
 WRONG = (2.0, -1.0, 0.7)
 """How wrong the robot is first told to be: x, y [m], yaw [rad]."""
 NEAR = 0.12
 """A finger puts a thing on the map to this [m]."""
-
-
-def connect(scene: Scene) -> Wait:
-    """Find the robot on the connect screen and connect to it."""
-    glass, started = scene.glass, time.monotonic()
-    with scene.step("connect-screen") as check:
-        found = yield from glass.soon(scene.cards, 10)
-        seconds = time.monotonic() - started
-        check(f"the robot is on the list within {LISTED:g} s", seconds, bool(found) and seconds <= LISTED)
-        yield from glass.pause(0.7)
-    with scene.step("connected") as check:
-        started = time.monotonic()
-        yield from glass.tap(scene.cards()[0].ids.connect)
-        yield from glass.one("MapOverlay", 10)
-        live = yield from glass.soon(lambda: not _waiting(scene), 10)
-        seconds = time.monotonic() - started
-        check(f"every widget lives within {LIVE:g} s of Connect", seconds, bool(live) and seconds <= LIVE)
-        check("no widget still waits for its first message", _waiting(scene), not _waiting(scene))
-        yield from glass.pause(1.0)
-
-
-def _waiting(scene: Scene) -> list[str]:
-    return [type(w).__name__ for w in scene.glass.all("RobotWidget") if getattr(w, "state", "") == "never"]
 
 
 def initialise(scene: Scene) -> Wait:

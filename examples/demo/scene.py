@@ -78,6 +78,17 @@ class Scene:
         still = yield from self.glass.soon(lambda: self.witness.speed() < 0.01, seconds)
         return bool(still)
 
+    def task(self, task: str, state: str = "RUNNING") -> bool:
+        """The robot says that `task` is in this state."""
+        status = self.witness["/task/status"]
+        return status is not None and (status.task, status.state) == (task, state)
+
+    @property
+    def stopped(self) -> bool:
+        """The robot says that STOP is pressed."""
+        status = self.witness["/control/status"]
+        return bool(status is not None and status.stopped)
+
     def robot_time(self, seconds: float) -> Wait:
         """Let so much of the robot's time pass."""
         end = self.witness.now + seconds

@@ -28,15 +28,20 @@ LATEST = (
     "/battery_state",
     "/places",
     "/task/queue",
+    "/manoeuvre",
+    "/limits",
 )
+"""What every robot tells."""
 
 
 class Witness:
     """Keeps the truth of a run: every true pose, every contact, and the newest of what the robot says."""
 
-    def __init__(self, url: str) -> None:
+    def __init__(self, url: str, also: Iterable[str] = ()) -> None:
+        """Watches the robot at `url`; of `also`, topics that not every robot has, it keeps the newest too."""
         self._lock = threading.Lock()
         self._path: list[Truth] = []
+        self._heights: list[tuple[float, float]] = []
         self._newest: dict[str, Msg] = {}
         self.events: list[Event] = []
         self.contacts = 0
@@ -46,7 +51,7 @@ class Witness:
         self._robot.on("/sim/ground_truth", self._on_truth)
         self._robot.on("/bumper", self._on_bumper)
         self._robot.on("/events", self.events.append)
-        for topic in LATEST:
+        for topic in (*LATEST, *also):
             self._robot.on(topic, lambda msg, topic=topic: self._newest.__setitem__(topic, msg))
 
     def close(self) -> None:
@@ -62,6 +67,7 @@ class Witness:
         yaw = 2 * math.atan2(turn.z, turn.w)
         with self._lock:
             self._path.append((msg.header.stamp.seconds, place.x, place.y, math.remainder(yaw, math.tau)))
+            self._heights.append((msg.header.stamp.seconds, place.z))
 
     def _on_bumper(self, msg: Bumper) -> None:
         self.contacts += msg.pressed and not self._pressed
@@ -78,6 +84,11 @@ class Witness:
         """The newest true pose; NaN before the first."""
         with self._lock:
             return self._path[-1] if self._path else (math.nan,) * 4  # type: ignore[return-value]
+
+    def heights(self, since: float = -math.inf) -> list[float]:
+        """True heights above the map's origin from `since` [s, robot clock] on [m], oldest first; below water negative."""
+        with self._lock:
+            return [height for stamp, height in self._heights if stamp >= since]
 
     @property
     def now(self) -> float:
@@ -104,6 +115,22 @@ class Witness:
     def driven(self, since: float) -> float:
         """Length of the way since `since` [s, robot clock], in [m]."""
         return sum(math.dist(one[1:3], two[1:3]) for one, two in pairwise(self.since(since)))
+
+    def fast(self, seconds: float) -> float:
+        """Mean speed along the way of the last `seconds` of the robot's time [m/s]; NaN before."""
+        poses = self.since(self.now - seconds)
+        if len(poses) < 2:
+            return math.nan
+        way = sum(math.dist(one[1:3], two[1:3]) for one, two in pairwise(poses))
+        return way / (poses[-1][0] - poses[0][0])
+
+    def rested(self, since: float, slow: float) -> float:
+        """How long after `since` [s, robot clock] it was slower than `slow` [m/s] for good [s]; NaN while it is not."""
+        poses = self.since(since)
+        moving = [two[0] for one, two in pairwise(poses) if math.dist(one[1:3], two[1:3]) > slow * (two[0] - one[0])]
+        if not poses or (moving and moving[-1] == poses[-1][0]):
+            return math.nan
+        return moving[-1] - since if moving else 0.0
 
     def speed(self) -> float:
         """Over the last three true poses [m/s]; NaN before."""

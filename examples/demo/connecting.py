@@ -1,0 +1,36 @@
+"""How every story with a stranger begins: find the robot and connect to it."""
+
+from __future__ import annotations
+
+import time
+
+from examples.demo.scene import Scene, Wait
+
+__all__ = ["LIVE", "connect", "waiting"]
+
+LISTED, LIVE = 3.0, 2.0
+"""The robot is on the list, and every widget lives, within these [s]."""
+
+
+def connect(scene: Scene) -> Wait:
+    """Find the robot on the connect screen and connect to it."""
+    glass, started = scene.glass, time.monotonic()
+    with scene.step("connect-screen") as check:
+        found = yield from glass.soon(scene.cards, 10)
+        seconds = time.monotonic() - started
+        check(f"the robot is on the list within {LISTED:g} s", seconds, bool(found) and seconds <= LISTED)
+        yield from glass.pause(0.7)
+    with scene.step("connected") as check:
+        started = time.monotonic()
+        yield from glass.tap(scene.cards()[0].ids.connect)
+        yield from glass.one("MapOverlay", 10)
+        live = yield from glass.soon(lambda: not waiting(scene), 10)
+        seconds = time.monotonic() - started
+        check(f"every widget lives within {LIVE:g} s of Connect", seconds, bool(live) and seconds <= LIVE)
+        check("no widget still waits for its first message", waiting(scene), not waiting(scene))
+        yield from glass.pause(1.0)
+
+
+def waiting(scene: Scene) -> list[str]:
+    """Classes of the widgets on the glass that have had no message yet."""
+    return [type(w).__name__ for w in scene.glass.all("RobotWidget") if getattr(w, "state", "") == "never"]
