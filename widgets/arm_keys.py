@@ -52,6 +52,12 @@ class ArmKeys(Grip, Gauge):
     beside = AliasProperty(_beside, bind=["size"], cache=True)
     """There is room for the poses beside the picture."""
 
+    @property
+    def stacked(self) -> bool:
+        """There is room for two buttons beside the picture, one above the other."""
+        high = 2 * theme.target + dp(8)
+        return bool(not self.beside and self.width >= dp(240) and self.inside[3] >= high > self.inside[3] / 2)
+
     def __init__(self, **kwargs: Any) -> None:
         self._keys: list[PoseKey] = []
         self._close = Clock.create_trigger(lambda _: self.rest(), CHOICE)
@@ -110,6 +116,8 @@ class ArmKeys(Grip, Gauge):
         return self.x + edge, self.y + edge, self.width - 2 * edge, self.height - 2 * edge - sp(12) - dp(6)
 
     def _keys_wide(self, width: float) -> float:
+        if self.stacked:
+            return max(theme.target, dp(96))
         return max(width * 0.48, min(2 * theme.target + dp(8), width * 0.6))
 
     def _arrange(self, *_: object) -> None:
@@ -131,6 +139,11 @@ class ArmKeys(Grip, Gauge):
         elif self.choosing:
             rows = self._rows(height)
             self._put_poses((left, low, width, height), rows, rows)
+        elif self.stacked:
+            keys, half = self._keys_wide(width), (height - gap) / 2
+            self.chooser.disabled = not self.poses
+            self._put(self.chooser, (left + width - keys, low + half + gap, keys, half))
+            self._put(self.grip, (left + width - keys, low, keys, half))
         else:
             half = (width - gap) / 2
             self.chooser.disabled = not self.poses

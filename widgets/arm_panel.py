@@ -204,7 +204,7 @@ class ArmPanel(ArmKeys):
     def view(self) -> tuple[float, float, float, float]:
         """Left, low, width and height of the picture [px]."""
         left, low, width, height = self.inside
-        if self.beside:
+        if self.beside or self.stacked:
             return left, low, width - self._keys_wide(width) - dp(10), height
         foot = theme.target + dp(8)
         return left, low + foot, width, max(height - foot, 1.0)
@@ -372,6 +372,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "many poses": made(many),
         "small": made(home, SMALL),
         "small moving": made(moving, SMALL),
+        "stacked": made(home, (268.0, 176.0)),
+        "stacked dragged": made(home, (268.0, 176.0), held="tip", aim=[0.3, 0.05]),
         "small dragged": made(home, SMALL, held="tip", aim=[0.2, 0.1]),
         "small poses": made(home, SMALL, choosing=True),
         "small many poses": made(many, SMALL, choosing=True),

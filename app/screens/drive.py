@@ -176,7 +176,10 @@ class DriveScreen(FloatLayout):
         self._trim(roomy or figures.height >= 200 * dp)
         self.notice, low = places["notice"], places["notice_low"]
         self.low.pos, self.low.width, self.low.height = (low.x, low.y), low.width, self.low.minimum_height
-        self.checks.wide, self.checks.room = min(low.width, 340 * dp), places["top"].y - 8 * dp - low.y
+        switch = places.get("switch")
+        over = switch is not None and switch.y > low.y and switch.x < low.right and low.x < switch.right
+        ceiling = switch.y if switch is not None and over else places["top"].y
+        self.checks.wide, self.checks.room = min(low.width, 340 * dp), ceiling - 8 * dp - low.y
         self._strip = Rect(0, 0, 0, 0)
         self._uncover()
         self.sight.place(places["badge"], to_right=form != "wide")

@@ -107,7 +107,7 @@ def test_every_pose_is_reached_where_there_is_no_room_for_all(stage, size):
     assert {name.capitalize() for name in names} <= seen
 
 
-@pytest.mark.parametrize("size", [(326, 228), (176, 176), (228, 330), (520, 330)])
+@pytest.mark.parametrize("size", [(326, 228), (176, 176), (268, 176), (228, 330), (520, 330)])
 @pytest.mark.parametrize("choosing", [False, True])
 def test_the_buttons_are_as_large_as_a_finger_needs_and_do_not_overlap(stage, size, choosing):
     panel = watched(stage.show(ArmPanel(choosing=choosing), size=size), stage)
