@@ -64,6 +64,8 @@ REMARK_PERIOD = 3.0
 
 AT_REST = (0.01, 0.03)
 """Measured speeds below which the wheels stand still [m/s, rad/s]; three times as much means that they do not."""
+CARRIED = {"boat": (0.15, 0.10), "hexapod": (0.08, 0.08), "quadrotor": (0.08, 0.08)}
+"""The same for what current, waves and wind carry along, by its kind: none of them is ever quite still."""
 
 
 class Station:
@@ -460,7 +462,8 @@ class Station:
             return False
         if self.robot.trouble and not self._trouble:
             return False  # it began just now
-        return abs(where.speed) < AT_REST[0] * factor and abs(where.turn) < AT_REST[1] * factor
+        speed, turn = CARRIED.get(self.info.kind, AT_REST)
+        return abs(where.speed) < speed * factor and abs(where.turn) < turn * factor
 
     def _diagnostics(self) -> DiagnosticArray:
         where, low = self.autonomy.whereabouts, self.autonomy.low

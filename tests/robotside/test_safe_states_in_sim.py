@@ -183,6 +183,7 @@ def test_stop_on_the_water_takes_the_way_off_a_boat(hand: Make) -> None:
     run.push(steer(0.0, throttle=1.0), 5.0)
     assert fast > 1.2
     assert run.speed < 0.35  # current and waves take it along
+    assert run.station.at_rest  # else nobody could ever let go of STOP
     assert abs(vehicle(run).works.throttle) < 0.1
 
 
