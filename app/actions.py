@@ -11,7 +11,7 @@ from bridge.msgs.pilothouse_msgs import LightState, TaskOrder, TaskStatus
 from widgets.action_column import Action
 from widgets.task_words import TASKS
 
-__all__ = ["ACTIONS", "Actions", "Line"]
+__all__ = ["ACTIONS", "CARRIED", "Actions", "Line"]
 
 ACTIONS: dict[str, tuple[str, str]] = {
     "task.surface": ("Surface", "water"),
@@ -28,6 +28,8 @@ ACTIONS: dict[str, tuple[str, str]] = {
     "reset": ("Put back", "replay"),
 }
 """Every action that a layout may name, to its words and its icon where the layout gives none."""
+CARRIED = ("lights", "camera")
+"""Of what a robot may carry: wherever one does they are there, whether its layout names them or not."""
 
 
 class Line(Protocol):
@@ -56,6 +58,9 @@ class Actions:
             line.what: (line.text or ACTIONS[line.what][0], line.icon or ACTIONS[line.what][1])
             for line in lines
         }
+        self._besides = [what for what in CARRIED if what not in self._words]
+        """What no line names."""
+        self._words |= {what: ACTIONS[what] for what in self._besides}
         self._looks: dict[str, Callable[[str, str], Action | None]] = {
             "pause": self._pause,
             "lights": self._lights,
@@ -78,8 +83,14 @@ class Actions:
         looks = (
             self._task(what, text, icon) if what.startswith("task.") else self._looks[what](text, icon)
             for what, (text, icon) in self._words.items()
+            if what not in self._besides or self._carries(what)
         )
         return [action for action in looks if action is not None]
+
+    def _carries(self, what: str) -> bool:
+        """The robot says that it has that."""
+        info = self._session.info
+        return "lights" in info.payloads if what == "lights" else len(info.cameras) > 1
 
     def act(self, what: str) -> None:
         """Do what a press on it means now; nothing where `look` says that it cannot be asked for."""
@@ -145,7 +156,7 @@ class Actions:
 
     def _lights(self, text: str, icon: str) -> Action | None:
         session = self._session
-        if not session.offers("/lights/set"):
+        if session.offer is None or not session.offers("/lights/set"):
             return None
         known = session.feeds.latest("/lights") is not None
         said = ("on" if self._lit else "off") if known else ""

@@ -1,14 +1,15 @@
-"""The buttons of a layout that float beside STOP: as many as the robot has something for."""
+"""The buttons of a layout that float beside STOP: of what the robot has something for, and of what it carries."""
 
 from __future__ import annotations
 
 from typing import Any
 
+from kivy.clock import Clock
 from kivy.metrics import Metrics
 from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
-from app.actions import Actions
+from app.actions import CARRIED, Actions
 from app.layout import Layout
 from widgets.kit import Card, QuietButton, Text
 
@@ -17,7 +18,11 @@ __all__ = ["ActionButtons"]
 NARROW = 110
 """On a narrower button the icon is above the word [dp]."""
 MOST = 3
-"""So many have room for a finger: of a robot that has something for more the layout's first ones are on the glass."""
+"""So many above each other have room for a finger; of more some are on the glass, and a button turns to the next."""
+LEAST = 88
+"""Width that a button in a row needs [dp]."""
+FIRST = 8.0
+"""So long after the last turn the first ones are on the glass again [s]."""
 TASKS = ("pause", "task.")
 """How actions begin that a robot without tasks has not."""
 
@@ -32,10 +37,15 @@ class ActionButtons(GridLayout):
         """They are in a row."""
         self.buttons: dict[str, QuietButton] = {}
         """By what they do, in the order of the layout."""
-        for one in layout.actions:
+        for what in dict.fromkeys((*(one.what for one in layout.actions), *CARRIED)):
             button = QuietButton(size_hint_y=1)
-            button.bind(on_release=lambda _, what=one.what: actions.act(what))
-            self.buttons[one.what] = button
+            button.bind(on_release=lambda _, what=what: actions.act(what))
+            self.buttons[what] = button
+        self.more = QuietButton(size_hint_y=1, text="More", icon="more_horiz")
+        """Turns to those that have no room."""
+        self.more.bind(on_release=lambda _: self._turn())
+        self._page = 0
+        self._turn_back = Clock.create_trigger(lambda _: self._turn(to=0), FIRST)
         self.bind(size=lambda *_: self._flow())
         self._note = Card(floating=True, padding=("6dp", "2dp"))
         note = Text(text="It offers no tasks.", role="muted", font_size="14sp", halign="center")
@@ -51,7 +61,7 @@ class ActionButtons(GridLayout):
             button = self.buttons[name]
             button.text, button.icon, button.disabled = action.text, action.icon, not action.able
             button.meaning = action.meaning or action.text
-        wanted: list[Widget] = [button for name, button in self.buttons.items() if name in found][:MOST]
+        wanted: list[Widget] = self._fitting([name for name in self.buttons if name in found])
         # instead of buttons that can never be pressed stands why
         if any(name.startswith(TASKS) for name in self.buttons) and not any(
             name.startswith(TASKS) for name in found
@@ -63,10 +73,28 @@ class ActionButtons(GridLayout):
                 self.add_widget(widget)
         self._flow()
 
+    def _fitting(self, names: list[str]) -> list[Widget]:
+        """The buttons that have room; of more than that those of the page, what moves the robot on the first."""
+        room = max(MOST, min(MOST + 1, int(self.width // (LEAST * Metrics.density)))) if self.across else MOST
+        if len(names) <= room:
+            return [self.buttons[name] for name in names]
+        names = sorted(names, key=lambda name: not name.startswith(TASKS))
+        pages = -(-len(names) // (room - 1))
+        first = min(self._page % pages * (room - 1), len(names) - room + 1)
+        return [*(self.buttons[name] for name in names[first : first + room - 1]), self.more]
+
+    def _turn(self, to: int | None = None) -> None:
+        """Show the next ones, after the last the first."""
+        self._turn_back.cancel()
+        self._page = self._page + 1 if to is None else to
+        if to is None:
+            self._turn_back()
+        self.tick()
+
     def _flow(self) -> None:
         count = max(1, len(self.children))
         self.cols = count if self.across else 1
         narrow = self.across and self.width < NARROW * Metrics.density * count
-        for button in self.buttons.values():
+        for button in (*self.buttons.values(), self.more):
             button.flow = "vertical" if narrow else "horizontal"
             button.padding = (4 * Metrics.density, 0) if narrow else (10 * Metrics.density, 0)

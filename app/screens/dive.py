@@ -10,7 +10,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.widget import Widget
 
-from app.actions import Actions
+from app.actions import CARRIED, Actions
 from app.arrange_dive import dive
 from app.camera import Picture
 from app.dashboard import Dashboard
@@ -57,7 +57,7 @@ class DiveScreen(FloatLayout):
         self.dashboard = Dashboard(session.feeds)
         self.video = Video(fit="cover", corner=14)
         self.in_vain = InVain(session, self.app)
-        self._listed = [line.what for line in layout.actions]
+        self._listed = (*(line.what for line in layout.actions), *CARRIED)
         confirmed = (Action(one.action) for one in layout.controls if one.action)
         self.does = Actions((*layout.actions, *confirmed), session, self.app)
         self.instruments = Instruments(layout, self.dashboard, session.feeds)
