@@ -54,6 +54,10 @@ class Measured:
     """[rad]"""
     pitch: float = 0.0
     """[rad], positive is nose down."""
+    spread: float = 0.0
+    """How far off the pose may be in the worst direction, one standard deviation [m]; NaN without a pose."""
+    sure: bool = True
+    """The robot holds the pose for right."""
     landed: bool = False
     """It says itself that it stands on the ground; False for one that does not fly."""
 

@@ -66,8 +66,9 @@ class Senses:
         if topic in _NAMES or topic in _MORE:
             self._heard[topic] = now
         if isinstance(msg, Odometry):
-            v, height = msg.twist.twist.linear, msg.pose.pose.position.z
-            moving = Moving(v.x, v.y, msg.twist.twist.angular.z)
+            x, y = _level(msg)
+            height = msg.pose.pose.position.z
+            moving = Moving(x, y, msg.twist.twist.angular.z)
             if all(map(math.isfinite, (*moving, height))):
                 self._measured = replace(self._measured, moving=moving, height=height)
         elif isinstance(msg, Imu) and msg.orientation_covariance[0] >= 0:
@@ -76,12 +77,20 @@ class Senses:
         elif isinstance(msg, FlightState):
             self._measured = replace(self._measured, landed=msg.phase == "landed")
 
-    def measured(self, pose: Pose2 | None) -> Measured:
-        """All of it, with the pose in `map` that was made of it."""
-        return replace(self._measured, pose=pose)
+    def measured(self, pose: Pose2 | None, *, spread: float = 0.0, sure: bool = True) -> Measured:
+        """All of it, with the pose in `map` that was made of it, and how sure that is."""
+        return replace(self._measured, pose=pose, spread=spread, sure=sure)
 
     def silent(self, now: float) -> list[str]:
         """What people call the sensors that are not alive."""
         names = _NAMES | _MORE
         known = dict.fromkeys(needed(self._kind, self._heard), -math.inf) | self._heard
         return [names[topic] for topic, heard in known.items() if now - heard > PATIENCE]
+
+
+def _level(odom: Odometry) -> tuple[float, float]:
+    """Speed over ground ahead and to the left of where it looks [m/s]: one that leans goes elsewhere than along its body."""
+    v, turned = odom.twist.twist.linear, odom.pose.pose.orientation
+    roll, pitch = turned.roll, turned.pitch
+    x = v.x * math.cos(pitch) + (v.y * math.sin(roll) + v.z * math.cos(roll)) * math.sin(pitch)
+    return x, v.y * math.cos(roll) - v.z * math.sin(roll)

@@ -45,7 +45,7 @@ from robotside.helm import FOLLOW_LINK, LOST_LINK_STOPS_TASK, Helm, Options
 from robotside.history import History
 from robotside.interrupted import Interrupted
 from robotside.latch import Latch
-from robotside.limits import Keeper
+from robotside.limits import Keeper, Measured
 from robotside.manoeuvres import Order
 from robotside.pose2 import Pose2
 from robotside.readiness import Readiness
@@ -369,7 +369,7 @@ class Station:
         self.events.say("localisation", text, at=(pose.x, pose.y))
 
     def _clamp(self, order: Order) -> Order:
-        measured = self.readiness.senses.measured(self.autonomy.whereabouts.pose)
+        measured = self._measured()
         done, why = self.keeper.keep(order, measured)
         now = self.clock()
         if why and not self._held and now >= self._next_remark.get("limits", -math.inf):
@@ -377,6 +377,10 @@ class Station:
             self.events.say("command", why, "warn")
         self._held = bool(why)
         return done
+
+    def _measured(self) -> Measured:
+        where = self.autonomy.whereabouts
+        return self.readiness.senses.measured(where.pose, spread=where.spread, sure=where.sure)
 
     def _remark(self, client: Operator, said: str) -> None:
         now = self.clock()
@@ -423,7 +427,6 @@ class Station:
         )
 
     def _helm(self, config: Config) -> Helm:
-        where, senses = self.autonomy.whereabouts, self.readiness.senses
         return Helm(
             self.controls,
             self.robot,
@@ -432,7 +435,7 @@ class Station:
             self.options,
             say=self.events.say,
             clock=self.clock,
-            measured=lambda: senses.measured(where.pose),
+            measured=self._measured,
             go_home=self._return,
         )
 

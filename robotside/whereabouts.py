@@ -25,6 +25,7 @@ from bridge.msgs.std_msgs import Header, Time
 from bridge.msgs.tf2_msgs import TFMessage
 from bridge.units import wrap
 from robotside.bus import Publish
+from robotside.doubt import Doubt
 from robotside.events import Say
 from robotside.grid import Grid
 from robotside.localise import Localiser
@@ -96,6 +97,7 @@ class Whereabouts:
         has_place = not (math.isnan(info.latitude) or math.isnan(info.longitude))
         self._datum = Datum(info.latitude, info.longitude) if has_place else None
         self._localiser: Localiser | None = None
+        self._doubt = Doubt()
         self._fixes: deque[tuple[float, float]] = deque(maxlen=FIXES)
         self._compass = math.nan
         self._since = math.nan
@@ -128,6 +130,15 @@ class Whereabouts:
         """Part of the last sweep that lies on the map's surfaces, 0 to 1; NaN before the first."""
         return self._localiser.fit if self._localiser else math.nan
 
+    @property
+    def spread(self) -> float:
+        """How far off its place may be in the worst direction, one standard deviation [m]; NaN while it has no idea."""
+        if self.pose is None or self._localiser is None:
+            return math.nan
+        return math.sqrt(
+            float(np.linalg.eigvalsh(self._localiser.covariance[:2, :2])[-1]) + self._doubt.variance
+        )
+
     def take_map(self, grid: Grid) -> None:
         """Localise on `grid` from now on: from the pose that it has, if any."""
         known = self.pose
@@ -141,6 +152,7 @@ class Whereabouts:
             self._fixes.append(self._datum.to_local(fix.latitude, fix.longitude))
             if self._localiser and not self._swept:
                 self._localiser.hear(*self._fixes[-1], FIX_SPREAD)
+                self._doubt.fix(_variance(fix))
 
     def take_imu(self, imu: Imu) -> None:
         """Remember the compass for the first guess; a robot that has no laser goes on by it."""
@@ -162,6 +174,7 @@ class Whereabouts:
         localiser, odom = self._localiser, self._odom
         if localiser is None or odom is None or self._swept:
             return
+        self._doubt.see()
         self._rings.append(odom.apply(arcs.reshape(-1, 2)).reshape(arcs.shape))
         if len(self._rings) == RINGS:
             ends = np.concatenate(self._rings)
@@ -172,6 +185,7 @@ class Whereabouts:
         """The operator says that the robot is at `pose`; the next sweep corrects the finger's error."""
         if self._localiser:
             self._localiser.place(pose, spread=0.3, turn=0.2)
+            self._doubt.settle()
             self._search = (pose, TOLD_REACH, TOLD_TURN)
 
     def put(self, pose: Pose2) -> None:
@@ -193,6 +207,7 @@ class Whereabouts:
         if self._localiser is None:
             return
         self._localiser.predict(odom)
+        self._doubt.reckon(max(msg.pose.covariance[0], msg.pose.covariance[7]))
         self._suppose(odom, stamp.seconds)
         pose = self._localiser.pose
         if pose is not None:
@@ -211,11 +226,13 @@ class Whereabouts:
             localiser.place(Pose2(x, y, self._compass), spread=1.0, turn=0.1)
         else:
             localiser.place(odom, spread=0.3, turn=0.1)
+            self._doubt.settle()
         self._say("localisation", _NO_LASER)
 
     def take_sweep(self, points: Points, stamp: float) -> None:
         """Correct the pose by what the laser saw at `stamp` [s], in `base_link`."""
         localiser, self._swept = self._localiser, True
+        self._doubt.see()
         if localiser is None:
             return
         if self._search is None and localiser.pose is None:
@@ -256,6 +273,8 @@ class Whereabouts:
         for row, i in enumerate((0, 1, 5)):
             for column, j in enumerate((0, 1, 5)):
                 covariance[6 * i + j] = float(spread[row, column])
+        covariance[0] += self._doubt.variance
+        covariance[7] += self._doubt.variance
         header = Header(stamp, "map")
         said = PoseWithCovariance(pose.to_msg(), covariance)
         self._publish("/pose", PoseWithCovarianceStamped(header, said))
@@ -264,6 +283,12 @@ class Whereabouts:
             _edge(Header(stamp, "odom"), "base_link", odom),
         ]
         self._publish("/tf", TFMessage(edges))
+
+
+def _variance(fix: NavSatFix) -> float:
+    """Of a fix, along each axis [m2]; a usual one when it does not say."""
+    said = max(fix.position_covariance[0], fix.position_covariance[4])
+    return said if fix.position_covariance_type and math.isfinite(said) and said > 0 else FIX_SPREAD**2
 
 
 def _edge(header: Header, child: str, pose: Pose2) -> TransformStamped:

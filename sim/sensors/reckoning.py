@@ -58,11 +58,11 @@ class Reckoning:
         """Believed x, y [m], yaw [rad] in `odom`; yaw is not wrapped."""
         self._stamp: float | None = None
         self._rotation: Quat = (0.0, 0.0, 0.0, 1.0)
-        self._way = 0.0
+        self._way = self._time = 0.0
 
     def restart(self, pose: tuple[float, float, float]) -> None:
         """Believe to be at x, y [m], yaw [rad] in `odom`, wherever it was until now."""
-        self.pose, self._stamp, self._way = pose, None, 0.0
+        self.pose, self._stamp, self._way, self._time = pose, None, 0.0, 0.0
 
     def measure(self, state: State, stamp: float) -> Odometry:
         """The belief at `stamp` [s] of a body in `state`, `odom` to `base_link`."""
@@ -83,7 +83,8 @@ class Reckoning:
         self.pose = (x + dx * period, y + dy * period, yaw)
         self._way += math.hypot(u, v) * period
         height = state.position[2] + self._noise.normal(self._parameters.height_noise)
-        variance = (0.02 * self._way) ** 2 + 1e-4
+        self._time += period
+        variance = self._variance()
         covariance = [0.0] * 36
         covariance[0] = covariance[7] = variance
         covariance[14], covariance[35] = self._parameters.height_noise**2 + 1e-6, 1e-4 * (1 + self._way)
@@ -93,3 +94,10 @@ class Reckoning:
             PoseWithCovariance(Pose(Point(*self.pose[:2], height), Quaternion(*tilted)), covariance),
             TwistWithCovariance(Twist(Vector3(u, v, w), Vector3(*turning))),
         )
+
+    def _variance(self) -> float:
+        """Of the place along each axis by now [m2]: what wanders adds up, the scale and the yaw err all the way."""
+        own, since = self._parameters, self._time / self._parameters.wander
+        wandered = 2 * (own.speed_error * own.wander) ** 2 * (since - 1 + math.exp(-since))
+        swerved = own.yaw_drift * self._time / 2
+        return wandered + (self._way * math.hypot(own.scale_error, swerved)) ** 2 + 1e-4

@@ -87,3 +87,19 @@ def test_a_boat_misses_no_laser() -> None:
     assert senses.silent(0.0) == ["odometry"]
     senses.take("/odom", ODOM, 0.0)
     assert senses.silent(PATIENCE) == []
+
+
+def test_speed_is_over_ground_whichever_way_the_body_leans() -> None:
+    senses = Senses()
+    for roll, pitch, body, ground in (
+        (0.0, 0.5, Vector3(math.cos(0.5), 0.0, math.sin(0.5)), (1.0, 0.0)),
+        (0.8, 0.0, Vector3(0.0, math.cos(0.8), -math.sin(0.8)), (0.0, 1.0)),
+        (0.8, 0.0, Vector3(0.0, math.sin(0.8), math.cos(0.8)), (0.0, 0.0)),
+    ):
+        leans = Pose(Point(), Quaternion.from_rpy(roll, pitch, 2.0))
+        senses.take(
+            "/odom", Odometry(pose=PoseWithCovariance(leans), twist=TwistWithCovariance(Twist(body))), 1.0
+        )
+        moving = senses.measured(None).moving
+        assert math.isclose(moving.x, ground[0], abs_tol=1e-9)
+        assert math.isclose(moving.y, ground[1], abs_tol=1e-9)
