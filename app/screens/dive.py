@@ -26,6 +26,7 @@ from app.screens.placing import AWAY, put
 from app.session import Session
 from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import ActionColumn, Video
+from widgets.action_column import Action as Offered
 from widgets.kit import Card
 from widgets.stick import Stick
 
@@ -35,6 +36,8 @@ SEEN = ("legs", "compass", "horizon")
 """Where the instruments of the left column go, in the order of the layout; the last two share a card."""
 HIDES = ("corner", "motion")
 """Places that may lie under what is said."""
+ARM = "arm"
+"""The line of the column that opens an arm over what is seen of the robot, and closes it."""
 SWITCHES = ("Tab", "Enter")
 """Keys that work the column, as switches send them: on to the next action, and do it."""
 
@@ -63,7 +66,8 @@ class DiveScreen(FloatLayout):
         self.instruments = Instruments(layout, self.dashboard, session.feeds)
         self.hands = Hands(layout, session, self.dashboard, self.does, self.in_vain)
         self.column = ActionColumn()
-        self.column.bind(on_action=lambda _, what: self.does.act(what))
+        self.column.bind(on_action=lambda _, what: self._act(what))
+        self._arm_open = False
         self.panel, self.ground = Card(), Card()
         self.places: dict[str, list[Widget]] = {}
         self._fill()
@@ -104,6 +108,32 @@ class DiveScreen(FloatLayout):
         self.places.setdefault(slot, []).append(widget)
         self.add_widget(widget)
 
+    def _act(self, what: str) -> None:
+        if what == ARM:
+            self._arm_open = not self._arm_open
+            self.hands.arm.rest()
+            self.app.shell.settle()
+        else:
+            self.does.act(what)
+
+    def _place_arm(self, wide: bool) -> None:
+        """Over the column of instruments while it is open; what it would cover in part is away."""
+        self._arm_open = self._arm_open and self.hands.arm.carried
+        panel = self.hands.arm.panel if self._arm_open else self.hands.arm.made
+        if panel is not None and panel.parent is not None:
+            self.remove_widget(panel)
+        if panel is None or not self._arm_open:
+            return
+        legs, other = self._arranged["legs"], self._arranged["panel"]
+        low, right = min(legs.y, other.y), max(legs.right, other.right)
+        place = legs if wide else Rect(legs.x, low, right - legs.x, legs.top - low)
+        put(panel, place)
+        self.add_widget(panel)
+        for slot, found in self.places.items():
+            rect = self._arranged.get(slot)
+            for widget in found if rect is not None and rect.overlaps(place) else ():
+                put(widget, Rect(AWAY, widget.y, widget.width, widget.height))
+
     # what the inputs look at
 
     @property
@@ -119,7 +149,7 @@ class DiveScreen(FloatLayout):
     @property
     def grips(self) -> list[Any]:
         """What a finger may hold besides."""
-        return self.hands.grips
+        return [*self.hands.grips, *([self.hands.arm.panel] if self._arm_open else [])]
 
     def press_switch(self, key: str) -> None:
         """`Tab` or `Enter` was pressed: on to the next action, or do it. The first press of any shows which is the next."""
@@ -147,6 +177,7 @@ class DiveScreen(FloatLayout):
         for slot, found in self.places.items():
             for widget in found:
                 put(widget, places.get(slot, Rect(AWAY, 0, 1, 1)))
+        self._place_arm(wide)
         corner = places["corner"]
         self.video.insets = [corner.right - self.video.x, 0, 0, 0]
         low = places["notice_low"]
@@ -213,6 +244,11 @@ class DiveScreen(FloatLayout):
         self.checks.tick()
         self.hands.tick()
         actions = [action for action in self.does.look() if action.name in self._listed]
+        if self.hands.arm.carried:
+            said = "open" if self._arm_open else ""
+            actions.append(Offered(ARM, "Arm", "precision_manufacturing", said=said))
+        elif self._arm_open:
+            self.app.shell.settle()
         if actions != self.column.actions:
             self.column.actions = actions
 
