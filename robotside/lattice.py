@@ -9,7 +9,7 @@ from __future__ import annotations
 import heapq
 import itertools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,7 +19,7 @@ from skimage.graph import MCP_Geometric
 from robotside.grid import Grid
 from robotside.pose2 import Points, Pose2
 
-__all__ = ["Lattice", "Piece"]
+__all__ = ["MOST", "Lattice", "Piece"]
 
 STRIDE = 0.9
 """From a pose of the search to the next [m]."""
@@ -45,8 +45,8 @@ MOST = 5_000
 FIELD = 0.4
 """Cells of the map by which the rest of the way is reckoned [m]."""
 
-FINE = 0.1
-"""Between two points of a way [m]."""
+FINE, ROUGH = 0.1, 1.2
+"""Between two points of a way, and where it is only seen whether it may be one [m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,9 +78,22 @@ class Lattice:
         self._grid, self._bend, self._discs = grid, bend, np.asarray(discs, dtype=np.float64)
         self._need, self._want = radius + margin, radius + 4 * margin
         self._distance = grid.distance
+        self._moves = [(turn, way) for way in (STRIDE, -STRIDE) for turn in (0.0, bend, -bend)]
+        still = Pose2(0.0, 0.0, 0.0)
+        self._swept = self._covered(np.concatenate([_arc(still, *move, SAMPLES) for move in self._moves]))
 
     def way(self, start: Pose2, goal: tuple[float, float, float]) -> list[Piece]:
         """Pieces from `start` to `goal` (x, y [m], yaw [rad], NaN for any); none when there is no way."""
+        search = self.search(start, goal)
+        while True:
+            try:
+                next(search)
+            except StopIteration as found:
+                pieces: list[Piece] = found.value
+                return pieces
+
+    def search(self, start: Pose2, goal: tuple[float, float, float]) -> Generator[None, None, list[Piece]]:
+        """The same, bit by bit: it yields before each pose that it looks at, at most `MOST` times."""
         field = self._field(goal)
         room = float(self._room(np.array([start])).min())
         first = _Node(start, 0.0, None, 0.0, 0.0)
@@ -92,6 +105,7 @@ class Lattice:
             key = _key(node.pose)
             if key in seen:
                 continue
+            yield
             seen.add(key)
             last = (
                 self._last(node, goal, min(self._need, room)) if self._tries(node, goal, len(seen)) else None
@@ -128,21 +142,22 @@ class Lattice:
         return at
 
     def _children(self, node: _Node, start: Pose2, room: float) -> list[_Node]:
-        moves = [(bend, way) for way in (STRIDE, -STRIDE) for bend in (0.0, self._bend, -self._bend)]
-        tracks = [_arc(node.pose, bend, way, SAMPLES) for bend, way in moves]
-        rooms = self._room(np.concatenate(tracks)).reshape(len(moves), -1).min(axis=1).tolist()
+        pose = node.pose
+        c, s = math.cos(pose.yaw), math.sin(pose.yaw)
+        dx, dy = self._swept
+        rooms = self._room_at(pose.x + c * dx - s * dy, pose.y + s * dx + c * dy)
+        free_of: list[float] = rooms.reshape(len(self._moves), -1).min(axis=1).tolist()
         # who stands too close at first may come away from there
-        near = node.pose.distance(start.x, start.y) < 4.0
+        near = pose.distance(start.x, start.y) < 4.0
         need = min(self._need, room - 0.02) if near else self._need
         children = []
-        for (bend, way), track, free in zip(moves, tracks, rooms, strict=True):
+        for (bend, way), free in zip(self._moves, free_of, strict=True):
             if free < need:
                 continue
             cost = STRIDE * (BEND if bend else 1.0) * (1.0 if way > 0 else BACK)
             cost *= 1.0 + TIGHT * max(0.0, self._want - free) / self._want
             cost += CHANGE if node.length * way < 0 else 0.0
-            x, y, yaw = track[-1].tolist()
-            children.append(_Node(Pose2(x, y, yaw), node.cost + cost, node, bend, way))
+            children.append(_Node(_after(pose, bend, way), node.cost + cost, node, bend, way))
         return children
 
     def _tries(self, node: _Node, goal: tuple[float, float, float], looked: int) -> bool:
@@ -150,37 +165,76 @@ class Lattice:
 
     def _last(self, node: _Node, goal: tuple[float, float, float], need: float) -> _Node | None:
         """The goal's own pose, by at most two bends and a straight line between them; None when that cannot be."""
-        best: _Node | None = None
+        ways: list[list[_Node]] = []
         for legs in _shots(node.pose, goal, self._bend):
-            end, length = node, sum(abs(way) for _, way in legs)
-            tracks = []
-            for bend, way in legs:
-                count = max(1, math.ceil(abs(way) / (2 * FINE)))
-                tracks.append(_arc(end.pose, bend, way, count))
-                x, y, yaw = tracks[-1][-1].tolist()
-                cost = abs(way) * (1.0 if way > 0 else BACK) + (CHANGE if end.length * way < 0 else 0.0)
-                end = _Node(Pose2(x, y, yaw), end.cost + cost, end, bend, way)
-            backwards = sum(-way for _, way in legs if way < 0)
-            if backwards > LONGEST_BACK or (best is not None and best.cost <= end.cost):
+            if sum(-way for _, way in legs if way < 0) > LONGEST_BACK:
                 continue
-            if length < 1e-6 or self._room(np.concatenate(tracks)).min() >= need:
-                best = end
-        return best
+            ends = [node]
+            for bend, way in legs:
+                cost = abs(way) * (1.0 if way > 0 else BACK) + (CHANGE if ends[-1].length * way < 0 else 0.0)
+                end = _after(ends[-1].pose, bend, way)
+                ends.append(_Node(end, ends[-1].cost + cost, ends[-1], bend, way))
+            ways.append(ends)
+        # a few places tell of most ways that they do not fit
+        for step in (ROUGH, 2 * FINE):
+            rooms = self._rooms_along(ways, step)
+            ways = [ends for ends, room in zip(ways, rooms, strict=True) if room >= need]
+        return min((ends[-1] for ends in ways), key=lambda end: end.cost, default=None)
+
+    def _rooms_along(self, ways: list[list[_Node]], step: float) -> list[float]:
+        """The least room on each of `ways` [m], looked for after every `step` [m]."""
+        least = np.full(len(ways), np.inf)
+        tracks = [
+            (*before.pose, after.bend, after.length, number)
+            for number, ends in enumerate(ways)
+            for before, after in itertools.pairwise(ends)
+        ]
+        if not tracks:
+            return least.tolist()
+        legs = np.array(tracks)
+        steps = np.maximum(1, np.ceil(np.abs(legs[:, 4]) / step)).astype(np.intp)
+        firsts = np.cumsum(steps) - steps
+        x, y, yaw, bend, stride, way = np.repeat(legs, steps, axis=0).T
+        along = stride * (np.arange(len(x)) - np.repeat(firsts, steps) + 1) / np.repeat(steps, steps)
+        # the chord of an arc, straight on as well
+        half = bend * along / 2
+        chord = along * np.sinc(half / math.pi)
+        poses = np.column_stack(
+            [x + chord * np.cos(yaw + half), y + chord * np.sin(yaw + half), yaw + 2 * half]
+        )
+        np.minimum.at(least, way.astype(np.intp), self._room(poses).min(axis=1))
+        return least.tolist()
+
+    def _covered(self, poses: Points) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Where the middles of the discs are at these poses: x and y [m], each of shape (poses, discs)."""
+        x = poses[:, 0, None] + np.cos(poses[:, 2, None]) * self._discs
+        y = poses[:, 1, None] + np.sin(poses[:, 2, None]) * self._discs
+        return x, y
 
     def _room(self, poses: Points) -> NDArray[np.float64]:
         """From the middles of the discs to the nearest obstacle [m], shape (poses, discs)."""
-        x = poses[:, 0, None] + np.cos(poses[:, 2, None]) * self._discs
-        y = poses[:, 1, None] + np.sin(poses[:, 2, None]) * self._discs
+        return self._room_at(*self._covered(poses))
+
+    def _room_at(self, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+        """From these places to the nearest obstacle [m]; -1 off the map."""
         rows = np.floor((y - self._grid.y) / self._grid.resolution).astype(np.intp)
         columns = np.floor((x - self._grid.x) / self._grid.resolution).astype(np.intp)
         height, width = self._distance.shape
         inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
-        found = self._distance[rows.clip(0, height - 1), columns.clip(0, width - 1)]
+        found = self._distance[rows * inside, columns * inside]
         return np.where(inside, found, -1.0)
 
 
 def _key(pose: Pose2) -> tuple[int, int, int]:
     return round(pose.x / CELL), round(pose.y / CELL), round(pose.yaw / math.tau * TURNS) % TURNS
+
+
+def _after(pose: Pose2, bend: float, way: float) -> Pose2:
+    """Where a `way` [m] in a `bend` [1/m] ends."""
+    half = bend * way / 2
+    chord = way if abs(half) < 1e-9 else way * math.sin(half) / half
+    towards = pose.yaw + half
+    return Pose2(pose.x + chord * math.cos(towards), pose.y + chord * math.sin(towards), pose.yaw + 2 * half)
 
 
 def _arc(pose: Pose2, bend: float, way: float, count: int) -> Points:

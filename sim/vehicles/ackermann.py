@@ -91,10 +91,11 @@ class AckermannDrive:
         return self._now[1]
 
     def want(self, speed: float, steering: float) -> None:
-        """Go for `speed` [m/s] and `steering` [rad], both cut to the limits."""
+        """Go for `speed` [m/s] and `steering` [rad], both cut to the limits; for rest with the brakes of all four wheels."""
         limits = self._limits
-        self._rate, self._brakes = limits.acceleration, False
         self._goal = (within(speed, limits.speed), within(steering, limits.steering))
+        self._brakes = self._goal[0] == 0.0
+        self._rate = limits.braking if self._brakes else limits.acceleration
 
     def want_turn(self, speed: float, yaw_rate: float) -> None:
         """Go for `speed` [m/s] and the steering that turns by `yaw_rate` [rad/s]; slow, it turns less than that."""
