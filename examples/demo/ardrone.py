@@ -83,7 +83,7 @@ def _fly(scene: Scene) -> Wait:
         fastest = yield from slide_speed(scene, 0.55)
         before, since = witness.heights()[-1], witness.now
         fingers = _lean(scene, 0.0, 0.9, 0.8)
-        yield from glass.soon(lambda: witness.driven(since) > 2.0 and witness.heights()[-1] > before + 0.6, 8)
+        yield from glass.soon(lambda: witness.driven(since) > 2.0 and witness.heights()[-1] > before + 0.6, 20)
         scene.report.snapshot("driving")
         check("the circle tilts it and it goes [m]", witness.driven(since), witness.driven(since) > 2.0)
         check("the stick makes it climb [m]", witness.heights()[-1] - before, witness.heights()[-1] > before + 0.5)
@@ -100,7 +100,7 @@ def _fly(scene: Scene) -> Wait:
         span = max(heights) - min(heights)
         check("and as high [m]", span, span <= STAYS)
     fingers = _lean(scene, 0.3, -1.0, 0.0)
-    yield from glass.soon(lambda: witness.speed() > 1.2, 6)
+    yield from glass.soon(lambda: witness.speed() > 1.2, 15)
     yield from stop(scene, fingers, DRIFTS, COMES_TO_REST)
 
 

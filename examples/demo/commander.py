@@ -39,7 +39,7 @@ def _drive(scene: Scene) -> Wait:
     with scene.step("slow") as check:
         slowest = yield from slide_speed(scene, CRAWL)
         finger = push(scene, stick, 0.0, 1.0)
-        yield from until_fast(scene, slowest, 8)
+        yield from until_fast(scene, slowest, 15)
         yield from scene.robot_time(1.2)
         off = abs(witness.fast(1.0) - slowest)
         check(f"as fast as the slider says, {slowest:.2f} m/s [m/s off, at most 0.05]", off, off <= 0.05)
@@ -48,7 +48,7 @@ def _drive(scene: Scene) -> Wait:
     with scene.step("driven") as check:
         faster = yield from slide_speed(scene, WALK)
         finger = push(scene, stick, -0.6, 0.8)
-        yield from glass.soon(lambda: _steered(scene) < -0.15 and witness.speed() > 0.3, 8)
+        yield from glass.soon(lambda: _steered(scene) < -0.15 and witness.speed() > 0.3, 15)
         yield from scene.robot_time(1)
         since, before = witness.now, witness.truth[3]
         bends = yield from _bends(scene, since)
@@ -66,7 +66,7 @@ def _drive(scene: Scene) -> Wait:
         shown = yield from glass.soon(lambda: glass.shows("rear"), 5)
         check("the rear camera is on the glass", bool(shown), bool(shown))
         finger = push(scene, stick, 0.0, -0.8)
-        yield from until_fast(scene, 0.5, 5)
+        yield from until_fast(scene, 0.5, 12)
         scene.report.snapshot("backwards")
         check("it drives backwards [m/s]", witness.speed(), witness.speed() > 0.3)
         scene.hand.up(finger)
@@ -74,13 +74,13 @@ def _drive(scene: Scene) -> Wait:
         yield from act(scene, "Camera")
         yield from glass.pause(0.5)
     finger = push(scene, stick, 0.0, 1.0)
-    yield from until_fast(scene, faster, 5)
+    yield from until_fast(scene, faster, 15)
     yield from stop(scene, [finger], SLOW)
 
 
 def _bends(scene: Scene, since: float) -> Wait:
     """Drive on for three metres; returns how the way was bent, as the statistics had it [1/m], positive to the left."""
-    bends, end = [], time.monotonic() + 12
+    bends, end = [], time.monotonic() + 20
     while scene.witness.driven(since) < 3.0 and time.monotonic() < end:
         bends.append(1 / scene.witness["/ackermann"].turning_radius)
         yield

@@ -14,15 +14,15 @@ __all__ = ["TOPICS", "play"]
 TOPICS = ("/rudder", "/compass")
 DRIFTS, RUNS_OUT = 0.35, 5.0
 """Current and waves take a boat along that fast [m/s]; the water takes the way off it within this [s]."""
-COURSE = 75.0
+COURSE = 100.0
 """That is set on the dial [deg], 0 north, clockwise."""
 HELD = math.radians(6)
 """A course is held so well [rad], waves and wind and all."""
-POINTS = ((-24.0, -20.0), (-27.0, -13.0))
-"""Past the first buoy, (x, y) in `map` [m]."""
-HOME = (-32.0, -18.0)
-PASSED = 2.0
-"""A point counts as passed within this [m]."""
+POINTS = ((-4.0, -20.0), (-8.0, -14.0))
+"""Off the first buoys, (x, y) in `map` [m]."""
+HOME = (-14.0, -20.0)
+PASSED = 3.0
+"""A point counts as passed within this [m]: waves and current take a boat past it."""
 
 
 def play(scene: Scene) -> Wait:
@@ -41,7 +41,7 @@ def _drive(scene: Scene) -> Wait:
     with scene.step("driven") as check:
         before = witness.truth[3]
         finger = push(scene, helm, -0.8, 0.9)
-        yield from glass.soon(lambda: math.remainder(before - witness.truth[3], math.tau) > 0.4, 12)
+        yield from glass.soon(lambda: math.remainder(before - witness.truth[3], math.tau) > 0.4, 25)
         told = witness["/rudder"]
         check("the rudder is laid to the right [rad]", told.angle, told.angle < -0.2)
         angle = math.remainder(before - witness.truth[3], math.tau)
@@ -51,7 +51,7 @@ def _drive(scene: Scene) -> Wait:
         yield from glass.pause(0.3)
         yield from slide_speed(scene, 1.0)
         finger = push(scene, helm, 0.0, 1.0)
-        yield from glass.soon(lambda: witness.speed() > 1.2, 15)
+        yield from glass.soon(lambda: witness.speed() > 1.2, 25)
         check("throttle gives way [m/s, at least 1]", witness.speed(), witness.speed() >= 1.0)
     yield from stop(scene, [finger], DRIFTS, RUNS_OUT, drifts=True)
 
@@ -72,7 +72,8 @@ def _course(scene: Scene) -> Wait:
         check(f"which is {COURSE:g}°", bool(order), bool(order))
     with scene.step("on-course") as check:
         yield from glass.soon(lambda: turned(witness.truth[3], wanted) < HELD / 2, 25)
-        yield from scene.robot_time(2)
+        yield from glass.soon(lambda: witness.speed() > 0.5, 10)
+        yield from scene.robot_time(1)
         since = witness.now
         yield from scene.robot_time(5)
         headings = [turned(pose[3], wanted) for pose in witness.since(since)]

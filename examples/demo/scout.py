@@ -46,7 +46,7 @@ def _drive(scene: Scene) -> Wait:
         check("the stick turns it to where it should look [rad off, at most 0.3]", off, off <= 0.3)
         fastest = yield from slide_speed(scene, 1.0)
         finger = push(scene, stick, 0.0, 1.0)
-        fast = yield from until_fast(scene, fastest, 5)
+        fast = yield from until_fast(scene, fastest, 10)
         check(f"it is as fast as the slider says, {fastest:.2f} [m/s]", witness.speed(), fast)
         scene.report.snapshot("driving")
     yield from stop(scene, [finger], SLOW)
