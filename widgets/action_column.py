@@ -27,12 +27,15 @@ from kivy.uix.widget import Widget
 import widgets.rows  # noqa: F401 - its rules draw what is used here
 from widgets.base import Control, text_texture
 from widgets.buttons import PushButton
+from widgets.gauge import wide
 from widgets.theme import theme
 
 __all__ = ["Action", "ActionColumn"]
 
 TALLEST = 104.0
 """Higher ones say nothing more [dp]."""
+LEAST = 11.0
+"""How things stand is said behind the words where both can be as large as this [sp]."""
 NARROW = 176.0
 """A narrower button has its icon above its words, which say all [dp]."""
 
@@ -133,7 +136,7 @@ class ActionKey(PushButton):
     name = StringProperty("")
     """What it stands for, in words."""
     said = StringProperty("")
-    """How that stands: at its end, or behind its words where it is narrow."""
+    """How that stands: at its end, or behind its words where it is narrow and has room for both."""
 
     @property
     def settling(self) -> bool:
@@ -258,12 +261,16 @@ class ActionColumn(Control, BoxLayout):
         return button
 
     def _mark(self, *_: object) -> None:
+        count = max(1, round(self.across))
+        room = (self.roll.width - (count - 1) * self.grid.spacing[0]) / count - dp(12)
         for name, button in self._buttons.items():
             button.current = name == self.current and bool(self.switches)
             press = f"press {self.switches[1]}" if button.current and not button.disabled else ""
             button.end = press or button.said
+            both = f"{button.name} · {button.said}"
             beside = button.flow == "horizontal" or not button.said
-            button.text = button.name if beside else f"{button.name} · {button.said}"
+            cut = wide(both, sp(LEAST), bold=True) > room
+            button.text = button.name if beside or cut else both
 
     def _fit(self, *_: object) -> None:
         """Share the height out, within what a finger needs and what looks like a button."""

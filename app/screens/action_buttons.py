@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from kivy.clock import Clock
-from kivy.metrics import Metrics
+from kivy.metrics import Metrics, sp
 from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
 from app.actions import CARRIED, Actions
 from app.layout import Layout
+from widgets.action_column import Action
+from widgets.gauge import wide
 from widgets.kit import Card, QuietButton, Text
 
 __all__ = ["ActionButtons"]
@@ -21,6 +23,10 @@ MOST = 3
 """So many above each other have room for a finger; of more some are on the glass, and a button turns to the next."""
 LEAST = 88
 """Width that a button in a row needs [dp]."""
+ICON = 32
+"""Taken by the icon beside the words [dp]."""
+SMALLEST = 11.0
+"""How things stand is said behind the words where both can be as large as this [sp]."""
 FIRST = 8.0
 """So long after the last turn the first ones are on the glass again [s]."""
 TASKS = ("pause", "task.")
@@ -59,7 +65,7 @@ class ActionButtons(GridLayout):
         found = {action.name: action for action in self._actions.look() if action.name in self.buttons}
         for name, action in found.items():
             button = self.buttons[name]
-            button.text, button.icon, button.disabled = action.text, action.icon, not action.able
+            button.text, button.icon, button.disabled = self._words(action), action.icon, not action.able
             button.meaning = action.meaning or action.text
         wanted: list[Widget] = self._fitting([name for name in self.buttons if name in found])
         # instead of buttons that can never be pressed stands why
@@ -90,6 +96,15 @@ class ActionButtons(GridLayout):
         if to is None:
             self._turn_back()
         self.tick()
+
+    def _words(self, action: Action) -> str:
+        """What it does, and how that stands where there is room for both."""
+        both = f"{action.text} · {action.said}"
+        across = (
+            self.width / max(1, len(self.children)) if self.across else self.width - ICON * Metrics.density
+        )
+        fits = action.said and wide(both, sp(SMALLEST), bold=True) <= across - 20 * Metrics.density
+        return both if fits else action.text
 
     def _flow(self) -> None:
         count = max(1, len(self.children))
