@@ -35,7 +35,12 @@ def _prepare(size: str, *, window: bool) -> None:
     if not window:
         # what is drawn without a display never grows beyond its first size
         width, height = max(width, LARGEST), max(height, LARGEST)
-    for key, value in {"width": str(width), "height": str(height), "multisamples": "0", "maxfps": "30"}.items():
+    for key, value in {
+        "width": str(width),
+        "height": str(height),
+        "multisamples": "0",
+        "maxfps": "30",
+    }.items():
         Config.set("graphics", key, value)
     for key, _ in Config.items("input"):
         Config.remove_option("input", key)
@@ -97,7 +102,14 @@ def _play(arguments: argparse.Namespace, robot: Any, settings: Path) -> int:
         witness.close()
     seconds = round(time.monotonic() - started, 1)
     recording = {"file": record.name, "bytes": record.stat().st_size} if record.exists() else None
-    return report.write(robot=arguments.robot, url=robot.url, world=arguments.world, speed=arguments.speed, seconds=seconds, recording=recording)
+    return report.write(
+        robot=arguments.robot,
+        url=robot.url,
+        world=arguments.world,
+        speed=arguments.speed,
+        seconds=seconds,
+        recording=recording,
+    )
 
 
 def main(argv: list[str] | None = None) -> int:

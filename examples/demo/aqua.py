@@ -101,7 +101,11 @@ def _hold(scene: Scene) -> Wait:
         yield from scene.robot_time(6)
         heights = witness.heights(since)
         span = max(heights) - min(heights)
-        check(f"for 6 s it keeps its depth of {-heights[-1]:.1f} m [m off, at most {HELD:g}]", span, span <= HELD)
+        check(
+            f"for 6 s it keeps its depth of {-heights[-1]:.1f} m [m off, at most {HELD:g}]",
+            span,
+            span <= HELD,
+        )
 
 
 def _warm(scene: Scene, cold: float) -> None:

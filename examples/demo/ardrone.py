@@ -83,10 +83,16 @@ def _fly(scene: Scene) -> Wait:
         fastest = yield from slide_speed(scene, 0.55)
         before, since = witness.heights()[-1], witness.now
         fingers = _lean(scene, 0.0, 0.9, 0.8)
-        yield from glass.soon(lambda: witness.driven(since) > 2.0 and witness.heights()[-1] > before + 0.6, 20)
+        yield from glass.soon(
+            lambda: witness.driven(since) > 2.0 and witness.heights()[-1] > before + 0.6, 20
+        )
         scene.report.snapshot("driving")
         check("the circle tilts it and it goes [m]", witness.driven(since), witness.driven(since) > 2.0)
-        check("the stick makes it climb [m]", witness.heights()[-1] - before, witness.heights()[-1] > before + 0.5)
+        check(
+            "the stick makes it climb [m]",
+            witness.heights()[-1] - before,
+            witness.heights()[-1] > before + 0.5,
+        )
         check(f"the slider stands at {fastest:.1f} m/s [m/s]", witness.speed(), witness.speed() > 0.3)
         for finger in fingers:
             scene.hand.up(finger)
@@ -95,7 +101,11 @@ def _fly(scene: Scene) -> Wait:
         yield from scene.robot_time(1)
         since = witness.now
         yield from scene.robot_time(3)
-        check("the fingers lifted, it stays where it is [m]", witness.spread(since), witness.spread(since) <= STAYS)
+        check(
+            "the fingers lifted, it stays where it is [m]",
+            witness.spread(since),
+            witness.spread(since) <= STAYS,
+        )
         heights = witness.heights(since)
         span = max(heights) - min(heights)
         check("and as high [m]", span, span <= STAYS)

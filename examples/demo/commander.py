@@ -105,7 +105,9 @@ def _patrol(scene: Scene) -> Wait:
             yield from scene.hand.tap(scene.on_map(*point))
             yield from glass.pause(0.15)
         off = max(map(math.dist, chart.waypoints, wanted), default=math.inf)
-        check("each tap is a point where the finger was [m off]", off, len(chart.waypoints) == 3 and off <= 0.12)
+        check(
+            "each tap is a point where the finger was [m off]", off, len(chart.waypoints) == 3 and off <= 0.12
+        )
     with scene.step("patrolling") as check:
         since = witness.now
         runs = yield from send_and_start(scene, wanted)
@@ -116,7 +118,11 @@ def _patrol(scene: Scene) -> Wait:
         worst = max(witness.nearest(*point, since) for point in wanted)
         check(f"every point was passed [m off, at most {PASSED:g}]", worst, bool(passed) and worst <= PASSED)
         tight = _tightest(scene, since)
-        check("and no turn was tighter than it can drive [m, at least its least radius 2.4]", tight, tight >= 2.4)
+        check(
+            "and no turn was tighter than it can drive [m, at least its least radius 2.4]",
+            tight,
+            tight >= 2.4,
+        )
         check("no contacts", witness.contacts, witness.contacts == 0)
 
 

@@ -64,7 +64,10 @@ def _course(scene: Scene) -> Wait:
         dial: Any = yield from glass.one("CourseDial")
         x, y, radius = dial.place
         ways = [COURSE - 60.0, COURSE - 30.0, COURSE]
-        rim = [(x + 0.86 * radius * math.sin(math.radians(one)), y + 0.86 * radius * math.cos(math.radians(one))) for one in ways]
+        rim = [
+            (x + 0.86 * radius * math.sin(math.radians(one)), y + 0.86 * radius * math.cos(math.radians(one)))
+            for one in ways
+        ]
         yield from scene.hand.drag([at(dial, *point) for point in rim], hold=4)
         runs = yield from glass.soon(lambda: scene.task("follow_heading"), 5)
         check("let go, the dial sets the course and the boat follows it", bool(runs), bool(runs))
@@ -101,7 +104,9 @@ def _points(scene: Scene) -> Wait:
         yield from glass.press("Home", kind="Segment")
         yield from scene.hand.tap(scene.on_map(*HOME))
         off = max(map(math.dist, chart.waypoints, POINTS), default=math.inf)
-        check("each tap is a point where the finger was [m off]", off, len(chart.waypoints) == 2 and off <= 0.25)
+        check(
+            "each tap is a point where the finger was [m off]", off, len(chart.waypoints) == 2 and off <= 0.25
+        )
         yield from glass.press("View", kind="Segment")
     with scene.step("patrolled") as check:
         since = witness.now

@@ -53,7 +53,9 @@ def options(argv: Sequence[str] | None, description: str | None) -> argparse.Nam
     """Read the command line; ValueError with one sentence for a mistake."""
     parser = _Parser(prog="python -m examples.demo", description=description)
     parser.add_argument("--robot", default="patrol", metavar="NAME", help=f"one of {', '.join(ROBOTS)}")
-    parser.add_argument("--world", default="", help="where it is: a name or a TOML file; its home if left out")
+    parser.add_argument(
+        "--world", default="", help="where it is: a name or a TOML file; its home if left out"
+    )
     parser.add_argument(
         "--out", type=Path, help="where the pictures go; out/demo for the patrol, else out/demo-STORY"
     )
@@ -83,7 +85,9 @@ def _choose(chosen: argparse.Namespace) -> None:
     stories = ROBOTS[chosen.robot]
     chosen.story = chosen.story or stories[0]
     if chosen.story not in stories:
-        raise ValueError(f"There is no story {chosen.story!r} of {chosen.robot}; there is {', '.join(stories)}.")
+        raise ValueError(
+            f"There is no story {chosen.story!r} of {chosen.robot}; there is {', '.join(stories)}."
+        )
     model = model_of(chosen.robot)
     chosen.world = chosen.world or model.home
     if not suits(model, load(chosen.world)):

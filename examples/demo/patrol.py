@@ -137,9 +137,7 @@ def go_home(scene: Scene) -> Wait:
         check("it is on its way home", bool(runs), bool(runs))
         yield from scene.robot_time(5)
     with scene.step("at-home") as check:
-        done = yield from scene.glass.soon(
-            lambda: scene.task("go_home", "SUCCEEDED"), LONGEST / scene.speed
-        )
+        done = yield from scene.glass.soon(lambda: scene.task("go_home", "SUCCEEDED"), LONGEST / scene.speed)
         yield from scene.rest(5)
         check("it says that it is home", bool(done), bool(done))
         check(

@@ -81,7 +81,11 @@ def _go(scene: Scene) -> Wait:
         check("it says that it has arrived", scene.witness["/task/status"].reason, bool(done))
         off = witness.distance(*wanted[:2])
         check(f"and it has [m off, at most {REACHED:g}]", off, off <= REACHED)
-        check("turned as wanted [rad off, at most 0.35]", turned(witness.truth[3], wanted[2]), turned(witness.truth[3], wanted[2]) <= 0.35)
+        check(
+            "turned as wanted [rad off, at most 0.35]",
+            turned(witness.truth[3], wanted[2]),
+            turned(witness.truth[3], wanted[2]) <= 0.35,
+        )
         near = witness.nearest(*PERSON, since)
         check("its sonars kept it off the person on the way [m to the middle]", near, near > 0.4)
         check("no contacts", witness.contacts, witness.contacts == 0)

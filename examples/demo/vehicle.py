@@ -18,7 +18,17 @@ from examples.demo.scene import Scene, Wait
 from widgets import CATALOGUE
 from widgets.theme import theme
 
-__all__ = ["act", "on_phone", "open_profile", "push", "release", "send_and_start", "slide_speed", "stop", "until_fast"]
+__all__ = [
+    "act",
+    "on_phone",
+    "open_profile",
+    "push",
+    "release",
+    "send_and_start",
+    "slide_speed",
+    "stop",
+    "until_fast",
+]
 
 AT_REST = 0.5
 """So soon after STOP the robot is at rest, or follows nothing but what brings it there [s, robot clock]."""
@@ -92,11 +102,21 @@ def stop(
         yield from glass.tap(button)
         held = yield from glass.soon(lambda: _follows(scene) in RESTING, 3)
         seconds = witness.now - pressed
-        check(f"{AT_REST:g} s after STOP it follows nothing else [s]", seconds, bool(held) and seconds <= AT_REST)
-        yield from glass.soon(lambda: witness.rested(pressed, slow) == witness.rested(pressed, slow), within + 1)
+        check(
+            f"{AT_REST:g} s after STOP it follows nothing else [s]",
+            seconds,
+            bool(held) and seconds <= AT_REST,
+        )
+        yield from glass.soon(
+            lambda: witness.rested(pressed, slow) == witness.rested(pressed, slow), within + 1
+        )
         yield from scene.robot_time(1)
         rested = witness.rested(pressed, slow)
-        check(f"from {fast:.2f} m/s it is at rest, the controls still pushed [s, at most {within:g}]", rested, rested <= within)
+        check(
+            f"from {fast:.2f} m/s it is at rest, the controls still pushed [s, at most {within:g}]",
+            rested,
+            rested <= within,
+        )
         phases = ("stopped", "moves") if drifts else ("stopped",)
         shown = yield from glass.soon(lambda: scene.stopped and button.phase in phases, 3)
         check("the button says so because the robot does", button.phase, bool(shown))

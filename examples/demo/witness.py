@@ -127,7 +127,9 @@ class Witness:
     def rested(self, since: float, slow: float) -> float:
         """How long after `since` [s, robot clock] it was slower than `slow` [m/s] for good [s]; NaN while it is not."""
         poses = self.since(since)
-        moving = [two[0] for one, two in pairwise(poses) if math.dist(one[1:3], two[1:3]) > slow * (two[0] - one[0])]
+        moving = [
+            two[0] for one, two in pairwise(poses) if math.dist(one[1:3], two[1:3]) > slow * (two[0] - one[0])
+        ]
         if not poses or (moving and moving[-1] == poses[-1][0]):
             return math.nan
         return moving[-1] - since if moving else 0.0
