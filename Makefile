@@ -16,9 +16,8 @@ setup: ## make .venv and what it needs; nothing to do when it is there
 run: setup ## open the app on the built-in simulator; ROBOT=scout,patrol WORLD=office choose
 	@PYTHON=$(PYTHON) ROBOT=$(ROBOT) WORLD=$(WORLD) bash scripts/run.sh
 
-demo: setup ## two stories by script, through the app's own touch events: out/demo/, out/demo-errand/
-	@$(PYTHON) -m examples.demo --out out/demo
-	@$(PYTHON) -m examples.demo --story errand --out out/demo-errand
+demo: setup ## stories by script, through the app's own touch events: out/demo*/; ROBOT=scout or all chooses
+	@PYTHON=$(PYTHON) bash scripts/demo.sh $(ROBOT)
 
 test: setup ## all tests, no display needed
 	@PYTHON=$(PYTHON) bash scripts/test.sh

@@ -6,8 +6,8 @@ python=${PYTHON:-.venv/bin/python}
 robots=${ROBOT:-patrol}
 
 if [ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
-    echo "run: this machine has no display; running the demo, whose pictures go to out/demo."
-    exec "$python" -m examples.demo --out out/demo
+    echo "run: this machine has no display; running the demo, whose pictures go to out/."
+    exec "$python" -m examples.demo --robot "${robots%%[,+]*}" --world "${WORLD:-}"
 fi
 
 commas=${robots//[!,]/}

@@ -20,20 +20,24 @@ POINTS = ((-4.0, -7.4), (6.0, -6.6))
 """On ahead along the southern aisle, (x, y) in `map` [m]."""
 BEHIND = (-9.0, -8.2)
 """Where it comes to only by a turn as wide as its circle, (x, y) in `map` [m]."""
-PASSED = 0.6
+PASSED = 0.7
 """A point counts as passed within this [m]."""
 
 
 def play(scene: Scene) -> Wait:
     """Drive, STOP, and have it patrol points."""
-    yield from _drive(scene)
+    yield from _crawl(scene)
+    yield from _bend(scene)
+    yield from _back(scene)
+    yield from _stop(scene)
     yield from release(scene, SLOW)
     stick: Any = scene.glass.all("Joystick")[0]
     yield from on_phone(scene, lambda: [push(scene, stick, 0.0, 0.9)], 2.5)
     yield from _patrol(scene)
 
 
-def _drive(scene: Scene) -> Wait:
+def _crawl(scene: Scene) -> Wait:
+    """As slow as the slider goes."""
     glass, witness = scene.glass, scene.witness
     stick: Any = yield from glass.one("Joystick")
     with scene.step("slow") as check:
@@ -45,8 +49,14 @@ def _drive(scene: Scene) -> Wait:
         check(f"as fast as the slider says, {slowest:.2f} m/s [m/s off, at most 0.05]", off, off <= 0.05)
         scene.hand.up(finger)
         yield from scene.rest(3)
+
+
+def _bend(scene: Scene) -> Wait:
+    """Round to the right, faster."""
+    glass, witness = scene.glass, scene.witness
+    stick: Any = yield from glass.one("Joystick")
     with scene.step("driven") as check:
-        faster = yield from slide_speed(scene, WALK)
+        yield from slide_speed(scene, WALK)
         finger = push(scene, stick, -0.6, 0.8)
         yield from glass.soon(lambda: _steered(scene) < -0.15 and witness.speed() > 0.3, 15)
         yield from scene.robot_time(1)
@@ -61,6 +71,12 @@ def _drive(scene: Scene) -> Wait:
         check("the front wheels are steered [deg]", math.degrees(_steered(scene)), _steered(scene) < -0.1)
         scene.hand.up(finger)
         yield from scene.rest(3)
+
+
+def _back(scene: Scene) -> Wait:
+    """Backwards, by what the rear camera sees."""
+    glass, witness = scene.glass, scene.witness
+    stick: Any = yield from glass.one("Joystick")
     with scene.step("rear") as check:
         yield from act(scene, "Camera")
         shown = yield from glass.soon(lambda: glass.shows("rear"), 5)
@@ -73,8 +89,13 @@ def _drive(scene: Scene) -> Wait:
         yield from scene.rest(3)
         yield from act(scene, "Camera")
         yield from glass.pause(0.5)
+
+
+def _stop(scene: Scene) -> Wait:
+    """STOP with the stick pushed all the way."""
+    stick: Any = yield from scene.glass.one("Joystick")
     finger = push(scene, stick, 0.0, 1.0)
-    yield from until_fast(scene, faster, 15)
+    yield from until_fast(scene, scene.glass.all("SpeedCard")[0].maximum_speed, 15)  # type: ignore[attr-defined]
     yield from stop(scene, [finger], SLOW)
 
 

@@ -73,7 +73,7 @@ class Hand(MotionEventProvider):
 
     def tap(self, at: Point) -> Generator[None, None, None]:
         """A finger down and up; done when Kivy has seen both."""
-        yield from self.drag([at])
+        yield from self.drag([at], hold=0)  # on a slow machine a frame more is a long tap
 
     def drag(self, path: Iterable[Point], hold: int = 2) -> Generator[None, None, None]:
         """A finger down at the first point of `path`, on to the others, up after `hold` more frames."""

@@ -40,3 +40,16 @@ def test_the_second_story_makes_places_and_orders_a_delivery(tmp_path):
     assert "Traceback" not in done.stderr
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert [step["name"] for step in summary["steps"]] == ["fenced", "place-made", "place-here", "ordered"]
+
+
+def test_a_drone_stays_on_the_ground_when_its_slide_is_let_go_early(tmp_path):
+    command = [sys.executable, "-m", "examples.demo", "--robot", "ardrone", "--out", str(tmp_path)]
+    done = subprocess.run(
+        [*command, "--until", "let-go"], cwd=ROOT, capture_output=True, text=True, check=False, timeout=120
+    )
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    failures = [failure for failure in summary["failures"] if "within" not in failure]
+    assert not failures, done.stdout + done.stderr
+    steps = [step["name"] for step in summary["steps"]]
+    assert steps == ["connect-screen", "connected", "profile", "let-go"]
+    assert (summary["robot"], summary["world"]) == ("ardrone", "parking_lot")

@@ -5,7 +5,19 @@ from pathlib import Path
 
 import pytest
 
-from examples.demo import errand, others, patrol, prepare
+from examples.demo import (
+    aqua,
+    ardrone,
+    commander,
+    connecting,
+    errand,
+    minnow,
+    others,
+    patrol,
+    prepare,
+    scout,
+    vehicle,
+)
 from examples.demo.__main__ import main
 from examples.demo.options import STORIES, options
 
@@ -16,7 +28,17 @@ from examples.demo.options import STORIES, options
         (["--size", "foo"], "A size is written as 412x892, not 'foo'."),
         (["--theme", "foo"], "There is no theme 'foo'; there are dark, sunlight, night."),
         (["--until", "foo"], f"There is no step 'foo'; there are {', '.join(STORIES['patrol'])}."),
-        (["--story", "foo"], "There is no story 'foo'; there are patrol, errand."),
+        (["--story", "foo"], "There is no story 'foo' of patrol; there is patrol, errand."),
+        (["--robot", "scout", "--story", "errand"], "There is no story 'errand' of scout; there is scout."),
+        (
+            ["--robot", "foo"],
+            "There is no robot 'foo'; there are patrol, scout, commander, minnow, aqua, ardrone.",
+        ),
+        (
+            ["--world", "foo"],
+            "There is no world 'foo'; there is lake, office, orchard, parking_lot, tank.",
+        ),
+        (["--robot", "minnow", "--world", "office"], "A minnow cannot be in the world 'office'."),
         (["--speed", "0"], "The speed must be above 0 and at most 100, not 0.0."),
         (["--speed", "fast"], "Argument --speed: invalid float value: 'fast'."),
         (["--sizes", "1"], "Unrecognized arguments: --sizes 1."),
@@ -32,7 +54,35 @@ def test_what_is_allowed_is_taken():
     assert (chosen.size, chosen.theme, chosen.until, chosen.speed) == ("412x892", "night", "sent", 2.0)
 
 
-@pytest.mark.parametrize(("story", "modules"), [("patrol", (prepare, patrol)), ("errand", (errand, others))])
+@pytest.mark.parametrize(
+    ("robot", "world"),
+    [("patrol", "parking_lot"), ("scout", "office"), ("minnow", "lake"), ("aqua", "tank")],
+)
+def test_a_robot_has_its_home_its_story_and_its_folder(robot, world):
+    chosen = options(["--robot", robot], None)
+    folder = "out/demo" if robot == "patrol" else f"out/demo-{robot}"
+    assert (chosen.story, chosen.world, chosen.out) == (robot, world, Path(folder))
+
+
+def test_a_drone_can_be_elsewhere_than_at_home():
+    assert options(["--robot", "ardrone", "--world", "office"], None).world == "office"
+
+
+VEHICLE = (connecting, vehicle)
+
+
+@pytest.mark.parametrize(
+    ("story", "modules"),
+    [
+        ("patrol", (connecting, prepare, patrol)),
+        ("errand", (errand, others)),
+        ("scout", (*VEHICLE, scout)),
+        ("commander", (*VEHICLE, commander)),
+        ("minnow", (*VEHICLE, minnow)),
+        ("aqua", (*VEHICLE, aqua)),
+        ("ardrone", (*VEHICLE, ardrone)),
+    ],
+)
 def test_the_steps_are_those_of_the_story(story, modules):
     trees = [ast.parse(Path(module.__file__).read_text()) for module in modules]
     steps = [name for tree in trees for name in _steps(tree)]
