@@ -113,8 +113,10 @@ class DriveScreen(FloatLayout):
         for widget in (self.switch, arm):
             if widget is not None and widget.parent is not None and widget not in wanted:
                 self.remove_widget(widget)
-                for found in self.places.values():
-                    found[:] = [one for one in found if one is not widget]
+                kept = {
+                    slot: [one for one in found if one is not widget] for slot, found in self.places.items()
+                }
+                self.places = {slot: found for slot, found in kept.items() if found}
         for widget, slot in wanted.items():
             if widget.parent is None:
                 self.places.setdefault(slot, []).append(widget)
@@ -176,9 +178,9 @@ class DriveScreen(FloatLayout):
         self._trim(roomy or figures.height >= 200 * dp)
         self.notice, low = places["notice"], places["notice_low"]
         self.low.pos, self.low.width, self.low.height = (low.x, low.y), low.width, self.low.minimum_height
-        switch = places.get("switch")
-        over = switch is not None and switch.y > low.y and switch.x < low.right and low.x < switch.right
-        ceiling = switch.y if switch is not None and over else places["top"].y
+        touched = (places[slot] for slot in ("switch", "actions") if slot in places)
+        over = (one.y for one in touched if one.y > low.y and one.x < low.right and low.x < one.right)
+        ceiling = min([places["top"].y, *over])
         self.checks.wide, self.checks.room = min(low.width, 340 * dp), ceiling - 8 * dp - low.y
         self._strip = Rect(0, 0, 0, 0)
         self._uncover()

@@ -35,6 +35,8 @@ __all__ = ["Shell"]
 
 STANDING = ("/control/status", "/task/status", "/robot/info", LINK, OFFER)
 """Channels that tell how the robot stands."""
+LONGEST_TAG = 40
+"""Letters of a tag that are shown."""
 
 Builder.load_string("""
 <Shell>:
@@ -212,6 +214,8 @@ class Shell(FloatLayout):
             self._show_stop()
         if channel == OUTCOME:
             self._show_outcome(post.value)
+        elif channel == "/tag":
+            self._show_tag(post.value.tag)
         elif channel == OFFER:
             self._greet()
         elif channel == EVENT:
@@ -253,6 +257,14 @@ class Shell(FloatLayout):
             self.unsay(outcome.name)
         self.cards.hear(outcome)
         self.reset.hear(outcome)
+
+    def _show_tag(self, tag: str) -> None:
+        """What the robot's reader has before it, said once; empty when that is gone."""
+        if tag:
+            short = tag if len(tag) <= LONGEST_TAG else f"{tag[: LONGEST_TAG - 1]}…"
+            self.say(f"Tag read: {short}", "info", about="tag")
+        else:
+            self.unsay("tag")
 
     def say(self, text: str, level: str = "info", about: str = "", stay: float = BRIEF) -> None:
         """One sentence over the screen for `stay` [s]; `about` is the command or the kind of event it tells of."""

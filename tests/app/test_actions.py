@@ -152,6 +152,20 @@ def test_lights_are_switched_to_what_they_are_not(asked: Asked) -> None:
     assert asked.commands == [("lights", {"brightness": 1.0}), ("lights", {"brightness": 0.0})]
 
 
+def test_what_a_robot_carries_needs_no_line_of_a_layout(asked: Asked) -> None:
+    asked.actions = Actions([Line("pause")], asked.session, asked)
+    assert asked.names == ["pause"], "what is not mounted shows nothing, whatever services there are"
+    asked.tell("/robot/info", RobotInfo(payloads=["lights"], cameras=["front", "rear"]))
+    assert asked.names == ["pause", "lights", "camera"]
+    asked.actions.act("lights")
+    assert asked.commands == [("lights", {"brightness": 1.0})]
+
+
+def test_lights_are_not_there_before_the_robot_has_said_what_it_offers(asked: Asked) -> None:
+    asked.session.offer = None
+    assert "lights" not in asked.names
+
+
 def test_cameras_go_round_and_one_alone_has_no_button(asked: Asked) -> None:
     assert "camera" not in asked.names
     asked.tell("/robot/info", RobotInfo(cameras=["front", "rear"]))
