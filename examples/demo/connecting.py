@@ -21,6 +21,7 @@ def connect(scene: Scene) -> Wait:
         check(f"the robot is on the list within {LISTED:g} s", seconds, bool(found) and seconds <= LISTED)
         yield from glass.pause(0.7)
     with scene.step("connected") as check:
+        yield from glass.bring(scene.cards()[0])
         started = time.monotonic()
         yield from glass.tap(scene.cards()[0].ids.connect)
         yield from glass.one("MapOverlay", 10)

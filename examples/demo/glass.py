@@ -125,7 +125,7 @@ class Glass:
         found = [w for root in Window.children for w in _tree(root) if type(w).__name__ == kind]
         if not found:
             raise Unseen(f"there is no {kind} on the glass.")
-        yield from self._scroll_to(found[0])
+        yield from self.bring(found[0])
         return found[0]
 
     def sheet(self, up: int) -> Wait:
@@ -136,7 +136,8 @@ class Glass:
             yield from self.tap(grips[0])
             yield from self.pause(0.3)
 
-    def _scroll_to(self, widget: Widget) -> Wait:
+    def bring(self, widget: Widget) -> Wait:
+        """Scroll until a widget is in sight."""
         above: Any = widget
         while above is not None and above is not Window and not isinstance(above, ScrollView):
             above = above.parent
