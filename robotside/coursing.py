@@ -9,7 +9,7 @@ import numpy as np
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.units import wrap
 from robotside.follow import Follower, Manner
-from robotside.going import CRUISE, UNSURE_SPEED
+from robotside.going import CRUISE, UNSURE_SPEED, Search
 from robotside.planner import Planner
 from robotside.pose2 import Points, Pose2
 from robotside.robot import Manoeuvrable, Robot
@@ -45,6 +45,7 @@ MANNERS = {
 class Coursing:
     """`going.Going` of a robot that keeps courses."""
 
+    stands = False
     keeps_courses = True
     discs: tuple[float, ...] = (0.0,)
     look = 10.0
@@ -74,10 +75,11 @@ class Coursing:
         """What is left of the way, from beside the robot on."""
         return self._follower.ahead if self._follower else np.empty((0, 2))
 
-    def plan(
+    def search(
         self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
-    ) -> Points:
-        """A way to `goal`; its points. Unreachable raises."""
+    ) -> Search:
+        """For a way to `goal`, in one go. Unreachable raises."""
+        yield from ()
         path = planner.plan((pose.x, pose.y), goal[:2], name, obstacles)
         self._follower = Follower(path, cruise=self.cruise, manner=self._manner)
         return path

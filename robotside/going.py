@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Generator
 from typing import Protocol
 
 from robotside.planner import Planner
 from robotside.pose2 import Points, Pose2
 
-__all__ = ["CRUISE", "UNSURE_SPEED", "Going"]
+__all__ = ["CRUISE", "UNSURE_SPEED", "Going", "Search"]
 
 CRUISE = 0.9
 """Part of the robot's greatest speed that it travels with by itself."""
@@ -16,9 +17,15 @@ UNSURE_SPEED = 0.15
 """Speed while the position is unsure [m/s]."""
 
 
-class Going(Protocol):
-    """Goes one way after the other; it stands without one until `plan`, and again after `forget`."""
+Search = Generator[None, None, Points]
+"""For a way: each step is a bit of work of less than a few milliseconds; it returns the points of the way."""
 
+
+class Going(Protocol):
+    """Goes one way after the other; it stands without one until a `search` has ended, and again after `forget`."""
+
+    stands: bool
+    """It has to stand while a way is looked for, since that takes its time."""
     keeps_courses: bool
     """The robot knows manoeuvres that keep a heading, a speed and a height."""
     discs: tuple[float, ...]
@@ -40,10 +47,13 @@ class Going(Protocol):
     def ahead(self) -> Points:
         """What is left of the way, from beside the robot on."""
 
-    def plan(
+    def search(
         self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
-    ) -> Points:
-        """A way from `pose` to `goal` (x, y [m], yaw [rad], NaN for any) round `obstacles`; its points. Unreachable raises."""
+    ) -> Search:
+        """For a way from `pose` to `goal` (x, y [m], yaw [rad], NaN for any) round `obstacles`, which is then taken.
+
+        Until it is found the way that it has stays. Unreachable raises.
+        """
 
     def forget(self) -> None:
         """Have no way any more; the robot rests."""

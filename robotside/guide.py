@@ -11,7 +11,7 @@ import numpy as np
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.coursing import Coursing
-from robotside.going import CRUISE, UNSURE_SPEED, Going
+from robotside.going import CRUISE, UNSURE_SPEED, Going, Search
 from robotside.grid import Grid
 from robotside.obstacles import Obstacles
 from robotside.planner import STEP, Planner, Unreachable, place_sentence
@@ -30,6 +30,12 @@ STUCK = 10.0
 
 PATIENCE = 20.0
 """To get ready to go [s]."""
+
+AT_ONCE = 40
+"""Steps of a search for a way in one update: a few milliseconds, so that whoever presses STOP is heard."""
+
+AT_REST, COMES_TO_REST = 0.15, 3.0
+"""Slower than this it stands, and after so long it is taken to [m/s, s]."""
 
 GIVE_UP = 3
 """Times stuck on one leg before it is given up."""
@@ -101,6 +107,9 @@ class Guide:
         self._planned = self._moved = -math.inf
         self._best = math.inf
         self._stuck = 0
+        self._asked = math.inf
+        self._search: Search | None = None
+        self._seen: tuple[Pose2, float] | None = None
 
     def take_map(self, grid: Grid) -> None:
         """Plan on `grid` from now on; only between two tasks."""
@@ -125,6 +134,11 @@ class Guide:
     def radius(self) -> float:
         """Of the room that the robot needs round its place [m]."""
         return self._radius
+
+    @property
+    def planning(self) -> bool:
+        """It stands and looks for a way."""
+        return math.isfinite(self._asked)
 
     @property
     def turning(self) -> bool:
@@ -169,6 +183,7 @@ class Guide:
         """Begin a new leg; the path is planned with the next `update`."""
         self._goal, self.reason = goal, ""
         self.going.forget()
+        self._drop()
         self._waits_since = math.inf
         self._stuck, self._left, self._moved = 0, math.nan, -math.inf
 
@@ -176,6 +191,7 @@ class Guide:
         """Stand still and forget the path; a leg that goes on later is planned from wherever it is then."""
         self._robot.stop()
         self.going.forget()
+        self._drop()
         self._waits_since = math.inf
         self._left = math.nan
         self._moved = -math.inf
@@ -196,16 +212,19 @@ class Guide:
         self.waits_for = self.ready(now)
         if self.waits_for:
             return Leg.BLOCKED if self.reason else Leg.UNDER_WAY
-        if not going.under_way and not self._plan(pose, goal, now):
-            return Leg.BLOCKED
+        if not going.under_way and not self.planning:
+            self._ask(now)
+        if self.planning and not self._look(pose, goal, now):
+            return Leg.BLOCKED if self.reason else Leg.UNDER_WAY
         if going.arrived(pose):
             return self._face(pose, goal)
         self._left = going.remaining(pose)
         if not self._progresses(pose, now):
             return Leg.BLOCKED
         if now - self._planned >= REPLAN and self._in_the_way(now):
-            self._replan(pose, now)
-        going.steer(pose, points, sure=self.sure)
+            self._ask(now)
+        if not self.planning or self._look(pose, goal, now):
+            going.steer(pose, points, sure=self.sure)
         return Leg.UNDER_WAY
 
     def ready(self, now: float) -> str:
@@ -219,25 +238,50 @@ class Guide:
             self.reason = f"{waits[:-1]} took longer than {PATIENCE:.0f} s; the robot stays where it is."
         return waits
 
-    def _plan(self, pose: Pose2, goal: Goal, now: float) -> bool:
-        self._planned = now
-        known = self.obstacles.points(now)
-        try:
-            path = self.going.plan(self.planner, pose, (goal.x, goal.y, goal.yaw), goal.name, known)
-        except Unreachable as problem:
-            self.reason = str(problem)
+    def _ask(self, now: float) -> None:
+        """A way is to be looked for; what cannot do that on the way stands for it."""
+        self._asked, self._seen = now, None
+        if self.going.stands:
+            self._robot.stop()
+
+    def _look(self, pose: Pose2, goal: Goal, now: float) -> bool:
+        """Look for the way that was asked for, as long as one update may take; True when there is one to go on."""
+        if self._search is None and self.going.stands and not self._stands(pose, now):
             return False
-        self._left = self.going.remaining(pose)
-        self._show(path)
-        return True
+        if self._search is None:
+            known = self.obstacles.points(now)
+            self._search = self.going.search(self.planner, pose, (goal.x, goal.y, goal.yaw), goal.name, known)
+        try:
+            for _ in range(AT_ONCE):
+                next(self._search)
+        except StopIteration as found:
+            self._left = self.going.remaining(pose)
+            self._show(found.value)
+        except Unreachable as problem:
+            # an old path stays; standing still on it is noticed
+            self.reason = "" if self.going.under_way else str(problem)
+        else:
+            return False
+        self._moved += now - self._asked
+        self._planned = now
+        self._drop()
+        return self.going.under_way
+
+    def _stands(self, pose: Pose2, now: float) -> bool:
+        before, self._seen = self._seen, (pose, now)
+        if before is None:
+            return False
+        was, then = before
+        slow = pose.distance(was.x, was.y) < AT_REST * max(now - then, 1e-3)
+        return slow or now - self._asked > COMES_TO_REST
+
+    def _drop(self) -> None:
+        """Look for no way any more."""
+        self._asked, self._search, self._seen = math.inf, None, None
 
     def _in_the_way(self, now: float) -> bool:
         ahead = self.going.ahead[: int(self.going.look / STEP)]
         return bool(len(self.obstacles.near(ahead, self.going.clear, now)))
-
-    def _replan(self, pose: Pose2, now: float) -> None:
-        if self._goal and not self._plan(pose, self._goal, now):
-            self.reason = ""  # the old path stays; standing still on it is noticed
 
     def _face(self, pose: Pose2, goal: Goal) -> Leg:
         """At the place: turn to the direction asked for, if any."""
@@ -258,7 +302,7 @@ class Guide:
         self._moved = now
         if self._stuck < GIVE_UP and self._goal:
             self._best = math.inf
-            self._replan(pose, now)
+            self._ask(now)
             return True
         name = self._goal.name if self._goal else "the goal"
         self.reason = f"Stuck at ({pose.x:.1f}, {pose.y:.1f}): the way to {place_sentence(name, *self._at())} is blocked."

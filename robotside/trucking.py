@@ -11,7 +11,7 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from bridge.units import wrap
 from robotside.follow import Follower, Manner
-from robotside.going import CRUISE, UNSURE_SPEED
+from robotside.going import CRUISE, UNSURE_SPEED, Search
 from robotside.lattice import Lattice, Piece
 from robotside.planner import Planner, Unreachable, place_sentence
 from robotside.pose2 import Points, Pose2
@@ -86,6 +86,7 @@ def bend_of(info: RobotInfo) -> float:
 class Trucking:
     """`going.Going` of a robot that turns only by driving, and drives backwards too."""
 
+    stands = True
     keeps_courses = False
     look = 12.0
 
@@ -116,18 +117,17 @@ class Trucking:
             return np.empty((0, 2))
         return np.concatenate([self._follower.ahead, *(piece.points for piece in self._pieces[1:])])
 
-    def plan(
+    def search(
         self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
-    ) -> Points:
-        """A way to `goal`; its points. It stands while it looks for one. Unreachable raises."""
-        self._robot.stop()
+    ) -> Search:
+        """For a way to `goal`, pose by pose. Unreachable raises."""
         self._speed = 0.0
         grid = planner.grid.marked(obstacles) if len(obstacles) else planner.grid
         for place, called in (((pose.x, pose.y), "The robot"), (goal[:2], name)):
             if not grid.holds(*place):
                 raise Unreachable(f"{place_sentence(called, *place)} is off the map.")
         lattice = Lattice(grid, SPARE * self._bend, self.discs, self._girth, MARGIN)
-        pieces = lattice.way(pose, goal)
+        pieces = yield from lattice.search(pose, goal)
         if not pieces:
             raise Unreachable(f"There is no way to {place_sentence(name, *goal[:2])} that it can drive.")
         self._take(pieces)

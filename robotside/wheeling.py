@@ -9,7 +9,7 @@ import numpy as np
 from bridge.msgs.geometry_msgs import Twist
 from robotside.avoidance import Avoidance, free_lengths
 from robotside.follow import Follower
-from robotside.going import CRUISE, UNSURE_SPEED
+from robotside.going import CRUISE, UNSURE_SPEED, Search
 from robotside.planner import Planner
 from robotside.pose2 import Points, Pose2
 from robotside.robot import Robot
@@ -31,6 +31,7 @@ NOWHERE: Points = np.empty((0, 2))
 class Wheeling:
     """`going.Going` of a robot that turns where it stands."""
 
+    stands = False
     keeps_courses = False
     discs: tuple[float, ...] = (0.0,)
     turning = 0.0
@@ -56,10 +57,11 @@ class Wheeling:
         """What is left of the way, from beside the robot on."""
         return self._follower.ahead if self._follower else NOWHERE
 
-    def plan(
+    def search(
         self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
-    ) -> Points:
-        """A way to `goal`; its points. Unreachable raises."""
+    ) -> Search:
+        """For a way to `goal`, in one go. Unreachable raises."""
+        yield from ()
         path = planner.plan((pose.x, pose.y), goal[:2], name, obstacles)
         self._follower = Follower(path, cruise=self.cruise)
         return path

@@ -42,6 +42,9 @@ class DriveTo(Behaviour):
         if self._guide.waits_for:
             now.tell("taking off", self._guide.waits_for, place=goal.place)
             return LEG_STATUS[leg]
+        if self._guide.planning:
+            now.tell("planning", f"Looking for a way to {goal.spoken}.", place=goal.place)
+            return LEG_STATUS[leg]
         now.tell("turning" if self._guide.turning else "driving", self._words(goal), place=goal.place)
         return LEG_STATUS[leg]
 
@@ -55,4 +58,6 @@ class DriveTo(Behaviour):
             return self._guide.reason
         if leg is Leg.ARRIVED:
             return f"{goal.name} reached."
+        if self._guide.planning:
+            return f"Looking for a way to {goal.spoken}."
         return f"Heading for {goal.name[0].lower()}{goal.name[1:]}, {self._guide.remaining:.0f} m to go."

@@ -29,13 +29,13 @@ def truck(start: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> tuple[FakeRobo
 def drive(goal: tuple[float, float, float], things: Points = NOTHING) -> tuple[FakeRobot, float]:
     """To the end of its way; and its tightest bend [1/m]."""
     robot, going = truck()
-    going.plan(Planner(GRID, 0.9), Pose2(*robot.pose), goal, "The goal", NOTHING)
+    list(going.search(Planner(GRID, 0.9), Pose2(*robot.pose), goal, "The goal", NOTHING))
     now, tightest = 0.0, 0.0
     list(robot.read(now))
     while not going.arrived(Pose2(*robot.pose)) and now < 120.0:
         pose = Pose2(*robot.pose)
         if not going.under_way:
-            going.plan(Planner(GRID, 0.9), pose, goal, "The goal", NOTHING)
+            list(going.search(Planner(GRID, 0.9), pose, goal, "The goal", NOTHING))
         going.steer(pose, pose.inverse().apply(things), sure=True)
         if abs(robot.twist.linear.x) > 0.2:
             tightest = max(tightest, abs(robot.twist.angular.z / robot.twist.linear.x))
@@ -80,4 +80,4 @@ def test_who_stands_close_to_something_may_go_away_from_it() -> None:
 def test_a_goal_off_the_map_is_named() -> None:
     robot, going = truck()
     with pytest.raises(Unreachable, match=r"Point 3 at \(50.0, 0.0\) is off the map"):
-        going.plan(Planner(GRID, 0.9), Pose2(*robot.pose), (50.0, 0.0, math.nan), "Point 3", NOTHING)
+        list(going.search(Planner(GRID, 0.9), Pose2(*robot.pose), (50.0, 0.0, math.nan), "Point 3", NOTHING))

@@ -21,7 +21,11 @@ def steered(points: Points, times: int) -> list[float]:
     """How fast it was told to go each time, with something at `points`, wherever it is [m/s]."""
     robot = FakeRobot()
     going = Wheeling(robot)
-    going.plan(Planner(GRID, 0.18), Pose2(0.0, 0.0, 0.0), (4.0, 0.0, math.nan), "The goal", np.empty((0, 2)))
+    list(
+        going.search(
+            Planner(GRID, 0.18), Pose2(0.0, 0.0, 0.0), (4.0, 0.0, math.nan), "The goal", np.empty((0, 2))
+        )
+    )
     speeds = []
     for _ in range(times):
         going.steer(Pose2(0.0, 0.0, 0.0), points, sure=True)
