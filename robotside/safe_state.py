@@ -35,6 +35,8 @@ LONGEST = 120.0
 """Surfacing or landing ends after this at the latest, for one that does not measure its height [s]."""
 STANDS = 0.02
 """Slower than this it stands [m/s]."""
+SWINGS = 1.0
+"""So long front wheels take at most to come straight; a truck that brakes hard stands before [s]."""
 STRAIGHT = 10.0
 """Braking straight ends after this at the latest, for one that does not measure its speed [s]."""
 
@@ -151,7 +153,7 @@ class SafeState:
 
     def _brake_straight(self, since: float, measured: Measured) -> Act:
         """No speed and the wheels straight, so that it does not swing into what is beside it."""
-        if since >= STRAIGHT or (since > 0 and measured.moving.speed < STANDS):
+        if since >= STRAIGHT or (since >= SWINGS and measured.moving.speed < STANDS):
             return _AT_REST
         return Act(Twist(), "brakes straight")
 

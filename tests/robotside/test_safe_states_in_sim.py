@@ -75,6 +75,23 @@ def test_a_truck_brakes_with_its_wheels_straight(hand: Make) -> None:
     assert abs(vehicle(run)._drive.steering) < 0.01
 
 
+def test_a_truck_brakes_as_hard_as_it_can_and_does_not_swing(hand: Make) -> None:
+    run = hand("commander")
+    run.push(steer(-0.3, speed=3.0), 1.4)
+    speed, way, turning = run.speed, 0.0, abs(run.state.turning[2])
+    lost = run.now
+    while run.speed > 0.02:
+        way += run.speed / 30
+        run.wait(1 / 30)
+        assert run.now - lost < 3.0
+        assert abs(run.state.turning[2]) < turning + 0.05
+        turning = min(turning, abs(run.state.turning[2]) + 0.05)
+    assert speed > 2.0
+    # its command counts on for a quarter of a second
+    assert run.now - lost < speed / vehicle(run).parameters.limits.braking + 0.4
+    assert way < speed * speed / 6.0 + 0.4 * speed
+
+
 def test_a_boat_idles_and_holds_its_heading_in_current_and_waves(hand: Make) -> None:
     run = hand("minnow")
     run.push(steer(0.3, throttle=0.8), 2.0)
