@@ -14,7 +14,7 @@ __all__ = ["TOPICS", "play"]
 TOPICS = ("/ackermann",)
 SLOW = 0.03
 """A robot on wheels that is slower stands [m/s]."""
-CRAWL, WALK = 0.0, 0.16
+CRAWL, WALK = 0.0, 0.12
 """Where the slider is put, a share of its way."""
 POINTS = ((-4.0, -7.4), (6.0, -6.6))
 """On ahead along the southern aisle, (x, y) in `map` [m]."""

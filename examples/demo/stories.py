@@ -19,7 +19,7 @@ def topics(story: str) -> tuple[str, ...]:
     return VEHICLES[story].TOPICS if story in VEHICLES else ()
 
 
-def tell(story: str, scene: Scene, record: Callable[[], None]) -> Wait:
+def tell(story: str, scene: Scene, record: Callable[[], object]) -> Wait:
     """Play the story of that name; `record` starts a recording, once there is a robot."""
     if story == "errand":
         yield from _errand(scene)
