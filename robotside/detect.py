@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
-from scipy import ndimage
+
+from robotside.patches import boxes
 
 __all__ = ["Sighting", "find_cones"]
 
@@ -87,9 +88,8 @@ def _search(rgb: PIXELS) -> list[Sighting]:
 
 def _groups(orange: MASK) -> Iterator[Box]:
     """The boxes round orange things; what stands above another across a gap, as above a white band, is one with it."""
-    labels, _ = ndimage.label(orange, np.ones((3, 3)))
     whole: list[Box] = []
-    for box in ndimage.find_objects(labels):
+    for box in boxes(orange):
         if np.count_nonzero(orange[box]) < SPECK:
             continue
         above = next((number for number, other in enumerate(whole) if _stands_on(other, box)), None)

@@ -8,9 +8,9 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from bridge.msgs.nav_msgs import OccupancyGrid
+from robotside.nearness import distance_from
 from robotside.pose2 import Points
 from robotside.words import number
 
@@ -76,8 +76,8 @@ class Grid:
         """Of each cell's centre to the nearest surface [m]: positive in the open, negative inside obstacles."""
         if not self.occupied.any():
             return np.full(self.occupied.shape, 1e3)
-        outside = ndimage.distance_transform_edt(~self.occupied)
-        inside = ndimage.distance_transform_edt(self.occupied)
+        outside = distance_from(self.occupied)
+        inside = distance_from(~self.occupied)
         signed = np.where(self.occupied, 0.5 - inside, outside - 0.5)
         return np.asarray(signed * self.resolution, dtype=np.float64)
 

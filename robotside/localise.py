@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from bridge.units import wrap
 from robotside.grid import Grid
+from robotside.nearness import distance_from
 from robotside.pose2 import Points, Pose2
 
 __all__ = ["Field", "Localiser", "Match"]
@@ -55,8 +55,8 @@ class Field:
     """A map's distance field, readable between the cells and with slopes."""
 
     def __init__(self, grid: Grid) -> None:
-        outside = ndimage.distance_transform_edt(~grid.occupied)
-        inside = ndimage.distance_transform_edt(grid.occupied)
+        outside = distance_from(grid.occupied)
+        inside = distance_from(~grid.occupied)
         signed = np.where(grid.occupied, 1.0 - inside, outside) * grid.resolution
         self._values = np.clip(signed, -1.0, 2.0)
         slope_y, slope_x = np.gradient(self._values, grid.resolution)

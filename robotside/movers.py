@@ -6,8 +6,8 @@ from collections import deque
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
+from robotside.nearness import within
 from robotside.pose2 import Points
 
 __all__ = ["SHARE", "Movers"]
@@ -39,8 +39,7 @@ class Movers:
         self._before.append((stamp, placed))
         if old is None or not len(old[1]) or not AGO / 2 < stamp - old[0] < 3 * AGO or not len(placed):
             return np.zeros(len(placed), dtype=np.bool_)
-        gaps, _ = cKDTree(old[1]).query(placed, distance_upper_bound=MOVED)
-        return np.asarray(~np.isfinite(gaps))
+        return ~within(placed, old[1], MOVED)
 
     @staticmethod
     def nearer(points: Points) -> Points:

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 from skimage.graph import route_through_array
 
 from robotside.grid import Grid
@@ -29,6 +28,10 @@ CELL = 0.1
 
 ESCAPE = 0.6
 """A robot that stands too close to something may cross that zone within this distance of itself [m]."""
+
+_BELL = np.exp(-0.5 * (np.arange(-8, 9) / 2.0) ** 2)
+_BELL /= _BELL.sum()
+"""Weights of a point's neighbours where a path is rounded."""
 
 
 class Unreachable(Exception):
@@ -153,9 +156,11 @@ def _rounded(path: Points) -> Points:
     """The same line with its corners rounded over about half a metre; both ends stay."""
     if len(path) < 5:
         return path
-    smooth = ndimage.gaussian_filter1d(path, 2.0, axis=0, mode="nearest")
+    reach = len(_BELL) // 2
+    longer = np.pad(path, ((reach, reach), (0, 0)), mode="edge")
+    smooth = np.column_stack([np.convolve(longer[:, axis], _BELL, mode="valid") for axis in (0, 1)])
     smooth[0], smooth[-1] = path[0], path[-1]
-    return np.asarray(smooth)
+    return smooth
 
 
 def _search(
