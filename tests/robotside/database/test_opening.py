@@ -6,13 +6,17 @@ import asyncio
 import math
 import shutil
 import sqlite3
+import subprocess
+import sys
 from contextlib import closing
 from pathlib import Path
 
 import msgspec
 import pytest
 from alembic.autogenerate import compare_metadata
+from alembic.config import Config as AlembicConfig
 from alembic.migration import MigrationContext
+from alembic.script import ScriptDirectory
 from sqlalchemy import create_engine, event, inspect, text
 from sqlalchemy.engine import make_url
 from sqlalchemy.exc import OperationalError
@@ -130,6 +134,26 @@ async def test_the_migrations_make_the_tables_of_the_models(
         assert compare_metadata(MigrationContext.configure(connection), Base.metadata) == []
     upgrade(engine)
     engine.dispose()
+
+
+def test_the_newest_revision_is_the_one_that_its_file_is_named_after() -> None:
+    migrations = Path(opening.__file__).with_name("migrations")
+    config = AlembicConfig()
+    config.set_main_option("script_location", str(migrations))
+    script = ScriptDirectory.from_config(config)
+    for each in script.walk_revisions():
+        assert Path(each.path).name.startswith(f"v{each.revision}_")
+    assert opening._newest(migrations) == script.get_current_head()
+
+
+def test_what_changes_tables_is_not_loaded_where_they_are_up_to_date(tmp_path: Path) -> None:
+    open_records(tmp_path, None, print).close()
+    program = (
+        "import sys; from pathlib import Path; from robotside.database.opening import open_records;"
+        "open_records(Path(sys.argv[1]), None, print).close(); sys.exit('alembic' in sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", program, tmp_path], capture_output=True, timeout=60)
+    assert done.returncode == 0
 
 
 async def test_a_database_of_a_newer_program_is_not_touched(
