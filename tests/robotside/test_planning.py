@@ -1,0 +1,144 @@
+"""Looking for a way that is hard to find: a bit at a time, and given up at once when somebody asks for that."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from pathlib import Path
+
+import msgspec
+import numpy as np
+import pytest
+
+from robotside import lattice
+from robotside.grid import Grid
+from robotside.guide import AT_ONCE, Goal, Guide, Leg
+from robotside.lattice import Lattice
+from robotside.pose2 import Pose2
+from tests.fakes import Box, FakeRobot
+from tests.robotside.scene import Scene
+
+CLOSED = [
+    Box(3.0, -2.0, 7.0, -1.6),
+    Box(3.0, 1.6, 7.0, 2.0),
+    Box(3.0, -2.0, 3.4, 2.0),
+    Box(6.6, -2.0, 7.0, 2.0),
+]
+"""Round the goal: wherever it looks, there is no way."""
+GOAL = Goal("Point 1", 5.0, 0.0)
+
+
+class Looks:
+    """How many poses were looked at."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.count = 0
+        children = Lattice._children
+
+        def counted(*words: object) -> object:
+            self.count += 1
+            return children(*words)  # type: ignore[arg-type]
+
+        monkeypatch.setattr(Lattice, "_children", counted)
+
+
+@pytest.fixture
+def looks(monkeypatch: pytest.MonkeyPatch) -> Looks:
+    return Looks(monkeypatch)
+
+
+def truck(*boxes: Box) -> FakeRobot:
+    robot = FakeRobot(start=(-4.0, 0.0, 0.0), boxes=boxes)
+    robot.info = msgspec.structs.replace(robot.info, kind="ackermann")
+    return robot
+
+
+def test_the_hardest_search_takes_no_more_than_its_share_of_each_update(
+    looks: Looks, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(lattice, "MOST", 10 * AT_ONCE)
+    robot = truck(*CLOSED)
+    guide = Guide(robot, Grid.from_msg(robot.map()), lambda _: None)
+    guide.head_for(GOAL)
+    shares = []
+    for tick in range(100):
+        before = looks.count
+        leg = guide.update(Pose2(*robot.pose), np.empty((0, 2)), tick * 0.05)
+        shares.append(looks.count - before)
+        if leg is Leg.BLOCKED:
+            break
+        assert guide.planning
+        assert robot.at_rest
+    assert leg is Leg.BLOCKED
+    assert guide.reason == "There is no way to Point 1 at (5.0, 0.0) that it can drive."
+    assert max(shares) <= AT_ONCE
+    assert 9 * AT_ONCE < sum(shares) <= 10 * AT_ONCE
+
+
+def test_it_finds_bit_by_bit_what_it_finds_in_one_go() -> None:
+    robot = truck(Box(0.0, -2.0, 0.4, 2.0))
+    grid = Grid.from_msg(robot.map())
+
+    def drawn() -> list[list[list[float]]]:
+        ways: list[list[list[float]]] = []
+        guide = Guide(robot, grid, lambda way: ways.append(way.tolist()))
+        guide.head_for(GOAL)
+        for tick in range(1000):
+            guide.update(Pose2(-4.0, 0.0, 0.0), np.empty((0, 2)), tick * 0.05)
+            if ways:
+                break
+        return ways
+
+    with pytest.MonkeyPatch.context() as patched:
+        found = []
+        for share in (2, 10**6):
+            patched.setattr("robotside.guide.AT_ONCE", share)
+            found.append(drawn())
+    assert found[0] == found[1]
+    assert math.dist(found[0][0][-1], (5.0, 0.0)) < 0.05
+
+
+def searching(state: Path, looks: Looks) -> Scene:
+    """It is asked to go where no way leads, and looks for one."""
+    run = Scene(truck(*CLOSED), state)
+    run.run(3.5)
+    run.go_to(5.0, 0.0)
+    for _ in itertools.takewhile(lambda _: looks.count < 3 * AT_ONCE, range(20)):
+        run.run(0.1)
+    status = run.task
+    assert (status.phase, status.reason) == ("planning", "Looking for a way to the goal.")
+    assert run.station.autonomy.guide.planning
+    return run
+
+
+@pytest.mark.parametrize("service", ["/stop", "/task/pause", "/task/cancel"])
+def test_whoever_stops_or_pauses_it_meanwhile_is_obeyed_at_once(
+    service: str, tmp_path: Path, looks: Looks
+) -> None:
+    run = searching(tmp_path, looks)
+    answer = run.ask(service)
+    assert answer.success, answer.message
+    so_far = looks.count
+    assert not run.station.autonomy.guide.planning
+    run.run(1.0)
+    assert looks.count == so_far
+    assert run.robot.at_rest
+
+
+def test_resumed_it_looks_anew(tmp_path: Path, looks: Looks) -> None:
+    run = searching(tmp_path, looks)
+    run.ask("/task/pause")
+    run.run(0.5)
+    so_far = looks.count
+    run.ask("/task/resume")
+    run.run(0.5)
+    assert run.station.autonomy.guide.planning
+    assert looks.count > so_far
+
+
+def test_another_place_takes_the_place_of_the_one_that_it_looks_for(tmp_path: Path, looks: Looks) -> None:
+    run = searching(tmp_path, looks)
+    run.go_to(-1.0, 0.0)
+    run.run(1.0)
+    status = run.task
+    assert (status.phase, run.station.autonomy.guide.planning) == ("driving", False)
