@@ -219,15 +219,17 @@ class Trucking:
         yaw = bends[:, None] * along
         safe = np.where(np.abs(bends) < 1e-6, 1e-6, bends)[:, None]
         x, y = np.sin(safe * along) / safe, (1.0 - np.cos(safe * along)) / safe
-        gaps = np.full((*yaw.shape, len(near)), math.inf)
-        at_first = np.full(len(near), math.inf)
-        for disc in self.discs:
-            px, py = x + disc * np.cos(yaw), y + disc * np.sin(yaw)
-            gaps = np.minimum(gaps, np.hypot(px[..., None] - near[:, 0], py[..., None] - near[:, 1]))
-            at_first = np.minimum(at_first, np.hypot(near[:, 0] - disc, near[:, 1]))
+        ahead = np.asarray(self.discs)
+        px = x[..., None] + ahead * np.cos(yaw)[..., None]
+        py = y[..., None] + ahead * np.sin(yaw)[..., None]
+        discs = np.column_stack([px.ravel(), py.ravel()])
+        at_first = np.hypot(near[:, 0, None] - ahead, near[:, 1, None]).min(axis=1)
         # from what is too close already it may go away
-        touches: NDArray[np.bool_] = (gaps < self._girth + GAP) & (gaps < at_first - 0.01)
-        hit: NDArray[np.bool_] = np.logical_or.reduce(touches, axis=2)
+        bound = np.minimum(self._girth + GAP, at_first - 0.01).clip(0.0)
+        # (p - q)^2 < bound^2, written so that it is one product of all with all
+        far = (discs**2).sum(axis=1)[:, None] - 2.0 * (discs @ near.T)
+        touches = (far < bound**2 - (near**2).sum(axis=1)).any(axis=1)
+        hit: NDArray[np.bool_] = touches.reshape(*yaw.shape, len(ahead)).any(axis=2)
         first = np.where(hit.any(axis=1), hit.argmax(axis=1), hit.shape[1])
         return np.asarray(first * STEP, dtype=np.float64)
 
