@@ -196,8 +196,8 @@ class TaskStatus(Msg, frozen=True, gc=False):
     visited: int32 = 0
     """Waypoints reached in this run."""
     phase: str = ""
-    """driving, waiting, dwelling, holding, turning, docking, circling, taking off, landing or surfacing;
-    empty when it does none of them.
+    """driving, waiting, dwelling, holding, turning, planning (looks for a way), docking, circling, taking
+    off, landing or surfacing; empty when it does none of them.
     """
     asks: str = ""
     """A question that /task/confirm answers, as in: Has it been picked up at Office 12? Empty for none."""
