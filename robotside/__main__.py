@@ -27,6 +27,7 @@ from robotside.options import One, UserMistake
 from robotside.robot import Robot
 from robotside.schedule import local_zone
 from robotside.serving import Addresses, Serving
+from robotside.slack import trim
 from robotside.station import Station
 from robotside.together import Together
 
@@ -54,6 +55,7 @@ def _serve(options: argparse.Namespace, wanted: Callable[[], bool]) -> int:
     configs = said.configs(options, len(ones))
     ports = [said.ports(options, number) for number in range(len(ones))]
     robots, world = _robots(options, ones)
+    trim()
     names = [one.name for one in ones]
     states = [said.state(options, names, number, world) for number in range(len(ones))]
     began, steady = time.time(), time.monotonic()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import zlib
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
 
@@ -48,18 +49,24 @@ class _Sheet:
         return self.image.filter(ImageFilter.GaussianBlur(radius / RESOLUTION))
 
 
-@lru_cache(maxsize=4)
 def markings(world: World) -> tuple[tuple[int, int], bytes]:
     """Size in pixels and two bytes a pixel, row by row from the south-west corner: signs, and light left by shadows."""
+    size, packed = _painted(world)
+    return size, zlib.decompress(packed)
+
+
+@lru_cache(maxsize=4)
+def _painted(world: World) -> tuple[tuple[int, int], bytes]:
+    """The same packed: it is kept for as long as nobody looks, and a twentieth is enough for that."""
     if world.water:
-        return (1, 1), bytes((0, 255))  # nothing is painted on it, and no shadow falls
+        return (1, 1), zlib.compress(bytes((0, 255)))  # nothing is painted on it, and no shadow falls
     paint = _signs(world).blurred(0.012)
     shapes = world.visuals
     sunny = () if world.ground.look == "floor" else shapes
     shadow = _shadows(world, sunny).blurred(0.03).point(lambda v: int(255 - _SHADOW_DEPTH * v))
     contact = _contacts(world, shapes).blurred(0.16).point(lambda v: int(255 - _CONTACT_DEPTH * v))
     light = ImageChops.multiply(shadow, contact)
-    return paint.size, Image.merge("LA", (paint, light)).tobytes()
+    return paint.size, zlib.compress(Image.merge("LA", (paint, light)).tobytes(), 1)
 
 
 def _signs(world: World) -> _Sheet:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -28,14 +29,19 @@ _SECTORS, _RINGS = 48, 24
 Grey = NDArray[np.floating[Any]]
 
 
-@lru_cache(maxsize=1)
 def panorama() -> bytes:
     """Four bytes a pixel, row by row from the horizon up; column 0 is west, going on to the south."""
+    return zlib.decompress(_painted())
+
+
+@lru_cache(maxsize=1)
+def _painted() -> bytes:
+    """The same packed: it is kept for as long as nobody looks, and a twentieth is enough for that."""
     picture = _column(lambda rise: _between(HORIZON, ZENITH, 1 - math.exp(-2.6 * rise)))
     picture.paste(_rgb((0.97, 0.98, 0.99)), mask=_clouds())
     for hills in (_FAR, _NEAR):
         picture.paste(_column(hills.colour), mask=hills.mask())
-    return picture.convert("RGBA").tobytes()
+    return zlib.compress(picture.convert("RGBA").tobytes(), 1)
 
 
 def dome() -> tuple[bytes, bytes]:
