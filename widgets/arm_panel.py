@@ -155,10 +155,15 @@ class ArmPanel(ArmKeys):
         """On the tip, or on the dial of the foot."""
         return bool(self._handle(x, y))
 
+    @property
+    def tip_on_glass(self) -> tuple[float, float]:
+        """Where the tip is drawn [px]; only while all joints are known."""
+        return self.side.at(side_points(tuple(self.angles), self.links)[-1])
+
     def _handle(self, x: float, y: float) -> str:
         if len(self.angles) != 4 or not self.tip or (self.choosing and not self.beside):
             return ""
-        tip, dial = self.side.at(side_points(tuple(self.angles), self.links)[-1]), self._dial()
+        tip, dial = self.tip_on_glass, self._dial()
         far = {"tip": math.dist((x, y), tip), "turn": math.dist((x, y), dial[:2]) if dial[2] else math.inf}
         nearest = min(far, key=lambda name: far[name])
         return nearest if far[nearest] <= theme.target * (0.75 if nearest == "tip" else 0.5) else ""
@@ -170,7 +175,7 @@ class ArmPanel(ArmKeys):
         if math.dist(touch.pos, self._start) < dp(LEAST) and not self.aim and math.isnan(self.bearing):
             return
         if self.held == "tip":
-            tip = self.side.at(side_points(tuple(self.angles), self.links)[-1])
+            tip = self.tip_on_glass
             place = tip[0] + touch.x - self._start[0], tip[1] + touch.y - self._start[1]
             self.aim = [round(value, 3) for value in self.side.point(place)]
         elif self.held == "turn":

@@ -49,12 +49,12 @@ class Side(NamedTuple):
 
     def at(self, place: Sequence[float]) -> tuple[float, float]:
         """Where a place ahead of and above the foot [m] is on the glass [px]."""
-        return self.x + place[0] * self.scale, self.y + place[1] * self.scale
+        return self.x + float(place[0]) * self.scale, self.y + float(place[1]) * self.scale
 
     def point(self, at: Sequence[float]) -> tuple[float, float]:
         """How far ahead of and above the foot [m] a place on the glass [px] is; one beyond the picture is at its edge."""
         left, low, right, top = self.box
-        x, y = min(max(at[0], left), right), min(max(at[1], low), top)
+        x, y = min(max(float(at[0]), left), right), min(max(float(at[1]), low), top)
         return (x - self.x) / self.scale, (y - self.y) / self.scale
 
 

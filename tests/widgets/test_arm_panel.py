@@ -188,6 +188,9 @@ def test_the_tip_is_sent_as_far_as_the_finger_went_in_the_plane_of_the_arm(stage
     assert order.point.x == pytest.approx(0.3 - 0.1 * math.cos(turned), abs=0.003)
     assert order.point.y == pytest.approx(-0.1 * math.sin(turned), abs=0.003)
     assert order.point.z == pytest.approx(0.25, abs=0.003)
+    assert {type(value) for value in (order.point.x, order.point.y, order.point.z)} == {float}, (
+        "as they travel"
+    )
 
 
 def test_nothing_is_asked_for_before_the_finger_is_lifted_nor_by_one_that_only_touched(stage, panel):
