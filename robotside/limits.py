@@ -16,13 +16,14 @@ import numpy as np
 from bridge.msgs.geometry_msgs import Point32, Polygon, Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
 from robotside.config import LimitSettings, Ring
+from robotside.drifting import BACK_AT, BACK_TO, CREEP, DRIFTS, Drift, back, way_back
 from robotside.fence import Fence
-from robotside.fencing import Fencing
+from robotside.fencing import LEVEL_FROM, MOST_DOUBT, SURE_ENOUGH, Fencing, doubt_of
 from robotside.grid import Grid
-from robotside.manoeuvres import Order, kept, leads_to, levelled
+from robotside.manoeuvres import BY_ITSELF, Order, kept, leads_to, levelled
 from robotside.planner import place_sentence
 from robotside.pose2 import Pose2
-from robotside.slower import slower
+from robotside.slower import slower, within
 from robotside.tracks import HANDLING, REACTION, REST, Handling, Moving
 
 __all__ = ["GOAL_ROOM", "PATH_ROOM", "Clamped", "Keeper", "Kept", "Measured", "turned_over"]
@@ -37,6 +38,8 @@ UPSIDE_DOWN = 0.2
 """Cosine of the tilt from which on a robot has turned over."""
 DIVING = 0.1
 """From this pitch on a swimmer goes up and down as it goes ahead, and its fins cannot make up for that [rad]."""
+UNSURE = 0.25
+"""A robot that is not sure of its place goes at this part of its speed while it has a fence."""
 NOT_PLACED = "The robot does not know where it is, so it cannot keep to its fence; place it on the map."
 
 
@@ -97,6 +100,8 @@ class Keeper:
         self._slope = math.radians(settings.max_slope_degrees or 0.0) or math.inf
         self._came: tuple[float, float] | None = None
         self._fence = Fence(settings.keep_in, settings.keep_out)
+        self._drift, self._doubt = Drift(), 0.0
+        self._returns, self._way, self._back = False, 0.0, False
         self._fencing = Fencing(self._fence, info.radius, self._handling)
         self.info: RobotInfo = msgspec.structs.replace(
             info,
@@ -130,7 +135,7 @@ class Keeper:
         room = self.room(x, y)
         if not room > 0:
             return f"{where} is outside the robot's fence."
-        need = self._radius + GOAL_ROOM
+        need = self._radius + max(GOAL_ROOM, self._doubt + 2 * PATH_ROOM)
         if room < need:
             return f"{where} is {room:.2f} m from the robot's fence; the robot needs {need:.2f} m."
         return ""
@@ -161,13 +166,18 @@ class Keeper:
             return Kept(*self.clamp(order, measured))
         own = self._own
         order = levelled(order, self._deepest, self._height, measured.height)
+        if order.kind == "tilt" and (roll := self._rolled(order.roll, measured)) != order.roll:
+            order = msgspec.structs.replace(order, roll=roll)
         leads = leads_to(order, own, measured)
         may, why = self.clamp(leads, measured)
+        if self._back and order.kind not in BY_ITSELF:
+            return Kept(may, why)
         if order.kind not in own.manoeuvres or turned_over(measured, own.kind):
             return Kept(may, why)
         return Kept(kept(order, leads, may, own), why)
 
     def _clamped(self, twist: Twist, measured: Measured) -> Clamped:
+        self._back = False
         if turned_over(measured, self.info.kind):
             return Clamped(Twist(), f"{self.info.name or 'The robot'} has turned over; put it upright first.")
         fitted = self._upright(slower(twist, self.info.max_speed, self.info.max_yaw_rate), measured)
@@ -219,23 +229,90 @@ class Keeper:
         said = f"It is steeper here, {math.degrees(tilt):.0f} degrees, than the {math.degrees(self._slope):.0f} allowed"
         return Clamped(_scaled(twist, 0.0, self._handling), f"{said}; drive back.")
 
+    def adrift(self, measured: Measured) -> str:
+        """What to say of a robot that is carried over its fence, whether it may go back or STOP is pressed; empty for nothing.
+
+        Call it whenever something new is measured.
+        """
+        self._doubt = doubt_of(measured.spread) if self._fence else 0.0
+        pose, last = measured.pose, self._last
+        if not self._fence or pose is None:
+            return ""
+        room, outward = self._fencing.room(pose), self._fencing.outward(pose, measured.moving)
+        returns = self._back and last[1] == measured
+        if returns:
+            room, outward = min(room - self._doubt, BACK_AT), max(outward, DRIFTS)
+        return self._drift.told(self._own.name, room, outward, returns=returns)
+
     def _fenced(self, twist: Twist, measured: Measured) -> Clamped:
-        """Slower towards the fence."""
+        """Slower towards the fence, and slowly all ways where the place is not sure."""
+        v, pose = twist.linear, measured.pose
+        if not self._fence:
+            return Clamped(twist)
+        if pose is None:
+            return Clamped(_scaled(twist, 0.0, self._handling), NOT_PLACED) if v.x or v.y else Clamped(twist)
+        doubt, unsure = doubt_of(measured.spread), _unsure(measured)
+        if unsure:
+            most = UNSURE * self.info.max_speed
+            far = math.hypot(v.x, v.y)
+            twist = _scaled(twist, most / far, self._handling) if far > most else twist
+        clamped = self._within(twist, measured, pose, doubt)
+        if self._drifts_out(measured.moving, pose, doubt, clamped.twist):
+            inward = self._fencing.inward(pose)
+            self._way = 0.0 if self._handling.glide else way_back(inward, self._way)
+            home = back(inward, self._way)
+            rolls, levels = self._roll_rate(0.0, measured), -within(measured.pitch, 0.5)
+            kept = Twist(Vector3(home.linear.x, 0.0, twist.linear.z), Vector3(rolls, levels, home.angular.z))
+            self._back = True
+            return Clamped(kept, clamped.why)
+        return Clamped(clamped.twist, clamped.why or (unsure if v.x or v.y else ""))
+
+    def _within(self, twist: Twist, measured: Measured, pose: Pose2, doubt: float) -> Clamped:
         v, w = twist.linear, twist.angular
-        if not self._fence or not (v.x or v.y):
+        creeps = self._own.kind == "boat" and w.z != 0.0 and abs(v.x) < CREEP
+        wanted = Moving(math.copysign(CREEP, v.x) if creeps else v.x, v.y, w.z)
+        if not wanted.speed:
             return Clamped(twist)
-        if measured.pose is None:
-            return Clamped(_scaled(twist, 0.0, self._handling), NOT_PLACED)
-        wanted = Moving(v.x, v.y, w.z)
-        done = self._fencing.slowed(measured.pose, measured.moving, wanted)
+        done = self._fencing.slowed(pose, measured.moving, wanted, doubt)
+        w = Vector3(self._roll_rate(w.x, measured), w.y, w.z)
         if done is wanted:
-            return Clamped(twist)
+            return Clamped(Twist(v, w))
         kept = Twist(Vector3(done.x, done.y, v.z), Vector3(w.x, w.y, done.turn))
-        if done.speed > wanted.speed / 2:
+        if creeps:
+            kept = Twist(Vector3(0.0, 0.0, v.z), Vector3(w.x, w.y, 0.0))
+        elif done.speed > wanted.speed / 2:
             return Clamped(kept)
-        room = self._fencing.room(measured.pose)
+        room = self._fencing.room(pose)
         where = f"is {room:.1f} m away" if room > 0.05 else "is here"
-        return Clamped(kept, f"The robot's fence {where}: it goes no nearer.")
+        known = f" and it knows its place to {SURE_ENOUGH * measured.spread:.1f} m only" if doubt else ""
+        return Clamped(kept, f"The robot's fence {where}{known}: it goes no nearer.")
+
+    def _drifts_out(self, moving: Moving, pose: Pose2, doubt: float, kept: Twist) -> bool:
+        """It is carried over the fence, or will be, and what is left of its order does not bring it back."""
+        if not self._handling.drifts:
+            return False
+        room, out = self._fencing.room(pose) - doubt, self._fencing.outward(pose, moving)
+        most = self._fencing.unhurried(room)
+        if self._returns:
+            self._returns = room < BACK_TO or out > most
+        else:
+            self._returns = (room < BACK_AT and out > DRIFTS) or out > most + 2 * DRIFTS
+        inward = -self._fencing.outward(pose, Moving(kept.linear.x, kept.linear.y, 0.0))
+        if not self._returns:
+            self._way = 0.0
+        return self._returns and inward < CREEP / 2
+
+    def _rolled(self, roll: float, measured: Measured) -> float:
+        """As much of a `roll` [rad] as one that glides may have here: rolled, its fins push it aside."""
+        if not (self._handling.glide and self._fence and measured.pose):
+            return roll
+        room = self._fencing.room(measured.pose) - doubt_of(measured.spread)
+        return roll * max(0.0, min(1.0, room / LEVEL_FROM))
+
+    def _roll_rate(self, rate: float, measured: Measured) -> float:
+        """One that is rolled farther than it may rolls back [rad/s]."""
+        over = measured.roll - self._rolled(measured.roll, measured)
+        return -within(over, 0.5) if abs(over) > 0.05 else rate
 
 
 def _scaled(twist: Twist, part: float, handling: Handling) -> Twist:
@@ -243,6 +320,15 @@ def _scaled(twist: Twist, part: float, handling: Handling) -> Twist:
     v, w = twist.linear, twist.angular
     turn = part if handling.steers else 1.0
     return Twist(Vector3(part * v.x, part * v.y, v.z), Vector3(w.x, w.y, turn * w.z))
+
+
+def _unsure(measured: Measured) -> str:
+    """Why its place is not sure enough to promise a fence, as one sentence; empty when it is."""
+    off = SURE_ENOUGH * measured.spread
+    if measured.sure and not off > MOST_DOUBT:
+        return ""
+    how = f"to {off:.1f} m only" if off > MOST_DOUBT else "for sure"
+    return f"The robot does not know {how} where it is, so its fence is not certain: it goes slowly; place it on the map."
 
 
 def _direction(measured: Measured) -> tuple[float, float]:

@@ -13,6 +13,7 @@ from msgspec.structs import replace
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from bridge.units import wrap
+from robotside.drifting import CREEP
 from robotside.slower import slower, within
 
 if TYPE_CHECKING:
@@ -118,7 +119,8 @@ def leads_to(order: Manoeuvre, info: RobotInfo, measured: Measured) -> Twist:
         case "course":
             return Twist.planar(_speed(order, info), _turn(order.yaw, info, measured))
         case "hover":
-            return Twist.planar(0.0, _turn(order.yaw, info, measured))
+            creeps = CREEP if info.kind == "boat" else 0.0
+            return Twist.planar(creeps, _turn(order.yaw, info, measured))
         case "tilt" if _leans(info):
             x = measured.moving.x + LEAN * GRAVITY * math.tan(order.pitch)
             y = measured.moving.y - LEAN * GRAVITY * math.tan(order.roll)
@@ -155,6 +157,8 @@ def kept(order: Manoeuvre, leads: Twist, may: Twist, info: RobotInfo) -> Order:
             return replace(order, speed=v.x, throttle=math.nan, steering=_eased(order.steering, leads, may))
         case "course":
             return replace(order, speed=v.x, throttle=math.nan)
+        case "hover" if v.x != leads.linear.x:
+            return may
         case _:
             return order
 

@@ -327,6 +327,7 @@ class Station:
             self._mind(partial(self.autonomy.take, topic, msg, self.now))
             if topic == "/odom":
                 self._mind(self.robot.again)
+                self._mind(self._mind_drift)
 
     def _mind_trouble(self) -> None:
         """Hold everything while the robot cannot be reached; on its return nothing moves until somebody says so."""
@@ -381,6 +382,11 @@ class Station:
     def _measured(self) -> Measured:
         where = self.autonomy.whereabouts
         return self.readiness.senses.measured(where.pose, spread=where.spread, sure=where.sure)
+
+    def _mind_drift(self) -> None:
+        said = self.keeper.adrift(self._measured())
+        if said:
+            self.events.say("command", said, "warn")
 
     def _remark(self, client: Operator, said: str) -> None:
         now = self.clock()

@@ -55,6 +55,10 @@ class Handling:
     """It can go in any direction, so that it may slide along a fence."""
     steers: bool = False
     """It turns only by going, in proportion to its speed."""
+    drifts: bool = False
+    """Nothing that stands still holds it where it is: water carries it along, and what it has of way aside."""
+    glide: float = 0.0
+    """What way it has aside only drag takes off it, to 1/e of it within this [m]; 0 for one that brakes all ways."""
     levelling: float = 1.0
     """Deceleration up and down that can be counted on [m/s2]."""
 
@@ -62,8 +66,8 @@ class Handling:
 HANDLING = {
     "wheels": Handling(0.8, 2.5),
     "ackermann": Handling(1.5, 1.0, steers=True),
-    "boat": Handling(0.15, 0.3),
-    "hexapod": Handling(0.2, 0.6, levelling=0.08),
+    "boat": Handling(0.15, 0.3, drifts=True),
+    "hexapod": Handling(0.2, 0.6, drifts=True, glide=0.7, levelling=0.08),
     "quadrotor": Handling(1.0, 2.0, sideways=True, levelling=0.5),
 }
 """By the kind that `/robot/info` tells. The deceleration can be configured, since floors and loads differ."""

@@ -59,7 +59,7 @@ def test_a_boat_at_full_throttle_does_not_cross_its_fence(hand: Make) -> None:
     run.push(steer(0.0, throttle=1.0), 14.0)
     pose = run.station.autonomy.whereabouts.pose
     assert pose is not None
-    assert max(pose.x + 33.0, pose.y + 24.0) == pytest.approx(11.0, abs=0.9)
+    assert max(pose.x + 33.0, pose.y + 24.0) == pytest.approx(9.8, abs=0.4)  # a fix may be off by 1.7 m
     assert any("The robot's fence" in event for event in run.events)
     assert run.speed < 0.3
 

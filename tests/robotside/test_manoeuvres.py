@@ -176,7 +176,7 @@ def test_a_fence_ahead_makes_a_throttle_less_and_level_flight_a_brake() -> None:
 
 
 def test_a_swimmer_at_its_fence_lies_level_and_may_still_rise() -> None:
-    at = Measured(Pose2(3.64, 0.0, 0.0), Moving(0.1, 0.0, 0.0), height=-2.0)
+    at = Measured(Pose2(3.64, 0.0, 0.0), Moving(0.03, 0.0, 0.0), height=-2.0)
     done = keep(AQUA, tilt(roll=0.3, pitch=0.3, throttle=1.0, z=0.1), at, keep_in=(SQUARE,)).order
     assert isinstance(done, Manoeuvre)
     assert (done.speed, done.roll, done.pitch) == (0.0, 0.0, 0.0)

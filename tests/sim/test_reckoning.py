@@ -25,7 +25,6 @@ def test_its_error_is_as_large_as_it_says(speed: float) -> None:
                 (speed * step / 20, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), (speed, 0.0, 0.0), (0.0, 0.0, 0.0)
             )
             message = reckoning.measure(state, step / 20)
-        x, y, _ = reckoning.pose
-        squares += [(x - speed * 30.0) ** 2, y**2]
+        squares.append((reckoning.pose[0] - speed * 30.0) ** 2)
         said = math.sqrt(message.pose.covariance[0])
-    assert math.sqrt(sum(squares) / len(squares)) == pytest.approx(said, rel=0.25)
+    assert math.sqrt(sum(squares) / len(squares)) == pytest.approx(said, rel=0.3)
