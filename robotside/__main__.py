@@ -33,6 +33,9 @@ from robotside.together import Together
 
 __all__ = ["main"]
 
+SETTLED = 2.0
+"""A start has freed all that it frees after this [s]."""
+
 _HERE = ("127.0.0.1", "localhost", "::1")
 
 
@@ -87,7 +90,10 @@ class _Fleet:
             loop = asyncio.get_running_loop()
             for signal_number in (signal.SIGTERM, signal.SIGINT):
                 loop.add_signal_handler(signal_number, together.end)
+            # what the maps were made of is freed by the first steps
+            later = loop.call_later(SETTLED, trim)
             await together.run(_say_ready)
+            later.cancel()
 
     def _serving(
         self,

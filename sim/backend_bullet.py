@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.blank import given_back
 from sim.bodies import GRAVITY, STEPS_PER_SECOND, Contact, Floating, Joint, State, Wheeled
 from sim.shapes import Quat, Shape, Vec3, place
 
@@ -74,7 +75,7 @@ class Bullet:
     def __init__(self, *, gui: bool = False) -> None:
         """An empty world; `gui` opens pybullet's own window, which needs a display."""
         self._gui = gui
-        with _quiet():
+        with _quiet(), contextlib.nullcontext() if gui else given_back():
             self._client: int = p.connect(p.GUI if gui else p.DIRECT)
         if self._client < 0:
             raise RuntimeError("The physics engine could not open its window; is there a display?")
