@@ -9,7 +9,7 @@ from kivy.core.window import Window
 
 from examples.demo.fingers import Finger
 from examples.demo.scene import Scene, Wait
-from examples.demo.vehicle import on_phone, push, release, stop
+from examples.demo.vehicle import keep_pushing, on_phone, push, release, stop
 
 __all__ = ["TOPICS", "play"]
 
@@ -53,14 +53,19 @@ def _swim(scene: Scene) -> Wait:
     glass, witness = scene.glass, scene.witness
     with scene.step("driven") as check:
         before, since = witness.heights()[-1], witness.now
-        fingers = _hands(scene, 0.9, 0.0, 0.6)
-        yield from glass.soon(lambda: witness.heights()[-1] < before - 0.8, 25)
+        fingers = yield from keep_pushing(
+            scene, lambda: _hands(scene, 0.9, 0.0, 0.6), lambda: witness.heights()[-1] < before - 0.8
+        )
         scene.report.snapshot("driving")
         check("it swims ahead [m]", witness.driven(since), witness.driven(since) > 0.8)
         deeper = before - witness.heights()[-1]
         check("nose down by the circle, it goes deeper [m]", deeper, deeper > 0.5)
-        scene.hand.up(fingers.pop())
-    yield from glass.soon(lambda: witness.speed() > 0.4, 20)
+        for finger in fingers:
+            scene.hand.up(finger)
+    stick: Any = glass.all("Joystick")[0]
+    fingers = yield from keep_pushing(
+        scene, lambda: [push(scene, stick, 0.0, 1.0)], lambda: witness.fast(0.5) > 0.4
+    )
     yield from stop(scene, fingers, GLIDES, GLIDES_OUT, drifts=True)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from examples.demo.fingers import Finger
 from examples.demo.scene import Scene, Wait
-from examples.demo.vehicle import at, on_phone, push, release, slide_speed, stop
+from examples.demo.vehicle import at, keep_pushing, on_phone, push, release, slide_speed, stop
 
 __all__ = ["TOPICS", "play"]
 
@@ -82,9 +82,10 @@ def _fly(scene: Scene) -> Wait:
     with scene.step("driven") as check:
         fastest = yield from slide_speed(scene, 0.55)
         before, since = witness.heights()[-1], witness.now
-        fingers = _lean(scene, 0.0, 0.9, 0.8)
-        yield from glass.soon(
-            lambda: witness.driven(since) > 2.0 and witness.heights()[-1] > before + 0.6, 20
+        fingers = yield from keep_pushing(
+            scene,
+            lambda: _lean(scene, 0.0, 0.9, 0.8),
+            lambda: witness.driven(since) > 2.0 and witness.heights()[-1] > before + 0.6,
         )
         scene.report.snapshot("driving")
         check("the circle tilts it and it goes [m]", witness.driven(since), witness.driven(since) > 2.0)
@@ -109,8 +110,9 @@ def _fly(scene: Scene) -> Wait:
         heights = witness.heights(since)
         span = max(heights) - min(heights)
         check("and as high [m]", span, span <= STAYS)
-    fingers = _lean(scene, 0.3, -1.0, 0.0)
-    yield from glass.soon(lambda: witness.speed() > 1.2, 15)
+    fingers = yield from keep_pushing(
+        scene, lambda: _lean(scene, 0.3, -1.0, 0.0), lambda: witness.speed() > 1.2
+    )
     yield from stop(scene, fingers, DRIFTS, COMES_TO_REST)
 
 

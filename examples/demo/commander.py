@@ -7,7 +7,16 @@ import time
 from typing import Any
 
 from examples.demo.scene import Scene, Wait
-from examples.demo.vehicle import act, on_phone, push, release, send_and_start, slide_speed, stop, until_fast
+from examples.demo.vehicle import (
+    act,
+    keep_pushing,
+    on_phone,
+    push,
+    release,
+    send_and_start,
+    slide_speed,
+    stop,
+)
 
 __all__ = ["TOPICS", "play"]
 
@@ -42,12 +51,12 @@ def _crawl(scene: Scene) -> Wait:
     stick: Any = yield from glass.one("Joystick")
     with scene.step("slow") as check:
         slowest = yield from slide_speed(scene, CRAWL)
-        finger = push(scene, stick, 0.0, 1.0)
-        yield from until_fast(scene, slowest, 15)
-        yield from scene.robot_time(1.2)
+        fingers = yield from keep_pushing(
+            scene, lambda: [push(scene, stick, 0.0, 1.0)], lambda: witness.fast(1.0) >= 0.95 * slowest
+        )
         off = abs(witness.fast(1.0) - slowest)
         check(f"as fast as the slider says, {slowest:.2f} m/s [m/s off, at most 0.05]", off, off <= 0.05)
-        scene.hand.up(finger)
+        scene.hand.up(fingers[0])
         yield from scene.rest(3)
 
 
@@ -57,8 +66,11 @@ def _bend(scene: Scene) -> Wait:
     stick: Any = yield from glass.one("Joystick")
     with scene.step("driven") as check:
         yield from slide_speed(scene, WALK)
-        finger = push(scene, stick, -0.6, 0.8)
-        yield from glass.soon(lambda: _steered(scene) < -0.15 and witness.speed() > 0.3, 15)
+        fingers = yield from keep_pushing(
+            scene,
+            lambda: [push(scene, stick, -0.6, 0.8)],
+            lambda: _steered(scene) < -0.15 and witness.speed() > 0.3,
+        )
         yield from scene.robot_time(1)
         since, before = witness.now, witness.truth[3]
         bends = yield from _bends(scene, since)
@@ -69,7 +81,7 @@ def _bend(scene: Scene) -> Wait:
         off = abs(told / real - 1)
         check(f"its radius is {real:.2f} m, as the statistics say [part off, at most 0.15]", off, off <= 0.15)
         check("the front wheels are steered [deg]", math.degrees(_steered(scene)), _steered(scene) < -0.1)
-        scene.hand.up(finger)
+        scene.hand.up(fingers[0])
         yield from scene.rest(3)
 
 
@@ -81,11 +93,12 @@ def _back(scene: Scene) -> Wait:
         yield from act(scene, "Camera")
         shown = yield from glass.soon(lambda: glass.shows("rear"), 5)
         check("the rear camera is on the glass", bool(shown), bool(shown))
-        finger = push(scene, stick, 0.0, -0.8)
-        yield from until_fast(scene, 0.5, 12)
+        fingers = yield from keep_pushing(
+            scene, lambda: [push(scene, stick, 0.0, -0.8)], lambda: witness.speed() > 0.5
+        )
         scene.report.snapshot("backwards")
         check("it drives backwards [m/s]", witness.speed(), witness.speed() > 0.3)
-        scene.hand.up(finger)
+        scene.hand.up(fingers[0])
         yield from scene.rest(3)
         yield from act(scene, "Camera")
         yield from glass.pause(0.5)
@@ -94,9 +107,13 @@ def _back(scene: Scene) -> Wait:
 def _stop(scene: Scene) -> Wait:
     """STOP with the stick pushed all the way."""
     stick: Any = yield from scene.glass.one("Joystick")
-    finger = push(scene, stick, 0.0, 1.0)
-    yield from until_fast(scene, scene.glass.all("SpeedCard")[0].maximum_speed, 15)  # type: ignore[attr-defined]
-    yield from stop(scene, [finger], SLOW)
+    card: Any = scene.glass.all("SpeedCard")[0]
+    fingers = yield from keep_pushing(
+        scene,
+        lambda: [push(scene, stick, 0.0, 1.0)],
+        lambda: scene.witness.speed() >= 0.9 * card.maximum_speed,
+    )
+    yield from stop(scene, fingers, SLOW)
 
 
 def _bends(scene: Scene, since: float) -> Wait:

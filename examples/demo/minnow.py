@@ -7,7 +7,18 @@ from typing import Any
 
 from bridge.units import yaw_from_heading
 from examples.demo.scene import Scene, Wait
-from examples.demo.vehicle import act, at, on_phone, push, release, send_and_start, slide_speed, stop, turned
+from examples.demo.vehicle import (
+    act,
+    at,
+    keep_pushing,
+    on_phone,
+    push,
+    release,
+    send_and_start,
+    slide_speed,
+    stop,
+    turned,
+)
 
 __all__ = ["TOPICS", "play"]
 
@@ -40,20 +51,24 @@ def _drive(scene: Scene) -> Wait:
     helm: Any = yield from glass.one("RudderThrottle")
     with scene.step("driven") as check:
         before = witness.truth[3]
-        finger = push(scene, helm, -0.8, 0.9)
-        yield from glass.soon(lambda: math.remainder(before - witness.truth[3], math.tau) > 0.4, 25)
+        fingers = yield from keep_pushing(
+            scene,
+            lambda: [push(scene, helm, -0.8, 0.9)],
+            lambda: math.remainder(before - witness.truth[3], math.tau) > 0.4,
+        )
         told = witness["/rudder"]
         check("the rudder is laid to the right [rad]", told.angle, told.angle < -0.2)
         angle = math.remainder(before - witness.truth[3], math.tau)
         check("and the boat turns to the right [rad]", angle, angle > 0.3)
         scene.report.snapshot("driving")
-        scene.hand.up(finger)
+        scene.hand.up(fingers[0])
         yield from glass.pause(0.3)
         yield from slide_speed(scene, 1.0)
-        finger = push(scene, helm, 0.0, 1.0)
-        yield from glass.soon(lambda: witness.speed() > 1.2, 25)
+        fingers = yield from keep_pushing(
+            scene, lambda: [push(scene, helm, 0.0, 1.0)], lambda: witness.speed() > 1.2
+        )
         check("throttle gives way [m/s, at least 1]", witness.speed(), witness.speed() >= 1.0)
-    yield from stop(scene, [finger], DRIFTS, RUNS_OUT, drifts=True)
+    yield from stop(scene, fingers, DRIFTS, RUNS_OUT, drifts=True)
 
 
 def _course(scene: Scene) -> Wait:

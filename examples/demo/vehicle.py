@@ -20,6 +20,7 @@ from widgets.theme import theme
 
 __all__ = [
     "act",
+    "keep_pushing",
     "on_phone",
     "open_profile",
     "push",
@@ -27,12 +28,15 @@ __all__ = [
     "send_and_start",
     "slide_speed",
     "stop",
-    "until_fast",
 ]
 
 AT_REST = 0.5
 """So soon after STOP the robot is at rest, or follows nothing but what brings it there [s, robot clock]."""
 PHONE = (412, 892)
+PUSHED = ("twist", "steer", "tilt")
+"""Manoeuvres of a robot that follows somebody's hand."""
+PATIENCE = 1.5
+"""A push that does nothing for so long is tried anew [s]."""
 FOLDED = "senses"
 """Widgets of this slot are behind a handle until somebody unfolds them."""
 RESTING = ("rest", "hover")
@@ -77,10 +81,25 @@ def slide_speed(scene: Scene, share: float) -> Wait:
     return float(card.maximum_speed)
 
 
-def until_fast(scene: Scene, speed: float, seconds: float) -> Wait:
-    """Wait until the robot is nearly as fast as `speed` [m/s], at most `seconds`; returns whether it is."""
-    fast = yield from scene.glass.soon(lambda: scene.witness.speed() >= 0.9 * speed, seconds)
-    return bool(fast)
+def keep_pushing(
+    scene: Scene, pushing: Callable[[], list[Finger]], until: Callable[[], bool], seconds: float = 20.0
+) -> Wait:
+    """Push until `until` holds, at most `seconds`; returns the fingers, which stay.
+
+    On a machine that is busy elsewhere a push may run out, and then counts no more: the fingers let go and push anew.
+    """
+    glass, end = scene.glass, time.monotonic() + seconds
+    fingers, heard = pushing(), time.monotonic()
+    while not until() and time.monotonic() < end:
+        if _follows(scene) in PUSHED:
+            heard = time.monotonic()
+        elif time.monotonic() - heard > PATIENCE:
+            for finger in fingers:
+                scene.hand.up(finger)
+            yield from glass.pause(0.4)
+            fingers, heard = pushing(), time.monotonic()
+        yield
+    return fingers
 
 
 def act(scene: Scene, words: str) -> Wait:
@@ -153,8 +172,9 @@ def on_phone(scene: Scene, pushing: Callable[[], list[Finger]], seconds: float =
         yield from glass.pause(0.7)
         check("the window is a phone's", list(Window.size), tuple(Window.size) == PHONE)
         since = witness.now
-        fingers = pushing()
-        yield from scene.robot_time(seconds)
+        fingers = yield from keep_pushing(
+            scene, pushing, lambda: witness.now - since > seconds and witness.driven(since) > 0.2
+        )
         moved = witness.driven(since)
         check("it is driven there too [m]", moved, moved >= 0.1)
         scene.report.snapshot("driving-phone")
