@@ -13,7 +13,6 @@ from kivy.event import EventDispatcher
 from kivy.lang import global_idmap
 from kivy.metrics import Metrics, mm
 from kivy.properties import (
-    AliasProperty,
     BooleanProperty,
     ColorProperty,
     DictProperty,
@@ -104,6 +103,12 @@ PALETTES: dict[str, dict[str, str]] = {
 control that moves; `shade` is what lies between the glass and what is behind an open sheet."""
 
 
+def _colours(palette: str) -> dict[str, list[float]]:
+    """Role to colour, that of `glass` with the others."""
+    roles = {role: get_color_from_hex(colour) for role, colour in PALETTES[palette].items()}
+    return {**roles, "glass": [*roles["surface"][:3], 0.92]}
+
+
 class Theme(EventDispatcher):
     """What everything on the glass looks like. Set `name` and `gloves`; read the rest."""
 
@@ -148,13 +153,10 @@ class Theme(EventDispatcher):
     """For everything; its figures are all of one width."""
     icons = StringProperty("Icons")
 
-    roles = DictProperty({role: get_color_from_hex(colour) for role, colour in PALETTES["dark"].items()})
+    roles = DictProperty(_colours("dark"))
     """Role to colour, for a rule that is told the role by name: `theme.roles[root.role]`."""
 
-    def _glass(self) -> list[float]:
-        return [*self.surface[:3], 0.92]
-
-    glass = AliasProperty(_glass, bind=["surface"], cache=True)
+    glass = ColorProperty(_colours("dark")["glass"])
     """Cards that float over a picture: `surface`, not quite opaque."""
 
     target = NumericProperty()
@@ -194,7 +196,7 @@ class Theme(EventDispatcher):
 
     def on_name(self, *_: object) -> None:
         """Take every colour from the palette of that name."""
-        roles = {role: get_color_from_hex(colour) for role, colour in PALETTES[self.name].items()}
+        roles = _colours(self.name)
         for role, colour in roles.items():
             setattr(self, role, colour)
         self.roles = roles
