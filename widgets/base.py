@@ -8,7 +8,7 @@ class Altimeter(RobotWidget):
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar
 
 from kivy.core.text import Label as CoreLabel
@@ -25,8 +25,8 @@ from widgets.theme import theme
 __all__ = ["STATES", "Control", "RobotWidget", "age_text", "fitting_size", "text_texture"]
 
 STATES = ("never", "live", "stale", "alarm", "disabled")
-VEIL = {"never": 0.0, "live": 0.0, "stale": 0.55, "alarm": 0.0, "disabled": 0.62}
-"""How much of a widget is hidden in each state, 0 to 1."""
+VEIL = {"stale": 0.55, "disabled": 0.62}
+"""State to how much of a widget is hidden in it, 0 to 1; in the others nothing is."""
 
 BIG = 240.0
 """What is higher has room in itself for its age [dp]."""
@@ -112,6 +112,9 @@ class RobotWidget(Widget):
     veiled: ClassVar[bool] = True
     """The states are drawn here: a veil with the age on it, an outline. False for a widget that draws its own."""
 
+    veils: ClassVar[Mapping[str, float]] = VEIL
+    """State to how much the veil hides, 0 to 1; nothing in one that it does not name."""
+
     state = OptionProperty("never", options=STATES)
     """Never heard, live, stale, alarm or disabled: each has its own look."""
     age = NumericProperty(math.nan)
@@ -122,7 +125,7 @@ class RobotWidget(Widget):
     """Corners of the veil and of the alarm's outline [px]; half the width for a round widget."""
 
     def _veil(self) -> list[float]:
-        return [*theme.surface[:3], VEIL[self.state] if self.veiled else 0.0]
+        return [*theme.surface[:3], self.veils.get(self.state, 0.0) if self.veiled else 0.0]
 
     veil = AliasProperty(_veil, bind=["state"])
     """Colour over what is stale or disabled."""

@@ -11,7 +11,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import accumulate
-from typing import Any
+from typing import Any, ClassVar
 
 from kivy.clock import Clock
 from kivy.lang import Builder
@@ -38,8 +38,6 @@ __all__ = ["FieldView"]
 
 PERIOD = 0.1
 """Between two looks at the newest message [s]: figures that change faster cannot be read."""
-VEIL = {"stale": 0.3, "disabled": 0.5}
-"""How much of the tree is hidden in a state, 0 to 1."""
 NARROW = 560.0
 """A tree narrower than this leaves a little less room before each level [dp]."""
 
@@ -130,10 +128,7 @@ class FieldView(RobotWidget, FloatLayout):
 
     badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "pos", "size"], cache=True)
 
-    def _veil(self) -> list[float]:
-        return [*theme.surface[:3], VEIL.get(self.state, 0.0)]
-
-    veil = AliasProperty(_veil, bind=["state"])
+    veils: ClassVar = {"stale": 0.3, "disabled": 0.5}
     """Thin: what is old is still to be read."""
 
     def _notice(self) -> str:

@@ -29,6 +29,7 @@ from bridge.msgs.pilothouse_msgs import IntruderArray, Limits
 from bridge.msgs.sensor_msgs import LaserScan
 from widgets import fence_marks
 from widgets import map_marks as marks
+from widgets.base import VEIL
 from widgets.fence import Fence
 from widgets.geometry import Points, Trail, View, nice_floor, scan_points, spread
 from widgets.ink import Drawing, Ink, Word, Words, ground, tint
@@ -85,10 +86,7 @@ class MapOverlay(MapGestures, Drawing):
     insets = ListProperty([0, 0, 0, 0])
     """How much is covered by what lies over the map [px]: left, bottom, right, top."""
 
-    def _veil(self) -> list[float]:
-        return [*theme.surface[:3], 0.62 if self.state == "disabled" else 0.0]
-
-    veil = AliasProperty(_veil, bind=["state"])
+    veils: ClassVar = {"disabled": VEIL["disabled"]}
     """A stale pose fades the robot and not the map."""
 
     def _free_box(self) -> tuple[float, float, float, float]:

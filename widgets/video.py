@@ -20,7 +20,7 @@ from kivy.properties import AliasProperty, BooleanProperty, ListProperty, Numeri
 from kivy.uix.widget import Widget
 
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
-from widgets.base import fitting_size, text_texture
+from widgets.base import VEIL, fitting_size, text_texture
 from widgets.geometry import contain, cover
 from widgets.icons import icon
 from widgets.ink import Drawing, Ink, Word, Words, shader, tint
@@ -88,10 +88,7 @@ class Video(Drawing):
     below = NumericProperty(math.inf)
     """Lower edge of what lies over the picture for now [px]: the sentence stands under it where there is room."""
 
-    def _veil(self) -> list[float]:
-        return [*theme.surface[:3], 0.62 if self.state == "disabled" else 0.0]
-
-    veil = AliasProperty(_veil, bind=["state"])
+    veils: ClassVar = {"disabled": VEIL["disabled"]}
     """An old picture fades by itself, and says so in its middle."""
     badge = AliasProperty(lambda _: "", cache=True)
     """Not used: the sentence in the middle says the age."""
