@@ -9,32 +9,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from kivy.lang import Builder
 from kivy.metrics import dp, sp
-from kivy.properties import BooleanProperty, StringProperty
+from kivy.properties import StringProperty
 
 from widgets.base import text_texture
+from widgets.frames import Glass
 from widgets.ink import Drawing, Ink, Word, Words
 from widgets.shapes import Shapes
 from widgets.theme import theme
 
 __all__ = ["Gauge", "first_fitting", "wide"]
-
-Builder.load_string("""
-<Gauge>:
-    canvas.before:
-        Color:
-            rgba: theme.glass if root.card else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
-            pos: root.pos
-            size: root.size
-            radius: [theme.radius]
-        Color:
-            rgba: theme.line if root.card else (0, 0, 0, 0)
-        SmoothLine:
-            rounded_rectangle: root.pos + root.size + [theme.radius]
-            width: theme.outline
-""")
 
 
 def wide(text: str, size: float, *, bold: bool = False) -> float:
@@ -47,11 +31,9 @@ def first_fitting(texts: Iterable[str], size: float, room: float, *, bold: bool 
     return next((text for text in texts if wide(text, size, bold=bold) <= room), "")
 
 
-class Gauge(Drawing):
+class Gauge(Glass, Drawing):
     """A drawing on a card of its own. Subclasses say what is on it in `marks`."""
 
-    card = BooleanProperty(True)
-    """Draw on a card of its own."""
     title = StringProperty("")
     """Name of the sensor."""
 

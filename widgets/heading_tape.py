@@ -19,6 +19,7 @@ from kivy.uix.widget import Widget
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import Imu
+from widgets.frames import Glass
 from widgets.geometry import CARDINALS, DASH, heading_of, shortest_turn, tape_marks
 from widgets.ink import Drawing, Ink, Word, Words, tint
 from widgets.shapes import Shapes
@@ -28,25 +29,14 @@ __all__ = ["HeadingTape", "samples"]
 
 Builder.load_string("""
 <HeadingTape>:
-    canvas.before:
-        Color:
-            rgba: theme.glass
-        SmoothRoundedRectangle:
-            pos: root.pos
-            size: root.size
-            radius: [theme.corner]
-        Color:
-            rgba: theme.line
-        SmoothLine:
-            rounded_rectangle: root.pos + root.size + [theme.corner]
-            width: theme.outline
+    card_corner: theme.corner
 """)
 
 STEP, LABELLED = 5, 15
 """Between two ticks and between two labels [deg]."""
 
 
-class HeadingTape(Drawing):
+class HeadingTape(Glass, Drawing):
     """Which way the bow points, on a strip."""
 
     accepts: ClassVar = (Imu, Odometry, PoseWithCovarianceStamped)

@@ -12,34 +12,18 @@ from typing import Any, ClassVar
 
 import numpy as np
 from kivy.graphics import PopMatrix, PushMatrix, Rectangle, Rotate, Translate
-from kivy.lang import Builder
 from kivy.metrics import dp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.sensor_msgs import Imu
+from widgets.frames import Glass
 from widgets.geometry import DASH, dial_point, horizon_rise, screen_angle
 from widgets.ink import Drawing, Ink, Word, Words, shader
 from widgets.shapes import Shapes
 from widgets.theme import theme
 
 __all__ = ["ArtificialHorizon", "samples"]
-
-Builder.load_string("""
-<ArtificialHorizon>:
-    canvas.before:
-        Color:
-            rgba: theme.glass if root.card else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
-            pos: root.pos
-            size: root.size
-            radius: [theme.radius]
-        Color:
-            rgba: theme.line if root.card else (0, 0, 0, 0)
-        SmoothLine:
-            rounded_rectangle: root.pos + root.size + [theme.radius]
-            width: theme.outline
-""")
 
 FRAGMENT = """
 $HEADER$
@@ -92,7 +76,7 @@ BANKS = (10, 20, 30, 45, 60)
 """Ticks of the bank scale to both sides [deg]."""
 
 
-class ArtificialHorizon(Drawing):
+class ArtificialHorizon(Glass, Drawing):
     """Attitude by REP-103: roll positive with the right side down, pitch positive with the nose down."""
 
     accepts: ClassVar = (Imu,)

@@ -11,14 +11,14 @@ from collections.abc import Callable, Iterator
 from typing import Any, ClassVar
 
 import numpy as np
-from kivy.lang import Builder
 from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, ObjectProperty, StringProperty
+from kivy.properties import AliasProperty, NumericProperty, ObjectProperty, StringProperty
 from kivy.uix.widget import Widget
 from numpy.typing import NDArray
 
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.sensor_msgs import LaserScan
+from widgets.frames import Glass
 from widgets.geometry import DASH, Points, length_text, scan_points, scan_reach
 from widgets.icons import icon
 from widgets.ink import Drawing, Ink, Word, Words, ground, tint
@@ -28,22 +28,6 @@ from widgets.theme import theme
 
 __all__ = ["LaserScanView", "samples"]
 
-Builder.load_string("""
-<LaserScanView>:
-    canvas.before:
-        Color:
-            rgba: theme.glass if root.card else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
-            pos: root.pos
-            size: root.size
-            radius: [theme.radius]
-        Color:
-            rgba: theme.line if root.card else (0, 0, 0, 0)
-        SmoothLine:
-            rounded_rectangle: root.pos + root.size + [theme.radius]
-            width: theme.outline
-""")
-
 AHEAD = math.pi / 2
 """Where straight ahead is on the screen [rad]."""
 RINGS = 3
@@ -51,7 +35,7 @@ LOW = 2.0
 """A card this many times broader than high keeps its name beside the rings."""
 
 
-class LaserScanView(Drawing):
+class LaserScanView(Glass, Drawing):
     """The newest sweep, the robot's bow up. A return is a dot in the colour of its distance."""
 
     accepts: ClassVar = (LaserScan,)
@@ -69,8 +53,6 @@ class LaserScanView(Drawing):
     """Closer than this is a warning [m]."""
     close = NumericProperty(0.6)
     """Closer than this is a danger [m]."""
-    card = BooleanProperty(True)
-    """Draw on a card of its own."""
 
     def _nearest(self) -> float:
         if self.scan is None:
