@@ -27,6 +27,7 @@ from kivy.uix.widget import Widget
 import widgets.rows  # noqa: F401 - its rules draw what is used here
 from widgets.base import Control, text_texture
 from widgets.buttons import PushButton
+from widgets.frames import Outlined
 from widgets.gauge import wide
 from widgets.theme import theme
 
@@ -46,19 +47,9 @@ Builder.load_string("""
     orientation: 'vertical'
     padding: root.inset, root.inset, root.inset, root.inset + root.foot
     spacing: dp(8)
-    canvas.before:
-        Color:
-            rgba: theme.line if root.framed else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.radius]
-        Color:
-            rgba: theme.surface if root.framed else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
-            pos: self.x + theme.outline, self.y + theme.outline
-            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
-            radius: [theme.radius - theme.outline]
+    rim: 'line' if root.framed else ''
+    ground: 'surface' if root.framed else ''
+    corner: theme.radius
     BoxLayout:
         id: head
         size_hint_y: None
@@ -81,11 +72,9 @@ Builder.load_string("""
             pos_hint: {'center_y': .5}
     Roll:
         id: roll
-        GridLayout:
+        Grid:
             id: grid
             cols: root.across
-            size_hint_y: None
-            height: self.minimum_height
             spacing: dp(9)
             padding: dp(2)
 
@@ -155,7 +144,7 @@ class ActionKey(PushButton):
     """Width of what is at its end [px]."""
 
 
-class ActionColumn(Control, BoxLayout):
+class ActionColumn(Outlined, Control, BoxLayout):
     """Dispatches `on_action(name)`, and `on_command` with the same.
 
     With two switches `next` goes on to the one below, past those that cannot be asked for, and `act` does it.

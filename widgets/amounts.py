@@ -15,25 +15,16 @@ from kivy.properties import (
 )
 from kivy.uix.widget import Widget
 
+from widgets.frames import Outlined
+
 __all__ = ["Fader", "Progress"]
 
 Builder.load_string("""
 <Progress>:
     size_hint_y: None
     height: dp(10)
-    canvas:
-        Color:
-            rgba: theme.line
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [self.height / 2]
-        Color:
-            rgba: theme.raised
-        SmoothRoundedRectangle:
-            pos: self.x + theme.outline, self.y + theme.outline
-            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
-            radius: [self.height / 2 - theme.outline]
+    corner: self.height / 2
+    canvas.before:
         Color:
             rgba: theme.roles[root.role] if self.filled else (0, 0, 0, 0)
         SmoothRoundedRectangle:
@@ -68,7 +59,7 @@ Builder.load_string("""
 """)
 
 
-class Progress(Widget):
+class Progress(Outlined, Widget):
     """How far something is."""
 
     value = NumericProperty(math.nan)

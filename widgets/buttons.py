@@ -17,6 +17,7 @@ from kivy.uix.widget import Widget
 
 import widgets.labels  # noqa: F401 - its rules draw the icons
 from widgets.base import fitting_size, text_texture
+from widgets.frames import Pressable
 from widgets.theme import theme
 
 __all__ = ["IconButton", "NavButton", "PrimaryButton", "PushButton", "QuietButton"]
@@ -29,25 +30,10 @@ Builder.load_string("""
     size_hint_y: None
     height: theme.target
     padding: dp(10), 0
-    canvas.before:
-        Color:
-            rgba: theme.faint if root.disabled else theme.roles[root.border]
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.corner]
-        Color:
-            rgba: theme.surface if root.disabled else theme.roles[root.fill]
-        SmoothRoundedRectangle:
-            pos: self.x + theme.outline, self.y + theme.outline
-            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
-            radius: [theme.corner - theme.outline]
-        Color:
-            rgba: theme.roles[root.ink][:3] + [.16 if root.state == 'down' else 0]
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.corner]
+    rim: 'faint' if root.disabled else root.border
+    ground: 'surface' if root.disabled else root.fill
+    press_role: root.ink
+    press_share: .16
     BoxLayout:
         orientation: root.flow
         size_hint: None, None
@@ -86,25 +72,9 @@ Builder.load_string("""
 <IconButton>:
     size_hint: None, None
     size: theme.target, theme.target
-    canvas.before:
-        Color:
-            rgba: theme.line if not root.bare else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.corner]
-        Color:
-            rgba: theme.raised if not root.bare else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
-            pos: self.x + theme.outline, self.y + theme.outline
-            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
-            radius: [theme.corner - theme.outline]
-        Color:
-            rgba: theme.text[:3] + [.16 if root.state == 'down' else 0]
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.corner]
+    rim: 'line' if not root.bare else ''
+    ground: 'raised' if not root.bare else ''
+    press_share: .16
     Icon:
         name: root.icon
         role: root.role
@@ -159,7 +129,7 @@ Builder.load_string("""
 """)
 
 
-class PushButton(ButtonBehavior, AnchorLayout):
+class PushButton(Pressable, AnchorLayout):
     """A button with an icon, words or both; what the named ones below have in common."""
 
     text = StringProperty("")
@@ -219,7 +189,7 @@ class QuietButton(PushButton):
     """Everything else that can be done here."""
 
 
-class IconButton(ButtonBehavior, AnchorLayout):
+class IconButton(Pressable, AnchorLayout):
     """An icon to press, as large as a finger needs; `bare` without a ground, for bars."""
 
     icon = StringProperty("close")

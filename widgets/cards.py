@@ -13,6 +13,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.buttons  # noqa: F401 - its rules draw what can be done about a toast
+from widgets.frames import Outlined
 from widgets.labels import SectionLabel, Text, ValueUnit
 from widgets.theme import theme
 
@@ -34,19 +35,10 @@ Builder.load_string("""
     orientation: 'vertical'
     padding: theme.gap
     spacing: theme.gap * .75
+    rim: 'glass' if root.floating else root.outline
+    ground: '' if root.floating else root.role
+    corner: theme.radius
     canvas.before:
-        Color:
-            rgba: theme.glass if root.floating else theme.roles[root.outline]
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.radius]
-        Color:
-            rgba: (0, 0, 0, 0) if root.floating else theme.roles[root.role]
-        SmoothRoundedRectangle:
-            pos: self.x + theme.outline, self.y + theme.outline
-            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
-            radius: [theme.radius - theme.outline]
         Color:
             rgba: theme.roles[root.outline] if root.floating else (0, 0, 0, 0)
         SmoothLine:
@@ -58,19 +50,7 @@ Builder.load_string("""
     height: max(dp(48), sentence.texture_size[1] + dp(22))
     padding: dp(14), 0, dp(14), 0
     spacing: dp(11)
-    canvas.before:
-        Color:
-            rgba: theme.roles[root.role]
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.corner]
-        Color:
-            rgba: theme.raised
-        SmoothRoundedRectangle:
-            pos: self.x + theme.outline, self.y + theme.outline
-            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
-            radius: [theme.corner - theme.outline]
+    rim: root.role
     Icon:
         name: root.icon
         role: root.role
@@ -126,7 +106,7 @@ Builder.load_string("""
 """)
 
 
-class Card(BoxLayout):
+class Card(Outlined, BoxLayout):
     """A rounded ground for what belongs together."""
 
     role = StringProperty("surface")
@@ -137,7 +117,7 @@ class Card(BoxLayout):
     """Lies over a picture: lets a little of it through."""
 
 
-class Banner(BoxLayout):
+class Banner(Outlined, BoxLayout):
     """One plain sentence with an icon. With `closable` a tap takes it away and dispatches `on_close`."""
 
     __events__ = ("on_close",)

@@ -20,6 +20,7 @@ from kivy.uix.widget import Widget
 import widgets.rows  # noqa: F401 - its rules draw what scrolls here
 from bridge.msgs.pilothouse_msgs import Check, Checklist
 from widgets.base import RobotWidget
+from widgets.frames import Outlined
 from widgets.theme import theme
 
 __all__ = ["CheckHead", "CheckLine", "CheckList"]
@@ -78,19 +79,9 @@ Builder.load_string("""
     height: head.height + root.unfolded if root.total else 0
     padding: 0
     veil_radius: theme.corner
-    canvas.before:
-        Color:
-            rgba: theme.roles[root.border] if root.total else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.corner]
-        Color:
-            rgba: theme.surface if root.total else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
-            pos: self.x + root.edge, self.y + root.edge
-            size: self.width - 2 * root.edge, self.height - 2 * root.edge
-            radius: [theme.corner - root.edge]
+    rim: root.border if root.total else ''
+    ground: 'surface' if root.total else ''
+    rim_width: root.edge
     CheckHead:
         id: head
         icon: root.icon
@@ -108,11 +99,8 @@ Builder.load_string("""
         size_hint_y: None
         height: root.unfolded
         opacity: 1 if root.unfolded else 0
-        BoxLayout:
+        Column:
             id: lines
-            orientation: 'vertical'
-            size_hint_y: None
-            height: self.minimum_height
             spacing: dp(8)
             padding: dp(13), 0, dp(12), dp(12)
 """)
@@ -138,7 +126,7 @@ class CheckLine(BoxLayout):
     """Role of the sentence's colour."""
 
 
-class CheckList(RobotWidget, BoxLayout):
+class CheckList(Outlined, RobotWidget, BoxLayout):
     """The list. A tap on its head dispatches `on_fold(unfold)`; the owner sets `open`."""
 
     accepts = (Checklist,)

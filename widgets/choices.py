@@ -21,6 +21,7 @@ from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
 from widgets.base import fitting_size
+from widgets.frames import Outlined
 from widgets.theme import theme
 
 __all__ = ["Segmented", "Toggle"]
@@ -30,19 +31,6 @@ Builder.load_string("""
     size_hint_y: None
     height: max(dp(46), theme.target * .86)
     padding: theme.outline
-    canvas.before:
-        Color:
-            rgba: theme.line
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.corner]
-        Color:
-            rgba: theme.raised
-        SmoothRoundedRectangle:
-            pos: self.x + theme.outline, self.y + theme.outline
-            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
-            radius: [theme.corner - theme.outline]
 
 <Segment>:
     font_name: theme.font
@@ -107,7 +95,7 @@ class Segment(ButtonBehavior, Label):
     text_size_px = NumericProperty("16sp")
 
 
-class Segmented(BoxLayout):
+class Segmented(Outlined, BoxLayout):
     """One of a few choices, all in sight. `options` are `(value, words)` or just words."""
 
     __events__ = ("on_choose",)

@@ -17,7 +17,8 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.recycleview.views import RecycleDataViewBehavior
 from kivy.uix.widget import Widget
 
-import widgets.buttons  # noqa: F401 - its rules draw the button of a row
+import widgets.buttons
+import widgets.column  # noqa: F401 - their rules draw a row
 from bridge.msgs.pilothouse_msgs import Event
 from widgets.labels import Text
 from widgets.theme import theme
@@ -78,23 +79,17 @@ Builder.load_string("""
         role: root.role
         font_size: sp(20)
         pos_hint: {'center_y': .5}
-    BoxLayout:
-        orientation: 'vertical'
-        size_hint_y: None
-        height: self.minimum_height
+    Column:
         pos_hint: {'center_y': .5}
         Text:
             text: root.text
             bold: root.open
             font_size: sp(14.5)
-        Text:
+        Remark:
             text: root.note
-            role: 'muted'
             font_size: sp(12.5)
             shorten: True
             shorten_from: 'right'
-            height: self.texture_size[1] if root.note else 0
-            opacity: 1 if root.note else 0
     Label:
         text: root.when
         font_name: theme.font

@@ -6,8 +6,9 @@ from widgets.amounts import Fader, Progress
 from widgets.buttons import IconButton, NavButton, PrimaryButton, PushButton, QuietButton
 from widgets.cards import ActionToast, Banner, Card, Sheet, Toast
 from widgets.choices import Segmented, Toggle
-from widgets.labels import Chip, Icon, SectionLabel, Text, ValueUnit, spaced
-from widgets.rows import DragHandle, ListRow, Roll
+from widgets.column import Column, Grid
+from widgets.labels import Chip, Icon, Remark, SectionLabel, Text, ValueUnit, spaced
+from widgets.rows import DragHandle, ListRow, Roll, TwoLines
 from widgets.stepper import Stepper
 from widgets.text_field import TextField
 
@@ -16,8 +17,10 @@ __all__ = [
     "Banner",
     "Card",
     "Chip",
+    "Column",
     "DragHandle",
     "Fader",
+    "Grid",
     "Icon",
     "IconButton",
     "ListRow",
@@ -26,6 +29,7 @@ __all__ = [
     "Progress",
     "PushButton",
     "QuietButton",
+    "Remark",
     "Roll",
     "SectionLabel",
     "Segmented",
@@ -35,6 +39,7 @@ __all__ = [
     "Text",
     "TextField",
     "Toast",
+    "TwoLines",
     "ValueUnit",
     "spaced",
 ]

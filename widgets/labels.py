@@ -8,15 +8,15 @@ from collections.abc import Callable
 from kivy.lang import Builder
 from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
-from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
 from widgets.base import text_texture
+from widgets.frames import Pressable
 from widgets.theme import theme
 
-__all__ = ["Chip", "Icon", "SectionLabel", "Text", "ValueUnit", "spaced", "wrapped"]
+__all__ = ["Chip", "Icon", "Remark", "SectionLabel", "Text", "ValueUnit", "spaced", "wrapped"]
 
 HAIR_SPACE = "\u200a"
 
@@ -31,6 +31,12 @@ Builder.load_string("""
     valign: 'middle'
     size_hint_y: None
     height: self.texture_size[1]
+
+<Remark>:
+    role: 'muted'
+    font_size: sp(13)
+    height: self.texture_size[1] if self.text else 0
+    opacity: 1 if self.text else 0
 
 <Icon>:
     font_name: theme.icons
@@ -80,25 +86,9 @@ Builder.load_string("""
     width: self.minimum_width
     padding: root.edge + max(0, root.usual_width - words.texture_size[0]) / 2, 0
     spacing: dp(8) if root.icon else 0
-    canvas.before:
-        Color:
-            rgba: theme.roles[root.role] if root.outlined else theme.line
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [self.height / 2]
-        Color:
-            rgba: theme.surface if root.outlined else theme.raised
-        SmoothRoundedRectangle:
-            pos: self.x + theme.outline, self.y + theme.outline
-            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
-            radius: [self.height / 2 - theme.outline]
-        Color:
-            rgba: theme.text[:3] + [.12 if root.state == 'down' else 0]
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [self.height / 2]
+    rim: root.role if root.outlined else 'line'
+    ground: 'surface' if root.outlined else 'raised'
+    corner: self.height / 2
     Icon:
         name: root.icon or 'check'
         role: root.role
@@ -128,6 +118,10 @@ class Text(Label):
 
     role = StringProperty("text")
     """Role of its colour."""
+
+
+class Remark(Text):
+    """A smaller text that takes no room while it says nothing."""
 
 
 class Icon(Label):
@@ -186,7 +180,7 @@ def wrapped(name: str, room: float, size: float) -> str:
     return "\n".join([*lines, line])
 
 
-class Chip(ButtonBehavior, BoxLayout):
+class Chip(Pressable, BoxLayout):
     """A pill with an icon and a few words, as wide as they are. A finger may press it where `pressable` is set."""
 
     icon = StringProperty("")

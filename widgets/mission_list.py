@@ -12,31 +12,16 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 from typing import Any
 
-from kivy.lang import Builder
 from kivy.properties import ListProperty, NumericProperty, StringProperty
-from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import GetMissionsResponse, KeptMission
 from bridge.msgs.std_msgs import Time
-from widgets.base import Control
 from widgets.event_row import when_words
-from widgets.labels import Text
+from widgets.listing import Listing
 from widgets.rows import ListRow
 
 __all__ = ["MissionList", "mission_words"]
-
-Builder.load_string("""
-<MissionList>:
-    orientation: 'vertical'
-    Roll:
-        BoxLayout:
-            id: column
-            orientation: 'vertical'
-            size_hint_y: None
-            height: self.minimum_height
-            spacing: dp(6)
-""")
 
 
 def mission_words(mission: KeptMission) -> str:
@@ -46,7 +31,7 @@ def mission_words(mission: KeptMission) -> str:
     return " · ".join(filter(None, (points, mission.motion, revisions)))
 
 
-class MissionList(Control, BoxLayout):
+class MissionList(Listing):
     """Dispatches `on_command(mission)` with the `KeptMission` that was pressed."""
 
     accepts = (GetMissionsResponse,)
@@ -61,7 +46,6 @@ class MissionList(Control, BoxLayout):
     now = NumericProperty(math.nan)
     """The operators' clock [s]; NaN while it is not known."""
     nothing = StringProperty("The robot keeps no missions under a name.")
-    """What to say while there are none."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -74,12 +58,7 @@ class MissionList(Control, BoxLayout):
         self.missions = msg.missions
 
     def _build(self, *_: object) -> None:
-        column = self.ids.column
-        column.clear_widgets()
-        for mission in self.missions:
-            column.add_widget(self._row(mission))
-        if not self.missions:
-            column.add_widget(Text(text=self.nothing, role="muted", font_size="15sp"))
+        self.fill(self._row(mission) for mission in self.missions)
 
     def _row(self, mission: KeptMission) -> ListRow:
         current = mission.name == self.current

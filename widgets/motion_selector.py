@@ -12,22 +12,19 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import BooleanProperty, NumericProperty, OptionProperty
-from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.choices
 import widgets.stepper  # noqa: F401 - same
 from bridge.msgs.pilothouse_msgs import LONGEST_DWELL, MOST_LAPS, MOTIONS, REACTIONS, Mission
 from widgets.base import Control
+from widgets.column import Column
 
 __all__ = ["MotionSelector"]
 
 
 Builder.load_string("""
 <MotionSelector>:
-    orientation: 'vertical'
-    size_hint_y: None
-    height: self.minimum_height
     spacing: theme.gap * .6
     SectionLabel:
         title: 'Motion'
@@ -77,7 +74,7 @@ Builder.load_string("""
 """)
 
 
-class MotionSelector(Control, BoxLayout):
+class MotionSelector(Control, Column):
     """Dispatches `on_command({name: value})` for the one thing that a finger changed."""
 
     accepts = (Mission,)

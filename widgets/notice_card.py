@@ -18,6 +18,8 @@ from kivy.uix.widget import Widget
 import widgets.labels  # noqa: F401 - its rules draw what is used here
 from widgets.base import Control
 from widgets.buttons import IconButton, PrimaryButton, PushButton, QuietButton
+from widgets.column import Column
+from widgets.frames import Outlined
 from widgets.theme import theme
 
 __all__ = ["NoticeCard"]
@@ -27,24 +29,12 @@ COMPACT, TINY = 400.0, 340.0
 
 Builder.load_string("""
 <NoticeCard>:
-    orientation: 'vertical'
-    size_hint_y: None
-    height: self.minimum_height
     padding: dp(14), dp(6) if root.tiny else dp(9)
     spacing: dp(7) if root.tiny else dp(10)
-    canvas.before:
-        Color:
-            rgba: theme.roles[root.role]
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.radius]
-        Color:
-            rgba: theme.surface
-        SmoothRoundedRectangle:
-            pos: self.x + dp(2), self.y + dp(2)
-            size: self.width - dp(4), self.height - dp(4)
-            radius: [theme.radius - dp(2)]
+    rim: root.role
+    ground: 'surface'
+    corner: theme.radius
+    rim_width: dp(2)
     BoxLayout:
         id: row
         size_hint_y: None
@@ -56,26 +46,21 @@ Builder.load_string("""
             role: root.role
             font_size: sp(28)
             pos_hint: {'center_y': .5}
-        BoxLayout:
+        Column:
             id: words
-            orientation: 'vertical'
-            size_hint_y: None
-            height: self.minimum_height
             spacing: dp(2)
             pos_hint: {'center_y': .5}
             Text:
                 text: root.headline
                 bold: True
                 font_size: sp(18)
-            Text:
+            Remark:
                 text: root.said
-                role: 'muted'
                 font_size: sp(14.5)
-                height: self.texture_size[1] if root.said else 0
 """)
 
 
-class NoticeCard(Control, BoxLayout):
+class NoticeCard(Outlined, Control, Column):
     """A card with room for buttons: beside its words by `add_beside`, below them by `add_below`."""
 
     veiled = False

@@ -13,13 +13,11 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import DictProperty
-from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
-import widgets.rows  # noqa: F401 - its rules draw what scrolls
 from bridge.msgs.pilothouse_msgs import ControlStatus
-from widgets.base import Control
 from widgets.choices import Toggle
+from widgets.listing import Listing
 from widgets.rows import ListRow
 
 __all__ = ["OPTIONS", "OptionList"]
@@ -55,18 +53,11 @@ ASKED = "Asked the robot …"
 
 Builder.load_string("""
 <OptionList>:
-    orientation: 'vertical'
-    Roll:
-        BoxLayout:
-            id: column
-            orientation: 'vertical'
-            size_hint_y: None
-            height: self.minimum_height
-            spacing: dp(8)
+    spacing: dp(8)
 """)
 
 
-class OptionList(Control, BoxLayout):
+class OptionList(Listing):
     """Dispatches `on_command(name, value)`, of which the value is `on` or `off`. A switch stands as the robot says."""
 
     accepts = (ControlStatus,)

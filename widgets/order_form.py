@@ -65,11 +65,8 @@ Builder.load_string("""
     spacing: theme.gap * .6
     Roll:
         id: roll
-        BoxLayout:
+        Column:
             id: column
-            orientation: 'vertical'
-            size_hint_y: None
-            height: self.minimum_height
             spacing: dp(8)
 
 <FormRow>:

@@ -34,22 +34,17 @@ LONGEST = {"name": 60, "floor": 20, "tag": 100, "note": 200}
 Builder.load_string("""
 <PlaceForm>:
     Roll:
-        BoxLayout:
+        Column:
             id: column
-            orientation: 'vertical'
-            size_hint_y: None
-            height: self.minimum_height
             spacing: dp(8)
             TextField:
                 id: name
                 hint_text: 'Name, as in Office 12'
                 label: 'Name'
                 on_text: root.type('name', self.text)
-            GridLayout:
+            Grid:
                 id: kinds
                 cols: 4 if self.width < dp(560) else 7
-                size_hint_y: None
-                height: self.minimum_height
                 spacing: dp(6)
             TextField:
                 id: note

@@ -44,11 +44,8 @@ Builder.load_string("""
         on_text: root.search = self.text
     Roll:
         id: roll
-        BoxLayout:
+        Column:
             id: column
-            orientation: 'vertical'
-            size_hint_y: None
-            height: self.minimum_height
             spacing: dp(6)
 """)
 

@@ -16,9 +16,11 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.buttons
+import widgets.column
 import widgets.labels  # noqa: F401 - their rules draw what is used here
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskStatus
 from widgets.base import Control
+from widgets.frames import Outlined
 from widgets.task_words import title
 
 __all__ = ["QuestionCard"]
@@ -30,19 +32,10 @@ Builder.load_string("""
     height: self.minimum_height if root.open else 0
     padding: dp(16), dp(8) if root.tight else dp(14)
     spacing: dp(8) if root.tight else dp(12)
-    canvas.before:
-        Color:
-            rgba: theme.roles[root.role]
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.radius]
-        Color:
-            rgba: theme.surface
-        SmoothRoundedRectangle:
-            pos: self.x + dp(2.5), self.y + dp(2.5)
-            size: self.width - dp(5), self.height - dp(5)
-            radius: [theme.radius - dp(2.5)]
+    rim: root.role
+    ground: 'surface'
+    corner: theme.radius
+    rim_width: dp(2.5)
     BoxLayout:
         size_hint_y: None
         height: max(words.height, dp(34))
@@ -52,11 +45,8 @@ Builder.load_string("""
             role: root.role
             font_size: sp(32)
             pos_hint: {'center_y': .5}
-        BoxLayout:
+        Column:
             id: words
-            orientation: 'vertical'
-            size_hint_y: None
-            height: self.minimum_height
             spacing: dp(3)
             pos_hint: {'center_y': .5}
             Text:
@@ -64,11 +54,10 @@ Builder.load_string("""
                 bold: True
                 role: 'muted' if root.old else 'text'
                 font_size: sp(18) if root.tight else theme.size_title
-            Text:
+            Remark:
                 text: root.said
                 role: root.said_role
                 font_size: sp(14.5)
-                height: self.texture_size[1] if root.said else 0
     BoxLayout:
         # not across the card: STOP is the largest thing to press
         size_hint: None, None
@@ -97,7 +86,7 @@ Builder.load_string("""
 """)
 
 
-class QuestionCard(Control, BoxLayout):
+class QuestionCard(Outlined, Control, BoxLayout):
     """Dispatches `on_command(name)`: `confirm`, or for a task that was cut short `resume` or `cancel`."""
 
     accepts = (TaskStatus,)

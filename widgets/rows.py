@@ -7,16 +7,17 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import BooleanProperty, NumericProperty, StringProperty
-from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.scrollview import ScrollView
 from kivy.uix.widget import Widget
 
 from widgets.buttons import IconButton
 from widgets.choices import Toggle
+from widgets.column import Column
+from widgets.frames import Pressable
 from widgets.labels import Icon, SectionLabel, Text
 
-__all__ = ["DragHandle", "ListRow", "Roll", "group_label"]
+__all__ = ["DragHandle", "ListRow", "Roll", "TwoLines", "group_label"]
 
 Builder.load_string("""
 <ListRow>:
@@ -24,52 +25,20 @@ Builder.load_string("""
     height: max(theme.target, words.height + dp(14))
     padding: dp(12), 0, root.end, 0
     spacing: dp(10)
-    canvas.before:
-        Color:
-            rgba: theme.roles['accent' if root.chosen else 'line']
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.corner]
-        Color:
-            rgba: theme.raised
-        SmoothRoundedRectangle:
-            pos: self.x + root.edge, self.y + root.edge
-            size: self.width - 2 * root.edge, self.height - 2 * root.edge
-            radius: [theme.corner - root.edge]
-        Color:
-            rgba: theme.text[:3] + [.12 if root.state == 'down' else 0]
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.corner]
+    rim: 'accent' if root.chosen else 'line'
+    rim_width: 1.5
     Icon:
         id: sign
         name: root.icon
         role: root.role
         pos_hint: {'center_y': .5}
-    BoxLayout:
+    TwoLines:
         id: words
-        orientation: 'vertical'
-        size_hint_y: None
-        height: self.minimum_height
         spacing: dp(1)
-        pos_hint: {'center_y': .5}
-        Text:
-            text: root.title
-            bold: True
-            font_size: sp(15)
-            role: 'muted' if root.faded else 'text'
-            shorten: True
-            shorten_from: 'right'
-        Text:
-            text: root.detail
-            role: 'muted'
-            font_size: sp(13)
-            shorten: not root.whole
-            shorten_from: 'right'
-            height: self.texture_size[1] if root.detail else 0
-            opacity: 1 if root.detail else 0
+        title: root.title
+        detail: root.detail
+        faded: root.faded
+        whole: root.whole
     Label:
         text: root.aside
         font_name: theme.font
@@ -80,6 +49,20 @@ Builder.load_string("""
         size: self.texture_size[0] if root.aside else 0, self.texture_size[1]
         opacity: 1 if root.aside else 0
         pos_hint: {'center_y': .5}
+
+<TwoLines>:
+    pos_hint: {'center_y': .5}
+    Text:
+        text: root.title
+        bold: True
+        font_size: sp(15)
+        role: 'muted' if root.faded else 'text'
+        shorten: True
+        shorten_from: 'right'
+    Remark:
+        text: root.detail
+        shorten: not root.whole
+        shorten_from: 'right'
 
 <Roll>:
     do_scroll_x: False
@@ -98,7 +81,7 @@ Builder.load_string("""
 """)
 
 
-class ListRow(ButtonBehavior, BoxLayout):
+class ListRow(Pressable, BoxLayout):
     """One line of a list: icon, title, a second line, a word at its end; more can be added behind that."""
 
     icon = StringProperty("place")
@@ -116,8 +99,18 @@ class ListRow(ButtonBehavior, BoxLayout):
     """What it tells of is switched off or over."""
     whole = BooleanProperty(False)
     """Its second line is shown to the end, on as many lines as that takes."""
-    edge = 1.5
-    """Width of its border [px]."""
+
+
+class TwoLines(Column):
+    """What a row says: a title, and a second line where there is one."""
+
+    title = StringProperty("")
+    detail = StringProperty("")
+    """Empty for none."""
+    faded = BooleanProperty(False)
+    """What it tells of is switched off or over."""
+    whole = BooleanProperty(False)
+    """The second line is shown to the end, on as many lines as that takes."""
 
 
 class DragHandle(Icon):

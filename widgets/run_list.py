@@ -11,33 +11,18 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 from typing import Any
 
-from kivy.lang import Builder
 from kivy.properties import BooleanProperty, ListProperty, NumericProperty, StringProperty
-from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import GetHistoryResponse, TaskOrder, TaskRun
 from bridge.msgs.std_msgs import Time
-from widgets.base import Control
 from widgets.buttons import QuietButton
 from widgets.event_row import when_words
-from widgets.labels import Text
+from widgets.listing import Listing
 from widgets.rows import ListRow
 from widgets.task_words import STATES, distance_words, span_words, title
 
 __all__ = ["RunList", "run_words"]
-
-Builder.load_string("""
-<RunList>:
-    orientation: 'vertical'
-    Roll:
-        BoxLayout:
-            id: column
-            orientation: 'vertical'
-            size_hint_y: None
-            height: self.minimum_height
-            spacing: dp(6)
-""")
 
 MOST = 300
 """Runs kept here; the oldest are let go [rows]."""
@@ -53,7 +38,7 @@ def run_words(run: TaskRun, now: float = math.nan) -> str:
     return " · ".join(parts)
 
 
-class RunList(Control, BoxLayout):
+class RunList(Listing):
     """Dispatches `on_command(before)` with the number before which older runs are wanted."""
 
     accepts = (GetHistoryResponse,)
@@ -65,7 +50,6 @@ class RunList(Control, BoxLayout):
     now = NumericProperty(math.nan)
     """The operators' clock [s]; NaN while it is not known."""
     nothing = StringProperty("Nothing was done yet.")
-    """What to say while there are none."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -82,16 +66,11 @@ class RunList(Control, BoxLayout):
         self.runs = []
 
     def _build(self, *_: object) -> None:
-        column = self.ids.column
-        column.clear_widgets()
-        for run in self.runs:
-            column.add_widget(self._row(run))
-        if not self.runs:
-            column.add_widget(Text(text=self.nothing, role="muted", font_size="15sp"))
-        elif self.more:
+        self.fill(self._row(run) for run in self.runs)
+        if self.runs and self.more:
             button = QuietButton(text="Older", icon="history")
             button.bind(on_release=lambda _: self.dispatch("on_command", self.runs[-1].id))
-            column.add_widget(button)
+            self.ids.column.add_widget(button)
 
     def _row(self, run: TaskRun) -> ListRow:
         icon, role, _ = STATES.get(run.state, STATES["IDLE"])

@@ -11,35 +11,20 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from kivy.lang import Builder
-from kivy.properties import ListProperty, NumericProperty
-from kivy.uix.boxlayout import BoxLayout
+from kivy.properties import ListProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import Schedule, ScheduledTask, TaskOrder
 from bridge.msgs.std_msgs import Time
-from widgets.base import Control
 from widgets.choices import Toggle
-from widgets.labels import Text
+from widgets.listing import Listing
 from widgets.rows import ListRow
 from widgets.task_words import TASKS, rhythm, span_words, title
 
 __all__ = ["ScheduleList"]
 
-Builder.load_string("""
-<ScheduleList>:
-    orientation: 'vertical'
-    Roll:
-        BoxLayout:
-            id: column
-            orientation: 'vertical'
-            size_hint_y: None
-            height: self.minimum_height
-            spacing: dp(6)
-""")
 
-
-class ScheduleList(Control, BoxLayout):
+class ScheduleList(Listing):
     """Dispatches `on_command(task)` for one that was switched on or off, `on_open(task)` for one that was pressed."""
 
     accepts = (Schedule,)
@@ -49,6 +34,7 @@ class ScheduleList(Control, BoxLayout):
 
     tasks = ListProperty()
     """Every `ScheduledTask`."""
+    nothing = StringProperty("Nothing starts by itself.")
     now = NumericProperty(math.nan)
     """The operators' clock [s]; NaN while it is not known."""
 
@@ -66,14 +52,8 @@ class ScheduleList(Control, BoxLayout):
         """A finger pressed its row."""
 
     def _build(self, *_: object) -> None:
-        column, self._rows = self.ids.column, []
-        column.clear_widgets()
-        for task in self.tasks:
-            row = self._row(task)
-            self._rows.append((task, row))
-            column.add_widget(row)
-        if not self.tasks:
-            column.add_widget(Text(text="Nothing starts by itself.", role="muted", font_size="15sp"))
+        self._rows = [(task, self._row(task)) for task in self.tasks]
+        self.fill(row for _, row in self._rows)
         self._tell()
 
     def _row(self, task: ScheduledTask) -> ListRow:

@@ -16,6 +16,7 @@ from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
+from widgets.frames import Outlined
 from widgets.labels import Icon
 from widgets.theme import theme
 
@@ -29,19 +30,7 @@ Builder.load_string("""
     size_hint: None, None
     height: max(dp(40), theme.target * .78)
     width: self.height * 2 + max(figures.texture_size[0], dp(44))
-    canvas.before:
-        Color:
-            rgba: theme.line
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [self.height / 2]
-        Color:
-            rgba: theme.raised
-        SmoothRoundedRectangle:
-            pos: self.x + theme.outline, self.y + theme.outline
-            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
-            radius: [self.height / 2 - theme.outline]
+    corner: self.height / 2
     StepperEnd:
         step: -1
         name: 'remove'
@@ -108,7 +97,7 @@ class StepperEnd(ButtonBehavior, Icon):
         """Once more."""
 
 
-class Stepper(BoxLayout):
+class Stepper(Outlined, BoxLayout):
     """A number between two ends, changed step by step; dispatches `on_change`."""
 
     __events__ = ("on_change",)

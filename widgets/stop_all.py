@@ -16,6 +16,7 @@ from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.widget import Widget
 
 from widgets.base import Control, fitting_size
+from widgets.frames import Outlined
 
 __all__ = ["StopAll"]
 
@@ -28,19 +29,11 @@ TIGHT = 1.5
 
 Builder.load_string("""
 <StopAll>:
+    rim: 'stop'
+    ground: 'stop' if root.filled else 'raised'
+    corner: theme.radius
+    rim_width: dp(2)
     canvas.before:
-        Color:
-            rgba: theme.stop
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.radius]
-        Color:
-            rgba: theme.stop if root.filled else theme.raised
-        SmoothRoundedRectangle:
-            pos: self.x + dp(2), self.y + dp(2)
-            size: self.width - dp(4), self.height - dp(4)
-            radius: [theme.radius - dp(2)]
         Color:
             rgba: theme.shade[:3] + [.22 if root.pressed else 0]
         SmoothRoundedRectangle:
@@ -75,7 +68,7 @@ Builder.load_string("""
 """)
 
 
-class StopAll(Control, AnchorLayout):
+class StopAll(Outlined, Control, AnchorLayout):
     """Dispatches `on_command` the moment a finger comes down, however often."""
 
     veiled = False

@@ -16,6 +16,7 @@ from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.widget import Widget
 
 from widgets.base import Control
+from widgets.frames import Outlined
 from widgets.hold import HOLD, Hold
 from widgets.labels import spaced
 
@@ -55,19 +56,11 @@ LOCAL = {
 Builder.load_string("""
 <StopButton>:
     veil_radius: theme.radius * 1.3
+    rim: 'stop'
+    ground: 'surface' if root.phase == 'stopped' else 'stop'
+    corner: theme.radius * 1.3
+    rim_width: dp(3)
     canvas.before:
-        Color:
-            rgba: theme.stop
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.radius * 1.3]
-        Color:
-            rgba: theme.surface if root.phase == 'stopped' else theme.stop
-        SmoothRoundedRectangle:
-            pos: self.x + dp(3), self.y + dp(3)
-            size: self.width - dp(6), self.height - dp(6)
-            radius: [theme.radius * 1.3 - dp(3)]
         Color:
             rgba: (theme.stop if root.phase == 'stopped' else theme.shade)[:3] + [.4 if root.held else 0]
         SmoothRoundedRectangle:
@@ -121,7 +114,7 @@ Builder.load_string("""
 """)
 
 
-class StopButton(Hold, Control, AnchorLayout):
+class StopButton(Outlined, Hold, Control, AnchorLayout):
     """Dispatches `on_command` the moment a finger comes down, and `on_release_stop` after a hold once stopped."""
 
     veiled = False

@@ -49,24 +49,11 @@ Builder.load_string("""
         name: root.icon
         role: root.role
         pos_hint: {'center_y': .5}
-    BoxLayout:
+    TwoLines:
         id: words
-        orientation: 'vertical'
-        size_hint_y: None
-        height: self.minimum_height
-        pos_hint: {'center_y': .5}
-        Text:
-            text: root.title
-            bold: True
-            font_size: sp(15)
-            shorten: True
-            shorten_from: 'right'
-        Text:
-            text: root.detail
-            role: 'muted'
-            font_size: sp(13)
-            height: self.texture_size[1] if root.detail else 0
-            opacity: 1 if root.detail else 0
+        title: root.title
+        detail: root.detail
+        whole: True
     Label:
         text: root.word
         font_name: theme.font
@@ -97,10 +84,7 @@ Builder.load_string("""
             id: head
             size_hint_y: None
             height: theme.target
-            BoxLayout:
-                orientation: 'vertical'
-                size_hint_y: None
-                height: self.minimum_height
+            Column:
                 pos_hint: {'center_y': .5}
                 Text:
                     text: root.title
@@ -134,17 +118,11 @@ Builder.load_string("""
                 on_release: root.dispatch('on_close')
         Roll:
             id: roll
-            BoxLayout:
+            Column:
                 id: column
-                orientation: 'vertical'
-                size_hint_y: None
-                height: self.minimum_height
-        Text:
+        Remark:
             id: footnote
             text: root.footnote
-            role: 'muted'
-            font_size: sp(13)
-            height: self.texture_size[1] if root.footnote else 0
         HoldButton:
             id: release
             text: root.offer

@@ -9,19 +9,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 from kivy.clock import Clock
 from kivy.lang import Builder
 from kivy.metrics import dp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty, StringProperty
-from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.buttons  # noqa: F401 - its rules draw the buttons
 from bridge.msgs.pilothouse_msgs import TaskStatus
-from widgets.base import Control
-from widgets.theme import theme
+from widgets.base import VEIL, Control
+from widgets.column import Column
 
 __all__ = ["COMMANDS", "TaskButtons"]
 
@@ -54,9 +53,6 @@ LEADS_TO = {"start": "RUNNING", "resume": "RUNNING", "home": "RUNNING", "pause":
 
 Builder.load_string("""
 <TaskButtons>:
-    orientation: 'vertical'
-    size_hint_y: None
-    height: self.minimum_height
     spacing: theme.gap * .6
     BoxLayout:
         id: row
@@ -109,15 +105,12 @@ Builder.load_string("""
 """)
 
 
-class TaskButtons(Control, BoxLayout):
+class TaskButtons(Control, Column):
     """Dispatches `on_command(name)`: `start`, `pause`, `resume`, `stop` or `home`. Says what `answer` was told."""
 
     accepts = (TaskStatus,)
 
-    def _veil(self) -> list[float]:
-        return [*theme.surface[:3], 0.0 if self.state == "disabled" else super()._veil()[3]]
-
-    veil = AliasProperty(_veil, bind=["state"])
+    veils: ClassVar = {"stale": VEIL["stale"]}
     """Buttons that cannot be pressed are drawn so one by one; the sentence, which says why, stays readable."""
 
     task_state = StringProperty("IDLE")

@@ -12,7 +12,6 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, ObjectProperty, StringProperty
-from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.amounts
@@ -20,30 +19,17 @@ import widgets.labels  # noqa: F401 - their rules draw what is used here
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskStatus
 from widgets.base import RobotWidget
+from widgets.column import Column
+from widgets.frames import Outlined
 from widgets.task_words import STATES, TASKS, distance_words, span_words, title
 
 __all__ = ["TaskCard", "figures_words"]
 
 Builder.load_string("""
 <TaskCard>:
-    orientation: 'vertical'
-    size_hint_y: None
-    height: self.minimum_height
     padding: dp(14), dp(8) if root.brief else dp(12)
     spacing: dp(5) if root.brief else dp(8)
-    canvas.before:
-        Color:
-            rgba: theme.line
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.radius]
-        Color:
-            rgba: theme.raised
-        SmoothRoundedRectangle:
-            pos: self.x + theme.outline, self.y + theme.outline
-            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
-            radius: [theme.radius - theme.outline]
+    corner: theme.radius
     BoxLayout:
         size_hint_y: None
         height: max(phase.height, name.height)
@@ -67,23 +53,19 @@ Builder.load_string("""
             text: root.phase_words
             outlined: True
             pos_hint: {'center_y': .5}
-    Text:
+    Remark:
         text: root.reason
+        role: 'text'
         font_size: sp(14.5)
-        height: self.texture_size[1] if root.reason else 0
-        opacity: 1 if root.reason else 0
         shorten: root.brief
         shorten_from: 'right'
     Progress:
         value: root.progress
         height: dp(10) if root.active else 0
         opacity: 1 if root.active else 0
-    Text:
+    Remark:
         text: '' if root.brief else root.figures
-        role: 'muted'
         font_size: sp(14)
-        height: self.texture_size[1] if self.text else 0
-        opacity: 1 if self.text else 0
 """)
 
 
@@ -106,7 +88,7 @@ def figures_words(status: TaskStatus, progress: TaskProgress | None) -> str:
     return " · ".join(parts)
 
 
-class TaskCard(RobotWidget, BoxLayout):
+class TaskCard(Outlined, RobotWidget, Column):
     """One task. Progress counts only for the task that the status is about."""
 
     accepts = (TaskStatus, TaskProgress)

@@ -12,14 +12,14 @@ from collections.abc import Callable
 from kivy.lang import Builder
 from kivy.metrics import dp
 from kivy.properties import AliasProperty, BooleanProperty, ListProperty, StringProperty
-from kivy.uix.behaviors import ButtonBehavior
 from kivy.uix.boxlayout import BoxLayout
-from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
 import widgets.labels  # noqa: F401 - its rules draw the icons
 from bridge.msgs.pilothouse_msgs import TaskOrder
 from widgets.base import Control
+from widgets.column import Grid
+from widgets.frames import Pressable
 from widgets.task_words import TASKS
 
 __all__ = ["TaskChooser"]
@@ -31,8 +31,6 @@ LEAST = 68.0
 
 Builder.load_string("""
 <TaskChooser>:
-    size_hint_y: None
-    height: self.minimum_height
     cols: root.across
     spacing: dp(8)
 
@@ -42,25 +40,9 @@ Builder.load_string("""
     height: max(theme.target, dp(66)) if not root.about else dp(118)
     padding: dp(2), dp(9), dp(2), dp(7)
     spacing: dp(2)
-    canvas.before:
-        Color:
-            rgba: theme.roles['plan' if root.chosen else 'line']
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.corner]
-        Color:
-            rgba: theme.roles['plan' if root.chosen else 'raised']
-        SmoothRoundedRectangle:
-            pos: self.x + theme.outline, self.y + theme.outline
-            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
-            radius: [theme.corner - theme.outline]
-        Color:
-            rgba: theme.text[:3] + [.14 if self.state == 'down' else 0]
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.corner]
+    rim: 'plan' if root.chosen else 'line'
+    ground: 'plan' if root.chosen else 'raised'
+    press_share: .14
     Icon:
         name: root.icon
         role: 'ink_plan' if root.chosen else 'plan'
@@ -86,7 +68,7 @@ Builder.load_string("""
 """)
 
 
-class TaskTile(ButtonBehavior, BoxLayout):
+class TaskTile(Pressable, BoxLayout):
     """One task."""
 
     icon = StringProperty("route")
@@ -96,7 +78,7 @@ class TaskTile(ButtonBehavior, BoxLayout):
     chosen = BooleanProperty(False)
 
 
-class TaskChooser(Control, GridLayout):
+class TaskChooser(Control, Grid):
     """Dispatches `on_command(task)` with the name that TaskOrder has for it."""
 
     accepts = (TaskOrder,)

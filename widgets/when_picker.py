@@ -13,7 +13,6 @@ from typing import Any
 from kivy.lang import Builder
 from kivy.properties import BooleanProperty, ListProperty, NumericProperty, ObjectProperty, StringProperty
 from kivy.uix.behaviors import ButtonBehavior
-from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
@@ -21,15 +20,14 @@ import widgets.choices
 import widgets.stepper  # noqa: F401 - their rules draw what is used here
 from bridge.msgs.pilothouse_msgs import ScheduledTask
 from widgets.base import Control
+from widgets.column import Column
+from widgets.frames import Outlined
 from widgets.task_words import DAYS
 
 __all__ = ["WhenPicker"]
 
 Builder.load_string("""
 <WhenPicker>:
-    orientation: 'vertical'
-    size_hint_y: None
-    height: self.minimum_height
     spacing: dp(8)
     Segmented:
         options: [('at', 'At a time'), ('every', 'Every so often')]
@@ -69,29 +67,18 @@ Builder.load_string("""
     bold: root.on
     color: theme.ink_accent if root.on else theme.muted
     disabled_color: self.color
-    canvas.before:
-        Color:
-            rgba: theme.accent if root.on else theme.line
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.corner]
-        Color:
-            rgba: theme.accent if root.on else theme.raised
-        SmoothRoundedRectangle:
-            pos: self.x + theme.outline, self.y + theme.outline
-            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
-            radius: [theme.corner - theme.outline]
+    rim: 'accent' if root.on else 'line'
+    ground: 'accent' if root.on else 'raised'
 """)
 
 
-class Day(ButtonBehavior, Label):
+class Day(Outlined, ButtonBehavior, Label):
     """One day of the week, on or off."""
 
     on = BooleanProperty(True)
 
 
-class WhenPicker(Control, BoxLayout):
+class WhenPicker(Control, Column):
     """Dispatches `on_command(task)`: the task it was shown, with what a finger changed."""
 
     accepts = (ScheduledTask,)

@@ -158,28 +158,21 @@ Builder.load_string("""
             orientation: 'vertical'
             padding: root.edge, dp(22), root.edge, max(dp(22), root.keep_free[0])
             spacing: dp(22)
-            BoxLayout:
+            Column:
                 id: notices
-                orientation: 'vertical'
-                size_hint_y: None
-                height: self.minimum_height
                 spacing: dp(10)
             ScrollView:
                 do_scroll_x: False
                 size_hint_y: None
                 height: min(cards.height, page.height - page.padding[1] - page.padding[3] - notices.height - actions.height - dp(66))
-                GridLayout:
+                Grid:
                     id: cards
                     cols: root.columns
                     spacing: dp(18)
-                    size_hint_y: None
-                    height: self.minimum_height
-            GridLayout:
+            Grid:
                 id: actions
                 cols: root.columns
                 spacing: dp(18)
-                size_hint_y: None
-                height: self.minimum_height
                 QuietButton:
                     id: add
                     icon: 'add_link'

@@ -5,21 +5,18 @@ from __future__ import annotations
 from typing import Any
 
 from kivy.lang import Builder
-from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.gridlayout import GridLayout
 
 import widgets.kit  # noqa: F401 - its rules draw what is used here
 from app.dashboard import Dashboard
 from app.offer import POSE
 from widgets import Readout
+from widgets.column import Column
 
 __all__ = ["Figures", "Lacking"]
 
 Builder.load_string("""
 <Lacking>:
-    orientation: 'vertical'
-    size_hint_y: None
-    height: self.minimum_height
     spacing: dp(12)
     BoxLayout:
         size_hint_y: None
@@ -52,7 +49,7 @@ Builder.load_string("""
 """)
 
 
-class Lacking(BoxLayout):
+class Lacking(Column):
     """One sentence and the two screens that do fit such a robot."""
 
     __events__ = ("on_choose",)

@@ -6,17 +6,14 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import BooleanProperty, StringProperty
-from kivy.uix.boxlayout import BoxLayout
 
+from widgets.column import Column
 from widgets.kit import IconButton
 
 __all__ = ["PaneHead"]
 
 Builder.load_string("""
 <PaneHead>:
-    orientation: 'vertical'
-    size_hint_y: None
-    height: self.minimum_height
     spacing: dp(8)
     BoxLayout:
         id: line
@@ -29,16 +26,14 @@ Builder.load_string("""
             bold: True
             font_size: theme.size_title
             pos_hint: {'center_y': .5}
-    Text:
+    Remark:
         text: root.sentence
         role: 'danger' if root.refused else 'muted'
         font_size: sp(15)
-        height: self.texture_size[1] if root.sentence else 0
-        opacity: 1 if root.sentence else 0
 """)
 
 
-class PaneHead(BoxLayout):
+class PaneHead(Column):
     """Dispatches `on_close`."""
 
     __events__ = ("on_close",)

@@ -17,6 +17,7 @@ from app.screens.lacking import Figures, Lacking
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import TaskProgress, TaskStatus
 from widgets import EventLog, MotionSelector, Readout, TaskButtons
+from widgets.column import Column
 from widgets.event_log import ago, look
 from widgets.kit import Card
 from widgets.task_card import figures_words
@@ -53,9 +54,6 @@ Builder.load_string("""
             padding: 0, dp(12) if root.form == 'tall' else 0, 0, 0
 
 <SendRow>:
-    orientation: 'vertical'
-    size_hint_y: None
-    height: self.minimum_height
     spacing: dp(5)
     PrimaryButton:
         id: send
@@ -81,9 +79,6 @@ Builder.load_string("""
             shorten_from: 'right'
 
 <ProgressRow>:
-    orientation: 'vertical'
-    size_hint_y: None
-    height: self.minimum_height
     spacing: dp(5)
     SectionLabel:
         title: 'Progress'
@@ -135,7 +130,7 @@ Builder.load_string("""
 """)
 
 
-class SendRow(BoxLayout):
+class SendRow(Column):
     """The button that sends the draft, and under it what became of it."""
 
     words = StringProperty("Send points")
@@ -145,7 +140,7 @@ class SendRow(BoxLayout):
     may_send = NumericProperty(0)
 
 
-class ProgressRow(BoxLayout):
+class ProgressRow(Column):
     """How far the task is."""
 
     value = NumericProperty(math.nan)

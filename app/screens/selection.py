@@ -7,6 +7,7 @@ from kivy.properties import StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
 import widgets.kit  # noqa: F401 - its rules draw what is used here
+from widgets.frames import Outlined
 
 __all__ = ["SelectionBar"]
 
@@ -16,19 +17,8 @@ Builder.load_string("""
     size_hint: None, None
     height: dp(52) + (said.height + dp(4) if root.trouble else 0)
     padding: dp(12), dp(6), dp(6), dp(6)
-    canvas.before:
-        Color:
-            rgba: theme.danger if root.trouble else theme.line
-        SmoothRoundedRectangle:
-            pos: self.pos
-            size: self.size
-            radius: [theme.corner]
-        Color:
-            rgba: theme.surface
-        SmoothRoundedRectangle:
-            pos: self.x + theme.outline, self.y + theme.outline
-            size: self.width - 2 * theme.outline, self.height - 2 * theme.outline
-            radius: [theme.corner - theme.outline]
+    rim: 'danger' if root.trouble else 'line'
+    ground: 'surface'
     BoxLayout:
         id: row
         size_hint_y: None
@@ -59,7 +49,7 @@ Builder.load_string("""
 """)
 
 
-class SelectionBar(BoxLayout):
+class SelectionBar(Outlined, BoxLayout):
     """What is selected on the map, and what can be done with it."""
 
     text = StringProperty("")

@@ -33,11 +33,8 @@ Builder.load_string("""
         pos_hint: {'center_x': .5, 'center_y': .5}
         padding: dp(14)
         spacing: dp(12)
-        BoxLayout:
+        Column:
             id: head
-            orientation: 'vertical'
-            size_hint_y: None
-            height: self.minimum_height
             spacing: dp(4)
             Text:
                 text: 'Start the built-in simulator'
@@ -62,24 +59,20 @@ Builder.load_string("""
                     title: 'Robots'
                     size_hint_y: None
                     height: dp(22)
-                GridLayout:
+                Grid:
                     id: robots
                     cols: root.columns
                     spacing: dp(8)
-                    size_hint_y: None
-                    height: self.minimum_height
                     row_default_height: max(theme.target, root.robot_height)
                     row_force_default: True
                 SectionLabel:
                     title: 'World'
                     size_hint_y: None
                     height: dp(30)
-                GridLayout:
+                Grid:
                     id: worlds
                     cols: root.columns
                     spacing: dp(8)
-                    size_hint_y: None
-                    height: self.minimum_height
                     row_default_height: max(theme.target, root.world_height)
                     row_force_default: True
         BoxLayout:

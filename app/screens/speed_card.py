@@ -37,14 +37,11 @@ Builder.load_string("""
         unit_size: sp(14)
         room: root.width - dp(18)
         pos_hint: {'center_x': .5}
-    Text:
+    Remark:
         id: limits
         text: root.limits
-        role: 'muted'
         font_size: sp(12)
         halign: 'center'
-        height: self.texture_size[1] if root.limits else 0
-        opacity: 1 if root.limits else 0
 """)
 
 

@@ -6,8 +6,8 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import BooleanProperty, NumericProperty, StringProperty
-from kivy.uix.boxlayout import BoxLayout
 
+from widgets.column import Column
 from widgets.kit import IconButton, Segmented
 
 __all__ = ["GROUPS", "TaskTabs"]
@@ -22,9 +22,6 @@ GROUPS = {
 
 Builder.load_string("""
 <TaskTabs>:
-    orientation: 'vertical'
-    size_hint_y: None
-    height: self.minimum_height
     spacing: dp(8)
     BoxLayout:
         id: line
@@ -44,7 +41,7 @@ def group_of(tab: str) -> str:
     return {one: group for group, (_, lists) in GROUPS.items() for one in lists}[tab]
 
 
-class TaskTabs(BoxLayout):
+class TaskTabs(Column):
     """Dispatches `on_settings`."""
 
     __events__ = ("on_settings",)

@@ -184,11 +184,8 @@ Builder.load_string("""
             pos_hint: {'center_y': .5}
             disabled: not root.name
             on_release: root.dispatch('on_close')
-        BoxLayout:
+        Column:
             id: titles
-            orientation: 'vertical'
-            size_hint_y: None
-            height: self.minimum_height
             spacing: dp(2)
             pos_hint: {'center_y': .5}
             Text:  # whole, on as many lines as it takes: here alone a long name can be read
