@@ -171,7 +171,7 @@ class ArmPanel(ArmKeys):
     def follow(self, touch: Any) -> None:
         """Move what is dragged as far as the finger went, so that it is seen beside it."""
         if not self.held:
-            self.held, self._start = self._handle(*touch.pos), touch.pos  # type: ignore[assignment]
+            self.held, self._start = self._handle(*touch.pos), touch.pos
         if math.dist(touch.pos, self._start) < dp(LEAST) and not self.aim and math.isnan(self.bearing):
             return
         if self.held == "tip":
@@ -255,7 +255,13 @@ class ArmPanel(ArmKeys):
         points = side_points(tuple(self.angles), self.links) * side.scale + (side.x, side.y)
         draw_arm(shapes, points, side.scale, opening=self.gripper, touching=self.touching)
         if self.tip and self.state != "disabled":
-            shapes.ring(*points[-1], dp(14), dp(1.5), theme.text if self.held == "tip" else theme.muted)
+            shapes.ring(
+                float(points[-1][0]),
+                float(points[-1][1]),
+                dp(14),
+                dp(1.5),
+                theme.text if self.held == "tip" else theme.muted,
+            )
         if self.aim:
             role = theme.danger if self.outcome in ("refused", "no_reply") and not self.held else theme.plan
             draw_aim(shapes, points[-1], side.at(self.aim), role)

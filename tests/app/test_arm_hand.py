@@ -36,7 +36,8 @@ def robot(monkeypatch: pytest.MonkeyPatch) -> Any:
 
 
 def orders(robot: FakeRobot) -> list[Any]:
-    return [request.order for service, request in robot.asked if service == "/arm/move"]
+    asked: list[tuple[str, Any]] = list(robot.asked)
+    return [request.order for service, request in asked if service == "/arm/move"]
 
 
 def armed(driving: Glass) -> Any:
