@@ -117,8 +117,8 @@ class ArmKeys(Grip, Gauge):
 
     def _keys_wide(self, width: float) -> float:
         if self.stacked:
-            return max(theme.target, dp(96))
-        return max(width * 0.48, min(2 * theme.target + dp(8), width * 0.6))
+            return float(max(theme.target, dp(96)))
+        return float(max(width * 0.48, min(2 * theme.target + dp(8), width * 0.6)))
 
     def _arrange(self, *_: object) -> None:
         """Put the buttons where they belong."""
