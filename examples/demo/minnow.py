@@ -25,7 +25,7 @@ __all__ = ["TOPICS", "play"]
 TOPICS = ("/rudder", "/compass")
 DRIFTS, RUNS_OUT = 0.35, 5.0
 """Current and waves take a boat along that fast [m/s]; the water takes the way off it within this [s]."""
-COURSE = 100.0
+COURSE = 120.0
 """That is set on the dial [deg], 0 north, clockwise."""
 HELD = math.radians(6)
 """A course is held so well [rad], waves and wind and all."""
@@ -41,7 +41,7 @@ def play(scene: Scene) -> Wait:
     yield from _drive(scene)
     yield from release(scene, DRIFTS)
     helm: Any = scene.glass.all("RudderThrottle")[0]
-    yield from on_phone(scene, lambda: [push(scene, helm, 0.6, 0.9)], 3.0)
+    yield from on_phone(scene, lambda: [push(scene, helm, -0.4, 0.9)], 3.0)
     yield from _course(scene)
     yield from _points(scene)
 
