@@ -58,14 +58,14 @@ class Field:
         outside = distance_from(grid.occupied)
         inside = distance_from(~grid.occupied)
         signed = np.where(grid.occupied, 1.0 - inside, outside) * grid.resolution
-        self._values = np.clip(signed, -1.0, 2.0)
-        slope_y, slope_x = np.gradient(self._values, grid.resolution)
-        self._layers = np.stack([self._values, slope_x, slope_y], axis=-1)
+        values = np.clip(signed, -1.0, 2.0)
+        slope_y, slope_x = np.gradient(values, grid.resolution)
+        self._layers = np.stack([values, slope_x, slope_y], axis=-1).astype(np.float32)
         self._grid = grid
 
     def read(self, points: Points) -> NDArray[np.float64]:
         """Distance to the nearest surface [m] and its slope along x and y, shape (n, 3); constant off the map."""
-        rows, columns = self._values.shape
+        rows, columns = self._layers.shape[:2]
         u = ((points[:, 0] - self._grid.x) / self._grid.resolution - 0.5).clip(0, columns - 1.001)
         v = ((points[:, 1] - self._grid.y) / self._grid.resolution - 0.5).clip(0, rows - 1.001)
         j, i = u.astype(np.intp), v.astype(np.intp)
@@ -77,10 +77,10 @@ class Field:
 
     def nearest(self, points: Points) -> NDArray[np.float64]:
         """Distance to the nearest surface of each point, of any shape (..., 2), to the cell [m]."""
-        rows, columns = self._values.shape
+        rows, columns = self._layers.shape[:2]
         j = ((points[..., 0] - self._grid.x) / self._grid.resolution).astype(np.intp).clip(0, columns - 1)
         i = ((points[..., 1] - self._grid.y) / self._grid.resolution).astype(np.intp).clip(0, rows - 1)
-        return np.asarray(self._values[i, j])
+        return np.asarray(self._layers[i, j, 0])
 
 
 @dataclass(frozen=True, slots=True)

@@ -98,10 +98,15 @@ class Bullet:
     def add_ground(self, height: float = 0.0) -> int:
         """The level ground at z = `height` [m]; its number."""
         shape = p.createCollisionShape(p.GEOM_PLANE, physicsClientId=self._client)
+        looks = -1
+        if not self._gui:  # Bullet would else keep 10 MB of a chequered plane that nobody sees
+            speck = (0.001, 0.001, 0.001)
+            looks = p.createVisualShape(p.GEOM_BOX, halfExtents=speck, physicsClientId=self._client)
         self.ground = int(
             p.createMultiBody(
                 0,
                 shape,
+                looks,
                 basePosition=(0, 0, height),
                 useMaximalCoordinates=_PLAIN,
                 physicsClientId=self._client,

@@ -44,10 +44,13 @@ class Serving:
 
 
 @contextmanager
-def serving(module: str = "robotside", *more: str) -> Iterator[Serving]:
-    """Run `python -m module serve`, with the simulated patrol robot unless `more` says otherwise, until the end of the block."""
+def serving(module: str = "robotside", *more: str, state: str | None = None) -> Iterator[Serving]:
+    """Run `python -m module serve`, with the simulated patrol robot unless `more` says otherwise, until the end of the block.
+
+    With what is kept in the folder `state`; in one of its own if None.
+    """
     options = ("serve", "--port", "0", "--http-port", "0", *more, "--state")
-    with tempfile.TemporaryDirectory() as state, child(module, *options, state) as process:
+    with tempfile.TemporaryDirectory() as own, child(module, *options, state or own) as process:
         while not (ready := READY.match(process.line())):
             pass
         yield Serving(process, ready[1])
