@@ -14,7 +14,7 @@ from examples.demo.vehicle import keep_pushing, on_phone, push, release, stop
 __all__ = ["TOPICS", "play"]
 
 TOPICS = ("/motors", "/depth")
-GLIDES, GLIDES_OUT = 0.08, 3.0
+GLIDES, GLIDES_OUT = 0.12, 3.0
 """Slower it only glides [m/s]; the water takes its way within this [s]."""
 TAB, ENTER = 9, 13
 """Keys that two switches send: on to the next action, and do it."""

@@ -112,6 +112,9 @@ def _points(scene: Scene) -> Wait:
     with scene.step("points") as check:
         yield from glass.press("Mission", kind="NavButton")
         chart: Any = yield from glass.one("MapOverlay")
+        if scene.task("follow_heading"):
+            yield from glass.press("End", kind="PushButton")
+            yield from glass.soon(lambda: not scene.task("follow_heading"), 5)
         yield from glass.press("Points", kind="Segment")
         for point in POINTS:
             yield from scene.hand.tap(scene.on_map(*point))
