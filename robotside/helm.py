@@ -11,6 +11,7 @@ from robotside.commands import Refusal
 from robotside.config import ControlSettings
 from robotside.controls import Controls
 from robotside.events import Say
+from robotside.excess import Excesses
 from robotside.guarded import Guarded
 from robotside.limits import Measured, turned_over
 from robotside.manoeuvres import BY_STICK, Order, settled
@@ -77,6 +78,7 @@ class Helm:
         self._safe, self._options = safe, options
         self._say, self._clock = say, clock
         self._measured, self._go_home = measured, go_home
+        self._excesses = Excesses(robot.info, say, clock)
         self._ran = self._returned = False
         self._done: Act | None = None
 
@@ -111,6 +113,7 @@ class Helm:
             return ruling.said
         self._safe.leave()
         engine.pause(f"Paused: {self._controls.name(client)} took the stick.", "warn")
+        self._excesses.look(client.id, order)
         self._ran = self._returned = False
         self._robot.follow(settled(ruling.order, self._robot.info))
         return ""
@@ -143,6 +146,7 @@ class Helm:
         """A client's socket closed; if it was driving, the robot takes its safe state at once."""
         drove, name = self._controls.drives(client), self._controls.name(client)
         held = self._controls.gone(client)
+        self._excesses.forget(client.id)
         if drove and not self._engine.running:
             self.rest(now)
         if held:
