@@ -9,9 +9,8 @@ import msgspec
 
 from bridge.msgs.sensor_msgs import BatteryState
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import GRAVITY
 
-__all__ = ["Battery", "BatteryParameters", "DriveBattery", "DriveBatteryParameters"]
+__all__ = ["Battery", "BatteryParameters"]
 
 _DISCHARGING = 2
 _LITHIUM_ION = 2
@@ -37,15 +36,6 @@ class BatteryParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True,
     """[ohm]"""
     charge: Part
     """At the beginning; 1 is full."""
-
-
-class DriveBatteryParameters(BatteryParameters, frozen=True, kw_only=True):
-    """The same with the figures of a drive that is known by its speed alone."""
-
-    rolling: Positive
-    """Rolling resistance as a part of the weight."""
-    efficiency: Positive
-    """Of motors and gears."""
 
 
 class Battery:
@@ -89,20 +79,3 @@ class Battery:
             power_supply_status=_DISCHARGING,
             power_supply_technology=_LITHIUM_ION,
         )
-
-
-class DriveBattery(Battery):
-    """The battery of a vehicle on wheels whose motors' work is reckoned from its speed."""
-
-    def __init__(self, parameters: DriveBatteryParameters, mass: float) -> None:
-        """The battery of a vehicle of `mass` [kg]."""
-        super().__init__(parameters)
-        self._drive, self._mass = parameters, mass
-        self._speed = 0.0
-
-    def work(self, speed: float, period: float) -> None:
-        """Feed `period` [s] of driving that ends at `speed` [m/s]."""
-        pull = (abs(speed) - abs(self._speed)) / period * self._mass
-        resist = self._drive.rolling * self._mass * GRAVITY
-        self._speed = speed
-        self.feed(max(0.0, resist + pull) * abs(speed) / self._drive.efficiency, period)

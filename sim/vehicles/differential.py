@@ -9,7 +9,7 @@ from sim.sensors.imu import ImuParameters
 from sim.sensors.odometry import OdometryParameters
 from sim.shapes import Shape
 from sim.vehicles.control import towards
-from sim.vehicles.parameters import CameraParameters, Limits, Parameters, Positive, Rate, Table
+from sim.vehicles.parameters import CameraParameters, Limits, Motor, Parameters, Positive, Rate, Table
 
 __all__ = ["DifferentialDrive", "DifferentialLimits", "DifferentialParameters", "Wheels", "body_of"]
 
@@ -59,6 +59,13 @@ class Casters(Table, frozen=True, kw_only=True):
     """Of one [kg]."""
 
 
+class Rolling(Table, frozen=True, kw_only=True):
+    """What tyres and gears take."""
+
+    resistance: Positive
+    """As a part of the weight."""
+
+
 class DifferentialLimits(Limits, frozen=True, kw_only=True):
     """What the drive does at most."""
 
@@ -79,6 +86,8 @@ class DifferentialParameters(Parameters, frozen=True, kw_only=True):
     wheels: Wheels
     casters: Casters
     limits: DifferentialLimits
+    motor: Motor
+    rolling: Rolling
     odometry: OdometryParameters
     imu: ImuParameters
     bumper: Rate

@@ -23,6 +23,8 @@ STREAMS = (
     "/bumper",
     "/battery_state",
     "/joint_states",
+    "/motors",
+    "/manoeuvre",
     "/line_sensor",
     "/range/front",
     "/range/left",

@@ -130,6 +130,39 @@ def test_it_is_held_by_a_wall_and_does_not_topple():
     robot.close()
 
 
+def test_pushing_against_a_wall_warms_its_motors_and_takes_more_power_than_driving(robot):
+    robot.drive(Twist.planar(0.3, 0.0))
+    robot.read(2.0)
+    driving = robot.simulation.vehicle.battery.power
+    held = robot_in(room(4.0, 4.0, x=1.7))
+    held.drive(Twist.planar(0.3, 0.0))
+    told = last(held.read(10.0), "/motors")
+    held.close()
+    assert held.simulation.vehicle.battery.power > 1.2 * driving
+    assert told.names == ["left", "right"]
+    assert min(told.temperatures) > 20.2
+
+
+def test_driving_costs_its_rolling_resistance(robot):
+    robot.drive(Twist.planar(0.6, 0.0))
+    robot.read(2.0)
+    battery = robot.simulation.vehicle.battery
+    charge = battery.charge
+    robot.read(12.0)
+    own = PARAMETERS
+    spent = (charge - battery.charge) * own.battery.capacity * 3600 * own.battery.voltage
+    mass = own.body.mass + 2 * own.wheels.mass + 2 * own.casters.mass
+    work = own.rolling.resistance * mass * 9.81 * 0.6 * 10.0
+    assert spent - own.battery.idle * 10.0 == pytest.approx(work / own.motor.efficiency, rel=0.1)
+
+
+def test_it_tells_the_order_that_it_follows(robot):
+    robot.drive(Twist.planar(0.4, 0.2))
+    assert last(robot.read(0.5), "/manoeuvre").twist == Twist.planar(0.4, 0.2)
+    robot.stop()
+    assert last(robot.read(1.0), "/manoeuvre").kind == "rest"
+
+
 def test_the_same_wall_bumped_again_later_is_another_contact():
     robot = robot_in(room(4.0, 4.0, x=1.0))
     now = 0.0

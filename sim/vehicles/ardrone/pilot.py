@@ -27,8 +27,9 @@ TAKE_OFF_TO = 1.0
 """Above where it stands, unless told otherwise [m]."""
 LANDING, TOUCHING = 0.4, 0.25
 """Downward far from the ground and near it [m/s]."""
-UP, STILL = 0.05, 0.25
-"""A twist upward of this takes off [m/s]; slower than the second it has stopped and holds its place [m/s]."""
+DOWN, STILL = 0.05, 0.25
+"""Told to sink faster than this onto the ground it lands [m/s]; slower than the second it has stopped and holds its place
+[m/s]."""
 LOW = 0.15
 """Lower than this above where it started it does not stay in the air to rest [m]."""
 TUMBLED = 0.3
@@ -90,7 +91,7 @@ class Pilot:
 
     def touched(self, now: Motion) -> None:
         """It stands on something."""
-        sinks = self.phase == "landing" or (self.phase == "flying" and self._wanted(now)[2] < -UP)
+        sinks = self.phase == "landing" or (self.phase == "flying" and self._wanted(now)[2] < -DOWN)
         if sinks and abs(now.velocity[2]) < 0.1:
             self.phase = "landed"
 
@@ -99,14 +100,7 @@ class Pilot:
         if now.upright < TUMBLED:
             self.phase = "landed"
         if self.phase == "landed":
-            if (
-                now.upright > TUMBLED
-                and self._order.kind in ("twist", "tilt")
-                and self._order.twist.linear.z > UP
-            ):
-                self._take_off(now, now.position[2] + 0.5)
-            else:
-                return None
+            return None  # only the order to take off starts the rotors: somebody may stand beside them
         if self.phase == "taking_off" and now.position[2] > self._place[2] - 0.08:
             self.phase = "flying"
         yaw_rate = self._turn(now)
