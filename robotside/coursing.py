@@ -57,11 +57,8 @@ class Coursing:
         self.cruise, self.clear = min(CRUISE * info.max_speed, FASTEST), info.radius + 0.18
         self.turning = BOAT_TURNS if info.kind == "boat" else 0.0
         self.height = math.nan
-        """To go at, above the map's origin [m]; NaN for the present one. A task sets it."""
         self.aloft = "take_off" not in info.manoeuvres
-        """It is where it moves: what takes off is in the air. Whoever hears that sets it."""
         self.measured = math.nan
-        """Its height now, above the map's origin [m]; NaN while not known. Whoever measures it sets it."""
         self._follower: Follower | None = None
         self._speed = 0.0
 

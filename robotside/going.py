@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Generator
 from typing import Protocol
 
 from robotside.planner import Planner
 from robotside.pose2 import Points, Pose2
 
-__all__ = ["CRUISE", "UNSURE_SPEED", "Going", "Search"]
+__all__ = ["CRUISE", "UNSURE_SPEED", "Going", "Grounded", "Search"]
 
 CRUISE = 0.9
 """Part of the robot's greatest speed that it travels with by itself."""
@@ -38,6 +39,12 @@ class Going(Protocol):
     """How far along the way something new makes the guide plan anew [m]."""
     clear: float
     """What is nearer than this to the way is in it [m]."""
+    height: float
+    """To go at, above the map's origin [m]; NaN for the present one. A task sets it, and what keeps no height leaves it be."""
+    measured: float
+    """Its height now, above the map's origin [m]; NaN while not known. Whoever measures it sets it."""
+    aloft: bool
+    """It is where it moves: what takes off is in the air. Whoever hears of its flight sets it."""
 
     @property
     def under_way(self) -> bool:
@@ -72,3 +79,17 @@ class Going(Protocol):
 
     def ready(self) -> str:
         """Get ready to go, if it has to; why it is not yet, as one sentence, empty when it is."""
+
+    def take_off(self, height: float = math.nan) -> None:
+        """Rise from the ground to `height` above the map's origin [m], NaN for the usual one; what cannot stays there."""
+
+
+class Grounded:
+    """What `Going` says of heights, for what stays on the ground."""
+
+    def __init__(self) -> None:
+        self.height = self.measured = math.nan
+        self.aloft = True
+
+    def take_off(self, height: float = math.nan) -> None:
+        """It stays on the ground."""

@@ -151,28 +151,24 @@ class Guide:
 
     def measured(self, height: float) -> None:
         """The robot is at a `height` above the map's origin [m]."""
-        if isinstance(self.going, Coursing):
-            self.going.measured = height
+        self.going.measured = height
 
     def flies(self, phase: str) -> None:
         """What it does in the air, of a robot that flies: landed, taking_off, flying or landing."""
-        if isinstance(self.going, Coursing):
-            self.going.aloft = phase in ("flying", "landing")
+        self.going.aloft = phase in ("flying", "landing")
 
     @property
     def height(self) -> float:
         """Of the robot above the map's origin [m]; NaN while not known."""
-        return self.going.measured if isinstance(self.going, Coursing) else math.nan
+        return self.going.measured
 
     def keep_height(self, height: float) -> None:
         """Go at a `height` above the map's origin [m] from now on; NaN for the one that it is at."""
-        if isinstance(self.going, Coursing):
-            self.going.height = height
+        self.going.height = height
 
     def take_off(self, height: float) -> None:
         """Rise from the ground to a `height` above the map's origin [m], NaN for the usual one."""
-        if isinstance(self.going, Coursing):
-            self.going.take_off(height)
+        self.going.take_off(height)
 
     def command(self, manoeuvre: Manoeuvre) -> None:
         """The same for what a twist does not say, of a robot that knows manoeuvres; others stay as they are."""

@@ -11,7 +11,7 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from bridge.units import wrap
 from robotside.follow import Follower, Manner
-from robotside.going import CRUISE, UNSURE_SPEED, Search
+from robotside.going import CRUISE, UNSURE_SPEED, Grounded, Search
 from robotside.lattice import Lattice, Piece
 from robotside.planner import Planner, Unreachable, place_sentence
 from robotside.pose2 import Points, Pose2
@@ -83,7 +83,7 @@ def bend_of(info: RobotInfo) -> float:
     return 1.0 / info.min_radius if info.min_radius > 0 else info.max_yaw_rate / info.max_speed
 
 
-class Trucking:
+class Trucking(Grounded):
     """`going.Going` of a robot that turns only by driving, and drives backwards too."""
 
     stands = True
@@ -91,6 +91,7 @@ class Trucking:
     look = 12.0
 
     def __init__(self, robot: Robot) -> None:
+        super().__init__()
         info = robot.info
         self._robot = robot
         self._bend = bend_of(info)

@@ -9,7 +9,7 @@ import numpy as np
 from bridge.msgs.geometry_msgs import Twist
 from robotside.avoidance import Avoidance, free_lengths
 from robotside.follow import Follower
-from robotside.going import CRUISE, UNSURE_SPEED, Search
+from robotside.going import CRUISE, UNSURE_SPEED, Grounded, Search
 from robotside.planner import Planner
 from robotside.pose2 import Points, Pose2
 from robotside.robot import Robot
@@ -28,7 +28,7 @@ CLOSE, ROOM = 0.04, 0.4
 NOWHERE: Points = np.empty((0, 2))
 
 
-class Wheeling:
+class Wheeling(Grounded):
     """`going.Going` of a robot that turns where it stands."""
 
     stands = False
@@ -38,6 +38,7 @@ class Wheeling:
     look = 6.0
 
     def __init__(self, robot: Robot) -> None:
+        super().__init__()
         info = robot.info
         self._robot, self._turn = robot, info.max_yaw_rate
         self._avoidance = Avoidance(info.radius, max_yaw_rate=info.max_yaw_rate)
