@@ -26,8 +26,10 @@ from bridge.msgs.geometry_msgs import (
     Quaternion,
 )
 from bridge.msgs.nav_msgs import Path
+from bridge.msgs.pilothouse_msgs import TaskStatus
 from bridge.msgs.std_msgs import Header
 from widgets.base import fitting_size
+from widgets.errand import Errand
 from widgets.gauge import Gauge
 from widgets.geometry import DASH, Points, View, nice_floor, rounded
 from widgets.grip import Grip
@@ -72,10 +74,18 @@ OUTCOMES = {
     "": ("Go", "near_me"),
     "sent": ("Sent", "hourglass_top"),
     "accepted": ("Going", "route"),
+    "waiting": ("Waiting", "hourglass_top"),
+    "paused": ("Paused", "pause"),
+    "there": ("There", "check"),
+    "canceled": ("Canceled", "cancel"),
+    "failed": ("Failed", "block"),
+    "interrupted": ("Cut off", "pause"),
     "refused": ("Refused", "block"),
     "no_reply": ("No reply", "help"),
 }
 """What became of the goal to what the button says."""
+UNDER_WAY = ("sent", "accepted", "waiting", "paused")
+"""The robot has the goal, and has not done with it."""
 
 Box = tuple[float, float, float, float]
 """Left, low, width, height [px]."""
@@ -84,7 +94,7 @@ Box = tuple[float, float, float, float]
 class GoalPad(Grip, Gauge):
     """Dispatches `on_command(pose)`, a PoseStamped in `map`, when Go is pressed, and only then."""
 
-    accepts: ClassVar = (PoseWithCovarianceStamped, Path)
+    accepts: ClassVar = (PoseWithCovarianceStamped, Path, TaskStatus)
     sends = (PoseStamped,)
     drawn_from: ClassVar = ("actual", "wanted", "outcome", "way", "pressed")
 
@@ -104,13 +114,22 @@ class GoalPad(Grip, Gauge):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**{"title": "Goal", **kwargs})
         self.veil_radius = theme.radius
+        self._errand = Errand()
+        self._end: list[float] = []
+        self._taken = False
         self._repeat = Clock.create_trigger(lambda _: self.press(self.pressed), REPEAT_EVERY, interval=True)
         self._held = Clock.create_trigger(lambda _: self._repeat(), REPEAT_AFTER)
 
-    def show(self, msg: PoseWithCovarianceStamped | Path) -> None:
-        """Show where the robot is, or the way it means to take; its end is the goal while none is being set here."""
+    def show(self, msg: PoseWithCovarianceStamped | Path | TaskStatus) -> None:
+        """Show where the robot is, the way it means to take, or what it does.
+
+        The end of the way of a robot that goes to a goal is the goal while none is being set here; another task's is not.
+        """
         if isinstance(msg, Path):
             self._show_way(msg)
+            return
+        if isinstance(msg, TaskStatus):
+            self._show_task(msg)
             return
         pose = msg.pose.pose
         place = [round(value, 3) for value in (pose.position.x, pose.position.y, pose.orientation.yaw)]
@@ -118,10 +137,26 @@ class GoalPad(Grip, Gauge):
 
     def _show_way(self, path: Path) -> None:
         places = [(one.pose.position.x, one.pose.position.y) for one in path.poses]
+        if not places and len(self.way) and not self._errand.heard and self.outcome == "accepted":
+            self.outcome = ""  # who says nothing of its tasks says only so that it has ended
         self.way = np.array(places, dtype=np.float64).reshape(-1, 2)
-        if places and not self.wanted and all(map(math.isfinite, places[-1])):
-            self.wanted = [*places[-1], path.poses[-1].pose.orientation.yaw]
-            self.outcome = "accepted"
+        yaw = path.poses[-1].pose.orientation.yaw if places else 0.0
+        end = [*places[-1], yaw] if places else []
+        self._end = end if all(map(math.isfinite, end)) else []
+        self._take_end()
+
+    def _show_task(self, status: TaskStatus) -> None:
+        outcome = self._errand.hear(status)
+        if outcome is not None:
+            self.outcome = outcome
+        self._take_end()
+
+    def _take_end(self) -> None:
+        """Where the robot goes by somebody else's order is its goal here too, until one is set by a finger."""
+        if self._end and (self._taken or not self.wanted) and self._errand.adopt():
+            self.wanted, self._taken = self._end, True
+            if self.outcome not in UNDER_WAY:
+                self.outcome = "accepted"
 
     @property
     def goal(self) -> PoseStamped:
@@ -154,15 +189,19 @@ class GoalPad(Grip, Gauge):
         return bool(self.actual or (self.wanted and name != "here"))
 
     def answer(self, outcome: str) -> None:
-        """What became of the goal that was sent: `sent`, `accepted`, `refused` or `no_reply`."""
-        self.outcome = outcome
+        """What became of the goal that was sent: `sent`, `accepted`, `refused` or `no_reply`; what the robot says of it comes by `show`."""
+        if outcome == "refused":
+            self._errand.drop()
+        if outcome != "accepted" or not self._errand.run:  # what it does may be heard before its answer
+            self.outcome = outcome
 
     def press(self, name: str) -> None:
         """Do what a button says, as a finger would."""
         if not name or not self.can(name):
             return
         if name == "go":
-            self.outcome = "sent"
+            self.outcome, self._taken = "sent", False
+            self._errand.ask()
             self.dispatch("on_command", self.goal)
         elif name == "here":
             self._want(self._snapped())
@@ -178,6 +217,8 @@ class GoalPad(Grip, Gauge):
 
     def _want(self, place: list[float]) -> None:
         x, y = (max(-FARTHEST, min(FARTHEST, value)) + 0.0 for value in place[:2])
+        self._errand.drop()
+        self._taken = False
         self.wanted, self.outcome = [x, y, math.remainder(place[2], math.tau)], ""
 
     def spring(self) -> None:
@@ -275,12 +316,12 @@ class GoalPad(Grip, Gauge):
     def _draw_button(self, shapes: Shapes, name: str) -> Iterator[Word]:
         left, low, width, height = box = self.button(name)
         x, y, can = left + width / 2, low + height / 2, self.can(name)
-        main = name == "go" and can and self.outcome != "accepted"
-        if name == "go" and self.outcome == "refused":
+        main = name == "go" and can and self.outcome not in UNDER_WAY
+        if name == "go" and self.outcome in ("refused", "failed"):
             fill, ink = theme.danger, theme.ink_danger
         else:
             fill, ink = (theme.accent, theme.ink_accent) if main else (theme.raised, theme.text)
-        if name == "go" and self.outcome in ("sent", "accepted"):
+        if name == "go" and self.outcome in UNDER_WAY:
             ink = theme.plan
         elif not can:
             ink = theme.faint
@@ -368,7 +409,7 @@ class GoalPad(Grip, Gauge):
             shapes.polygon(arrow(x, y, self.actual[2], dp(10)), theme.ink_accent)
         if self.wanted:
             x, y = view.to_screen(*self.wanted[:2])
-            if self.outcome in ("sent", "accepted"):
+            if self.outcome in UNDER_WAY:
                 shapes.disc(x, y, dp(10), tint(theme.plan, 0.35))
             shapes.ring(x, y, dp(10), dp(2.4), theme.plan)
             shapes.polygon(arrow(x, y, self.wanted[2], dp(13)), theme.plan)
@@ -437,6 +478,10 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "far away": _made("east", at=_pose(-123.4, 87.66, 180.0)),
         "sent": _made(*steps, outcome="sent"),
         "going": _made(*steps, outcome="accepted"),
+        "waiting": _made(*steps, outcome="waiting"),
+        "paused": _made(*steps, outcome="paused"),
+        "canceled": _made(*steps, outcome="canceled"),
+        "failed": _made(*steps, outcome="failed"),
         "refused": _made(*steps, outcome="refused"),
         "no reply": _made(*steps, outcome="no_reply"),
         "there": _made(*steps, outcome="accepted", at=_pose(2.45, 0.52, 16.0)),

@@ -11,7 +11,7 @@ import pytest
 from app.feeds import Post
 from app.screens.drive import DriveScreen
 from bridge.msgs.geometry_msgs import Pose, PoseWithCovariance, PoseWithCovarianceStamped, Twist
-from bridge.msgs.pilothouse_msgs import Compass, FlightState, Manoeuvre, RobotInfo
+from bridge.msgs.pilothouse_msgs import Compass, FlightState, Manoeuvre, RobotInfo, TaskStatus
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 
@@ -160,6 +160,9 @@ def test_a_scout_is_driven_by_a_stick_or_sent_to_a_goal(
     (goal,) = orders(robot)[-1].goals
     assert (orders(robot)[-1].task, goal.x, goal.y) == ("go_to", 0.0, 0.25)
     driving.until(lambda: pad.outcome == "accepted", "the pad does not say what became of it")
+    robot.publish("/task/status", TaskStatus(task_id=3, task="go_to", state="RUNNING"))
+    robot.publish("/task/status", TaskStatus(task_id=3, task="go_to", state="CANCELED"))
+    driving.until(lambda: pad.says[0] == "Canceled", "it says that a robot goes that stands")
     screen.switch.choose("Stick")
     assert [one for one, _ in screen.sticks] == [stick]
     assert pad.right < 0 < screen.speed.x

@@ -13,6 +13,7 @@ from bridge.msgs.geometry_msgs import (
     Quaternion,
 )
 from bridge.msgs.nav_msgs import Path
+from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets.goal_pad import BUTTONS, FARTHEST, GoalPad
 from widgets.theme import theme
 
@@ -162,17 +163,98 @@ def test_here_puts_the_goal_where_the_robot_is(stage, pad):
     assert pad.wanted[:2] == [4.0, 3.0]
 
 
-def test_the_robots_own_way_says_where_it_goes_while_nobody_sets_a_goal_here(pad):
-    ends = [PoseStamped(pose=Pose(Point(x, 1.0), Quaternion.from_yaw(1.0))) for x in (0.0, 3.0)]
-    pad.show(Path(poses=ends))
+def way(x: float) -> Path:
+    return Path(poses=[PoseStamped(pose=Pose(Point(at, 1.0), Quaternion.from_yaw(1.0))) for at in (0.0, x)])
+
+
+def does(state: str = "RUNNING", run: int = 7, task: str = "go_to", phase: str = "") -> TaskStatus:
+    return TaskStatus(task_id=run, task=task, state=state, phase=phase)
+
+
+def test_where_the_robot_goes_by_somebody_elses_order_is_the_goal_while_nobody_sets_one_here(pad):
+    pad.show(way(3.0))
+    assert (pad.wanted, pad.says[0]) == ([], "Go"), "nobody said that it goes to a goal"
+    pad.show(does())
     assert pad.wanted == [3.0, 1.0, pytest.approx(1.0)]
-    assert len(pad.way) == 2
+    assert (len(pad.way), pad.says[0]) == (2, "Going")
+    pad.show(does(run=8))
+    pad.show(way(5.0))
+    assert pad.wanted[0] == 5.0
     pad.show(pose(0.0, 0.0))
     pad.press("east")
-    pad.show(Path(poses=ends))
-    assert pad.wanted[0] == 3.25
+    pad.show(way(3.0))
+    assert (pad.wanted[0], pad.says[0]) == (5.25, "Go"), "a goal that is being set"
     pad.show(Path())
     assert len(pad.way) == 0
+
+
+@pytest.mark.parametrize("plan_first", [True, False])
+def test_another_tasks_way_is_no_goal(pad, plan_first):
+    messages = [way(3.0), does(task="patrol")]
+    for message in messages if plan_first else reversed(messages):
+        pad.show(message)
+    assert (pad.wanted, pad.says[0]) == ([], "Go")
+
+
+@pytest.fixture
+def sent(pad):
+    """A goal three metres ahead was sent while the run before it still stands on the glass."""
+    pad.show(pose(0.0, 0.0))
+    pad.show(does("SUCCEEDED", run=6))
+    for _ in range(12):
+        pad.press("east")
+    pad.press("go")
+    return pad
+
+
+@pytest.mark.parametrize(
+    ("status", "words"),
+    [
+        (does(), "Going"),
+        (does(phase="waiting"), "Waiting"),
+        (does("PAUSED"), "Paused"),
+        (does("SUCCEEDED"), "There"),
+        (does("CANCELED"), "Canceled"),
+        (does("FAILED"), "Failed"),
+        (does("INTERRUPTED"), "Cut off"),
+        (does(run=8, task="patrol"), "Go"),
+    ],
+)
+def test_the_button_says_what_the_robot_does_with_the_goal(stage, sent, status, words):
+    sent.answer("accepted")
+    sent.show(does())
+    sent.show(status)
+    stage.frames(2)
+    assert words in sent.texts
+    sent.press("north")
+    sent.show(does("CANCELED"))
+    assert sent.says[0] == "Go", "another goal than the one that ended"
+
+
+def test_what_the_robot_does_may_be_heard_before_its_answer(sent):
+    sent.show(does("FAILED", run=6))
+    assert sent.says[0] == "Sent", "the run before it"
+    sent.show(does("PAUSED"))
+    sent.answer("accepted")
+    assert sent.says[0] == "Paused"
+
+
+def test_a_goal_that_was_refused_is_not_the_run_that_comes_next(sent):
+    sent.answer("refused")
+    sent.show(does())
+    assert sent.says[0] == "Refused"
+
+
+def test_a_robot_that_tells_no_tasks_has_ended_when_its_way_is_gone(pad):
+    pad.show(pose(0.0, 0.0))
+    pad.press("east")
+    pad.press("north")
+    pad.press("go")
+    pad.answer("accepted")
+    pad.show(way(3.0))
+    assert pad.says[0] == "Going"
+    pad.show(Path())
+    assert pad.says[0] == "Go"
 
 
 def test_a_pose_that_is_no_number_is_not_known(stage, pad):
