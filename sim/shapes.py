@@ -10,6 +10,7 @@ __all__ = [
     "Quat",
     "Shape",
     "Vec3",
+    "beside",
     "compose",
     "from_yaw",
     "place",
@@ -106,3 +107,13 @@ def yaw_of(q: Quat) -> float:
     """The rotation about z [rad], -pi to pi, that `q` contains."""
     x, y, z, w = q
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+
+def beside(solid: Shape, x: float, y: float) -> float:
+    """From a point on the ground to an upright solid [m]; 0 within."""
+    cosine, minus_sine, _ = rotate_back(solid.rotation, (1.0, 0.0, 0.0))
+    dx, dy = x - solid.position[0], y - solid.position[1]
+    along, across = cosine * dx - minus_sine * dy, minus_sine * dx + cosine * dy
+    if solid.kind != "box":
+        return max(0.0, math.hypot(along, across) - solid.size[0] / 2)
+    return math.hypot(max(0.0, abs(along) - solid.size[0] / 2), max(0.0, abs(across) - solid.size[1] / 2))

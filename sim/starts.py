@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
-from sim.shapes import Shape, rotate_back
+from sim.shapes import Shape, beside
 from sim.vehicles.model import Model
 from sim.world import Start, World
 
@@ -78,23 +78,13 @@ def _on_ground(world: World, start: Start, radius: float) -> bool:
 
 def _open(solids: Sequence[Shape], home: Start, start: Start, radius: float) -> bool:
     """There is room at `start`, and no wall between it and `home`."""
-    if any(_distance(solid, start.x, start.y) < radius + MARGIN for solid in solids):
+    if any(beside(solid, start.x, start.y) < radius + MARGIN for solid in solids):
         return False
     count = math.ceil(math.dist((home.x, home.y), (start.x, start.y)) / STEP)
     parts = [number / count for number in range(1, count)]
     way = [(home.x + (start.x - home.x) * part, home.y + (start.y - home.y) * part) for part in parts]
-    return all(_distance(solid, x, y) > 0.0 for solid in solids for x, y in way)
+    return all(beside(solid, x, y) > 0.0 for solid in solids for x, y in way)
 
 
 def _height(solid: Shape, height: float) -> bool:
     return abs(solid.position[2] - height) < solid.size[2] / 2 + TALL
-
-
-def _distance(solid: Shape, x: float, y: float) -> float:
-    """From a point on the ground to an upright solid [m]; 0 within."""
-    cosine, minus_sine, _ = rotate_back(solid.rotation, (1.0, 0.0, 0.0))
-    dx, dy = x - solid.position[0], y - solid.position[1]
-    along, across = cosine * dx - minus_sine * dy, minus_sine * dx + cosine * dy
-    if solid.kind != "box":
-        return max(0.0, math.hypot(along, across) - solid.size[0] / 2)
-    return math.hypot(max(0.0, abs(along) - solid.size[0] / 2), max(0.0, abs(across) - solid.size[1] / 2))

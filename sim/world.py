@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Literal
 
 import msgspec
 
-from bridge.msgs.additions import PLACE_KINDS
-from sim.props import CAR_MODELS, Prop, block, car, cone, lamp, tree, wall
+from sim.faults import faults
+from sim.props import Prop, block, car, cone, lamp, tree, wall
 from sim.props_people import fruit_tree, person, table
 from sim.props_water import buoy, coral, diver
 from sim.shapes import Shape
@@ -31,8 +30,6 @@ Part = Annotated[float, msgspec.Meta(ge=0, le=1)]
 
 _LOOSE = ("cone", "person", "diver")
 """Kinds that are not always where they are."""
-LONGEST_NAME = 60
-"""Characters of a place's name."""
 
 
 class WorldError(ValueError):
@@ -402,58 +399,9 @@ def parse(text: str, source: str) -> World:
         world = read(text, World, source)
     except FileFault as problem:
         raise WorldError(str(problem)) from problem
-    for where, reason in _faults(world):
+    for where, reason in faults(world):
         raise WorldError(fault(text, source, where, reason))
     return world
-
-
-def _faults(world: World) -> Iterator[tuple[str, str]]:
-    """What types alone cannot say: key and reason of each."""
-    names: set[str] = set()
-    for number, place in enumerate(world.places):
-        if place.kind not in PLACE_KINDS:
-            yield f"places[{number}].kind", f"{place.kind!r} is not one of {', '.join(PLACE_KINDS)}"
-        if not place.name.strip() or len(place.name) > LONGEST_NAME:
-            yield (
-                f"places[{number}].name",
-                f"must have 1 to {LONGEST_NAME} characters, not {place.name[:80]!r}",
-            )
-        if place.name.casefold() in names:
-            yield f"places[{number}].name", f"there is a place {place.name!r} already"
-        names.add(place.name.casefold())
-    for number, entry in enumerate(world.cars):
-        if entry.model not in CAR_MODELS:
-            yield f"cars[{number}].model", f"{entry.model!r} is not one of {', '.join(CAR_MODELS)}"
-    for number, wall_ in enumerate(world.partitions):
-        if wall_.start == wall_.end:
-            yield f"partitions[{number}]", "begins where it ends"
-    if world.water is not None and world.start.z < -world.water.depth:
-        yield "start.z", f"{world.start.z:g} is below the ground, which is {world.water.depth:g} m deep"
-    yield from _off_the_ground(world)
-
-
-def _off_the_ground(world: World) -> Iterator[tuple[str, str]]:
-    half_length, half_width = world.ground.length / 2, world.ground.width / 2
-    inside: dict[str, tuple[Spot, ...]] = {
-        "start": (world.start,),
-        "cars": world.cars,
-        "lamps": world.lamps,
-        "cones": world.cones,
-        "blocks": world.blocks,
-        "buoys": world.buoys,
-        "divers": world.divers,
-        "corals": world.corals,
-        "tables": world.tables,
-        "people": world.people,
-        "fruit_trees": world.fruit_trees,
-        "places": world.places,
-    }
-    for key, spots in inside.items():
-        for number, spot in enumerate(spots):
-            if abs(spot.x) > half_length or abs(spot.y) > half_width:
-                name = key if key == "start" else f"{key}[{number}]"
-                ends = f"which ends at x = ±{half_length:g} and y = ±{half_width:g}"
-                yield name, f"({spot.x:g}, {spot.y:g}) is off the ground, {ends}"
 
 
 def _partition(entry: Partition) -> Prop:

@@ -183,9 +183,51 @@ def test_the_tank_stands_in_water_up_to_its_edge_and_things_lie_in_it():
             r"places\[1\]\.name: there is a place 'LAB' already",
         ),
         ('[[places]]\nname = " "\nx = 0.0\ny = 0.0\n', r"places\[0\]\.name: must have 1 to 60 characters"),
+        (
+            "[[trees]]\nx = 500.0\ny = 0.0\n",
+            r"trees\[0\]: \(500, 0\) is off the ground, which ends at x = ±10",
+        ),
+        ('[[tags]]\ntag = "a"\nx = 0.0\ny = -6.0\n', r"line \d+: tags\[0\]: \(0, -6\) is off the ground"),
+        (
+            "[[partitions]]\nfrom = [1.0, 1.0]\nto = [1.0, 500.0]\n",
+            r"line 19: partitions\[0\]\.to: \(1, 500\) is off",
+        ),
+        (
+            "[[lines]]\nfrom = [-11.0, 1.0]\nto = [1.0, 1.0]\n",
+            r"lines\[0\]\.from: \(-11, 1\) is off the ground",
+        ),
+        ("[[arrows]]\nx = 11.0\ny = 1.0\n", r"arrows\[0\]: \(11, 1\) is off the ground"),
+        (
+            "[[bays]]\nx = 1.0\ny = 1.0\ncount = 4\nwidth = 2.5\ndepth = 3.0\n",
+            r"bays\[0\]: \(11, 4\) is off the ground",
+        ),
+        (
+            '[[cars]]\nmodel = "van"\nx = 1.0\ny = 0.5\ncolour = [0.0, 0.0, 0.0]\n',
+            r"own\.toml, line 13: start: \(0, 0\) is inside the car at \(1, 0\.5\)",
+        ),
+        (
+            "[[blocks]]\nx = 0.5\ny = 0.0\nlength = 2.0\nwidth = 2.0\nheight = 1.0\n",
+            r"start: \(0, 0\) is inside the block at \(0\.5, 0\)",
+        ),
         ("[[partitions]]\nfrom = [1.0, 1.0]\nto = [1.0, 1.0]\n", r"partitions\[0\]: begins where it ends"),
     ],
 )
 def test_a_fault_in_the_new_parts_is_named_with_key_and_reason(text, reason):
     with pytest.raises(WorldError, match=reason):
         parse(TEXT + text, "own.toml")
+
+
+def test_a_start_has_a_depth_only_where_there_is_water():
+    dry = TEXT.replace("[start]", "[start]\nz = 5.0")
+    with pytest.raises(
+        WorldError, match=r"line 14: start\.z: must be left out or 0 where there is no water, not 5"
+    ):
+        parse(dry, "own.toml")
+    with pytest.raises(WorldError, match=r"start\.z: must be at most 0, the water's surface, not 5"):
+        parse(dry + "[water]\ndepth = 9.0\n", "own.toml")
+
+
+def test_a_start_may_be_under_what_hangs_and_above_what_lies_deep():
+    arch = "[[blocks]]\nx = 0.0\ny = 0.0\nz = {z}\nlength = 2.0\nwidth = 2.0\nheight = 1.0\n"
+    assert parse(TEXT + arch.format(z=2.0), "own.toml").blocks
+    assert parse(TEXT + arch.format(z=-4.0) + "[water]\ndepth = 4.0\n", "own.toml").blocks
