@@ -74,6 +74,10 @@ class Track:
         """Remember `pose` at `stamp` [s]."""
         self._poses.append((stamp, pose))
 
+    def forget(self) -> None:
+        """What was remembered was wrong."""
+        self._poses.clear()
+
     def at(self, stamp: float) -> Pose2 | None:
         """The pose at `stamp` [s], between its neighbours; the nearest one outside of what is remembered."""
         poses = self._poses
@@ -241,6 +245,7 @@ class Whereabouts:
             guess, reach, turn = self._search
             self._search = None
             localiser.search(points, guess, reach=reach, turn=turn)
+            self.track.forget()  # else the way from the old belief to this one counts as driven since the sweep
         now, then = localiser.pose, self.track.at(stamp)
         lag = then.inverse().then(now) if now is not None and then is not None else Pose2(0.0, 0.0, 0.0)
         localiser.correct(points if abs(lag.x) > 0.5 else lag.inverse().apply(points))

@@ -162,3 +162,19 @@ def test_a_robot_that_was_carried_away_says_that_it_is_unsure_creeps_and_can_be_
     assert scene.run_task().state == "SUCCEEDED"
     assert math.hypot(scene.robot.pose[0] - 8.0, scene.robot.pose[1]) < 0.2
     assert scene.robot.contacts == 0
+
+
+def test_a_pose_told_by_a_finger_half_a_metre_off_is_put_right_by_the_next_sweep(tmp_path: Path) -> None:
+    boxes = [Box(-1.0, 2.0, 1.0, 4.0), Box(3.0, -5.0, 4.0, -2.0), Box(-8.0, -4.0, -6.0, -3.0)]
+    scene = Scene(FakeRobot(boxes=boxes), tmp_path)
+    scene.run(4.0)
+    for x, y, yaw, off in ((-4.0, 4.5, 0.6, 0.4), (4.3, -0.8, 2.2, -0.4), (0.4, -0.3, 2.4, 0.3)):
+        scene.robot.pose = (x, y, yaw)
+        told = Pose(Point(x + off, y - 0.3), Quaternion.from_yaw(yaw + 0.2))
+        stamped = PoseWithCovarianceStamped(pose=PoseWithCovariance(told))
+        scene.station.hear(scene.anna, "/initialpose", stamped, None)
+        scene.run(0.5)
+        pose = scene.station.autonomy.whereabouts.pose
+        assert pose is not None
+        assert pose.distance(x, y) < 0.05
+        assert pose.yaw == pytest.approx(yaw, abs=0.02)
