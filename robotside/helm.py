@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from bridge.liveness import LAPSE
+from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.authority import TO_OBJECT, Operator
 from robotside.commands import Refusal
@@ -106,8 +107,9 @@ class Helm:
         if fault:
             self._controls.dropped += 1
             return fault
+        trouble = self._robot.trouble or self._grounded(order)
         ruling = self._controls.drive(
-            client, order, self._clock(), stamp=stamp, auto=engine.running, trouble=self._robot.trouble
+            client, order, self._clock(), stamp=stamp, auto=engine.running, trouble=trouble
         )
         if ruling.order is None:
             return ruling.said
@@ -117,6 +119,14 @@ class Helm:
         self._ran = self._returned = False
         self._robot.follow(settled(ruling.order, self._robot.info))
         return ""
+
+    def _grounded(self, order: Order) -> str:
+        """Why `order` starts no rotors: that takes a task, which nobody gives by brushing against a stick; empty when it need not."""
+        info = self._robot.info
+        twist = order if isinstance(order, Twist) else order.twist
+        if info.kind != "quadrotor" or not self._measured().landed or not twist.linear.z > 0:
+            return ""
+        return f"{info.name} stands on the ground: sticks start no rotors, the task take_off does."
 
     def _strange(self, order: Order) -> str:
         """Why nobody can drive this robot by such an order, as one sentence; empty when somebody can."""

@@ -86,6 +86,7 @@ def paced(order: Order, info: RobotInfo, share: float) -> Order:
         twist=slower(order.twist, speed, turn),
         speed=_within(order.speed, speed),
         throttle=_within(order.throttle, share),
+        steering=within(order.steering, info.max_steering or math.inf),
         roll=order.roll * part,
         pitch=order.pitch * part,
     )
@@ -146,7 +147,7 @@ def kept(order: Manoeuvre, leads: Twist, may: Twist, info: RobotInfo) -> Order:
             return may
         case "tilt" if _leans(info):
             moved = abs(v.x - leads.linear.x) > _EXACT or abs(v.y - leads.linear.y) > _EXACT
-            return may if moved else replace(order, twist=climbing)
+            return _leaning(may, order) if moved else replace(order, twist=climbing)
         case "tilt":
             held = replace(order, speed=v.x, throttle=math.nan, twist=climbing)
             # level, its fins carry it no farther than it may
@@ -161,6 +162,12 @@ def kept(order: Manoeuvre, leads: Twist, may: Twist, info: RobotInfo) -> Order:
             return may
         case _:
             return order
+
+
+def _leaning(may: Twist, order: Manoeuvre) -> Twist:
+    """`may` without the way that it has where it does not lean to: told to keep that it would, and ever more of it."""
+    v = may.linear
+    return Twist(Vector3(v.x if order.pitch else 0.0, v.y if order.roll else 0.0, v.z), may.angular)
 
 
 def levelled(order: Manoeuvre, lowest: float, highest: float, height: float) -> Manoeuvre:

@@ -29,24 +29,45 @@ def check(order: Manoeuvre) -> None:
 
 
 def cut(order: Manoeuvre, info: RobotInfo) -> tuple[Manoeuvre, str]:
-    """`order` within the greatest speed and turn rate of the robot, and one sentence where that makes a difference."""
+    """`order` within the greatest speed, turn rate, throttle, steering and tilt of the robot, and one sentence where that makes a difference."""
     linear, angular = order.twist.linear, order.twist.angular
-    asked = math.sqrt(linear.x**2 + linear.y**2 + linear.z**2)
-    speed = max(asked, 0.0 if math.isnan(order.speed) else abs(order.speed))
-    if speed <= info.max_speed * _EXACT and abs(angular.z) <= info.max_yaw_rate * _EXACT:
-        return order, ""
-    share = min(1.0, info.max_speed / asked) if asked else 1.0
-    turn = max(-info.max_yaw_rate, min(info.max_yaw_rate, angular.z))
-    twist = Twist(
-        Vector3(linear.x * share, linear.y * share, linear.z * share), Vector3(angular.x, angular.y, turn)
+    most, turn = info.max_speed, info.max_yaw_rate
+    asked = math.hypot(linear.x, linear.y, linear.z)
+    share = min(1.0, most / asked) if asked else 1.0
+    fitted = msgspec.structs.replace(
+        order,
+        twist=Twist(
+            Vector3(linear.x * share, linear.y * share, linear.z * share),
+            Vector3(angular.x, angular.y, _within(angular.z, turn)),
+        ),
+        speed=_within(order.speed, most),
+        throttle=_within(order.throttle, 1.0),
+        steering=_within(order.steering, info.max_steering or math.inf),
+        roll=_within(order.roll, info.max_tilt or math.inf),
+        pitch=_within(order.pitch, info.max_tilt or math.inf),
     )
-    held = max(-info.max_speed, min(info.max_speed, order.speed))
-    if speed > info.max_speed * _EXACT:
-        said = f"{info.name} goes at most {info.max_speed:.1f} m/s; {speed:.1f} m/s was asked for."
-    else:
-        said = f"{info.name} turns at most {info.max_yaw_rate:.1f} rad/s; {abs(angular.z):.1f} rad/s was asked for."
-    held = order.speed if math.isnan(order.speed) else held
-    return msgspec.structs.replace(order, twist=twist, speed=held), said
+    said = _excess(order, asked, info)
+    return (fitted, said) if said else (order, "")
+
+
+def _excess(order: Manoeuvre, speed: float, info: RobotInfo) -> str:
+    """What is too much of an `order` for that `speed` [m/s]; empty when nothing is."""
+    for says, asked, most, unit in (
+        ("goes", speed, info.max_speed, " m/s"),
+        ("goes", order.speed, info.max_speed, " m/s"),
+        ("turns", order.twist.angular.z, info.max_yaw_rate, " rad/s"),
+        ("takes a throttle of", order.throttle, 1.0, ""),
+        ("steers", order.steering, info.max_steering or math.inf, " rad"),
+        ("leans", max(order.roll, order.pitch, key=abs), info.max_tilt or math.inf, " rad"),
+    ):
+        if abs(asked) > most * _EXACT:
+            return f"{info.name} {says} at most {most:.3g}{unit}; {abs(asked):.3g}{unit} was asked for."
+    return ""
+
+
+def _within(value: float, most: float) -> float:
+    """NaN for NaN."""
+    return value if math.isnan(value) else max(-most, min(most, value))
 
 
 _EXACT = 1 + 1e-9

@@ -69,6 +69,11 @@ class Hand:
                 self.anna.last_heard = self.now
             self.station.step(self.now)
 
+    def lift(self, height: float = 1.0) -> None:
+        """It is in the air already, whoever took off; where it stood, it hovers `height` above the map's origin [m]."""
+        self.robot.manoeuvre(Manoeuvre(kind="take_off", height=height))
+        self.wait(2.5)
+
     def push(self, order: Order, seconds: float) -> None:
         """Hold the controls there."""
         topic = "/cmd_manoeuvre" if isinstance(order, Manoeuvre) else "/cmd_vel"

@@ -9,8 +9,8 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import Manoeuvre
+from bridge.msgs.geometry_msgs import Twist, Vector3
+from bridge.msgs.pilothouse_msgs import Manoeuvre, StartTaskRequest, TaskOrder
 from bridge.msgs.std_msgs import Header, Time
 from robotside.config import Config, LimitSettings, Ring
 from robotside.manoeuvres import Order
@@ -66,23 +66,39 @@ def test_a_boat_at_full_throttle_does_not_cross_its_fence(hand: Make) -> None:
 
 def test_a_drone_flies_where_it_leans_to_and_stays_within_fence_and_height(hand: Make) -> None:
     run = hand("ardrone", keep_in=(box(-17.5, -12.0, 6.0),), max_height=2.0)
+    run.lift()
     run.push(tilt(z=1.0), 4.0)
     assert run.height == pytest.approx(2.0, abs=0.1)
     begun = run.state.position[1]
     run.push(tilt(pitch=0.2), 1.5)
     assert run.state.position[1] - begun > 1.0  # it looks north
     highest = farthest = 0.0
-    for _ in range(10):
+    for _ in range(14):
         run.push(tilt(z=1.0, pitch=0.35), 0.5)
         highest, farthest = max(highest, run.height), max(farthest, run.state.position[1] + 12.0)
     assert highest < 2.1
     assert 4.5 < farthest < 6.0
-    assert run.speed < 0.2
+    assert run.speed < 0.1
+
+
+@pytest.mark.parametrize("up", [tilt(z=1.0), tilt(z=0.3, pitch=0.2), Twist(Vector3(0.0, 0.0, 1.0))])
+def test_sticks_alone_start_no_rotors_and_that_is_said(hand: Make, up: Order) -> None:
+    run = hand("ardrone")
+    run.push(up, 1.0)
+    assert run.height < 0.06
+    assert max(run.robot.simulation.vehicle.rotors.speeds) == 0.0  # type: ignore[attr-defined]  # a quadrotor's
+    said = "Ardrone-1 stands on the ground: sticks start no rotors, the task take_off does."
+    assert run.events.count(said) == 1
+    order = TaskOrder(task="take_off", height=1.0)
+    assert run.ask("/task/start", StartTaskRequest(order=order)).success
+    run.push(up, 3.0)  # held all the while, it does not take the robot from its task
+    assert run.station.autonomy.engine.status.state == "SUCCEEDED"
+    assert run.height == pytest.approx(1.0, abs=0.3)
 
 
 def test_a_drone_that_leans_no_more_stays_where_it_is(hand: Make) -> None:
     run = hand("ardrone")
-    run.push(tilt(z=0.6), 2.5)
+    run.lift()
     run.push(tilt(pitch=0.25), 2.0)
     assert run.speed > 2.0
     run.push(tilt(), 3.0)
@@ -104,7 +120,7 @@ def test_a_swimmer_dives_by_leaning_and_goes_no_deeper_than_it_may(hand: Make) -
 
 def test_a_slow_link_makes_it_lean_less(hand: Make) -> None:
     run = hand("ardrone")
-    run.push(tilt(z=0.6), 2.5)
+    run.lift()
     run.anna.rtt = 0.4
     run.push(tilt(pitch=0.35), 2.0)
     assert run.robot.simulation.vehicle.order.pitch == pytest.approx(0.15 * 0.35)  # type: ignore[attr-defined]  # the drive's

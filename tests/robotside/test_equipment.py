@@ -174,7 +174,7 @@ def test_a_stick_that_is_held_does_not_drive_on_from_the_start(hand: Make) -> No
 def test_a_drone_without_a_laser_is_put_back_from_the_air_to_where_it_stood(hand: Make) -> None:
     run = hand("ardrone")
     start = run.state.position
-    run.push(tilt(z=0.8), 2.0)
+    run.lift()
     run.push(tilt(pitch=0.3), 3.0)
     assert run.ask("/robot/reset").success
     run.wait(2.0)

@@ -40,7 +40,7 @@ def vehicle(run: Hand) -> Any:
 
 def flying(hand: Make, *hold_for: float) -> Hand:
     run = hand("ardrone", *hold_for)
-    run.push(tilt(z=0.8), 3.0)
+    run.lift(1.8)
     run.push(tilt(pitch=0.2), 1.5)
     assert run.height > 1.5
     assert run.speed > 1.5

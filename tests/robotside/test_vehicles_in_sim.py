@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
-from bridge.msgs.pilothouse_msgs import CommandRequest
+from bridge.msgs.pilothouse_msgs import CommandRequest, Manoeuvre
 from robotside.pose2 import Pose2
 from sim.robot import SimRobot, make
 from tests.robotside.sim_run import Run
@@ -43,7 +43,12 @@ class Hand(Run):
 
 
 def hand(name: str, state: Path) -> Hand:
-    return Hand(make(name, WORLDS[name], seed=2, camera=False), state)
+    """Of a robot that can be driven: one that flies is in the air."""
+    run = Hand(make(name, WORLDS[name], seed=2, camera=False), state)
+    if name == "ardrone":
+        run.robot.manoeuvre(Manoeuvre(kind="take_off"))
+        run.wait(2.5)
+    return run
 
 
 @pytest.mark.parametrize("name", WORLDS)

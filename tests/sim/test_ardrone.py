@@ -103,10 +103,16 @@ def test_taking_off_and_landing_it_tells_its_phases(drone):
     assert drone.simulation.contacts == 0
 
 
-def test_a_twist_upward_takes_off_and_one_downward_lands(drone):
-    drone.drive(Twist(Vector3(0.0, 0.0, 0.5)))
-    until(drone, 4.0)
-    assert motion(drone).position[2] > 1.0
+@pytest.mark.parametrize("kind", ["twist", "tilt"])
+def test_no_twist_or_tilt_starts_its_rotors(drone, kind):
+    drone.manoeuvre(Manoeuvre(kind=kind, twist=Twist(Vector3(0.0, 0.0, 1.0))))
+    until(drone, 2.0)
+    assert drone.simulation.vehicle.pilot.phase == "landed"
+    assert drone.simulation.vehicle.rotors.speeds == [0.0] * 4
+
+
+def test_a_twist_downward_lands(drone):
+    fly(drone)
     drone.drive(Twist(Vector3(0.0, 0.0, -0.3)))
     until(drone, 10.0)
     assert drone.simulation.vehicle.pilot.phase == "landed"

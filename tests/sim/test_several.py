@@ -10,7 +10,8 @@ import pytest
 from PIL import Image
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
-from bridge.msgs.pilothouse_msgs import Manoeuvre
+from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
+from sim.orders import cut
 from sim.robot import CAMERA_TOPIC, ROBOTS, SimRobot, make_several
 from sim.run import Run
 from sim.simulation import Simulation
@@ -137,14 +138,29 @@ def test_a_twist_beyond_the_limits_is_cut_and_that_is_said_once():
     for _ in range(5):
         robot.drive(Twist.planar(3.0, 0.0))
     said = events(robot.read(2.0))
-    assert said == ["Scout-1 goes at most 1.0 m/s; 3.0 m/s was asked for."]
+    assert said == ["Scout-1 goes at most 1 m/s; 3 m/s was asked for."]
     assert robot.simulation.vehicle.state().velocity[0] == pytest.approx(1.0, rel=1e-2)
     robot.drive(Twist.planar(0.5, 0.0))
     robot.drive(Twist.planar(0.5, 9.0))
     robot.drive(Twist.planar(0.5, 9.0))
-    assert events(robot.read(2.2)) == ["Scout-1 turns at most 2.0 rad/s; 9.0 rad/s was asked for."]
+    assert events(robot.read(2.2)) == ["Scout-1 turns at most 2 rad/s; 9 rad/s was asked for."]
     assert robot.simulation.vehicle.order.twist == Twist.planar(0.5, 2.0)
     robot.close()
+
+
+@pytest.mark.parametrize(
+    ("order", "said"),
+    [
+        (Manoeuvre(kind="twist", twist=Twist.planar(1e300, 1e300)), "goes at most 3 m/s; 1e+300 m/s"),
+        (Manoeuvre(kind="steer", speed=-1e300), "goes at most 3 m/s; 1e+300 m/s"),
+        (Manoeuvre(kind="steer", speed=1.0, steering=3.0), "steers at most 0.52 rad; 3 rad"),
+        (Manoeuvre(kind="steer", throttle=50.0), "takes a throttle of at most 1; 50"),
+    ],
+)
+def test_whatever_is_too_much_is_cut_with_what_was_asked_and_what_is_allowed(order, said):
+    info = RobotInfo(name="Commander-1", max_speed=3.0, max_yaw_rate=1.0, max_steering=0.52)
+    _, told = cut(order, info)
+    assert told == f"Commander-1 {said} was asked for."
 
 
 @pytest.mark.parametrize(
