@@ -23,6 +23,10 @@ _LARGEST = 1_000_000
 """Of a file [bytes]; nobody writes a longer one on purpose."""
 
 
+_GREATEST = 1e9
+"""Of a number: what lies beyond is a slip, and overflows in what is reckoned with it."""
+
+
 class FileFault(ValueError):
     """A file that cannot be used; the text is one sentence."""
 
@@ -49,10 +53,27 @@ def read(text: str, kind: type[T], source: str) -> T:
     except RecursionError as problem:
         raise FileFault(f"{source}: is not TOML: it is nested too deep.") from problem
     try:
-        return msgspec.convert(told, kind)
+        found = msgspec.convert(told, kind)
     except msgspec.ValidationError as problem:
         where, reason = _explained(str(problem), told, kind)
         raise FileFault(fault(text, source, where, reason)) from problem
+    for where, value in _numbers(told):
+        if not abs(value) <= _GREATEST:
+            reason = f"must be a number from -{_GREATEST:.0e} to {_GREATEST:.0e}, not {_shown(value)}"
+            raise FileFault(fault(text, source, where, reason))
+    return found
+
+
+def _numbers(told: Any, where: str = "") -> Iterator[tuple[str, float]]:
+    """Every number that is said, infinities and NaN among them, with its key."""
+    if isinstance(told, dict):
+        for name, value in told.items():
+            yield from _numbers(value, f"{where}.{name}".lstrip("."))
+    elif isinstance(told, list):
+        for number, value in enumerate(told):
+            yield from _numbers(value, f"{where}[{number}]")
+    elif isinstance(told, int | float):
+        yield where, told
 
 
 def fault(text: str, source: str, where: str, reason: str) -> str:

@@ -22,7 +22,8 @@ __all__ = [
     "load",
 ]
 
-Positive = Annotated[float, msgspec.Meta(gt=0)]
+Positive = Annotated[float, msgspec.Meta(gt=0, le=1e6)]
+"""No figure of a vehicle is larger in our units."""
 Part = Annotated[float, msgspec.Meta(gt=0, le=1)]
 
 

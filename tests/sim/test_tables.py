@@ -105,6 +105,15 @@ class Table(msgspec.Struct, forbid_unknown_fields=True):
             "line 3: legs[0].made_of: must be one of steel, wood, not 'tin'.",
         ),
         ('name = "a"\n\n[[legs]]\nmade_of = "wood"', "line 3: legs[0].length: is missing."),
+        (
+            'name = "a"\n[[legs]]\nlength = inf',
+            "line 3: legs[0].length: must be a number from -1e+09 to 1e+09, not inf.",
+        ),
+        (
+            'name = "a"\nat = [\n0.0,\n-1e300]',
+            "line 4: at[1]: must be a number from -1e+09 to 1e+09, not -1e+300.",
+        ),
+        ('name = "a"\nat = [nan, 0.0]', "line 2: at[0]: must be a number from -1e+09 to 1e+09, not nan."),
         ('name = "a"\nat = [1.0]', "line 2: at: must be a list of 2, not [1.0]."),
         ("name = 7", "line 1: name: must be a text in quotes, not 7."),
         ('name = "a"\ncolour = 1', "line 2: colour: is not known here."),
@@ -145,6 +154,17 @@ def test_a_file_that_nobody_wrote_on_purpose_is_not_read(tmp_path: Path) -> None
     (tmp_path / "long.toml").write_bytes(b"#" * 1_000_001)
     with pytest.raises(FileFault, match="has more than 1,000,000 bytes"):
         text_of(tmp_path / "long.toml")
+
+
+@pytest.mark.parametrize("mass", ["inf", "1e300"])
+def test_a_figure_of_a_vehicle_has_an_end(tmp_path: Path, mass: str) -> None:
+    own = Path(__file__).parents[2] / "sim/vehicles/patrol/patrol.toml"
+    file = tmp_path / "patrol.toml"
+    file.write_text(own.read_text(encoding="utf-8").replace("mass = 6.3", f"mass = {mass}"), encoding="utf-8")
+    with pytest.raises(
+        ValueError, match=r"patrol\.toml, line 14: body\.mass: must be a number at most 1e\+06"
+    ):
+        load_parameters(file, PatrolParameters)
 
 
 def test_figures_of_vehicles_and_payloads_name_the_line_too(tmp_path: Path) -> None:
