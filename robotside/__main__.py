@@ -137,6 +137,8 @@ def _robots(options: argparse.Namespace, ones: Sequence[One]) -> tuple[Sequence[
         from sim.robot import home_of, make_several
     except ImportError as missing:
         raise _no_simulation(missing) from missing
+    except ValueError as fault:
+        raise UserMistake(str(fault)) from fault  # in the file of a vehicle
     try:
         names = [one.name for one in ones]
         world = options.world or home_of(names)
@@ -170,6 +172,8 @@ def _catalogue() -> dict[str, Any]:
         from sim.catalogue import catalogue
     except ImportError as missing:
         raise _no_simulation(missing) from missing
+    except ValueError as fault:
+        raise UserMistake(str(fault)) from fault
     return catalogue()
 
 

@@ -14,12 +14,20 @@ from typing import NoReturn
 from PIL import Image
 
 from sim.renderer import NoRendererError, Renderer
-from sim.robot import ROBOTS, WORLDS, home_of, make_several, model_of
 from sim.shapes import Shape, from_yaw
 from sim.starts import starts
+from sim.tables import FileFault
 from sim.vehicles.model import Model, numbered
 from sim.view import View
 from sim.world import World, load
+
+try:
+    from sim.robot import ROBOTS, WORLDS, home_of, make_several, model_of
+except FileFault as wrong:  # in the file of a vehicle, which is read with its module
+    if __name__ != "__main__":
+        raise
+    print(f"sim: {wrong}", file=sys.stderr)
+    raise SystemExit(2) from None
 
 MARGIN = 3.0
 """Shown round the ground [m]."""

@@ -6,10 +6,12 @@ import asyncio
 import errno
 import random
 import socket
+import sys
 import time
 from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import asynccontextmanager
 from pathlib import Path
+from types import ModuleType
 from typing import ClassVar
 
 import httpx
@@ -26,6 +28,7 @@ from robotside.__main__ import main
 from robotside.clock import RobotClock
 from robotside.serving import Addresses, Serving
 from robotside.station import Station
+from sim.tables import FileFault
 from tests.fakes import FakeRobot
 from tests.robotside.scene import records_at
 
@@ -330,6 +333,25 @@ def test_a_mistake_on_the_command_line_is_one_sentence(
 ) -> None:
     assert main(arguments.split()) == 2
     assert capsys.readouterr().err == f"robotside: {said}\n"
+
+
+class _Faulty(ModuleType):
+    """A module that reads a file with a fault as it is imported."""
+
+    def __getattr__(self, name: str) -> object:
+        raise FileFault("commander.toml, line 13: body.mass: must be a number above 0, not -3.")
+
+
+@pytest.mark.parametrize(
+    ("module", "words"), [("sim.robot", "--robot sim:patrol"), ("sim.catalogue", "offer")]
+)
+def test_a_fault_in_the_file_of_a_vehicle_is_one_sentence(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], module: str, words: str
+) -> None:
+    monkeypatch.setitem(sys.modules, module, _Faulty(module))
+    assert main(words.split()) == 2
+    said = "robotside: commander.toml, line 13: body.mass: must be a number above 0, not -3.\n"
+    assert capsys.readouterr().err == said
 
 
 @pytest.mark.parametrize(

@@ -1,12 +1,14 @@
 from __future__ import annotations
 
 import os
+import runpy
 import shutil
 import signal
 import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -15,6 +17,7 @@ from PIL import Image
 from sim.__main__ import main
 from sim.robot import ROBOTS
 from sim.shapes import Shape
+from sim.tables import FileFault
 from sim.vehicles.model import Model
 from sim.vehicles.patrol import PARAMETERS, Patrol
 
@@ -22,6 +25,22 @@ from sim.vehicles.patrol import PARAMETERS, Patrol
 def test_without_arguments_it_says_what_stands_in_the_world(capsys):
     assert main([]) == 0
     assert capsys.readouterr().out == "parking_lot: 40 x 30 m; 14 cars, 6 cones, 6 lamp posts, 11 trees.\n"
+
+
+class _Faulty(ModuleType):
+    """A module that reads a file with a fault as it is imported."""
+
+    def __getattr__(self, name):
+        raise FileFault("commander.toml, line 13: body.mass: must be a number above 0, not -3.")
+
+
+def test_a_fault_in_the_file_of_a_vehicle_is_one_sentence(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "sim.robot", _Faulty("sim.robot"))
+    monkeypatch.delitem(sys.modules, "sim.__main__")
+    with pytest.raises(SystemExit) as ended:
+        runpy.run_module("sim", run_name="__main__")
+    assert ended.value.code == 2
+    assert capsys.readouterr().err.startswith("sim: commander.toml, line 13: body.mass: must be a number")
 
 
 def test_a_picture_of_the_world_is_written_where_it_is_asked_for(tmp_path, capsys):
