@@ -29,32 +29,31 @@ def check(order: Manoeuvre) -> None:
 
 
 def cut(order: Manoeuvre, info: RobotInfo) -> tuple[Manoeuvre, str]:
-    """`order` within the greatest speed, turn rate, throttle, steering and tilt of the robot, and one sentence where that makes a difference."""
+    """`order` as the robot follows it, within all its limits, and one sentence where something was too much."""
     linear, angular = order.twist.linear, order.twist.angular
-    most, turn = info.max_speed, info.max_yaw_rate
-    asked = math.hypot(linear.x, linear.y, linear.z)
-    share = min(1.0, most / asked) if asked else 1.0
-    fitted = msgspec.structs.replace(
+    asked = math.hypot(linear.x, linear.y)
+    share = min(1.0, info.max_speed / asked) if asked else 1.0
+    followed = msgspec.structs.replace(
         order,
         twist=Twist(
-            Vector3(linear.x * share, linear.y * share, linear.z * share),
-            Vector3(angular.x, angular.y, _within(angular.z, turn)),
+            Vector3(linear.x * share, linear.y * share, _within(linear.z, info.max_climb)),
+            Vector3(angular.x, angular.y, _within(angular.z, info.max_yaw_rate)),
         ),
-        speed=_within(order.speed, most),
+        speed=_within(order.speed, info.max_speed),
         throttle=_within(order.throttle, 1.0),
         steering=_within(order.steering, info.max_steering or math.inf),
         roll=_within(order.roll, info.max_tilt or math.inf),
         pitch=_within(order.pitch, info.max_tilt or math.inf),
     )
-    said = _excess(order, asked, info)
-    return (fitted, said) if said else (order, "")
+    return followed, _excess(order, asked, info)
 
 
 def _excess(order: Manoeuvre, speed: float, info: RobotInfo) -> str:
-    """What is too much of an `order` for that `speed` [m/s]; empty when nothing is."""
+    """What is too much of an `order` for that `speed` over ground [m/s]; empty when nothing is."""
     for says, asked, most, unit in (
         ("goes", speed, info.max_speed, " m/s"),
         ("goes", order.speed, info.max_speed, " m/s"),
+        ("climbs and sinks", order.twist.linear.z, info.max_climb or math.inf, " m/s"),
         ("turns", order.twist.angular.z, info.max_yaw_rate, " rad/s"),
         ("takes a throttle of", order.throttle, 1.0, ""),
         ("steers", order.steering, info.max_steering or math.inf, " rad"),

@@ -15,6 +15,7 @@ from sim.orders import cut
 from sim.robot import CAMERA_TOPIC, ROBOTS, SimRobot, make_several
 from sim.run import Run
 from sim.simulation import Simulation
+from sim.vehicles.aqua import AQUA
 from sim.vehicles.ardrone import ARDRONE
 from sim.vehicles.commander import COMMANDER
 from sim.vehicles.minnow import MINNOW
@@ -161,6 +162,56 @@ def test_whatever_is_too_much_is_cut_with_what_was_asked_and_what_is_allowed(ord
     info = RobotInfo(name="Commander-1", max_speed=3.0, max_yaw_rate=1.0, max_steering=0.52)
     _, told = cut(order, info)
     assert told == f"Commander-1 {said} was asked for."
+
+
+@pytest.mark.parametrize(
+    ("model", "order", "said", "followed"),
+    [
+        (
+            ARDRONE,
+            Manoeuvre(kind="twist", twist=Twist(Vector3(0.0, 0.0, 3.9))),
+            "Ardrone-1 climbs and sinks at most 1 m/s; 3.9 m/s was asked for.",
+            lambda order: order.twist.linear.z == 1.0,
+        ),
+        (
+            ARDRONE,
+            Manoeuvre(kind="tilt", pitch=-1.4),
+            "Ardrone-1 leans at most 0.35 rad; 1.4 rad was asked for.",
+            lambda order: order.pitch == -0.35,
+        ),
+        (
+            AQUA,
+            Manoeuvre(kind="tilt", roll=1.4, twist=Twist(Vector3(0.0, 0.0, -0.2))),
+            "Aqua-1 leans at most 0.8 rad; 1.4 rad was asked for.",
+            lambda order: (order.roll, order.twist.linear.z) == (0.8, -0.2),
+        ),
+        (
+            MINNOW,
+            Manoeuvre(kind="steer", throttle=5.0, steering=3.0),
+            "Minnow-1 takes a throttle of at most 1; 5 was asked for.",
+            lambda order: (order.throttle, order.steering) == (1.0, 0.61),
+        ),
+        (
+            COMMANDER,
+            Manoeuvre(kind="steer", speed=1.0, steering=-2.0),
+            "Commander-1 steers at most 0.52 rad; 2 rad was asked for.",
+            lambda order: (order.speed, order.steering) == (1.0, -0.52),
+        ),
+        (
+            SCOUT,
+            Manoeuvre(kind="twist", twist=Twist(Vector3(0.6, 0.0, 2.0))),
+            None,
+            lambda order: (order.twist.linear.x, order.twist.linear.z) == (0.6, 0.0),
+        ),
+    ],
+)
+def test_the_order_that_is_told_is_the_one_that_is_followed(model, order, said, followed):
+    robot = alone(model, plain(WATER, -1.5) if model.element == "water" else plain())
+    robot.manoeuvre(order)
+    messages = until(robot, 0.3)
+    robot.close()
+    assert events(messages) == ([said] if said else [])
+    assert followed([message for name, message in messages if name == "/manoeuvre"][-1])
 
 
 @pytest.mark.parametrize(
