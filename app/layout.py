@@ -7,18 +7,21 @@ done by a button. The app takes the one whose `for` names the robot's model, els
 from __future__ import annotations
 
 import tomllib
-import typing
 from collections.abc import Iterable, Mapping
-from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
-from functools import reduce
 from pathlib import Path
 from typing import Any
 
-import msgspec
-
+from app.layout_faults import (
+    LayoutError,
+    check_apart,
+    check_field,
+    check_keys,
+    check_room,
+    one_of,
+    said,
+)
 from app.piloting import PARTS
-from bridge.msgs import Msg
 from bridge.topics import TOPICS, topic
 
 __all__ = [
@@ -26,6 +29,7 @@ __all__ = [
     "ARRANGEMENTS",
     "DEFAULT",
     "FOLDER",
+    "SAYS",
     "SLIDER",
     "Action",
     "Arrangement",
@@ -64,6 +68,11 @@ ARRANGEMENTS: Mapping[str, Arrangement] = {
 
 SLIDER = "SpeedCard"
 """The app's own control among those of the widget catalogue: how fast the others are at the end of their way."""
+SLIDER_SLOT = "slider"
+STICK = "Stick"
+"""What drives, where the layout has no word for it and it has to be told from another, or from an arm."""
+SAYS = {"RudderThrottle": ("throttle", "steering"), "TiltCircle": ("roll", "pitch")}
+"""Which of `app.piloting.PARTS` a control says; a stick says what its line says."""
 ACTIONS = (
     *(f"task.{task}" for task in ("surface", "hold", "follow_heading", "take_off", "land", "go_home")),
     *("pause", "lights", "record", "snapshot", "camera", "reset"),
@@ -73,10 +82,6 @@ _TEXTS = {"slot", "widget", "topic", "field", "title", "unit"}
 _NUMBERS = {"factor", "digits"}
 _CONTROL_TEXTS = {"slot", "widget", "topic", "title", "forward", "left", "pad", "action", "icon"}
 _PADS = ("left", "right")
-
-
-class LayoutError(ValueError):
-    """A layout that cannot be shown; the text is one sentence that says what is wrong and what is allowed."""
 
 
 @dataclass(frozen=True)
@@ -120,7 +125,7 @@ class Control:
     forward: str = "ahead"
     """Of a stick: which of `app.piloting.PARTS` it says when it is pushed away from the operator."""
     left: str = "turn"
-    """The same to the left."""
+    """The same to the left; empty for one that goes up and down only."""
     pad: str = "left"
     """Which stick of a gamepad pushes it too; empty for none."""
     action: str = ""
@@ -133,6 +138,16 @@ class Control:
     def topics(self) -> tuple[str, ...]:
         """All topics that it shows."""
         return ((self.topic,) if self.topic else ()) + self.also
+
+    @property
+    def called(self) -> str:
+        """What tells it from another of its slot."""
+        return self.title or STICK
+
+    @property
+    def says(self) -> tuple[str, ...]:
+        """Which of `app.piloting.PARTS` it says, if it drives."""
+        return SAYS.get(self.widget, tuple(part for part in (self.forward, self.left) if part))
 
 
 @dataclass(frozen=True)
@@ -213,126 +228,112 @@ def choose(layouts: Iterable[Layout], model: str, kind: str) -> Layout:
 
 def parse(name: str, text: str, widgets: Iterable[str]) -> Layout:
     """The layout in TOML text; LayoutError with a sentence."""
-    try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise LayoutError(f"Layout {name} is no TOML: {error}.") from error
-    where, known = f"Layout {name}", frozenset(widgets)
+    from app.layout_widgets import drives  # Kivy has to be set up before a widget is imported
+
+    where, known = f"Layout {name}", tuple(widgets)
+    data = _read(where, text)
     for key in data:
-        _one_of(where, "key", key, ("title", "for", "arrangement", "instrument", "control", "action"))
+        one_of(where, "key", key, ("title", "for", "arrangement", "instrument", "control", "action"))
     arrangement = data.get("arrangement", "float")
-    _one_of(where, "arrangement", arrangement, ARRANGEMENTS)
-    places, robots = ARRANGEMENTS[arrangement], data.get("for", [])
+    one_of(where, "arrangement", arrangement, ARRANGEMENTS)
+    places, robots, title = ARRANGEMENTS[arrangement], data.get("for", []), data.get("title", name)
     if not isinstance(robots, list) or not all(isinstance(robot, str) for robot in robots):
-        raise LayoutError(f"{where}: for is a list of models and kinds of robots, not {robots!r}.")
+        raise LayoutError(f"{where}: for is a list of models and kinds of robots, not {said(robots)}.")
+    if not isinstance(title, str):
+        raise LayoutError(f"{where}: title is a text, not {said(title)}.")
     instruments = tuple(
         _instrument(f"{where}, instrument {i}", e, known, places.instruments)
-        for i, e in enumerate(_tables(name, data, "instrument"), 1)
+        for i, e in enumerate(_tables(where, data, "instrument"), 1)
     )
     controls = tuple(
         _control(f"{where}, control {i}", e, known, places.controls)
-        for i, e in enumerate(_tables(name, data, "control"), 1)
+        for i, e in enumerate(_tables(where, data, "control"), 1)
     )
     actions = tuple(
-        _action(f"{where}, action {i}", e) for i, e in enumerate(_tables(name, data, "action"), 1)
+        _action(f"{where}, action {i}", e) for i, e in enumerate(_tables(where, data, "action"), 1)
     )
-    _check_room(where, "instruments", [one.slot for one in instruments], places.instruments)
-    _check_room(where, "controls", [one.slot for one in controls], places.controls)
-    _check_room(where, "actions", ["the buttons"] * len(actions), {"the buttons": places.actions})
-    title = str(data.get("title", name))
+    check_room(where, "instruments", [one.slot for one in instruments], places.instruments)
+    check_room(where, "controls", [one.slot for one in controls], places.controls)
+    check_room(where, "actions", ["the buttons"] * len(actions), {"the buttons": places.actions})
+    hands = (one for one in controls if one.widget != SLIDER and not one.action)
+    check_apart(where, ((one.slot, one.called, one.says if drives(one.widget) else ()) for one in hands))
     return Layout(name, title, instruments, arrangement, tuple(robots), controls, actions)
 
 
-def _tables(name: str, data: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
+def _read(where: str, text: str) -> Mapping[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise LayoutError(f"{where} is no TOML: {error}.") from error
+    except RecursionError as error:
+        raise LayoutError(f"{where} is no TOML that can be read: it is nested too deep.") from error
+    except ValueError as error:  # of a number that has more figures than Python reads
+        raise LayoutError(f"{where} is no TOML that can be read: {error}.") from error
+
+
+def _tables(where: str, data: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
     entries = data.get(key, [])
     if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
-        raise LayoutError(f"Layout {name} lists its {key}s as [[{key}]] tables.")
+        raise LayoutError(f"{where} lists its {key}s as [[{key}]] tables.")
     return entries
 
 
-def _check_room(where: str, what: str, slots: list[str], room: Mapping[str, int]) -> None:
-    for slot, most in room.items():
-        if slots.count(slot) > most:
-            raise LayoutError(f"{where} puts {slots.count(slot)} {what} into {slot}, where {most} fit.")
-
-
 def _instrument(
-    where: str, entry: Mapping[str, Any], widgets: frozenset[str], slots: Mapping[str, int]
+    where: str, entry: Mapping[str, Any], widgets: Iterable[str], slots: Mapping[str, int]
 ) -> Instrument:
-    _check_keys(where, entry, texts=_TEXTS, numbers=_NUMBERS, lists={"also"})
-    _one_of(where, "slot", entry.get("slot"), slots)
-    _one_of(where, "widget", entry.get("widget"), sorted(widgets))
-    _one_of(where, "topic", entry.get("topic"), _TOLD)
+    from app.layout_widgets import check_instrument  # as above
+
+    check_keys(where, entry, texts=_TEXTS, numbers=_NUMBERS, lists={"also"})
+    one_of(where, "slot", entry.get("slot"), slots)
+    one_of(where, "widget", entry.get("widget"), sorted(widgets))
+    one_of(where, "topic", entry.get("topic"), _TOLD)
     if entry["widget"] == "Readout":
-        _check_field(where, topic(entry["topic"]).type, entry.get("field", ""))
+        check_field(where, topic(entry["topic"]).type, entry.get("field", ""))
     also = entry.get("also", [])
     for name in also:
-        _one_of(where, "also", name, _TOLD)
-    return Instrument(**{**entry, "also": tuple(also)})
+        one_of(where, "also", name, _TOLD)
+    made = Instrument(**{**entry, "also": tuple(also)})
+    check_instrument(where, made.slot, made.widget, made.topics, widgets)
+    return made
 
 
 def _control(
-    where: str, entry: Mapping[str, Any], widgets: frozenset[str], slots: Mapping[str, int]
+    where: str, entry: Mapping[str, Any], widgets: Iterable[str], slots: Mapping[str, int]
 ) -> Control:
-    _check_keys(where, entry, texts=_CONTROL_TEXTS, lists={"also"})
-    _one_of(where, "slot", entry.get("slot"), slots)
-    _one_of(where, "widget", entry.get("widget"), [*sorted(widgets), SLIDER])
+    from app.layout_widgets import check_control  # as above
+
+    check_keys(where, entry, texts=_CONTROL_TEXTS, lists={"also"})
+    one_of(where, "slot", entry.get("slot"), slots)
+    one_of(where, "widget", entry.get("widget"), [*sorted(widgets), SLIDER])
     for key, allowed in (
         ("topic", _TOLD),
         ("forward", PARTS),
-        ("left", PARTS),
+        ("left", ("", *PARTS)),
         ("pad", ("", *_PADS)),
         ("action", ACTIONS),
     ):
         if key in entry:
-            _one_of(where, key, entry[key], allowed)
+            one_of(where, key, entry[key], allowed)
     also = entry.get("also", [])
     for name in also:
-        _one_of(where, "also", name, _TOLD)
-    return Control(**{**entry, "also": tuple(also)})
+        one_of(where, "also", name, _TOLD)
+    made = Control(**{**entry, "also": tuple(also)})
+    if (made.slot == SLIDER_SLOT) != (made.widget == SLIDER):
+        raise LayoutError(f"{where}: {SLIDER} goes into {SLIDER_SLOT}, and nothing else does.")
+    if made.widget != SLIDER:
+        check_control(where, made.widget, entry, made.topics, widgets, ACTIONS)
+    return made
 
 
 def _action(where: str, entry: Mapping[str, Any]) -> Action:
-    _check_keys(where, entry, texts={"what", "icon", "text"})
-    _one_of(where, "what", entry.get("what"), ACTIONS)
+    from app.layout_widgets import check_icon  # as above
+
+    check_keys(where, entry, texts={"what", "icon", "text"})
+    one_of(where, "what", entry.get("what"), ACTIONS)
+    if entry.get("icon"):
+        check_icon(where, entry["icon"])
     return Action(**entry)
 
 
 _TOLD = tuple(one.name for one in TOPICS if one.to == "handheld")
 """Topics that can be shown."""
-
-
-def _check_keys(
-    where: str,
-    entry: Mapping[str, Any],
-    *,
-    texts: AbstractSet[str],
-    numbers: AbstractSet[str] = frozenset(),
-    lists: AbstractSet[str] = frozenset(),
-) -> None:
-    for key, value in entry.items():
-        _one_of(where, "key", key, sorted(texts | numbers | lists))
-        if key in texts and not isinstance(value, str):
-            raise LayoutError(f"{where}: {key} is a text, not {value!r}.")
-        if key in numbers and (isinstance(value, bool) or not isinstance(value, int | float)):
-            raise LayoutError(f"{where}: {key} is a number, not {value!r}.")
-        if key in lists and not isinstance(value, list):
-            raise LayoutError(f"{where}: {key} is a list of topics, not {value!r}.")
-
-
-def _one_of(where: str, what: str, value: object, allowed: Iterable[str]) -> None:
-    if value not in allowed:
-        raise LayoutError(f"{where}: {what} is one of {', '.join(allowed)}, not {value!r}.")
-
-
-def _check_field(where: str, kind: type[Msg], path: str) -> None:
-    found = reduce(_member, path.split("."), kind)
-    if found not in (float, int):
-        raise LayoutError(f"{where}: {kind.MSGTYPE} has no number {path!r}.")
-
-
-def _member(kind: Any, name: str) -> Any:
-    """The type of a field of a message type; None when there is none."""
-    if not (isinstance(kind, type) and issubclass(kind, msgspec.Struct)):
-        return None
-    return typing.get_type_hints(kind).get(name)

@@ -51,7 +51,7 @@ class DiveScreen(FloatLayout):
     """Nothing here says how fast the hands are at the end of their way: as fast as the robot may."""
 
     def __init__(self, layout: Layout, **kwargs: Any) -> None:
-        """`layout` says what sits where; LayoutError when something cannot show its topic."""
+        """`layout` says what sits where."""
         super().__init__(**kwargs)
         session = self.session
         self._arranged: dict[str, Rect] = {}

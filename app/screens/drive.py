@@ -46,7 +46,7 @@ class DriveScreen(FloatLayout):
     session: Session = ObjectProperty()
 
     def __init__(self, layout: Layout, **kwargs: Any) -> None:
-        """`layout` says what sits where; LayoutError when something cannot show its topic."""
+        """`layout` says what sits where."""
         super().__init__(**kwargs)
         self._arranged: dict[str, Rect] = {}
         self._cover: Rect | None = None

@@ -15,12 +15,11 @@ from app.commands import Outcome
 from app.dashboard import Dashboard
 from app.drive_slot import Drive
 from app.feeds import Post
-from app.layout import SLIDER, Control, Layout
+from app.layout import SAYS, SLIDER, Control, Layout
 from app.link import OUTCOME
 from app.piloting import Parts, Piloting, Reach
 from app.screens.arm_hand import ARM, ArmHand
 from app.screens.in_vain import InVain
-from app.screens.instruments import check_shows
 from app.screens.speed_card import SpeedCard, allowed
 from app.session import Session
 from bridge.msgs.geometry_msgs import PoseStamped
@@ -31,10 +30,6 @@ __all__ = ["Hands"]
 
 FIRST = 0.6
 """Share of the robot's greatest speed that the slider begins with."""
-SAYS = {"RudderThrottle": ("throttle", "steering"), "TiltCircle": ("roll", "pitch")}
-"""Which of `app.piloting.PARTS` a control says; a stick says what its layout says."""
-STICK = "Stick"
-"""What drives, where the layout has no word for it and it has to be told from an arm."""
 OWN = Reach()
 """What the controls mean where the robot does not say what it can."""
 
@@ -48,7 +43,7 @@ class Hands(EventDispatcher):
     def __init__(
         self, layout: Layout, session: Session, dashboard: Dashboard, actions: Actions, in_vain: InVain
     ) -> None:
-        """`actions` does what a slide confirms, `in_vain` tells why a push does nothing. LayoutError when one cannot show its topic."""
+        """`actions` does what a slide confirms, `in_vain` tells why a push does nothing."""
         self._session, self._dashboard = session, dashboard
         self._actions, self._in_vain = actions, in_vain
         self.places: dict[str, list[Widget]] = {}
@@ -69,13 +64,13 @@ class Hands(EventDispatcher):
             self._add(one)
         slots = [one.slot for one in layout.controls]
         self._own: dict[str, Widget] = {
-            one.title or STICK: widget for one, widget in self._all(layout) if one.slot == "stick"
+            one.called: widget for one, widget in self._all(layout) if one.slot == "stick"
         }
         self.choices: dict[str, Widget] = self._own if slots.count("stick") > 1 else {}
         """Those of which one is on the glass, by what they are called; an arm that the robot carries is one more."""
         self.chosen = next(iter(self.choices), "")
         self.bind(chosen=lambda *_: self.rest())
-        says = {part for _, one in self._sticks for part in SAYS.get(one.widget, (one.forward, one.left))}
+        says = {part for _, one in self._sticks for part in one.says}
         self.piloting = Piloting(self._drive, self._kinds, lambda: self.reach, says)
 
     def take_up(self) -> bool:
@@ -104,7 +99,6 @@ class Hands(EventDispatcher):
     def _made(self, one: Control) -> Any:
         kind = getattr(widgets, one.widget)
         widget = kind()
-        check_shows(kind, one.topics)
         for topic in one.topics:
             self._dashboard.bind(widget, topic, fresh=False)
         if hasattr(widget, "on_in_vain"):
@@ -112,7 +106,7 @@ class Hands(EventDispatcher):
         if isinstance(widget, Stick):
             self._sticks.append((widget, one))
             if one.forward != "ahead" and hasattr(widget, "caption"):
-                widget.caption = f"{one.forward} · {one.left}"
+                widget.caption = " · ".join(one.says)
             widget.bind(on_command=lambda stick, said: self._pushed(stick, said, one))
         else:
             self._asking.append((widget, one))
@@ -139,15 +133,8 @@ class Hands(EventDispatcher):
             self.piloting.take(stick, Parts.of(said))
             return
         reach = self.reach
-        self.piloting.take(
-            stick,
-            Parts(
-                **{
-                    one.forward: stick.forward * reach.of(one.forward),
-                    one.left: stick.left * reach.of(one.left),
-                }
-            ),
-        )
+        shares = ((one.forward, stick.forward), (one.left, stick.left))
+        self.piloting.take(stick, Parts(**{part: share * reach.of(part) for part, share in shares if part}))
 
     def _drive(self, order: Drive) -> None:
         self._session.link.drive(order)

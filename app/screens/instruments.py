@@ -9,12 +9,11 @@ from kivy.uix.widget import Widget
 import widgets
 from app.dashboard import Dashboard
 from app.feeds import Feeds
-from app.layout import Instrument, Layout, LayoutError
+from app.layout import Instrument, Layout
 from app.offer import POSE, Offer
-from bridge.topics import topic
 from widgets import Readout
 
-__all__ = ["Instruments", "check_shows"]
+__all__ = ["Instruments"]
 
 LONGEST_NAME = 14
 """Letters of a topic's name on an instrument."""
@@ -26,7 +25,7 @@ class Instruments:
     """Made once for a screen; the screen puts them where they belong."""
 
     def __init__(self, layout: Layout, dashboard: Dashboard, feeds: Feeds) -> None:
-        """They are fed by `dashboard`. LayoutError when one cannot show its topics."""
+        """They are fed by `dashboard`."""
         self._dashboard, self._feeds = dashboard, feeds
         self.places: dict[str, list[Widget]] = {}
         """Widgets by slot, in the order of the layout; those of `readouts` are figures."""
@@ -64,7 +63,6 @@ class Instruments:
 
     def _picture(self, one: Instrument) -> Any:
         kind = getattr(widgets, one.widget)
-        check_shows(kind, one.topics)
         offered = {"card": True, "title": one.title}
         widget = kind(**{name: value for name, value in offered.items() if hasattr(kind, name) and value})
         if one.title and hasattr(kind, "title"):
@@ -79,15 +77,6 @@ class Instruments:
         for readout, one in self._places_told:
             by_wheels = offer is not None and offer.pose_by_odometry
             readout.name = one.title.replace("Map", "Odom") if by_wheels else one.title
-
-
-def check_shows(kind: Any, topics: tuple[str, ...]) -> None:
-    """LayoutError with a sentence when a widget cannot show one of `topics`."""
-    for name in topics:
-        wanted = topic(name).type
-        if wanted not in kind.accepts:
-            allowed = ", ".join(accepted.MSGTYPE for accepted in kind.accepts) or "nothing"
-            raise LayoutError(f"{kind.__name__} shows {allowed}, not {name}, which is {wanted.MSGTYPE}.")
 
 
 def _brief(name: str) -> str:

@@ -10,7 +10,10 @@ from app import actions
 from app.layout import ACTIONS, LayoutError, choose, load, load_all, names, parse
 from widgets import CATALOGUE
 
-WIDGETS = ["Compass", "LaserScanView", "Readout"]
+WIDGETS = [
+    *("Compass", "LaserScanView", "HeadingTape", "LineSensorView", "Readout", "StopButton"),
+    *("Joystick", "GoalPad", "SlideToConfirm", "TiltCircle"),
+]
 
 
 def one(**changes: object) -> str:
@@ -21,7 +24,7 @@ def one(**changes: object) -> str:
 
 
 def control(**changes: str) -> str:
-    entry = {"slot": "stick", "widget": "Compass", **changes}
+    entry = {"slot": "stick", "widget": "Joystick", **changes}
     return "[[control]]\n" + "\n".join(f"{key} = {value!r}" for key, value in entry.items()) + "\n"
 
 
@@ -35,16 +38,19 @@ def control(**changes: str) -> str:
             "instrument 1: slot is one of top_left, top, top_right, readouts, senses, not 'middle'",
         ),
         (one(slot=None), "slot is one of .*, not None"),
-        (one(widget="Compas"), "widget is one of Compass, LaserScanView, Readout, not 'Compas'"),
+        (one(widget="Compas"), "widget is one of Compass, .*, not 'Compas'"),
         (one(topic="/cmd_vel"), "topic is one of .*/scan.*, not '/cmd_vel'"),
         (one(colour="red"), "key is one of .*, not 'colour'"),
         (one(title=3), "title is a text, not 3"),
         (one(widget="Readout", digits="two"), "digits is a number, not 'two'"),
         (
-            one(widget="Readout", topic="/odom", field="twist.speed"),
+            one(slot="readouts", widget="Readout", topic="/odom", field="twist.speed"),
             "nav_msgs/Odometry has no number 'twist.speed'",
         ),
-        (one(widget="Readout", topic="/odom", field="twist.twist"), "has no number 'twist.twist'"),
+        (
+            one(slot="readouts", widget="Readout", topic="/odom", field="twist.twist"),
+            "has no number 'twist.twist'",
+        ),
         (one(widget="Readout", topic="/odom"), "has no number ''"),
         (one() + "\n" + one(), "2 instruments into top, where 1 fit"),
         (one(also="/odom"), "also is a list of topics, not '/odom'"),
@@ -60,6 +66,54 @@ def control(**changes: str) -> str:
         (control(action="fly"), "action is one of task.surface, .*, not 'fly'"),
         (control(colour="red"), "key is one of .*, not 'colour'"),
         (control() * 3, "3 controls into stick, where 2 fit"),
+        (control() * 2, "two controls called 'Stick' in stick; each has a title"),
+        (control() + control(widget="GoalPad"), "two controls called 'Stick' in stick"),
+        (control(forward="turn"), "two controls that say turn"),
+        (
+            "arrangement = 'two_sticks'\n" + control() + control(slot="right_stick"),
+            "Layout x has two controls that say ahead",
+        ),
+        (control(slot="slider"), "control 1: SpeedCard goes into slider, and nothing else"),
+        (control(widget="SpeedCard"), "control 1: SpeedCard goes into slider"),
+        (control(widget="Compass"), "a control is one of GoalPad, Joystick, .*, not Compass"),
+        (control(widget="StopButton"), "a control is one of .*, not StopButton"),
+        (
+            control(topic="/odom"),
+            "control 1: Joystick shows no topic, not /odom, which is nav_msgs/Odometry",
+        ),
+        (
+            "arrangement = 'two_sticks'\n" + control(slot="confirm", widget="SlideToConfirm"),
+            "action is one of .*, not None",
+        ),
+        (control(action="pause"), "Joystick confirms nothing, so it has no action"),
+        (control(icon="nonsense"), "icon is a name in widgets/icons.py.*, not 'nonsense'"),
+        (
+            "[[action]]\nwhat = 'pause'\nicon = 'puase'",
+            "action 1: icon is a name .*, as pause, .*, not 'puase'",
+        ),
+        (
+            one(topic="/battery_state"),
+            "instrument 1: Compass shows sensor_msgs/Imu, .*, not /battery_state, which is sensor_msgs/BatteryState",
+        ),
+        (one(also=["/scan"]), "instrument 1: Compass shows .*, not /scan"),
+        (one(also=[3]), "instrument 1: also is one of .*, not 3"),
+        (one(widget="Joystick"), "an instrument in top is one of Compass, .*, not Joystick"),
+        (one(widget="StopButton"), "an instrument in top is one of .*, not StopButton"),
+        (one(slot="readouts", widget="HeadingTape"), "an instrument in readouts is one of Readout, not Head"),
+        (
+            one(widget="Readout", topic="/odom", field="twist.twist.linear.x"),
+            "in top is one of .*, not Readout",
+        ),
+        (one(slot="senses", widget="HeadingTape"), "in senses is one of LineSensorView, not HeadingTape"),
+        (one(digits=-3), "digits is a whole number from 0 to 6, not -3"),
+        (one(digits=1.5), "digits is a whole number from 0 to 6, not 1.5"),
+        (one() + "\nfactor = nan", "factor is a number that can be reckoned with, not nan"),
+        (one() + "\nfactor = 1" + "0" * 400, "factor is a number that can be reckoned with, not 1000.*…"),
+        (one() + "\nfactor = 1" + "0" * 5000, "Layout x is no TOML that can be read: .*digits"),
+        (one() + "\ndigits = 0x" + "f" * 5000, "digits is .*, not a number of thousands of digits"),
+        ("for = " + "[" * 2000 + "]" * 2000, "Layout x is no TOML.*nested"),
+        ("arrangement = ['float']", r"arrangement is one of float, .*, not \['float'\]"),
+        ("title = 3", "Layout x: title is a text, not 3"),
         ("[[action]]\nwhat = 'jump'", "action 1: what is one of task.surface, .*, not 'jump'"),
         ("[[action]]\nwhat = 'pause'\n" * 5, "5 actions into the buttons, where 4 fit"),
     ],
@@ -107,8 +161,8 @@ def test_two_layouts_for_one_robot_are_a_mistake(tmp_path: Path) -> None:
 
 
 def test_a_layout_says_how_it_is_driven() -> None:
-    text = "arrangement = 'two_sticks'\n" + control(slot="right_stick", forward="climb")
-    assert parse("x", text, WIDGETS).controls[0].forward == "climb"
+    text = "arrangement = 'two_sticks'\n" + control(slot="right_stick", forward="climb", left="")
+    assert parse("x", text, WIDGETS).controls[0].says == ("climb",)
     actions = parse("x", "[[action]]\nwhat = 'lights'\ntext = 'Lamp'", WIDGETS).actions
     assert [(one.what, one.text, one.icon) for one in actions] == [("lights", "Lamp", "")]
 

@@ -1,0 +1,120 @@
+"""What is wrong with a line of a layout, each in one sentence that says where it stands and what is allowed."""
+
+from __future__ import annotations
+
+import math
+import typing
+from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Set as AbstractSet
+from functools import reduce
+from typing import Any
+
+import msgspec
+
+from bridge.msgs import Msg
+
+__all__ = [
+    "LayoutError",
+    "check_apart",
+    "check_field",
+    "check_keys",
+    "check_room",
+    "one_of",
+    "said",
+]
+
+DIGITS = 6
+"""Figures behind the point at most."""
+LONGEST = 60
+"""Letters of a wrong value that a sentence repeats."""
+
+
+class LayoutError(ValueError):
+    """A layout that cannot be shown; the text is one sentence that says what is wrong and what is allowed."""
+
+
+def said(value: object) -> str:
+    """A wrong value as a sentence repeats it."""
+    try:
+        text = repr(value)
+    except ValueError:  # Python writes no number of thousands of digits
+        return "a number of thousands of digits"
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
+
+
+def one_of(where: str, what: str, value: object, allowed: Iterable[str]) -> None:
+    """`value` is one of those texts."""
+    known = tuple(allowed)
+    if not isinstance(value, str) or value not in known:
+        raise LayoutError(f"{where}: {what} is one of {', '.join(known)}, not {said(value)}.")
+
+
+def check_keys(
+    where: str,
+    entry: Mapping[str, Any],
+    *,
+    texts: AbstractSet[str],
+    numbers: AbstractSet[str] = frozenset(),
+    lists: AbstractSet[str] = frozenset(),
+) -> None:
+    """Every key is known and its value of the right type; `digits` is a whole number of few."""
+    for key, value in entry.items():
+        one_of(where, "key", key, sorted(texts | numbers | lists))
+        if key in texts and not isinstance(value, str):
+            raise LayoutError(f"{where}: {key} is a text, not {said(value)}.")
+        if key in numbers:
+            _check_number(where, key, value)
+        if key in lists and not isinstance(value, list):
+            raise LayoutError(f"{where}: {key} is a list of topics, not {said(value)}.")
+
+
+def _check_number(where: str, key: str, value: object) -> None:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise LayoutError(f"{where}: {key} is a number, not {said(value)}.")
+    if key == "digits" and not (isinstance(value, int) and 0 <= value <= DIGITS):
+        raise LayoutError(f"{where}: digits is a whole number from 0 to {DIGITS}, not {said(value)}.")
+    try:
+        finite = math.isfinite(value)
+    except OverflowError:
+        finite = False
+    if not finite:
+        raise LayoutError(f"{where}: {key} is a number that can be reckoned with, not {said(value)}.")
+
+
+def check_room(where: str, what: str, slots: Sequence[str], room: Mapping[str, int]) -> None:
+    """No place has more than it has room for."""
+    for slot, most in room.items():
+        if slots.count(slot) > most:
+            raise LayoutError(f"{where} puts {slots.count(slot)} {what} into {slot}, where {most} fit.")
+
+
+def check_field(where: str, kind: type[Msg], path: str) -> None:
+    """A message of that type has a number there."""
+    found = reduce(_member, path.split("."), kind)
+    if found not in (float, int):
+        raise LayoutError(f"{where}: {kind.MSGTYPE} has no number {said(path)}.")
+
+
+def _member(kind: Any, name: str) -> Any:
+    """The type of a field of a message type; None when there is none."""
+    if not (isinstance(kind, type) and issubclass(kind, msgspec.Struct)):
+        return None
+    return typing.get_type_hints(kind).get(name)
+
+
+def check_apart(where: str, sticks: Iterable[tuple[str, str, Sequence[str]]]) -> None:
+    """Controls, each with its slot, name and what it says: of those on the glass at once no two say the same.
+
+    Of two in one slot one is on the glass, and a switch between them tells them by their names.
+    """
+    owners: dict[str, str] = {}
+    names: set[tuple[str, str]] = set()
+    for slot, name, parts in sticks:
+        if (slot, name) in names:
+            raise LayoutError(
+                f"{where} has two controls called {said(name)} in {slot}; each has a title of its own."
+            )
+        names.add((slot, name))
+        for part in parts:
+            if parts.count(part) > 1 or owners.setdefault(part, slot) != slot:
+                raise LayoutError(f"{where} has two controls that say {part}; each says something else.")
