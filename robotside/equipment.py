@@ -65,18 +65,18 @@ class _Equipment:
         station = self._station
         self._permits.need_control(client)
         name = station.controls.name(client)
-        station.agenda.hold("the robot was put back")
-        station.autonomy.engine.cancel(f"{name} put the robot back to its start.")
         try:
             place = station.robot.reset()
         except ValueError as problem:
             raise Refusal(str(problem)) from problem
+        station.agenda.hold("the robot was put back")
+        station.autonomy.engine.cancel(f"{name} put the robot back to its start.")
         station.helm.put_back()
         pose = Pose2.from_msg(place)
         station.autonomy.whereabouts.put(pose)
         said = f"{name} put {station.info.name} back to its start."
         station.events.say("robot", said, "warn", at=(pose.x, pose.y))
-        return f"{station.info.name} stands at its start."
+        return f"{station.info.name} is put back: it stands at ({pose.x:.1f}, {pose.y:.1f})."
 
     def _tell(self, payload: str, order: Msg) -> None:
         trouble = self._station.robot.trouble

@@ -121,8 +121,9 @@ class Guarded:
     def reset(self) -> Pose:
         """Put it back, at rest; where it stands now, in `map`. ValueError with one sentence when that cannot be."""
         if isinstance(self._robot, Resettable):
+            place = self._robot.reset()
             self._wanted = self._given = None
-            return self._robot.reset()
+            return place
         raise ValueError(f"{self.info.name} is real: nobody can put it back from here.")
 
     def _take(self, order: Order) -> None:

@@ -77,4 +77,4 @@ class Resettable(Protocol):
     """A robot that can be put back to where it started, as only a simulated one can."""
 
     def reset(self) -> Pose:
-        """Put it back, at rest; where it stands now, in `map`."""
+        """Put it back, at rest; where it stands now, in `map`. ValueError with one sentence when that cannot be."""

@@ -297,6 +297,15 @@ class Bullet:
         points = p.getContactPoints(bodyA=body, linkIndexA=-1, physicsClientId=self._client)
         return [Contact(point[2], point[6]) for point in points or () if point[8] <= 0.0]
 
+    def crowded(self, body: int, distance: float, *, but: int = -1) -> bool:
+        """Whether anything is nearer to `body` than `distance` [m], apart from the ground and one other body."""
+        client = self._client
+        others = {p.getBodyUniqueId(number, client) for number in range(p.getNumBodies(client))}
+        return any(
+            p.getClosestPoints(body, other, distance, physicsClientId=client)
+            for other in sorted(others - {body, self.ground, but})
+        )
+
     def picture(
         self, eye: Vec3, target: Vec3, up: Vec3, field_of_view: float, size: tuple[int, int]
     ) -> Picture:

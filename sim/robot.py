@@ -59,6 +59,10 @@ UNREAD = 50_000
 """Messages that are kept of a robot that nobody reads while others in its world are read; the oldest go first."""
 
 
+_ASIDE = 0.1
+"""Farther than this from its start it does not stand there [m]."""
+
+
 class SimRobot:
     """Fits `robotside.robot.Robot`.
 
@@ -149,12 +153,17 @@ class SimRobot:
     def reset(self) -> Pose:
         """Put it back to where it started, at rest, with fresh odometry: for one that turned over, sank or went astray.
 
-        Gives where that is, in `map`.
+        Where somebody else stands there by now it stands beside that, which is said on `/events`. Gives where it stands,
+        in `map`. ValueError with one sentence when there is no room.
         """
         self._vehicle.reset()
         self._excess = ""
         self._unread = deque((entry for entry in self._unread if entry[0] == "/events"), maxlen=UNREAD)
-        state = self._vehicle.state()
+        state, start = self._vehicle.state(), self._vehicle.scene.start
+        aside = math.dist(state.position[:2], (start.x, start.y))
+        if aside > _ASIDE:
+            said = f"There is no room at the start of {self.info.name}: it stands {aside:.1f} m beside it."
+            self._unread.append(("/events", Event(level="warn", kind="robot", text=said)))
         return Pose(Point(*state.position), Quaternion(*state.rotation))
 
     def want(self, topic: str, wanted: bool) -> None:

@@ -11,7 +11,7 @@ from sim.shapes import Shape, beside
 from sim.vehicles.model import Model
 from sim.world import Start, World
 
-__all__ = ["starts"]
+__all__ = ["places", "starts"]
 
 APART = 2.0
 """From one to the next [m]."""
@@ -41,17 +41,24 @@ def starts(world: World, models: Sequence[Model], given: Sequence[Start | None])
     return found
 
 
+def places(world: World, start: Start, radius: float, height: float) -> Iterator[Start]:
+    """Where a robot of this `radius` [m] at this `height` [m] may stand instead of at its `start`, which is the first of them.
+
+    Only what belongs to the world is looked at, not who else is in it.
+    """
+    around = [solid for solid in world.solids if _height(solid, height)]
+    for place in _candidates(start):
+        if place is start or (_on_ground(world, place, radius) and _open(around, start, place, radius)):
+            yield place
+
+
 def _free(world: World, model: Model, taken: Sequence[tuple[Start, float]]) -> Start:
     radius = model.parameters.radius
     home = world.start
-    around = [solid for solid in world.solids if _height(solid, home.z if model.element == "water" else 0.0)]
-    for start in _candidates(home):
-        apart = all(
+    for start in places(world, home, radius, home.z if model.element == "water" else 0.0):
+        if all(
             math.dist((start.x, start.y), (other.x, other.y)) > radius + other_radius + 2 * MARGIN
             for other, other_radius in taken
-        )
-        if apart and (
-            start is home or (_on_ground(world, start, radius) and _open(around, home, start, radius))
         ):
             return start
     raise ValueError(f"There is no room for one more robot at the start of {world.name}.")

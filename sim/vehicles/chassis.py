@@ -15,12 +15,16 @@ from sim.scene import Scene
 from sim.sensors.battery import Battery
 from sim.sensors.bumper import BumperRing
 from sim.shapes import Shape
+from sim.starts import places
 from sim.vehicles.parameters import Parameters
 from sim.vehicles.suite import Measurement, Suite, as_odometry
+from sim.world import Start
 
 __all__ = ["Chassis"]
 
 MANOEUVRE_RATE = 10.0
+CLEAR = 0.05
+"""Kept free round one that is put back [m]."""
 
 
 class Odometer(Protocol):
@@ -79,13 +83,31 @@ class Chassis(Generic[P]):
         self.order = order
 
     def reset(self) -> None:
-        """Go back to the start, at rest, and believe to be there."""
-        self.scene.backend.place(self.body, *self._home)
+        """Go back to the start, at rest, and believe to be there; beside it when somebody else stands there by now.
+
+        ValueError with one sentence when there is no room, which changes no more than that it stands still.
+        """
+        backend, (x, y, z), rotation = self.scene.backend, *self._home
+        start, was = self.scene.start, self.state()
+        for place in self._starts(z):
+            aside = place.x - start.x, place.y - start.y
+            backend.place(self.body, (x + aside[0], y + aside[1], z), rotation)
+            if not backend.crowded(self.body, CLEAR, but=self.raft):
+                break
+        else:
+            backend.place(self.body, was.position, was.rotation)
+            raise ValueError(f"{self.parameters.info.name} is not put back: there is no room at its start.")
         if self.odometer is not None:
-            start = self.scene.start
-            self.odometer.restart((start.x, start.y, start.angle))
+            self.odometer.restart((place.x, place.y, start.angle))
         self.stop()
         self.halt()
+
+    def _starts(self, height: float) -> Iterator[Start]:
+        """Its start, and the places beside it; where there is no ground but a raft, that alone."""
+        scene, radius = self.scene, self.parameters.radius
+        if self.raft >= 0:
+            return iter((scene.start,))
+        return places(scene.world, scene.start, radius, height)
 
     def halt(self) -> None:
         """Let wheels, fins, propellers and rotors stand still at once, as they never do by themselves."""

@@ -136,7 +136,7 @@ def test_one_that_is_put_back_stands_at_its_start_and_knows_it(hand: Make) -> No
     run.robot.simulation.backend.place(run.robot.simulation.vehicle.body, (x, y, z + 0.5), UPSIDE_DOWN)
     run.wait(1.0)
     answer = run.ask("/robot/reset")
-    assert (answer.success, answer.message) == (True, "Patrol-1 stands at its start.")
+    assert (answer.success, answer.message) == (True, "Patrol-1 is put back: it stands at (-17.5, -12.0).")
     assert "a client at 192.0.2.1:5000 put Patrol-1 back to its start." in run.events
     run.wait(1.0)
     assert math.dist(start, run.state.position) < 0.02

@@ -270,6 +270,41 @@ def test_a_drone_that_falls_into_the_water_has_sunk_and_can_be_reset():
     robot.close()
 
 
+def test_one_whose_start_is_taken_is_put_beside_it_and_says_so():
+    scout, truck = pair(SCOUT, COMMANDER)
+    backend, body = scout.simulation.backend, scout.simulation.vehicles[0].body
+    backend.place(body, (3.2, 0.3, 0.1), (0.0, 0.0, 0.0, 1.0))  # where the truck began
+    backend.place(scout.simulation.vehicles[1].body, (10.0, 5.0, 0.3), (0.0, 0.0, 0.0, 1.0))
+    until(scout, 0.5)
+    at = truck.reset().position
+    assert events(until(truck, 1.0)) == [
+        f"There is no room at the start of Commander-1: it stands {math.dist((at.x, at.y), (3, 0)):.1f} m beside it."
+    ]
+    state = scout.simulation.vehicles[1].state()
+    assert state.position[:2] == pytest.approx((at.x, at.y), abs=0.02)
+    assert not backend.crowded(scout.simulation.vehicles[1].body, 0.04)
+    assert 1.0 < math.dist((at.x, at.y), (3.0, 0.0)) < 5.0
+    odom = [m for name, m in until(truck, 0.5) if name == "/odom"][-1].pose.pose.position
+    assert (odom.x, odom.y) == pytest.approx((at.x, at.y), abs=0.02)
+    truck.drive(Twist.planar(1.0, 0.0))
+    until(truck, 3.0)
+    assert math.dist(scout.simulation.vehicles[1].state().position[:2], (at.x, at.y)) > 1.5
+    scout.close()
+    truck.close()
+
+
+def test_one_that_cannot_be_put_back_says_why_and_stays_where_it_is():
+    drone, boat = pair(ARDRONE, MINNOW, plain(WATER))
+    backend = drone.simulation.backend
+    backend.place(drone.simulation.vehicles[0].body, (-3.0, 0.0, 4.0), (0.0, 0.0, 0.0, 1.0))
+    backend.place(drone.simulation.vehicles[1].body, (0.0, 0.0, 0.1), (0.0, 0.0, 0.0, 1.0))  # on its raft
+    with pytest.raises(ValueError, match=r"^Ardrone-1 is not put back: there is no room at its start\.$"):
+        drone.reset()
+    assert drone.simulation.vehicles[0].state().position == pytest.approx((-3.0, 0.0, 4.0))
+    drone.close()
+    boat.close()
+
+
 def test_boats_give_each_other_way_no_more_than_things_do():
     one, other = pair(MINNOW, MINNOW, plain(WATER), Start(2.5, 0.0, 180.0))
     one.manoeuvre(Manoeuvre(kind="steer", throttle=0.6))

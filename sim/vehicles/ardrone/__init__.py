@@ -103,8 +103,8 @@ class Ardrone(Chassis[QuadrotorParameters]):
 
     def reset(self) -> None:
         """Stand where it started."""
-        self.pilot = Pilot(self.parameters, self._home[0])
         super().reset()
+        self.pilot = Pilot(self.parameters, self.state().position)
 
     def halt(self) -> None:
         """Let the rotors stand still at once."""
