@@ -86,7 +86,7 @@ class MountedArm:
     def command(self, order: Msg) -> None:
         """Go to a pose, a point or angles; ValueError with one sentence when that cannot be."""
         if not isinstance(order, ArmOrder):
-            raise TypeError("The arm takes an ArmOrder.")
+            raise ValueError("The arm takes an ArmOrder.")  # noqa: TRY004 - what a port refuses is a ValueError
         low, high = self._figures.gripper
         opening = given(order.gripper, self._opening)
         if not low <= opening <= high:

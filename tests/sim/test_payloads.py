@@ -117,6 +117,20 @@ def test_an_order_for_what_is_not_mounted_is_refused():
     robot.close()
 
 
+@pytest.mark.parametrize(
+    ("payload", "order", "said"),
+    [
+        ("arm", LightState(brightness=0.5), "The arm takes an ArmOrder"),
+        ("lights", ArmOrder(pose="home"), "The brightness of the lights must be a number"),
+    ],
+)
+def test_an_order_for_another_payload_is_refused(payload, order, said):
+    robot = carrying(payload)
+    with pytest.raises(ValueError, match=said):
+        robot.command(payload, order)
+    robot.close()
+
+
 def test_mounted_rangers_and_a_line_sensor_measure_what_is_round_and_under_it():
     line = "[[lines]]\nfrom = [-1.0, 0.0]\nto = [3.0, 0.0]\nwidth = 0.3\n"
     robot = carrying("ultrasound", "line_sensor", world=room(6.0, 5.0, extra=line))
