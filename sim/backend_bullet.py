@@ -356,10 +356,6 @@ class Bullet:
         )
         return int(number)
 
-    def move_looks(self, number: int, position: Vec3, rotation: Quat) -> None:
-        """Put something made by `add_looks` somewhere else."""
-        p.resetBasePositionAndOrientation(number, position, rotation, physicsClientId=self._client)
-
     def _collision(self, shape: Shape, offset: Vec3 = (0.0, 0.0, 0.0)) -> int:
         geometry = _geometry(shape)
         if "radius" in geometry and "length" in geometry:

@@ -179,10 +179,6 @@ class Trail:
         self._first = max(self._first, self._end - self._most)
         return True
 
-    def clear(self) -> None:
-        """Forget everything."""
-        self._first = self._end = 0
-
 
 def screen_angle(yaw: float) -> float:
     """The angle [deg, anticlockwise from the right] at which a Kivy `Rotate` shows `yaw` [rad]."""

@@ -183,11 +183,6 @@ class MapOverlay(MapGestures, Drawing):
         """Where it has been, oldest first, shape (n, 2) [m]; the newest 2,000 points are kept."""
         return self._trail.points
 
-    def clear_trail(self) -> None:
-        """Forget where it has been."""
-        self._trail.clear()
-        self.redraw()
-
     # how it is looked at
 
     def look(self, view: View) -> None:

@@ -282,8 +282,6 @@ def test_the_trail_is_bounded(map_):
         map_.show(pose(step * 0.1, 0.0))
     assert len(map_.trail) == 2000
     assert map_.trail[-1].tolist() == [500.0, 0.0]
-    map_.clear_trail()
-    assert len(map_.trail) == 0
 
 
 def test_a_plan_is_taken_over_and_an_empty_one_takes_it_away(map_):
