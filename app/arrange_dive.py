@@ -11,6 +11,8 @@ __all__ = ["dive"]
 
 USUAL = (1204.0, 744.0)
 """Width and height of the body that the sizes below are made for [dp]; a larger one has everything larger."""
+STRIP = 54
+"""Height of the folded card of the small sensors: a finger opens it [dp]."""
 LARGEST = 1.45
 """How much larger at most."""
 
@@ -20,7 +22,7 @@ def dive(body: Rect, shape: str, dp: float = 1.0) -> tuple[dict[str, Rect], Stop
     `corner` and `motion`, `stick`, `lift` and `tilt`, which have a card `hands` on a tablet, and the column of `actions`;
     and where STOP is, at the foot of the column.
 
-    `notice` is for what is said, `notice_low` for what holds on until it is dealt with.
+    `senses` is the strip of the small sensors and `senses_open` where it unfolds. `notice` is for what is said, `notice_low` for what holds on until it is dealt with.
     """
     if shape == "tall":
         return _tall(body, dp)
@@ -48,6 +50,7 @@ def _wide(body: Rect, dp: float) -> tuple[dict[str, Rect], StopPlace]:
     places = {"legs": legs, "panel": panel, "video": video, "motion": motion, "actions": right}
     places |= {"hands": hands, "stick": stick, "lift": lift, "tilt": tilt} | _stacked(panel, 14 * dp)
     places["corner"] = Rect(video.x + gap, video.top - gap - 150 * unit, 176 * unit, 150 * unit)
+    places |= _sensors(video, places["corner"], dp)
     free = between(video.x, video.y, video.right, places["corner"].y)
     return places | _notices(free, dp), stop
 
@@ -97,7 +100,7 @@ def _tall(body: Rect, dp: float) -> tuple[dict[str, Rect], StopPlace]:
     places = {"legs": legs, "panel": panel, "video": video, "actions": actions}
     places |= {"stick": stick, "lift": lift, "tilt": tilt} | _stacked(panel, 8 * dp)
     shown = _on_video(video, dp)
-    free = between(video.x, shown["motion"].top, video.right, shown["corner"].y)
+    free = between(video.x, shown["motion"].top, video.right, shown["senses"].y)
     return places | shown | _notices(free, dp), stop
 
 
@@ -121,7 +124,21 @@ def _on_video(video: Rect, dp: float) -> dict[str, Rect]:
     """Depth and commanded motion on a small picture, each in a line."""
     gap, high = 8 * dp, 46 * dp
     corner = Rect(video.x + gap, video.top - gap - high, 132 * dp, high)
-    return {"corner": corner, "motion": Rect(video.x + gap, video.y + gap, video.width - 2 * gap, high)}
+    motion = Rect(video.x + gap, video.y + gap, video.width - 2 * gap, high)
+    return {"corner": corner, "motion": motion} | _sensors(video, corner, dp)
+
+
+def _sensors(video: Rect, corner: Rect, dp: float) -> dict[str, Rect]:
+    """The strip of the small sensors beside the corner, and where it unfolds: over the picture, from its upper edge."""
+    gap = 8 * dp
+    wide = min(video.right - corner.right - 2 * gap, 326 * dp)
+    strip = Rect(video.right - gap - wide, corner.top - STRIP * dp, wide, STRIP * dp)
+    room = Rect(video.x + gap, video.y + gap, video.width - 2 * gap, corner.top - video.y - gap)
+    width, height = min(room.width, 420 * dp), min(room.height, 240 * dp)
+    return {
+        "senses": strip,
+        "senses_open": Rect(room.right - width, room.top - height, width, height),
+    }
 
 
 def _notices(video: Rect, dp: float) -> dict[str, Rect]:

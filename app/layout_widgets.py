@@ -11,7 +11,6 @@ from app.layout_faults import LayoutError, one_of, said
 from bridge.msgs.geometry_msgs import PoseStamped
 from bridge.topics import topic
 from widgets.base import Control
-from widgets.gauge import Gauge
 from widgets.grip import Grip
 from widgets.icons import ICONS
 from widgets.stick import Stick
@@ -31,7 +30,7 @@ def check_instrument(where: str, slot: str, name: str, topics: Iterable[str], kn
         kind = getattr(widgets, one)
         if slot == FIGURES or one == FIGURE:
             return slot == FIGURES and one == FIGURE
-        return _only_shows(kind) and (slot != SENSES or issubclass(kind, Gauge))
+        return _only_shows(kind) and (slot != SENSES or hasattr(kind, "card"))
 
     if not goes(name):
         raise LayoutError(f"{where}: an instrument in {slot} is one of {_listed(known, goes)}, not {name}.")

@@ -5,30 +5,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from kivy.properties import ObjectProperty
-from kivy.uix.boxlayout import BoxLayout
-from kivy.uix.floatlayout import FloatLayout
-from kivy.uix.widget import Widget
-
-from app.actions import CARRIED, Actions
+from app.actions import CARRIED
 from app.arrange_dive import dive
-from app.camera import Picture
-from app.dashboard import Dashboard
-from app.feeds import Post
-from app.layout import Action, Layout
-from app.link import OFFER
+from app.layout import Layout
 from app.rects import Rect, StopPlace
-from app.screens.check_card import CheckCard
-from app.screens.hands import Hands
-from app.screens.in_vain import InVain
-from app.screens.instruments import Instruments
-from app.screens.placing import AWAY, put
-from app.session import Session
-from bridge.msgs.vision_msgs import Detection2DArray
-from widgets import ActionColumn, Video
+from app.screens.driving import Driving
+from app.screens.placing import AWAY, off, put
+from widgets import ActionColumn
 from widgets.action_column import Action as Offered
 from widgets.kit import Card
-from widgets.stick import Stick
 
 __all__ = ["DiveScreen"]
 
@@ -42,71 +27,37 @@ SWITCHES = ("Tab", "Enter")
 """Keys that work the column, as switches send them: on to the next action, and do it."""
 
 
-class DiveScreen(FloatLayout):
+class DiveScreen(Driving):
     """Drive one robot by hand, and have it do things by two switches."""
 
-    app = ObjectProperty()
-    session: Session = ObjectProperty()
+    corner = 14
     speed = None
     """Nothing here says how fast the hands are at the end of their way: as fast as the robot may."""
 
-    def __init__(self, layout: Layout, **kwargs: Any) -> None:
-        """`layout` says what sits where."""
-        super().__init__(**kwargs)
-        session = self.session
-        self._arranged: dict[str, Rect] = {}
-        self._cover: Rect | None = None
-        self.notice = Rect(0, 0, 1, 1)
-        self.dashboard = Dashboard(session.feeds)
-        self.video = Video(fit="cover", corner=14)
-        self.in_vain = InVain(session, self.app)
+    def fill(self, layout: Layout) -> None:
+        """Put everything on the glass: the picture below, what is touched above what is only seen."""
         self._listed = (*(line.what for line in layout.actions), *CARRIED)
-        confirmed = (Action(one.action) for one in layout.controls if one.action)
-        self.does = Actions((*layout.actions, *confirmed), session, self.app)
-        self.instruments = Instruments(layout, self.dashboard, session.feeds)
-        self.hands = Hands(layout, session, self.dashboard, self.does, self.in_vain)
         self.column = ActionColumn()
         self.column.bind(on_action=lambda _, what: self._act(what))
-        self._arm_open = False
+        self._arm_open, self._strip = False, Rect(0, 0, 0, 0)
         self.panel, self.ground = Card(), Card()
-        self.places: dict[str, list[Widget]] = {}
-        self._fill()
-        self.low = BoxLayout(orientation="vertical", spacing="8dp", size_hint=(None, None))
-        """For cards that hold on until they are dealt with, each with a height of its own; they grow upwards."""
-        self.low.bind(minimum_height=self.low.setter("height"), height=self._uncover)
-        self.add_widget(self.low)
-        self.checks = CheckCard(session, self.dashboard, brief=True, pos_hint={"center_x": 0.5})
-        self.low.add_widget(self.checks)
-        self.dashboard.bind(
-            self.video,
-            "/detections",
-            lambda found: self.video.show(session.found_in_picture(found)),
-            fresh=False,
-            empty=Detection2DArray(),
-        )
-        self.ids.update({"video": self.video, "column": self.column})
-
-    def _fill(self) -> None:
-        """Put everything on the glass: the picture below, what is touched above what is only seen."""
         found = self.instruments.places
         left = found.get("left", [])
         for widget in left[1:]:
             if hasattr(widget, "card"):
                 widget.card = False
-        self._place("video", self.video)
-        self._place("panel", self.panel)
-        self._place("hands", self.ground)
+        self.place("video", self.video)
+        self.place("panel", self.panel)
+        self.place("hands", self.ground)
         for slot, widget in zip(SEEN, left, strict=False):
-            self._place(slot, widget)
+            self.place(slot, widget)
         for places in ({slot: found.get(slot, []) for slot in HIDES}, self.hands.places):
             for slot, those in places.items():
                 for widget in those:
-                    self._place(slot, widget)
-        self._place("actions", self.column)
-
-    def _place(self, slot: str, widget: Widget) -> None:
-        self.places.setdefault(slot, []).append(widget)
-        self.add_widget(widget)
+                    self.place(slot, widget)
+        self.place("actions", self.column)
+        self.add_widget(self.senses)
+        self.ids.update({"video": self.video, "column": self.column})
 
     def _act(self, what: str) -> None:
         if what == ARM:
@@ -124,32 +75,22 @@ class DiveScreen(FloatLayout):
             self.remove_widget(panel)
         if panel is None or not self._arm_open:
             return
-        legs, other = self._arranged["legs"], self._arranged["panel"]
+        legs, other = self.arranged["legs"], self.arranged["panel"]
         low, right = min(legs.y, other.y), max(legs.right, other.right)
         place = legs if wide else Rect(legs.x, low, right - legs.x, legs.top - low)
         put(panel, place)
         self.add_widget(panel)
         for slot, found in self.places.items():
-            rect = self._arranged.get(slot)
+            rect = self.arranged.get(slot)
             for widget in found if rect is not None and rect.overlaps(place) else ():
-                put(widget, Rect(AWAY, widget.y, widget.width, widget.height))
+                put(widget, off(Rect(*widget.pos, *widget.size)))
 
     # what the inputs look at
 
     @property
-    def stick(self) -> Any:
-        """The first control that drives; None without one."""
-        return next((stick for stick, _ in self.sticks), None)
-
-    @property
-    def sticks(self) -> list[tuple[Stick, str]]:
-        """What drives and is on the glass, each with the stick of a gamepad that pushes it too."""
-        return self.hands.sticks
-
-    @property
     def grips(self) -> list[Any]:
         """What a finger may hold besides."""
-        return [*self.hands.grips, *([self.hands.arm.panel] if self._arm_open else [])]
+        return [*super().grips, *([self.hands.arm.panel] if self._arm_open else [])]
 
     def press_switch(self, key: str) -> None:
         """`Tab` or `Enter` was pressed: on to the next action, or do it. The first press of any shows which is the next."""
@@ -166,7 +107,7 @@ class DiveScreen(FloatLayout):
     def arrange(self, body: Rect, form: str, dp: float) -> StopPlace:
         """Put everything into its place; returns where STOP goes."""
         places, stop = dive(body, form, dp)
-        self._arranged = places
+        self.arranged = places
         wide = form == "wide"
         column, self.notice = self.column, places["notice"]
         column.framed = column.titled = wide
@@ -178,71 +119,41 @@ class DiveScreen(FloatLayout):
             for widget in found:
                 put(widget, places.get(slot, Rect(AWAY, 0, 1, 1)))
         self._place_arm(wide)
-        corner = places["corner"]
-        self.video.insets = [corner.right - self.video.x, 0, 0, 0]
-        low = places["notice_low"]
-        self.low.pos, self.low.width = (low.x, low.y), low.width
-        self.checks.wide, self.checks.room = min(low.width, 340 * dp), self.video.top - 8 * dp - low.y
-        self._uncover()
+        self.place_checks(places["notice_low"], self.video.top, dp)
+        self._strip = Rect(0, 0, 0, 0)
+        self.uncover()
         return stop
 
-    def clear(self, cover: Rect | None) -> None:
-        """Take away what would be seen only in part behind what is said over the screen."""
-        self._cover = cover
-        self._uncover()
-
-    def _uncover(self, *_: object) -> None:
+    def uncover(self) -> None:
         """What lies under what is said, or under what holds on, is not seen, not even at its corners."""
-        if not self._arranged:
-            return
-        cover, low = self._cover, Rect(*self.low.pos, *self.low.size)
-        under = cover is not None and cover.overlaps(low)
-        self.low.opacity, self.low.disabled = float(not under), under
-        lids = [lid for lid in (cover, None if under else low) if lid is not None]
+        low = None if self.hide_checks() else Rect(*self.low.pos, *self.low.size)
+        lids = [lid for lid in (self.cover, low) if lid is not None]
+        strip, unfolded = self.arranged["senses"], self.arranged["senses_open"]
+        away = any(lid.overlaps(strip) for lid in lids)
+        place = off(strip) if away else strip
+        if place != self._strip:
+            self._strip = place
+            self.senses.place(place, off(unfolded) if away else unfolded)
+        if self.senses.covers:
+            lids.append(unfolded)
+        below = self.video.top - strip.y if self.senses.shown else 0
+        self.video.insets = [self.arranged["corner"].right - self.video.x, 0, 0, below]
         for slot in HIDES:
-            place = self._arranged[slot]
+            place = self.arranged[slot]
             hidden = any(lid.overlaps(place) for lid in lids)
             for widget in self.places.get(slot, ()):
                 widget.opacity = 0 if hidden else 1
-                put(widget, Rect(AWAY, place.y, place.width, place.height) if hidden else place)
+                put(widget, off(place) if hidden else place)
 
-    def hear(self, channel: str, post: Post) -> None:
-        """A message came."""
-        self.dashboard.deliver(channel, post.value)
-        self.hands.hear(channel, post)
-        if channel == "/robot/info":
-            self._meet()
-        elif channel == OFFER:
-            self.instruments.name_sources(self.session.offer)
-
-    def _meet(self) -> None:
+    def meet(self) -> None:
+        """The robot said what it is: what swims shows its motion in the water."""
         for widget in self.instruments.places.get("motion", ()):
             if hasattr(widget, "under_water"):
                 widget.under_water = self.session.info.kind == "hexapod"
 
-    def enter(self) -> None:
-        """Come onto the glass."""
-        self.hands.take_limits()
-        self._meet()
-        self.instruments.name_sources(self.session.offer)
-        self.dashboard.enter()
-        self.tick()
-
-    def leave(self) -> None:
-        """Leave the glass."""
-        self.rest()
-        self.dashboard.leave()
-
-    def rest(self) -> None:
-        """Every control lets go."""
-        self.hands.rest()
-
     def tick(self) -> None:
         """Bring up to date what time changes."""
-        self.dashboard.tick()
-        self.in_vain.tick()
-        self.checks.tick()
-        self.hands.tick()
+        super().tick()
         actions = [action for action in self.does.look() if action.name in self._listed]
         if self.hands.arm.carried:
             said = "open" if self._arm_open else ""
@@ -251,8 +162,3 @@ class DiveScreen(FloatLayout):
             self.app.shell.settle()
         if actions != self.column.actions:
             self.column.actions = actions
-
-    def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
-        """A decoded camera frame; `rate` [Hz] and `latency` [s] are said on it, NaN for unknown."""
-        self.video.show_frame(picture.width, picture.height, picture.rgba, picture.taken)
-        self.video.rate, self.video.latency = rate, latency

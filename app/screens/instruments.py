@@ -20,6 +20,20 @@ LONGEST_NAME = 14
 SENSES = "senses"
 """The slot whose widgets look after themselves, by what the robot has."""
 
+CARRIED = (
+    Instrument(
+        SENSES,
+        "UltrasoundView",
+        "/range/front",
+        title="Ultrasound",
+        also=("/range/left", "/range/right", "/range/rear"),
+    ),
+    Instrument(SENSES, "SonarRingView", "/sonar", title="Sonar"),
+    Instrument(SENSES, "LineSensorView", "/line_sensor", title="Line"),
+    Instrument(SENSES, "LaserScanView", "/scan", title="Laser"),
+)
+"""Of what any robot may carry: among the small sensors of one whose layout does not name it, once it says something."""
+
 
 class Instruments:
     """Made once for a screen; the screen puts them where they belong."""
@@ -33,7 +47,8 @@ class Instruments:
         """Small sensors with their topics."""
         self._titled: list[tuple[Any, Instrument]] = []
         self._places_told: list[tuple[Readout, Instrument]] = []
-        for one in layout.instruments:
+        shown = {name for one in layout.instruments for name in one.topics}
+        for one in (*layout.instruments, *(one for one in CARRIED if one.topic not in shown)):
             self._add(one)
 
     def _add(self, one: Instrument) -> None:

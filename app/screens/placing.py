@@ -20,6 +20,11 @@ def put(widget: Widget, rect: Rect) -> None:
     widget.pos, widget.size = (rect.x, rect.y), (rect.width, rect.height)
 
 
+def off(place: Rect) -> Rect:
+    """As large, off the glass."""
+    return Rect(AWAY, place.y, place.width, place.height)
+
+
 def above(place: Rect, cover: Rect | None, dp: float) -> Rect:
     """What is left of a place above what covers its lower part; all of it where nothing does.
 

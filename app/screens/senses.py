@@ -184,6 +184,8 @@ def _card(room: Rect, count: int, handle: float) -> list[Rect]:
     left = first.right + gap
     if count == 2:
         return [first, Rect(left, inner.y, inner.right - left - handle, inner.height)]
+    if count > 3:
+        return [first, *_grid(Rect(left, inner.y, inner.right - left, inner.height), count - 1, gap, handle)]
     upper = (inner.height - gap) * SECOND
     lower = inner.height - gap - upper
     return [
@@ -191,3 +193,15 @@ def _card(room: Rect, count: int, handle: float) -> list[Rect]:
         Rect(left, inner.top - upper, inner.right - left - handle, upper),
         Rect(left, inner.y, inner.right - left, lower),
     ]
+
+
+def _grid(room: Rect, count: int, gap: float, handle: float) -> list[Rect]:
+    """In two rows, the upper one clear of the sign [px]."""
+    high, places = (room.height - gap) / 2, []
+    for low, many, width in (
+        (room.top - high, count // 2, room.width - handle),
+        (room.y, count - count // 2, room.width),
+    ):
+        wide = (width - gap * (many - 1)) / many
+        places += [Rect(room.x + n * (wide + gap), low, wide, high) for n in range(many)]
+    return places

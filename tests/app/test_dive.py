@@ -7,7 +7,9 @@ from typing import Any
 import pytest
 
 from app.rects import Rect
-from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo, StartTaskRequest
+from bridge.msgs.arrays import Float32Array
+from bridge.msgs.pilothouse_msgs import LineSensor, Manoeuvre, RobotInfo, StartTaskRequest
+from bridge.msgs.sensor_msgs import LaserScan
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 from widgets.order_form import FormRow
@@ -95,3 +97,27 @@ def test_its_tasks_screen_offers_what_it_knows_and_asks_for_a_depth(driving: Gla
     driving.stage.frames(2)
     assert next(row.title for row in tasks.pane.form.walk() if isinstance(row, FormRow)) == "Depth"
     assert tasks.ids["go"].disabled
+
+
+def test_what_a_swimmer_carries_is_on_a_strip_over_the_picture_that_unfolds(
+    driving: Glass, robot: FakeRobot, diving: Any
+) -> None:
+    assert not diving.senses.shown
+    top = diving.video.insets[3]
+    robot.publish("/line_sensor", LineSensor(values=Float32Array([0.1, 0.8])))
+    robot.publish("/scan", LaserScan(angle_increment=0.1, range_max=9.0, ranges=Float32Array([1.0, 2.0])))
+    driving.until(lambda: len(diving.senses.shown) == 2, "it is nowhere to be seen")
+    assert [type(one).__name__ for one in diving.senses.shown] == ["LineSensorView", "LaserScanView"]
+    driving.stage.frames(2)
+    assert diving.senses.folded
+    assert diving.video.insets[3] > top, "the picture's own words keep clear of it"
+    driving.tap(diving.senses)
+    driving.stage.frames(2)
+    (depth,) = diving.places["corner"]
+    room = Rect(*diving.senses.pos, *diving.senses.size)
+    assert not diving.senses.folded
+    assert room.overlaps(diving.arranged["corner"]) == (depth.right < 0), "nothing is seen only in part"
+    diving.clear(room)
+    assert diving.senses.right < 0
+    diving.clear(None)
+    assert diving.senses.x > 0

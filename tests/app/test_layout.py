@@ -104,7 +104,7 @@ def control(**changes: str) -> str:
             one(widget="Readout", topic="/odom", field="twist.twist.linear.x"),
             "in top is one of .*, not Readout",
         ),
-        (one(slot="senses", widget="HeadingTape"), "in senses is one of LineSensorView, not HeadingTape"),
+        (one(slot="senses"), "in senses is one of HeadingTape, LaserScanView, LineSensorView, not Compass"),
         (one(digits=-3), "digits is a whole number from 0 to 6, not -3"),
         (one(digits=1.5), "digits is a whole number from 0 to 6, not 1.5"),
         (one() + "\nfactor = nan", "factor is a number that can be reckoned with, not nan"),
