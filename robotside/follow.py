@@ -95,6 +95,9 @@ class Follower:
         return max(manner.creep, min(self._cruise, by_bend, by_goal))
 
     def _advance(self, pose: Pose2) -> None:
-        window = self.path[self._index : self._index + 20]
-        distances = np.hypot(window[:, 0] - pose.x, window[:, 1] - pose.y)
-        self._index += int(distances.argmin())
+        while True:  # a way that was long looked for begins some way back
+            window = self.path[self._index : self._index + 20]
+            on = int(np.hypot(window[:, 0] - pose.x, window[:, 1] - pose.y).argmin())
+            if not on:
+                return
+            self._index += on

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Generator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from bridge.msgs.nav_msgs import OccupancyGrid
 from robotside.nearness import distance_from
 from robotside.pose2 import Points
+from robotside.wave import BIT, bits
 from robotside.words import number
 
 __all__ = ["OCCUPIED", "Grid"]
@@ -22,6 +24,9 @@ OCCUPIED = 50
 
 EDGES = (0.001, 10.0)
 """Least and greatest width of a cell of any use [m]: a finer map of a place is one of nothing."""
+
+STAMPS = 20
+"""Points that one step marks."""
 
 FARTHEST = 1e8
 """How far a map's corner may be from its frame's origin [m]."""
@@ -95,6 +100,32 @@ class Grid:
         rows, columns, inside = self._cells(points)
         occupied[rows[inside], columns[inside]] = True
         return replace(self, occupied=occupied)
+
+    def seeing(self, points: Points, reach: float) -> Generator[None, None, Grid]:
+        """What `marked` gives, bit by bit and without looking at the whole map again.
+
+        `distance` is right up to `reach` [m] from `points`; farther from them it may be that of the map without them.
+        """
+        if not len(points):
+            return self
+        rows, columns, inside = self._cells(points)
+        cells = np.unique(np.column_stack([rows[inside], columns[inside]]), axis=0)
+        occupied, distance = self.occupied.copy(), self.distance.copy()
+        occupied[cells[:, 0], cells[:, 1]] = True
+        yield from bits(occupied.size, 10 * BIT)
+        most = math.ceil(reach / self.resolution) + 1
+        side = np.arange(-most, most + 1)
+        stamp = (np.hypot(side[:, None], side[None, :]) - 0.5) * self.resolution
+        for done, (row, column) in enumerate(cells.tolist()):
+            if done % STAMPS == 0:
+                yield
+            top, left = max(0, row - most), max(0, column - most)
+            here = distance[top : row + most + 1, left : column + most + 1]
+            down, right = top - row + most, left - column + most
+            np.minimum(here, stamp[down : down + here.shape[0], right : right + here.shape[1]], out=here)
+        marked = replace(self, occupied=occupied)
+        marked.__dict__["distance"] = distance
+        return marked
 
     def cell(self, x: float, y: float) -> tuple[int, int]:
         """Row and column of a place; off the map when outside `occupied.shape`."""

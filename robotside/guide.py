@@ -210,7 +210,9 @@ class Guide:
             return Leg.BLOCKED if self.reason else Leg.UNDER_WAY
         if not going.under_way and not self.planning:
             self._ask(now)
-        if self.planning and not self._look(pose, goal, now):
+        looks = self.planning and not self._look(pose, goal, now)
+        if looks and (going.stands or not going.under_way):
+            self._robot.stop()  # it may be rolling still, with no way to roll along
             return Leg.BLOCKED if self.reason else Leg.UNDER_WAY
         if going.arrived(pose):
             return self._face(pose, goal)
@@ -219,7 +221,9 @@ class Guide:
             return Leg.BLOCKED
         if now - self._planned >= REPLAN and self._in_the_way(now):
             self._ask(now)
-        if not self.planning or self._look(pose, goal, now):
+        if self.planning and not looks:
+            looks = not self._look(pose, goal, now)
+        if not looks or not going.stands:
             going.steer(pose, points, sure=self.sure)
         return Leg.UNDER_WAY
 

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from skimage.graph import MCP_Geometric
 
 from robotside.grid import Grid
 from robotside.pose2 import Points, Pose2
+from robotside.wave import Wave, bits
 
 __all__ = ["MOST", "Lattice", "Piece"]
 
@@ -44,6 +44,9 @@ MOST = 5_000
 
 FIELD = 0.4
 """Cells of the map by which the rest of the way is reckoned [m]."""
+
+DEEP = 1.0
+"""So far from the surface of a wall no way is reckoned [m]."""
 
 FINE, ROUGH = 0.1, 1.2
 """Between two points of a way, and where it is only seen whether it may be one [m]."""
@@ -93,8 +96,8 @@ class Lattice:
                 return pieces
 
     def search(self, start: Pose2, goal: tuple[float, float, float]) -> Generator[None, None, list[Piece]]:
-        """The same, bit by bit: it yields before each pose that it looks at, at most `MOST` times."""
-        field = self._field(goal)
+        """The same, bit by bit: it yields before each of at most `MOST` poses that it looks at, and while it reckons before."""
+        field = yield from self._field(goal)
         room = float(self._room(np.array([start])).min())
         first = _Node(start, 0.0, None, 0.0, 0.0)
         number = itertools.count()
@@ -119,25 +122,29 @@ class Lattice:
                         heapq.heappush(queue, (child.cost + 1.2 * left, next(number), child))
         return []
 
-    def _field(self, goal: tuple[float, float, float]) -> Callable[[float, float], float]:
+    def _field(
+        self, goal: tuple[float, float, float]
+    ) -> Generator[None, None, Callable[[float, float], float]]:
         """The way that is left to the goal for a disc [m], by place."""
         grid = self._grid
         factor = max(1, round(FIELD / grid.resolution))
         room = self._distance[::factor, ::factor]
-        cost = np.where(room > self._need * 0.8, 1.0, np.inf)
         row, column = (index // factor for index in grid.cell(goal[0], goal[1]))
-        row, column = min(max(row, 0), cost.shape[0] - 1), min(max(column, 0), cost.shape[1] - 1)
-        cost[row, column] = 1.0
-        # what stands too close already has to come away
-        costs = np.where(np.isfinite(cost), cost, 8.0 * (room > 0) + 1e3 * (room <= 0))
-        left, _ = MCP_Geometric(costs).find_costs([(row, column)])
+        row, column = min(max(row, 0), room.shape[0] - 1), min(max(column, 0), room.shape[1] - 1)
+        wave = Wave(room.shape, (row, column))
+        # what stands too close already has to come away, but not from deep in a wall
+        inside = np.where(room > -DEEP, 1e3, np.inf)
+        wave.price[:] = np.where(room > self._need * 0.8, 1.0, np.where(room > 0, 8.0, inside))
+        wave.price[row, column] = 1.0
+        yield from bits(room.size)
+        yield from wave.spread()
+        left = wave.cost
         rows, columns = left.shape
         step = grid.resolution * factor
-        table = (left * step).tolist()
 
         def at(x: float, y: float) -> float:
             i, j = int((y - grid.y) / step), int((x - grid.x) / step)
-            return float(table[i][j]) if 0 <= i < rows and 0 <= j < columns else math.inf
+            return left.item(i, j) * step if 0 <= i < rows and 0 <= j < columns else math.inf
 
         return at
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Generator
 
 import numpy as np
-from numpy.typing import NDArray
-from skimage.graph import route_through_array
 
 from robotside.grid import Grid
 from robotside.pose2 import Points
+from robotside.wave import Bits, Cell, Wave, bits, rows_at_once
 from robotside.words import number
 
 __all__ = ["MARGIN", "PREFERRED", "STEP", "Planner", "Unreachable", "place_sentence"]
@@ -25,6 +25,12 @@ STEP = 0.1
 
 CELL = 0.1
 """Least width of a cell when searching [m]; finer maps are made coarser, since time grows with their area."""
+
+REACH = 1.0
+"""Beside the body it matters how near something new is up to here [m]."""
+
+PULLED = 300
+"""Points of a line that one step looks at."""
 
 ESCAPE = 0.6
 """A robot that stands too close to something may cross that zone within this distance of itself [m]."""
@@ -51,6 +57,8 @@ class Planner:
         self.grid = grid.coarser(factor) if factor > 1 else grid
         self._need = radius + MARGIN
         self._want = radius + PREFERRED
+        self._reach = radius + REACH
+        _ = self.grid.distance  # now, and not while somebody waits for a way
 
     def fault(self, name: str, x: float, y: float) -> str:
         """Why the robot cannot stand at this place, as one sentence; empty when it can."""
@@ -84,13 +92,35 @@ class Planner:
 
         Raises Unreachable with a sentence that calls the goal `name`.
         """
+        search = self.search(start, goal, name, obstacles)
+        while True:
+            try:
+                next(search)
+            except StopIteration as found:
+                path: Points = found.value
+                return path
+
+    def search(
+        self,
+        start: tuple[float, float],
+        goal: tuple[float, float],
+        name: str,
+        obstacles: Points | None = None,
+    ) -> Generator[None, None, Points]:
+        """The same, bit by bit: each step takes a fraction of a millisecond, however large the map is."""
         self._check_on_map(start, goal, name)
-        grid = self.grid if obstacles is None or not len(obstacles) else self.grid.marked(obstacles)
+        grid = self.grid if obstacles is None else (yield from self.seeing(obstacles))
         straight = np.array([start, goal])
+        yield from bits(round(math.dist(start, goal) / STEP), PULLED)
         if _room_along(grid, straight) >= self._want:
             return resampled(straight)
-        route = self._route(grid, start, goal, name)
-        return resampled(_rounded(resampled(self._pulled(grid, route))))
+        route = yield from self._route(grid, start, goal, name)
+        pulled = yield from self._pulled(grid, route)
+        return resampled(_rounded(resampled(pulled)))
+
+    def seeing(self, obstacles: Points) -> Generator[None, None, Grid]:
+        """The map with `obstacles` on it, bit by bit; how far they are is right as far as it matters to this robot."""
+        return (yield from self.grid.seeing(obstacles, self._reach))
 
     def _check_on_map(self, start: tuple[float, float], goal: tuple[float, float], name: str) -> None:
         if not self.grid.holds(*start):
@@ -98,36 +128,50 @@ class Planner:
         if not self.grid.holds(*goal):
             raise Unreachable(f"{place_sentence(name, *goal)} is off the map.")
 
-    def _route(self, grid: Grid, start: tuple[float, float], goal: tuple[float, float], name: str) -> Points:
-        cost = self._costs(grid, start)
+    def _route(
+        self, grid: Grid, start: tuple[float, float], goal: tuple[float, float], name: str
+    ) -> Generator[None, None, Points]:
         from_cell, to_cell = grid.cell(*start), grid.cell(*goal)
-        cost[from_cell] = 1.0
-        if not math.isfinite(cost[to_cell]):
+        wave = Wave(grid.occupied.shape, from_cell)
+        yield from self._price(grid, from_cell, wave)
+        if not math.isfinite(wave.price[to_cell]):
             raise Unreachable(f"{place_sentence(name, *goal)} is too close to an obstacle.")
-        cells, total = _search(cost, from_cell, to_cell)
-        if not math.isfinite(total):
+        yield from wave.spread(to_cell)
+        cells = wave.way(to_cell)
+        if not len(cells):
             raise Unreachable(f"There is no way to {place_sentence(name, *goal)}.")
-        inner = [grid.centre(row, column) for row, column in cells[1:-1]]
-        return np.array([start, *inner, goal])
+        yield from bits(len(cells), PULLED)
+        inner = np.array([grid.x, grid.y]) + (cells[1:-1, ::-1] + 0.5) * grid.resolution
+        return np.concatenate([[start], inner, [goal]])
 
-    def _costs(self, grid: Grid, start: tuple[float, float]) -> NDArray[np.float64]:
-        room = grid.distance
-        cost = 1.0 + 8.0 * np.clip((self._want - room) / (self._want - self._need), 0.0, 1.0) ** 2
-        tight = room < self._need
-        rows, columns = np.ogrid[: room.shape[0], : room.shape[1]]
-        row, column = grid.cell(*start)
-        near = (rows - row) ** 2 + (columns - column) ** 2 <= (ESCAPE / grid.resolution) ** 2
-        cost[tight] = np.inf
-        cost[tight & near & (room > 0)] = 30.0
-        return np.asarray(cost, dtype=np.float64)
+    def _price(self, grid: Grid, start: Cell, wave: Wave) -> Bits:
+        price, distance = wave.price, grid.distance
+        for rows in rows_at_once(distance.shape):
+            room = distance[rows]
+            tight = np.clip((self._want - room) / (self._want - self._need), 0.0, 1.0)
+            price[rows] = np.where(room < self._need, np.inf, 1.0 + 8.0 * tight**2)
+            yield
+        far = math.ceil(ESCAPE / grid.resolution)
+        near = tuple(slice(max(0, at - far), at + far + 1) for at in start)
+        rows_near, columns_near = np.ogrid[: distance.shape[0], : distance.shape[1]]
+        gaps = (rows_near[near[0]] - start[0]) ** 2 + (columns_near[:, near[1]] - start[1]) ** 2
+        room = distance[near]
+        escapes = (room < self._need) & (room > 0) & (gaps <= (ESCAPE / grid.resolution) ** 2)
+        price[near][escapes] = 30.0
+        price[start] = 1.0
 
-    def _pulled(self, grid: Grid, route: Points) -> Points:
+    def _pulled(self, grid: Grid, route: Points) -> Generator[None, None, Points]:
         """The route with straight lines in place of detours, wherever the preferred room is left."""
         kept, here = [0], 0
+        narrow = (grid.clearance(route) < self._want).tolist()
         while here < len(route) - 1:
-            there = self._farthest(grid, route, here)
-            kept.append(there)
-            here = there
+            if narrow[here]:
+                here += 1  # no line from here has the room
+            else:
+                left = math.dist(route[here].tolist(), route[-1].tolist())
+                yield from bits(round(left / STEP) + PULLED, PULLED)
+                here = self._farthest(grid, route, here)
+            kept.append(here)
         return route[kept]
 
     def _farthest(self, grid: Grid, route: Points, here: int) -> int:
@@ -161,17 +205,6 @@ def _rounded(path: Points) -> Points:
     smooth = np.column_stack([np.convolve(longer[:, axis], _BELL, mode="valid") for axis in (0, 1)])
     smooth[0], smooth[-1] = path[0], path[-1]
     return smooth
-
-
-def _search(
-    cost: NDArray[np.float64], start: tuple[int, int], goal: tuple[int, int]
-) -> tuple[list[tuple[int, int]], float]:
-    """The cheapest cells from `start` to `goal`, and what they cost; infinite when there is no way."""
-    try:
-        cells, total = route_through_array(cost, start, goal, fully_connected=True, geometric=True)  # type: ignore[no-untyped-call]
-    except ValueError:
-        return [], math.inf
-    return cells, float(total)
 
 
 def _room_along(grid: Grid, line: Points) -> float:

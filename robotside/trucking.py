@@ -123,10 +123,11 @@ class Trucking(Grounded):
     ) -> Search:
         """For a way to `goal`, pose by pose. Unreachable raises."""
         self._speed = 0.0
-        grid = planner.grid.marked(obstacles) if len(obstacles) else planner.grid
+        grid = planner.grid
         for place, called in (((pose.x, pose.y), "The robot"), (goal[:2], name)):
             if not grid.holds(*place):
                 raise Unreachable(f"{place_sentence(called, *place)} is off the map.")
+        grid = yield from planner.seeing(obstacles)
         lattice = Lattice(grid, SPARE * self._bend, self.discs, self._girth, MARGIN)
         pieces = yield from lattice.search(pose, goal)
         if not pieces:

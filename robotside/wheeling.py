@@ -61,9 +61,8 @@ class Wheeling(Grounded):
     def search(
         self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
     ) -> Search:
-        """For a way to `goal`, in one go. Unreachable raises."""
-        yield from ()
-        path = planner.plan((pose.x, pose.y), goal[:2], name, obstacles)
+        """For a way to `goal`. Unreachable raises."""
+        path = yield from planner.search((pose.x, pose.y), goal[:2], name, obstacles)
         self._follower = Follower(path, cruise=self.cruise)
         return path
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Generator
 
 import numpy as np
 import pytest
@@ -16,6 +17,15 @@ RADIUS = 0.18
 
 def planner(*boxes: Box, resolution: float = 0.1) -> Planner:
     return Planner(Grid.from_msg(FakeRobot(boxes=boxes).map(resolution)), RADIUS)
+
+
+def to_its_end(search: Generator[None, None, Grid]) -> Grid:
+    while True:
+        try:
+            next(search)
+        except StopIteration as found:
+            value: Grid = found.value
+            return value
 
 
 def length(path: np.ndarray) -> float:
@@ -102,3 +112,13 @@ def test_unknown_cells_are_no_place_to_go() -> None:
     grid = Grid(data != 0, 0.1, -11.0, -7.0)
     assert not grid.occupied[60, 99]
     assert Planner(grid, RADIUS).fault("Point 1", -0.5, 0.0)
+
+
+def test_what_is_new_is_as_near_on_the_marked_map_as_on_one_that_is_looked_at_as_a_whole() -> None:
+    grid = Grid.from_msg(FakeRobot(boxes=(Box(-1.0, -1.0, 1.0, 1.0),)).map(0.1))
+    seen = np.array([[-3.0, 2.0], [-2.9, 2.0], [4.0, -4.0], [10.95, 6.9], [50.0, 0.0]])
+    quick, whole = to_its_end(grid.seeing(seen, 1.2)), grid.marked(seen)
+    assert (quick.occupied == whole.occupied).all()
+    near = whole.distance < 1.2
+    assert np.allclose(quick.distance[near], whole.distance[near])
+    assert (quick.distance[~near] >= 1.2).all()

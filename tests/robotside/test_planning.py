@@ -10,6 +10,7 @@ import msgspec
 import numpy as np
 import pytest
 
+from bridge.msgs.geometry_msgs import Twist
 from robotside import lattice
 from robotside.grid import Grid
 from robotside.guide import AT_ONCE, Goal, Guide, Leg
@@ -142,3 +143,50 @@ def test_another_place_takes_the_place_of_the_one_that_it_looks_for(tmp_path: Pa
     run.run(1.0)
     status = run.task
     assert (status.phase, run.station.autonomy.guide.planning) == ("driving", False)
+
+
+@pytest.mark.parametrize("kind", ["wheels", "boat", "hexapod", "quadrotor"])
+def test_every_kind_looks_for_a_way_a_bit_at_a_time_and_stands_meanwhile(
+    kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("robotside.guide.AT_ONCE", 1)
+    robot = truck(Box(0.0, -2.0, 0.4, 2.0))
+    robot.info = msgspec.structs.replace(robot.info, kind=kind)
+    guide = Guide(robot, Grid.from_msg(robot.map()), lambda _: None)
+    robot.drive(Twist.planar(0.5, 0.0))
+    guide.head_for(GOAL)
+    ticks = 0
+    while guide.going.under_way is False and ticks < 500:
+        assert guide.update(Pose2(*robot.pose), np.empty((0, 2)), ticks * 0.05) is Leg.UNDER_WAY
+        ticks += 1
+        assert guide.going.under_way or (guide.planning and robot.at_rest)
+    assert 5 < ticks < 500
+
+
+def test_while_it_looks_for_another_way_it_goes_on_along_the_one_that_it_has(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    robot = truck()
+    robot.info = msgspec.structs.replace(robot.info, kind="wheels")
+    guide = Guide(robot, Grid.from_msg(robot.map()), lambda _: None)
+    guide.head_for(GOAL)
+    nothing = np.empty((0, 2))
+    guide.update(Pose2(-4.0, 0.0, 0.0), nothing, 0.0)
+    assert guide.going.under_way
+    monkeypatch.setattr("robotside.guide.AT_ONCE", 1)
+    guide.obstacles.see(np.array([[1.0, 0.0]]), 2.0)
+    told = len(robot.commands)
+    guide.update(Pose2(-4.0, 0.0, 0.0), nothing, 2.0)
+    assert guide.planning
+    for tick in range(3):
+        guide.update(Pose2(-4.0, 0.0, 0.0), nothing, 2.05 + 0.05 * tick)
+        assert guide.planning
+    speeds = [twist.linear.x for twist in robot.commands[told:] if twist is not None]
+    assert len(speeds) == 4
+    assert min(speeds) > 0.05
+    # right before it something turns up: it brakes for that as ever
+    for tick in range(4):
+        guide.update(Pose2(-4.0, 0.0, 0.0), np.array([[0.22, 0.0]]), 2.2 + 0.05 * tick)
+        assert guide.planning
+    last = robot.commands[-1]
+    assert last is None or last.linear.x == 0.0
