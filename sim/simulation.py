@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from sim.backend_bullet import STEPS_PER_SECOND, Bullet
 from sim.camera import Studio
 from sim.scene import Scene
@@ -15,6 +17,9 @@ __all__ = ["Simulation"]
 
 SETTLING = STEPS_PER_SECOND // 2
 """Steps after which everything stands still on its wheels."""
+
+OVERLAP = 0.01
+"""Robots may start so far within something: shells are not exact [m]."""
 
 
 class Simulation:
@@ -30,7 +35,7 @@ class Simulation:
     ) -> None:
         """`robots` in `world`, at its start or at their own; the same `seed` gives the same run, bit for bit.
 
-        Raises ValueError with one sentence when one of them does not belong into this world.
+        Raises ValueError with one sentence when one of them does not belong into this world, or has no room at its start.
         """
         placed = [(entry, world.start) if isinstance(entry, Model) else entry for entry in robots]
         for model, _ in placed:
@@ -49,6 +54,7 @@ class Simulation:
             )
             for number, (model, start) in enumerate(placed)
         ]
+        self._refuse_overlaps(placed)
         self._looks = [model.looks for model, _ in placed]
         self.backend.show((world.start.x, world.start.y, world.start.z))
         self.steps = 0
@@ -101,6 +107,16 @@ class Simulation:
         """Free the physics, and what cameras draw with."""
         self.studio.close()
         self.backend.close()
+
+    def _refuse_overlaps(self, placed: Sequence[tuple[Model, Start]]) -> None:
+        """ValueError when a robot is put into something: the physics would fling it out."""
+        for vehicle, (model, start) in zip(self.vehicles, placed, strict=True):
+            if self.backend.crowded(vehicle.body, -OVERLAP, but=vehicle.raft):
+                self.close()
+                name, place = model.parameters.info.name, f"({start.x:g}, {start.y:g})"
+                raise ValueError(
+                    f"{name} has no room at {place} in {self.world.name}: something stands there."
+                )
 
     def _push(self) -> None:
         for vehicle in self.vehicles:

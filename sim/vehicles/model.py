@@ -45,6 +45,8 @@ class Vehicle(Protocol):
     """Its number in the physics."""
     bumper: BumperRing
     """Counts its bumps."""
+    raft: int
+    """Number of what it stands on where there is no ground; -1 for nothing."""
 
     @property
     def parameters(self) -> Parameters:

@@ -123,3 +123,22 @@ def test_robots_together_are_put_where_all_of_them_can_be() -> None:
 def test_a_start_that_was_given_is_kept() -> None:
     given = Start(1.0, 2.0)
     assert starts(load("parking_lot"), [ROBOTS["patrol"]], [given]) == [given]
+
+
+@pytest.mark.parametrize(
+    ("robots", "said"),
+    [
+        (
+            [("scout", Start(3.0, 0.9))],
+            r"Scout-1 has no room at \(3, 0\.9\) in narrow: something stands there\.",
+        ),
+        (
+            [("scout", Start(3.0, 0.0)), ("patrol", Start(3.1, 0.0))],
+            r"Scout-1 has no room at \(3, 0\) in narrow: something stands there\.",
+        ),
+    ],
+)
+def test_a_robot_that_is_put_into_something_is_refused(tmp_path, robots, said) -> None:
+    (tmp_path / "narrow.toml").write_text(NARROW, encoding="utf-8")
+    with pytest.raises(ValueError, match=said):
+        make_several(robots, str(tmp_path / "narrow.toml"), camera=False)
