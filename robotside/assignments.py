@@ -88,8 +88,13 @@ class Assignments:
         rng: random.Random,
         records: Records,
         fault: Callable[[str, float, float], str],
+        heights: tuple[float, float] = (-math.inf, math.inf),
     ) -> None:
-        """`fault` tells why the robot cannot or may not stand at a place that is called so; empty when it can."""
+        """`fault` tells why the robot cannot or may not stand at a place that is called so; empty when it can.
+
+        `heights` are the lowest and the highest at which it can and may be, above the map's origin [m].
+        """
+        self._heights = heights
         self._guide, self._situation, self._info = guide, situation, info
         self._say, self._rng, self._records, self._fault = say, rng, records, fault
         self._makers: dict[str, Callable[[TaskOrder], Task]] = {
@@ -247,10 +252,15 @@ class Assignments:
         name, kind = self._info.name, self._info.kind
         if kind not in ("quadrotor", "hexapod"):
             raise Refusal(f"{name} keeps no height; leave it out.")
-        if kind == "quadrotor" and not LOWEST <= height < math.inf:
-            raise Refusal(f"The height must be at least {LOWEST:g} m, not {height:g} m.")
-        if kind == "hexapod" and not -math.inf < height <= 0:
-            raise Refusal(f"The height must be 0 at the surface or negative below it, not {height:g} m.")
+        flies = kind == "quadrotor"
+        lowest, highest = self._heights
+        lowest, highest = (max(LOWEST, lowest), highest) if flies else (lowest, min(0.0, highest))
+        lowest = math.ceil(10 * lowest) / 10 if lowest > -math.inf else lowest
+        highest = math.floor(10 * highest) / 10 if highest < math.inf else highest
+        if math.isinf(height) or not lowest <= height <= highest:
+            allowed = _span_words(lowest, highest, "" if flies else ", 0 being the surface")
+            where = f" in {self._info.world}" if self._info.world else ""
+            raise Refusal(f"The height of {name}{where} must be {allowed}, not {height:g} m.")
 
     def _dock(self, order: TaskOrder) -> Task:
         dock = self._named_dock(order)
@@ -304,6 +314,15 @@ class Assignments:
         problem = self._fault(name, x, y)
         if problem:
             raise Refusal(problem)
+
+
+def _span_words(lowest: float, highest: float, more: str) -> str:
+    """What is allowed, as in `from 0.3 to 30 m`."""
+    if math.isinf(highest):
+        return f"at least {lowest:g} m{more}"
+    if math.isinf(lowest):
+        return f"at most {highest:g} m{more}"
+    return f"from {lowest:g} to {highest:g} m{more}"
 
 
 def _tidy(order: TaskOrder) -> TaskOrder:

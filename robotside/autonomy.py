@@ -82,11 +82,13 @@ class Autonomy:
         records: Records,
         fault: Callable[[str, float, float], str],
         fit: Callable[[Grid], Grid] = lambda grid: grid,
+        heights: tuple[float, float] = (-math.inf, math.inf),
     ) -> None:
         """`chart` is the map, None or of no use while there is none; `clock` is the operators' [s], by which the task's messages are stamped.
 
         `fault` tells why the robot cannot or may not stand at a place that is called so, empty when it can.
         `fit` makes of the map the one to plan on, with all occupied where the robot may not go.
+        `heights` are the lowest and the highest at which it can and may be [m].
         """
         info = robot.info
         self._bus, self._events, self._demand, self._fit = bus, events, demand, fit
@@ -119,7 +121,14 @@ class Autonomy:
             cruise=self.guide.cruise,
         )
         self.assignments = Assignments(
-            self.guide, self.situation, info, say=events.say, rng=rng, records=records, fault=fault
+            self.guide,
+            self.situation,
+            info,
+            say=events.say,
+            rng=rng,
+            records=records,
+            fault=fault,
+            heights=heights,
         )
         """What makes tasks of orders."""
         self._show_plan(np.empty((0, 2)))

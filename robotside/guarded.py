@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 
 from msgspec.structs import replace
@@ -10,7 +11,7 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Pose, Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.manoeuvres import BY_ITSELF, Order
-from robotside.robot import Equipped, Manoeuvrable, Resettable, Robot, Stoppable
+from robotside.robot import Equipped, Levelled, Manoeuvrable, Resettable, Robot, Stoppable
 
 __all__ = ["Guarded", "port_info"]
 
@@ -107,6 +108,11 @@ class Guarded:
             self._robot.command(payload, order)
             return
         raise ValueError(f"{self.info.name} has no {payload.replace('_', ' ')} that takes orders.")
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        """The lowest and the highest at which it can be, above the map's origin [m]; infinite where nobody knows."""
+        return self._robot.heights if isinstance(self._robot, Levelled) else (-math.inf, math.inf)
 
     @property
     def equipped(self) -> bool:

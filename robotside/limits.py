@@ -127,6 +127,10 @@ class Keeper:
             keep_out=[_polygon(ring) for ring in told.keep_out],
         )
 
+    def heights(self, own: tuple[float, float]) -> tuple[float, float]:
+        """The lowest and the highest [m] at which it may be that can go from one to the other of its `own`."""
+        return max(own[0], self._deepest), min(own[1], self._height)
+
     def fault(self, name: str, x: float, y: float) -> str:
         """Why the robot may not be sent to a place [m, in `map`], as one sentence that calls it `name`; empty when it may."""
         if not self._fence:

@@ -9,7 +9,7 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Pose, Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 
-__all__ = ["Equipped", "Manoeuvrable", "Resettable", "Robot", "Stoppable"]
+__all__ = ["Equipped", "Levelled", "Manoeuvrable", "Resettable", "Robot", "Stoppable"]
 
 
 class Robot(Protocol):
@@ -59,6 +59,15 @@ class Manoeuvrable(Protocol):
 
     def manoeuvre(self, order: Manoeuvre) -> None:
         """Move by `order` until told otherwise; ValueError with one sentence when it cannot, which changes nothing."""
+
+
+@runtime_checkable
+class Levelled(Protocol):
+    """A robot that knows how high and how deep it can go."""
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        """The lowest and the highest at which it can be, above the map's origin [m]; infinite where nothing ends."""
 
 
 @runtime_checkable

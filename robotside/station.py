@@ -430,6 +430,7 @@ class Station:
             records=self.records,
             fault=self.fault,
             fit=self.keeper.marked,
+            heights=self.keeper.heights(self.robot.heights),
         )
 
     def _helm(self, config: Config) -> Helm:

@@ -118,6 +118,11 @@ class SimRobot:
             for entry in self.simulation.world.places
         ]
 
+    @property
+    def heights(self) -> tuple[float, float]:
+        """The lowest and the highest at which it can be, above the map's origin [m]."""
+        return self._vehicle.heights
+
     def drive(self, twist: Twist) -> None:
         """Go for `twist` in `base_link`, within its limits, until the next `drive` or `stop`."""
         self.manoeuvre(Manoeuvre(kind="twist", twist=twist))

@@ -16,6 +16,9 @@ __all__ = ["Land", "Surface", "TakeOff"]
 CLIMBS_FOR, SINKS_FOR, RISES_FOR = 60.0, 150.0, 300.0
 """To take off, to land and to surface takes no longer [s]."""
 
+RISES_BY, WITHIN = 0.1, 20.0
+"""To take off, it comes nearer to its height by so much [m] within so long [s]; otherwise there is something that holds it."""
+
 AT_HEIGHT = 0.25
 """It is where it was told within this [m]."""
 
@@ -70,6 +73,26 @@ class TakeOff(_UpAndDown):
     """Succeeds in the air; one that flies already goes to the height that is asked for."""
 
     title, order, lasts = "Taking off", "take_off", CLIMBS_FOR
+
+    _nearest, _since = math.inf, 0.0
+
+    def initialise(self) -> None:
+        """Begin where it is."""
+        super().initialise()
+        self._nearest, self._since = math.inf, self._began
+
+    def update(self) -> Status:
+        """Go on, as long as it gets on."""
+        status, now = super().update(), self._situation.worked
+        off = abs(self._guide.height - self._height)
+        if off < self._nearest - RISES_BY:
+            self._nearest, self._since = off, now
+        if status is not Status.RUNNING or math.isnan(off) or now - self._since < WITHIN:
+            return status
+        self._guide.reason = (
+            f"It comes no nearer to {self._height:g} m than {self._guide.height:.1f} m; it stays there."
+        )
+        return Status.FAILURE
 
     def done(self) -> bool:
         """It flies, as high as it should."""

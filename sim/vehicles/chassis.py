@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from typing import ClassVar, Generic, Protocol, TypeVar
 
@@ -64,6 +65,11 @@ class Chassis(Generic[P]):
         self.grounded = False
         """Its shell touches the ground or something else."""
         self._step = 0
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        """The lowest and the highest at which it can be, above the map's origin [m]; of one that keeps no height, any."""
+        return -math.inf, math.inf
 
     def drive(self, twist: Twist) -> None:
         """Go for `twist` until told otherwise."""

@@ -52,6 +52,10 @@ class Vehicle(Protocol):
     def parameters(self) -> Parameters:
         """Its numbers."""
 
+    @property
+    def heights(self) -> tuple[float, float]:
+        """The lowest and the highest at which it can be, above the map's origin [m]."""
+
     def drive(self, twist: Twist) -> None:
         """Go for `twist` in `base_link` until told otherwise."""
 

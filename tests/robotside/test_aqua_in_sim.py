@@ -63,6 +63,8 @@ def test_it_holds_depth_and_heading_and_follows_another_heading(run: Run) -> Non
 
 
 def test_a_depth_that_cannot_be_is_refused(run: Run) -> None:
-    with pytest.raises(AssertionError, match=r"must be 0 at the surface or negative below it, not 1 m"):
-        run.order("hold", height=1.0)
+    said = "The height of Aqua-1 in tank must be from -4.8 to 0 m, 0 being the surface, not"
+    for height in (1.0, -4.9, -1000.0, -math.inf):
+        with pytest.raises(AssertionError, match=f"{said} {height:g} m"):
+            run.order("hold", height=height)
     assert run.station.info.tasks[-1] == "surface"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -93,6 +94,9 @@ def test_it_follows_a_heading_in_the_air(run: Run) -> None:
     assert height(run) > 1.5
 
 
-def test_a_height_in_the_ground_is_refused(run: Run) -> None:
-    with pytest.raises(AssertionError, match="must be at least 0.3 m, not 0 m"):
-        run.order("take_off", height=0.0)
+@pytest.mark.parametrize("task", ["take_off", "hold", "follow_heading"])
+@pytest.mark.parametrize("height", [0.0, 30.2, 1e9, math.inf])
+def test_a_height_that_it_does_not_reach_is_refused(run: Run, task: str, height: float) -> None:
+    said = "The height of Ardrone-1 in parking_lot must be from 0.3 to 30 m, not"
+    with pytest.raises(AssertionError, match=f"{said} {re.escape(f'{height:g}')} m"):
+        run.order(task, height=height)

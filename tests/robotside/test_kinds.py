@@ -17,6 +17,7 @@ from bridge.msgs.pilothouse_msgs import (
     Waypoint,
 )
 from robotside.assignments import tasks_of
+from robotside.config import NOTHING_SET, Config, LimitSettings
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
 
@@ -34,10 +35,10 @@ class Agile(FakeRobot):
         self.orders.append(order.kind)
 
 
-def scene(kind: str, state: Path, *manoeuvres: str) -> Scene:
+def scene(kind: str, state: Path, *manoeuvres: str, config: Config = NOTHING_SET) -> Scene:
     robot = Agile() if manoeuvres else FakeRobot()
     robot.info = msgspec.structs.replace(robot.info, kind=kind, manoeuvres=list(manoeuvres))
-    scene = Scene(robot, state)
+    scene = Scene(robot, state, config=config)
     scene.run(3.5)  # until it knows where it is
     return scene
 
@@ -75,6 +76,25 @@ def test_a_height_is_refused_by_what_keeps_none(tmp_path: Path) -> None:
     assert (
         run.refused("/task/start", StartTaskRequest(order=order)) == "Fake-1 keeps no height; leave it out."
     )
+
+
+def test_a_height_that_is_not_allowed_is_refused_before_it_takes_off(tmp_path: Path) -> None:
+    run = scene("quadrotor", tmp_path, "take_off", config=Config(limits=LimitSettings(max_height=2.0)))
+    order = StartTaskRequest(order=TaskOrder(task="take_off", height=3.0))
+    assert (
+        run.refused("/task/start", order) == "The height of Fake-1 in hall must be from 0.3 to 2 m, not 3 m."
+    )
+    order = StartTaskRequest(order=TaskOrder(task="take_off", height=2.0))
+    run.ask("/task/start", order)
+
+
+def test_who_rises_no_farther_than_half_way_gives_up_and_says_so(tmp_path: Path) -> None:
+    run = scene("quadrotor", tmp_path, "take_off")
+    run.robot.more.append(("/flight", FlightState(phase="flying")))
+    run.ask("/task/start", StartTaskRequest(order=TaskOrder(task="take_off", height=9.0)))
+    status = run.run_task(30.0)
+    assert status.state == "FAILED"
+    assert status.reason == "It comes no nearer to 9 m than 0.0 m; it stays there."
 
 
 def test_who_does_not_come_off_the_ground_gives_up_and_says_so(tmp_path: Path) -> None:

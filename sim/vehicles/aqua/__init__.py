@@ -91,6 +91,12 @@ class Aqua(Chassis[SwimmerParameters]):
         self.add_order()
         self.add_truth()
 
+    @property
+    def heights(self) -> tuple[float, float]:
+        """From over the ground, or from as deep as it is built for, to the surface [m]."""
+        body = self.parameters.body
+        return max(-body.rated_depth, self.scene.world.bottom + body.height), 0.0
+
     def begin(self, order: Manoeuvre) -> None:
         """Take up a twist, a course, a tilt, holding depth and heading, surfacing, or lying still."""
         self.dynamics.look(self.scene.weather.current)

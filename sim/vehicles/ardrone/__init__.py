@@ -94,6 +94,12 @@ class Ardrone(Chassis[QuadrotorParameters]):
         self.add_order()
         self.add_truth()
 
+    @property
+    def heights(self) -> tuple[float, float]:
+        """From where it stood to its ceiling above that [m]."""
+        floor = self._home[0][2]
+        return floor, floor + self.parameters.limits.height
+
     def begin(self, order: Manoeuvre) -> None:
         """Take up a twist, a course, a tilt; hover, take off or land. At rest in the air it hovers."""
         self.dynamics.look((0.0, 0.0, 0.0))
