@@ -181,7 +181,6 @@ def test_the_widgets_of_the_documentation_are_a_program_of_the_examples():
 NAMED_OTHERWISE = {
     "PIL": "pillow",
     "kivy_garden": "kivy-garden.mapview",
-    "skimage": "scikit-image",
     "pybullet_data": "pybullet",
 }
 WHO_INSTALLS = {
