@@ -67,8 +67,8 @@ class SimRobot:
     """Fits `robotside.robot.Robot`.
 
     Nothing moves between calls: `read(now)` does all the physics up to `now`. It never skips any, so a caller in real
-    time that was held up for long gets the whole backlog computed in one call (about a fiftieth of its length without
-    camera); to bound a call, hand it a `now` that is at most a little after the last one.
+    time that was held up for long gets the whole backlog computed in one call (without camera about a thirtieth of its
+    length for one robot, most of it for twenty); to bound a call, hand it a `now` that is at most a little after the last one.
     Robots that share a world move on together, whichever of them is read.
     Not thread-safe; calls may come from different threads, one at a time.
     """
