@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -25,6 +26,9 @@ LOW = 0.02
 """What is lower can be driven over [m]."""
 SCENERY = 30.0
 """So far beyond the ground trees may stand, to be seen [m]."""
+GRAVITY = 9.81
+BREAKING = 1 / 7
+"""A wave in deep water that is higher than this part of its length breaks."""
 _EXACT = 1e-6
 
 
@@ -37,6 +41,11 @@ def faults(world: World) -> Iterator[Fault]:
     for number, wall in enumerate(world.partitions):
         if wall.start == wall.end:
             yield f"partitions[{number}]", "begins where it ends"
+    for number, wave in enumerate(world.water.waves if world.water else ()):
+        most = BREAKING * GRAVITY * wave.period**2 / (2 * math.pi)
+        if wave.height > most:
+            said = f"must be at most {most:.2g} m where the period is {wave.period:g} s, or it breaks, not {wave.height:g}"
+            yield f"water.waves[{number}].height", said
     yield from _off_the_ground(world)
     yield from _start(world)
 

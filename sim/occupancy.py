@@ -12,7 +12,7 @@ from bridge.msgs.arrays import Int8Array
 from bridge.msgs.geometry_msgs import Point, Pose
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
 from bridge.msgs.std_msgs import Header, Time
-from sim.shapes import Shape, rotate_back
+from sim.shapes import Shape, rotate, rotate_back
 from sim.world import World
 
 __all__ = ["occupancy"]
@@ -47,11 +47,22 @@ def occupancy(world: World, stamp: float) -> OccupancyGrid:
 
 def _full(shapes: Iterable[Shape], x: Grid, y: Grid) -> NDArray[np.bool_]:
     full = np.zeros((len(y), len(x)), dtype=np.bool_)
-    grid_x, grid_y = np.meshgrid(x, y)
     for shape in shapes:
         if shape.position[2] - shape.size[2] / 2 < CLEARANCE:
-            full |= _covers(shape, grid_x, grid_y)
+            # only the cells round it: of all of them at once a large ground has too many
+            east, north, _ = map(abs, rotate(shape.rotation, (1.0, 0.0, 0.0)))
+            long, wide, _ = shape.size
+            columns = _near(x, shape.position[0], (long * east + wide * north) / 2 + RESOLUTION)
+            rows = _near(y, shape.position[1], (long * north + wide * east) / 2 + RESOLUTION)
+            full[rows, columns] |= _covers(shape, *np.meshgrid(x[columns], y[rows]))
     return full
+
+
+def _near(middles: Grid, at: float, reach: float) -> slice:
+    """Which of the `middles`, which rise, are no farther than `reach` from `at` [m]."""
+    return slice(
+        int(np.searchsorted(middles, at - reach)), int(np.searchsorted(middles, at + reach, "right"))
+    )
 
 
 def _covers(shape: Shape, x: Grid, y: Grid) -> NDArray[np.bool_]:

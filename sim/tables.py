@@ -231,6 +231,9 @@ def _wanted(what: str) -> str:
     bound = re.search(r"Expected `(\w+)` (<=|>=|<|>) (-?[\d.]+)", what)
     if bound:
         return f"{_KINDS.get(bound[1], bound[1])} {_BOUNDS[bound[2]]} {float(bound[3]):g}"
+    longer = re.search(r"Expected `str` of length (<=|>=) (\d+)", what)
+    if longer:
+        return f"a text of {_BOUNDS[longer[1]]} {longer[2]} character{'s' * (longer[2] != '1')}"
     kind = re.search(r"Expected `(\w+)", what)
     return _KINDS.get(kind[1], kind[1]) if kind else what[:1].lower() + what[1:]
 

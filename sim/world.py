@@ -23,7 +23,9 @@ _FOLDER = Path(__file__).parent / "worlds"
 WORLDS: tuple[str, ...] = tuple(sorted(path.stem for path in _FOLDER.glob("*.toml")))
 """The names of the worlds that come with the simulation."""
 
-Positive = Annotated[float, msgspec.Meta(gt=0)]
+Positive = Annotated[float, msgspec.Meta(gt=0, le=300)]
+"""No longer than the ground may be, whose map has a cell for each 10 cm, on the robot's computer too."""
+Name = Annotated[str, msgspec.Meta(min_length=1, max_length=60)]
 Finite = Annotated[float, msgspec.Meta(ge=-1000, le=1000)]
 Part = Annotated[float, msgspec.Meta(ge=0, le=1)]
 
@@ -245,9 +247,9 @@ class Tag(_Entry, frozen=True):
 class Wave(_Entry, frozen=True):
     """A train of regular waves in deep water."""
 
-    height: Positive
+    height: Annotated[float, msgspec.Meta(gt=0, le=20)]
     """From trough to crest [m]."""
-    period: Positive
+    period: Annotated[float, msgspec.Meta(ge=0.5, le=30)]
     """[s]"""
     direction: Finite = 0.0
     """Where it runs to [deg] from east, anticlockwise."""
@@ -258,7 +260,7 @@ class Wave(_Entry, frozen=True):
 class Water(_Entry, frozen=True):
     """Water over all of the world; its surface lies at z = 0, the ground under it."""
 
-    depth: Positive
+    depth: Annotated[float, msgspec.Meta(ge=0.5, le=300)]
     """[m]"""
     density: Annotated[float, msgspec.Meta(ge=900, le=1200)] = 1000.0
     """[kg/m3]"""
@@ -283,8 +285,8 @@ class Wind(_Entry, frozen=True):
 class World(_Entry, frozen=True, dict=True):
     """Everything the file says; x east, y north, z up from the ground [m]."""
 
-    name: str
-    description: str
+    name: Name
+    description: Annotated[str, msgspec.Meta(max_length=500)]
     datum: Datum
     ground: Ground
     start: Start

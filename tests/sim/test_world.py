@@ -66,6 +66,25 @@ def test_a_missing_file_is_named(tmp_path):
             ("length = 20", "length = -20"),
             r"lot\.toml, line \d+: ground\.length: must be a number above 0, not -20",
         ),
+        *(
+            (
+                ("length = 20", f"length = {size}"),
+                r"lot\.toml, line \d+: ground\.length: must be a number at most 300, not",
+            )
+            for size in ("300.1", "2000", "1e6", "1e300", "inf")
+        ),
+        (
+            ("height = 0.5", "height = inf"),
+            r"lot\.toml, line \d+: wall\.height: must be a number at most 300, not inf",
+        ),
+        (
+            ('name = "room"', 'name = ""'),
+            r"lot\.toml, line 2: name: must be a text of at least 1 character, not ''",
+        ),
+        (
+            ('name = "room"', f'name = "{"x" * 61}"'),
+            r"line 2: name: must be a text of at most 60 characters, not 'x",
+        ),
         (
             ("length = 20", 'length = "long"'),
             r"lot\.toml, line \d+: ground\.length: must be a number, not 'long'",
@@ -170,7 +189,16 @@ def test_the_tank_stands_in_water_up_to_its_edge_and_things_lie_in_it():
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("[water]\ndepth = -2.0\n", r"water\.depth: must be a number above 0, not -2"),
+        ("[water]\ndepth = -2.0\n", r"water\.depth: must be a number at least 0\.5, not -2"),
+        ("[water]\ndepth = inf\n", r"water\.depth: must be a number at most 300, not inf"),
+        (
+            "[water]\ndepth = 9.0\n[[water.waves]]\nheight = 1.0\nperiod = 0.01\n",
+            r"water\.waves\[0\]\.period: must be a number at least 0\.5, not 0\.01",
+        ),
+        (
+            "[water]\ndepth = 9.0\n[[water.waves]]\nheight = 1.0\nperiod = 1.5\n",
+            r"water\.waves\[0\]\.height: must be at most 0\.5 m where the period is 1\.5 s, or it breaks, not 1",
+        ),
         ("[water]\ndepth = 2.0\n[[water.waves]]\nheight = 0.1\n", r"water\.waves\[0\]\.period: is missing"),
         ("[wind]\nspeed = nan\n", r"wind\.speed: must be a number at least 0, not nan"),
         ("[[buoys]]\nx = 99.0\ny = 0.0\n", r"buoys\[0\]: \(99, 0\) is off the ground"),
