@@ -3,7 +3,8 @@
 The share of a core is CPU time of the whole process (physics, drawing, JPEG, autonomy, sockets and the threads of
 the software GL) over 20 s; the handheld is the app's own link with every subscription that it makes. The other way
 takes the camera's pictures through the JSON topic and not through the binary socket. The patrol is the same station without
-sockets and camera, on a clock that waits for nobody, until 100 m are driven.
+sockets and camera, on a clock that waits for nobody, until 100 m are driven. The longest update is CPU time, of a robot
+that looks for a way round something that it has just seen: while an update lasts nobody who presses STOP is heard.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from app.feeds import Mailbox
 from app.link import Link
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
+from bench.support.planning import DEEP, LAKE, SHALLOW, lake, longest, trap
 from bench.support.station import ROUND, Serving, patrol, serving
 from bridge.frames import Frame
 from bridge.msgs.pilothouse_msgs import Mission, SetMissionRequest, StartTaskRequest, TaskProgress
@@ -34,6 +36,19 @@ FIGURES = (
     Figure("patrolling", "% of a core", "it patrols, camera watched", target=30, against=JSON),
     Figure("pictures", "1/s", "camera pictures that arrive meanwhile", better="more", against=JSON),
     Figure("patrol_speed", "×", "a patrol of 100 m over real time", target=20, better="more"),
+    *(
+        Figure(
+            f"update {kind} {where}",
+            "ms",
+            f"longest update while a {kind} looks for a way, {what}",
+            target=50,
+        )
+        for kind, where, what in (
+            ("minnow", "lake", "across the lake"),
+            ("patrol", "hall", "out of a bend of walls 150 x 80 m large"),
+            ("commander", "hall", "round its end"),
+        )
+    ),
     Figure("patrol_speed_cpu", "×", "the same over the CPU time that it takes", better="more"),
 )
 REPEATS = 2
@@ -49,7 +64,7 @@ TICK = 1 / 60
 @contextmanager
 def prepare(_: Context) -> Iterator[Sides]:
     """Nothing is kept: each sample starts a robot side of its own."""
-    yield Sides(lambda: {**share(PARAMETERS.camera.name), **fast()}, lambda: share(""))
+    yield Sides(lambda: {**share(PARAMETERS.camera.name), **fast(), **updates()}, lambda: share(""))
 
 
 def share(camera: str) -> dict[str, float]:
@@ -115,6 +130,20 @@ def fast() -> dict[str, float]:
         simulated = clock.now - began
         wall, cpu = time.monotonic() - wall, time.process_time() - cpu
     return {"patrol_speed": simulated / wall, "patrol_speed_cpu": simulated / cpu}
+
+
+def updates() -> dict[str, float]:
+    """The longest updates while a way is looked for [ms]."""
+    hall = trap()
+    found = {}
+    for kind, where, grid, way in (
+        ("minnow", "lake", lake(), LAKE),
+        ("patrol", "hall", hall, DEEP),
+        ("commander", "hall", hall, SHALLOW),
+    ):
+        with closing(make(kind, "lake" if where == "lake" else "parking_lot", camera=False)) as robot:
+            found[f"update {kind} {where}"] = longest(robot, grid, way) * 1e3
+    return found
 
 
 class Clock:
