@@ -20,6 +20,8 @@ Fault = tuple[str, str]
 
 LONGEST_NAME = 60
 """Characters of a place's name."""
+LARGEST = 20_000.0
+"""Ground [m2]: more of it would take a robot too long, and too much memory, to get to know its map at the start."""
 TALL = 0.3
 """The lowest robots reach so high, and things that hang higher are in nobody's way [m]."""
 LOW = 0.02
@@ -34,6 +36,12 @@ _EXACT = 1e-6
 
 def faults(world: World) -> Iterator[Fault]:
     """What types alone cannot say: key and reason of each."""
+    area = world.ground.length * world.ground.width
+    if area > LARGEST:
+        yield (
+            "ground",
+            f"{area:g} m2 are too many, at most {LARGEST:g} can be: its map has a cell for each 10 cm",
+        )
     yield from _places(world)
     for number, entry in enumerate(world.cars):
         if entry.model not in CAR_MODELS:

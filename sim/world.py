@@ -24,7 +24,6 @@ WORLDS: tuple[str, ...] = tuple(sorted(path.stem for path in _FOLDER.glob("*.tom
 """The names of the worlds that come with the simulation."""
 
 Positive = Annotated[float, msgspec.Meta(gt=0, le=300)]
-"""No longer than the ground may be, whose map has a cell for each 10 cm, on the robot's computer too."""
 Name = Annotated[str, msgspec.Meta(min_length=1, max_length=60)]
 Finite = Annotated[float, msgspec.Meta(ge=-1000, le=1000)]
 Part = Annotated[float, msgspec.Meta(ge=0, le=1)]

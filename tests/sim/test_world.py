@@ -74,6 +74,10 @@ def test_a_missing_file_is_named(tmp_path):
             for size in ("300.1", "2000", "1e6", "1e300", "inf")
         ),
         (
+            ("length = 20\nwidth = 10", "length = 200\nwidth = 150"),
+            r"lot\.toml, line 7: ground: 30000 m2 are too many, at most 20000 can be",
+        ),
+        (
             ("height = 0.5", "height = inf"),
             r"lot\.toml, line \d+: wall\.height: must be a number at most 300, not inf",
         ),
