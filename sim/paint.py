@@ -46,18 +46,32 @@ class Paint:
     def share(self, points: Points, radius: float) -> NDArray[np.float64]:
         """Part, 0 to 1, of a spot of `radius` [m] round each of `points` that is painted, to a tenth of it."""
         painted = np.zeros(len(points))
-        if len(self._starts):
-            x, y = (points[:, axis, None] - self._starts[:, axis] for axis in (0, 1))
-            along = x * self._ahead[:, 0] + y * self._ahead[:, 1]
-            across = y * self._ahead[:, 0] - x * self._ahead[:, 1]
-            beside = _covered(across, radius, -self._halves, self._halves)
-            painted = (beside * _covered(along, radius, 0.0, self._lengths)).max(axis=1)
+        if not len(self._starts) and not self._arrows:
+            return painted
+        reach = radius + 2 * float(np.abs(points - points[0]).max())
+        near = self._near(points[0], reach)
+        if len(near):
+            starts, ahead = self._starts[near], self._ahead[near]
+            x, y = (points[:, axis, None] - starts[:, axis] for axis in (0, 1))
+            along = x * ahead[:, 0] + y * ahead[:, 1]
+            across = y * ahead[:, 0] - x * ahead[:, 1]
+            halves = self._halves[near]
+            beside = _covered(across, radius, -halves, halves)
+            painted = (beside * _covered(along, radius, 0.0, self._lengths[near])).max(axis=1)
         for corners, middle in zip(self._arrows, self._middles, strict=True):
-            if math.dist(middle, points[0]) < _REACH + float(np.abs(points - points[0]).max()) * 2:
+            if math.dist(middle, points[0]) < _REACH + reach:
                 spots = (points[:, None, :] + _CROSS * radius).reshape(-1, 2)
                 hit = _inside(spots, corners).reshape(len(points), -1).mean(axis=1)
                 painted = np.maximum(painted, hit)
         return painted
+
+    def _near(self, point: Points, reach: float) -> NDArray[np.intp]:
+        """Which strips come nearer to a point than `reach` [m]; mostly there is none."""
+        x, y = (point - self._starts).T
+        ahead_x, ahead_y = self._ahead.T
+        along, across = x * ahead_x + y * ahead_y, y * ahead_x - x * ahead_y
+        inside = (np.abs(across) < self._halves + reach) & (along > -reach) & (along < self._lengths + reach)
+        return np.flatnonzero(inside)
 
 
 def _bay_lines(world: World) -> Iterator[tuple[float, float, float, float, float]]:
