@@ -39,10 +39,10 @@ Builder.load_string("""
         Color:
             rgba: root.veil
         RoundedRectangle:
-            pos: root.pos
+            pos: root.veil_box[:2]
             # what is clear need not be drawn: over a whole screen it costs as much as a picture; Kivy leaves
             # a rounded rectangle without any size as it was
-            size: root.size if root.veil[3] else (1, 1)
+            size: root.veil_box[2:] if root.veil[3] else (1, 1)
             radius: [root.veil_radius]
         Color:
             rgba: theme.raised if root.badge else (0, 0, 0, 0)
@@ -123,6 +123,13 @@ class RobotWidget(Widget):
     """Says how old it is; False where something beside it says so for both."""
     veil_radius = NumericProperty("12dp")
     """Corners of the veil and of the alarm's outline [px]; half the width for a round widget."""
+
+    def _veil_box(self) -> tuple[float, float, float, float]:
+        rim = theme.outline  # half of an outline lies outside, and would show as a jagged line
+        return self.x - rim, self.y - rim, self.width + 2 * rim, self.height + 2 * rim
+
+    veil_box = AliasProperty(_veil_box, bind=["pos", "size"], cache=True)
+    """Left, low, width and height of what the veil covers [px]."""
 
     def _veil(self) -> list[float]:
         return [*theme.surface[:3], self.veils.get(self.state, 0.0) if self.veiled else 0.0]

@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, NumericProperty
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
@@ -39,12 +39,14 @@ class DepthGauge(Gauge):
     """A figure and a scale with the surface at its top; the robot is the blue pointer, the wanted depth the violet one."""
 
     accepts: ClassVar = (FluidPressure, Manoeuvre)
-    drawn_from: ClassVar = ("depth", "wanted", "reach")
+    drawn_from: ClassVar = ("depth", "wanted", "held", "reach")
 
     depth = NumericProperty(math.nan)
     """Below the surface [m]; NaN when not known."""
     wanted = NumericProperty(math.nan)
     """Depth to hold [m]; NaN when nobody asked."""
+    held = BooleanProperty(False)
+    """The robot holds the depth where it is, and has not said which one that is."""
     surface_pressure = NumericProperty(101_325.0)
     """Of the air on the water [Pa]."""
     density = NumericProperty(1000.0)
@@ -71,10 +73,10 @@ class DepthGauge(Gauge):
         if isinstance(msg, FluidPressure):
             depth = (msg.fluid_pressure - self.surface_pressure) / (self.density * GRAVITY)
             self.depth = round(max(depth, 0.0), 2) if math.isfinite(depth) else math.nan
-        elif msg.kind in HOLDS and math.isfinite(msg.height):
-            self.wanted = max(-msg.height, 0.0)
-        else:
-            self.wanted = 0.0 if msg.kind == "surface" else math.nan
+            return
+        told = msg.kind in HOLDS and math.isfinite(msg.height)
+        self.held = msg.kind in HOLDS and not told
+        self.wanted = max(-msg.height, 0.0) if told else 0.0 if msg.kind == "surface" else math.nan
 
     def _fit(self, *_: object) -> None:
         deepest = max((value for value in (self.depth, self.wanted) if math.isfinite(value)), default=0.0)
@@ -108,8 +110,11 @@ class DepthGauge(Gauge):
             small = self._fitting(told, " m", room, min(size * 0.7, sp(26)))
             yield from self._value(told, left, y - sp(8) - small * 0.6, small, "plan")
         else:
-            text = first_fitting(("no target depth", "no target"), sp(12), room)
-            yield Word(text, left, y, sp(12), theme.muted, anchor=(0, 0.5))
+            texts = ("held where it is", "held") if self.held else ("no target depth", "no target")
+            role = "plan" if self.held else "muted"
+            yield Word(
+                first_fitting(texts, sp(12), room), left, y, sp(12), theme.roles[role], anchor=(0, 0.5)
+            )
 
     def _fitting(self, text: str, unit: str, room: float, size: float) -> float:
         """Type in which a figure and its smaller unit fit [px]."""
@@ -203,6 +208,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "never": made(nan, nan),
         "live": made(state="live"),
         "no target": made(wanted=nan, state="live"),
+        "held": made(wanted=nan, held=True, state="live"),
         "surface": made(0.0, 0.0, state="live"),
         "deep": made(63.4, 80.0, state="live"),
         "very deep": made(412.0, nan, state="live"),

@@ -377,11 +377,12 @@ class GoalPad(Grip, Gauge):
             (right, "GOAL", self.wanted, theme.plan),
         ):
             yield Word(name, x, low + rows * 3.5, sp(11), colour, bold=True, anchor=(1, 0.5))
-            units = (" m", " m", "") if width > dp(180) else ("", "", "")
-            for row, (text, unit) in enumerate(zip(self._figures(place), units, strict=True)):
-                shown = text + (unit if place else "")
-                size = fitting_size([shown], sp(14), (width - sp(22)) / 2 - dp(6), bold=True)
-                yield Word(shown, x, low + rows * (2.5 - row), size, theme.text, bold=True, anchor=(1, 0.5))
+            units = (" m", " m", "") if width > dp(116) else ("", "", "")
+            told = zip(self._figures(place), units, strict=True)
+            shown = [text + (unit if place else "") for text, unit in told]
+            size = fitting_size(shown, sp(14), (width - sp(22)) / 2 - dp(6), bold=True)
+            for row, text in enumerate(shown):
+                yield Word(text, x, low + rows * (2.5 - row), size, theme.text, bold=True, anchor=(1, 0.5))
         for row, axis in enumerate(AXIS_NAMES):
             yield Word(axis, left, low + rows * (2.5 - row), sp(12), theme.muted, anchor=(0, 0.5))
 

@@ -16,6 +16,7 @@ from kivy.properties import AliasProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import FlightState
+from widgets.base import fitting_size
 from widgets.gauge import Gauge, first_fitting, wide
 from widgets.geometry import DASH, nice_floor
 from widgets.ink import Word, ground, tint
@@ -33,6 +34,8 @@ TIGHT = 130
 """Lower than this the phase stands where else its name is [dp]."""
 STEADY = 0.05
 """Climbing or sinking slower than this is neither [m/s]."""
+SHORT = {"taking_off": "Rising"}
+"""A phase in a shorter word, where there is no room for its own."""
 
 
 class HeightTape(Gauge):
@@ -84,7 +87,7 @@ class HeightTape(Gauge):
             yield from self._brief(shapes)
             return
         room = self.width - 2 * self.edge
-        scale = max(room * 0.36, dp(60))
+        scale = max(room * 0.36, dp(60 if room >= dp(110) else 54))
         bottom, top = self.y + self.edge, self.top - self.edge
         left = self.x + self.edge
         brief = bool(self.phase) and self.height < dp(TIGHT)
@@ -100,10 +103,10 @@ class HeightTape(Gauge):
         left, bottom, room, high = box
         y = bottom + high - sp(10)
         role = PHASES.get(self.phase, "muted")
-        size = sp(13)
-        said = first_fitting(
-            (self.phase_words, self.phase_words.split()[-1] if self.phase else ""), size, room, bold=True
+        said = first_fitting((self.phase_words,), sp(13), room, bold=True) or SHORT.get(
+            self.phase, self.phase_words
         )
+        size = fitting_size([said], sp(13), room, bold=True)
         yield Word(said, left, y, size, theme.roles[role], bold=True, anchor=(0, 0.5))
         size = min(sp(44), high * 0.34)
         size = min(size, size * room / (wide(self.words, size, bold=True) + size * 0.85))
@@ -123,7 +126,7 @@ class HeightTape(Gauge):
                 theme.muted,
                 anchor=(0, 0.5),
             )
-        yield from self._climb_words(shapes, left, bottom + high * 0.14, room)
+        yield from self._climb_words(shapes, left, bottom + high * (0.14 if room >= dp(60) else 0.2), room)
 
     def _climb_words(self, shapes: Shapes, left: float, y: float, room: float) -> Iterator[Word]:
         """How fast it climbs or sinks, behind an arrow."""
@@ -144,8 +147,9 @@ class HeightTape(Gauge):
                 left + shift + wide(told, size, bold=True) + dp(3),
                 sp(12 if room >= dp(84) else 11),
             )
-            unit = first_fitting(("m/s",), small, left + room + dp(4) - behind)
-            yield Word(unit, behind, y - dp(1), small, theme.muted, anchor=(0, 0.5))
+            if wide("m/s", small) > left + room + dp(4) - behind:  # below, where there is no room behind
+                behind, y = left + shift, y - size * 0.5 - sp(5)
+            yield Word("m/s", behind, y - dp(1), small, theme.muted, anchor=(0, 0.5))
 
     def _tape(self, shapes: Shapes, box: tuple[float, float, float, float]) -> Iterator[Word]:
         left, bottom, room, high = box
@@ -270,6 +274,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "large": made(wanted=1.5, size=(326, 228), state="live"),
         "large never": made("", size=(326, 228)),
         "tall": made(wanted=1.5, size=(160, 330), state="live"),
+        "upright": made(climb=-0.32, wanted=1.5, size=(124, 150), state="live"),
         "phone": made(wanted=1.5, size=(188, 97), state="live"),
         "low": made(size=(128, 44), state="live"),
         "low landed": made("landed", 0.05, 0.0, size=(128, 44), state="live"),

@@ -26,14 +26,20 @@ from widgets.theme import theme
 
 __all__ = ["DEAD", "Joystick"]
 
-BELOW = 0.48
-"""From the middle down to the caption, of the radius: between the knob at rest and the inner ring."""
+BELOW = 0.6
+"""From the middle down to the caption, of the radius: on the inner ring, between the knob at rest and the arrow."""
 
 Builder.load_string("""
 <Joystick>:
     canvas.after:
         Color:
-            rgba: theme.muted if root.caption else (0, 0, 0, 0)
+            rgba: theme.surface if root.captioned else (0, 0, 0, 0)
+        SmoothRoundedRectangle:
+            pos: root.words_pos[0] - dp(4), root.words_pos[1] + dp(1)
+            size: root.words_size[0] + dp(8), root.words_size[1] - dp(2)
+            radius: [dp(4)]
+        Color:
+            rgba: theme.muted if root.captioned else (0, 0, 0, 0)
         Rectangle:
             texture: root.words
             size: root.words_size
@@ -54,6 +60,12 @@ class Joystick(Stick):
 
     caption = StringProperty("")
     """What pushing it means, where that is not to drive and to turn, as in `climb · turn`."""
+
+    def _captioned(self) -> bool:
+        return bool(self.caption) and self.forward >= 0
+
+    captioned = AliasProperty(_captioned, bind=["caption", "forward"], cache=True)
+    """The caption is on the glass: not while the knob is pulled over it."""
 
     def _words(self) -> Texture:
         return text_texture(self.caption, sp(13), theme.font)

@@ -54,7 +54,7 @@ class LegPanel(Gauge):
     drawn_from: ClassVar = ("angles", "temperatures", "warm", "hot")
 
     angles = DictProperty()
-    """Of each leg that has told one [deg]; NaN for what is not measured."""
+    """Of each leg that has told one, -179 to 180 [deg]; NaN for what is not measured."""
     temperatures = DictProperty()
     """Of each leg's motor [degC]; NaN for what is not measured."""
     warm = NumericProperty(45.0)
@@ -85,6 +85,8 @@ class LegPanel(Gauge):
         else:
             names, values, scale = msg.names, msg.temperatures, 1.0
         told = {leg: _at(values, number, scale) for number, leg in enumerate(map(leg_of, names)) if leg}
+        if isinstance(msg, JointState):
+            told = {leg: _turned(angle) for leg, angle in told.items()}
         held = self.angles if isinstance(msg, JointState) else self.temperatures
         if told and not _same(held, told):
             held.update(told)
@@ -198,6 +200,11 @@ def _at(values: Float64Array, number: int, scale: float) -> float:
     """Rounded to what is shown; NaN where the message has fewer, as it may."""
     told = float(values[number]) * scale if number < len(values) else math.nan
     return round(told) if math.isfinite(told) else math.nan
+
+
+def _turned(angle: float) -> float:
+    """The same direction from -179 to 180 [deg]: a fin turns on and on."""
+    return 180.0 - (180.0 - angle) % 360.0
 
 
 def _same(held: dict[str, float], told: dict[str, float]) -> bool:

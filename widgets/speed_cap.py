@@ -21,6 +21,8 @@ __all__ = ["SLOW", "SpeedCap"]
 
 SLOW = 0.2
 """From this round trip on the robot goes slower [s]."""
+NOTICED = 0.99
+"""A cap above this share is nothing that anybody would notice, and would be told as `100 %`."""
 
 
 class SpeedCap(NoticeCard):
@@ -65,7 +67,7 @@ class SpeedCap(NoticeCard):
         if msg.follows_link != self.follows:
             self.sent = False
         self.share, self.follows = msg.speed_cap, msg.follows_link
-        self.open = self.share < 1.0 or not self.follows
+        self.open = self.share < NOTICED or not self.follows
 
     def press(self) -> None:
         """Switch it as a finger would; shown as switched when the robot says so."""

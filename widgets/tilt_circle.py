@@ -43,6 +43,7 @@ class TiltCircle(Stick, Gauge):
         "max_tilt",
         "needs_hold",
         "badge",
+        "state",
     )
 
     max_tilt = NumericProperty(math.radians(20.0))
@@ -68,12 +69,21 @@ class TiltCircle(Stick, Gauge):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**{"title": "Tilt", "card": False, **kwargs})
-        self.fbind("size", self._round_veil)
-        self.fbind("card", self._round_veil)
+        for name in ("size", "card", "title"):
+            self.fbind(name, self._round_veil)
         self._round_veil()
 
     def _round_veil(self, *_: object) -> None:
-        self.veil_radius = theme.radius if self.card else min(self.size) / 2
+        self.veil_radius = theme.radius if self.card or self.wide else self.round[2]
+
+    def _veil_box(self) -> tuple[float, float, float, float]:
+        """The round alone, lest it were a box of its own on a picture; the words below fade by themselves."""
+        if self.card or self.wide:
+            return super()._veil_box()
+        (x, y, radius), rim = self.round, theme.outline
+        return x - radius - rim, y - radius - rim, 2 * (radius + rim), 2 * (radius + rim)
+
+    veil_box = AliasProperty(_veil_box, bind=["pos", "size", "card", "title"])
 
     @property
     def order(self) -> Manoeuvre:
@@ -205,7 +215,8 @@ class TiltCircle(Stick, Gauge):
         told = " · ".join(part for part in parts if part) if tilted else ""
         words = (told,) if told else self._idle_words()
         size = sp(13)
-        word = Word(first_fitting(words, size, room), x, y, size, theme.text if told else theme.muted)
+        role = "faint" if self.disabled and not self.card else "text" if told else "muted"
+        word = Word(first_fitting(words, size, room), x, y, size, theme.roles[role])
         if not self.card and word.text:
             ground(shapes, word, tint(theme.bg, 0.7))
         yield word

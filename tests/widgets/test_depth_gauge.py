@@ -88,3 +88,13 @@ def test_where_it_is_low_it_is_a_line(stage):
     gauge.show(at(4.2))
     stage.frames(2)
     assert gauge.texts == ["4.2", " m depth"]
+
+
+def test_a_depth_held_where_the_robot_is_does_not_read_as_if_nothing_were_held(stage, gauge):
+    gauge.show(at(4.2))
+    gauge.show(Manoeuvre(kind="hover", height=math.nan))
+    stage.frames(2)
+    assert gauge.texts[-1] == "held"
+    gauge.show(Manoeuvre(kind="rest"))
+    stage.frames(2)
+    assert gauge.texts[-1] == "no target"

@@ -77,3 +77,10 @@ def test_where_it_is_low_it_is_a_line(stage, phase, words):
     tape = stage.show(HeightTape(state="live"), size=(128, 44))
     fly(tape, stage, phase=phase)
     assert tape.texts == words
+
+
+@pytest.mark.parametrize(("phase", "word"), [("flying", "Flying"), ("taking_off", "Rising")])
+def test_on_an_upright_phone_phase_and_units_have_room_too(stage, phase, word):
+    tape = stage.show(HeightTape(state="live"), size=(124, 150))
+    fly(tape, stage, phase=phase, climb=0.3)
+    assert {word, "m", "m/s"} <= set(tape.texts)

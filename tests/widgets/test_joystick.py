@@ -184,3 +184,12 @@ def test_what_a_gamepad_does_is_told_by_sign_and_word_and_not_by_colour_alone(st
         looks[what] = stick.sign, stick.sign_word
     assert len({id(sign) for sign, _ in looks.values()}) == len({id(word) for _, word in looks.values()}) == 3
     assert stick.sign_pos[0] + stick.sign_size[0] <= stick.right
+
+
+def test_the_caption_goes_away_under_the_knob(stick):
+    stick.caption = "climb · turn"
+    assert stick.captioned
+    stick.lean(-0.5, 0.0)
+    assert not stick.captioned
+    stick.lean(0.5, 0.0)
+    assert stick.captioned

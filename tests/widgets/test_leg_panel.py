@@ -126,3 +126,9 @@ def test_a_small_panel_that_has_heard_nothing_says_so_of_every_leg(stage, size):
     panel = stage.show(LegPanel(), size=size)
     stage.frames(2)
     assert "–" in "".join(panel.texts)
+
+
+@pytest.mark.parametrize(("told", "shown"), [(-186.0, 174.0), (725.0, 5.0), (-180.0, 180.0), (-90.0, -90.0)])
+def test_a_fin_that_turns_on_and_on_is_told_within_half_a_turn(panel, told, shown):
+    panel.show(joints(front_left=told))
+    assert panel.angles["L1"] == shown

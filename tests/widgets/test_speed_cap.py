@@ -76,3 +76,8 @@ def test_a_link_that_is_fast_here_is_said_to_be_slow_as_the_robot_measures_it(ca
     assert cap.said == "The robot measured a slow link; here 63 ms."
     cap.show(ControlStatus(follows_link=False))
     assert cap.said == "On a slow link as well."
+
+
+def test_a_cap_that_nobody_would_notice_is_not_said_as_100_percent(cap):
+    cap.show(ControlStatus(speed_cap=0.996))
+    assert not cap.open

@@ -6,6 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from widgets.shapes import Shapes
+from widgets.theme import theme
 from widgets.tilt_circle import NEUTRAL, TiltCircle
 
 LIMIT = math.radians(20)
@@ -134,3 +136,19 @@ def test_where_it_is_wide_the_figures_stand_beside_it(stage):
     circle.tilt(math.radians(5), 0.0)
     stage.frames(2)
     assert circle.texts[1:] == ["PITCH", "0°", "level", "ROLL", "5°", "right"]
+
+
+def test_on_a_picture_the_veil_covers_the_round_and_no_box_about_it(stage, circle):
+    circle.size = (200, 240)
+    x, y, radius = circle.round
+    left, low, width, height = circle.veil_box
+    assert (left + width / 2, low + height / 2, width) == (x, y, height)
+    assert width / 2 == pytest.approx(radius, abs=2)
+    circle.card = True
+    assert circle.veil_box[3] >= circle.height
+
+
+def test_disabled_on_a_picture_its_words_fade_with_it(stage, circle):
+    circle.state = "disabled"
+    (word,) = circle.marks(Shapes())
+    assert tuple(word.colour) == tuple(theme.faint)
