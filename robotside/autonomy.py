@@ -111,15 +111,7 @@ class Autonomy:
             self._take_map(chart)
         self.situation = Situation()
         self.watch = Watch(self.whereabouts.track, info.camera_fov, bus.publish, self._found)
-        self.engine = Engine(
-            self.guide,
-            self.situation,
-            show=self._show_status,
-            progress=lambda progress: bus.publish("/task/progress", progress),
-            say=events.say,
-            clock=clock,
-            cruise=self.guide.cruise,
-        )
+        self.engine = self._engine(clock)
         self.assignments = Assignments(
             self.guide,
             self.situation,
@@ -133,6 +125,17 @@ class Autonomy:
         """What makes tasks of orders."""
         self._show_plan(np.empty((0, 2)))
         self._take = self._takers()
+
+    def _engine(self, clock: Callable[[], float]) -> Engine:
+        return Engine(
+            self.guide,
+            self.situation,
+            show=self._show_status,
+            progress=lambda progress: self._bus.publish("/task/progress", progress),
+            say=self._events.say,
+            clock=clock,
+            cruise=self.guide.cruise,
+        )
 
     _chart: OccupancyGrid | None = None
     _coming: OccupancyGrid | None = None
