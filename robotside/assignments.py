@@ -24,6 +24,7 @@ from robotside.commands import Refusal
 from robotside.database import Records
 from robotside.events import Say
 from robotside.guide import Goal, Guide
+from robotside.kinds import kind_of
 from robotside.tasks import Task
 from robotside.words import plain
 
@@ -70,7 +71,7 @@ def words_for(task: str) -> str:
 def tasks_of(info: RobotInfo) -> list[str]:
     """The tasks that a robot knows, which depend on its kind and its manoeuvres."""
     unknown = {task for task in ("take_off", "land", "surface") if task not in info.manoeuvres}
-    if info.kind not in ("wheels", ""):
+    if not kind_of(info.kind).docks:
         unknown.add("dock")
     return [task for task in TASKS if task not in unknown]
 
@@ -212,7 +213,7 @@ class Assignments:
         span = self._span(order)
         tree = Hold(span, self._guide, self._situation, order.height)
         done = f"Held for {order.duration:.0f} s."
-        return Task("hold", "Holding", tree, span, done=lambda: done, moves=self._info.kind == "quadrotor")
+        return Task("hold", "Holding", tree, span, done=lambda: done, moves=kind_of(self._info.kind).flies)
 
     def _follow_heading(self, order: TaskOrder) -> Task:
         if math.isinf(order.heading):
@@ -249,16 +250,15 @@ class Assignments:
         """Refuse a height at which a robot of this kind cannot be."""
         if math.isnan(height):
             return
-        name, kind = self._info.name, self._info.kind
-        if kind not in ("quadrotor", "hexapod"):
+        name, kind = self._info.name, kind_of(self._info.kind)
+        if not (kind.flies or kind.dives):
             raise Refusal(f"{name} keeps no height; leave it out.")
-        flies = kind == "quadrotor"
         lowest, highest = self._heights
-        lowest, highest = (max(LOWEST, lowest), highest) if flies else (lowest, min(0.0, highest))
+        lowest, highest = (max(LOWEST, lowest), highest) if kind.flies else (lowest, min(0.0, highest))
         lowest = math.ceil(10 * lowest) / 10 if lowest > -math.inf else lowest
         highest = math.floor(10 * highest) / 10 if highest < math.inf else highest
         if math.isinf(height) or not lowest <= height <= highest:
-            allowed = _span_words(lowest, highest, "" if flies else ", 0 being the surface")
+            allowed = _span_words(lowest, highest, "" if kind.flies else ", 0 being the surface")
             where = f" in {self._info.world}" if self._info.world else ""
             raise Refusal(f"The height of {name}{where} must be {allowed}, not {height:g} m.")
 

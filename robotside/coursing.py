@@ -10,6 +10,7 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.units import wrap
 from robotside.follow import Follower, Manner
 from robotside.going import CRUISE, UNSURE_SPEED, Search
+from robotside.kinds import kind_of
 from robotside.planner import Planner
 from robotside.pose2 import Points, Pose2
 from robotside.robot import Manoeuvrable, Robot
@@ -52,10 +53,10 @@ class Coursing:
 
     def __init__(self, robot: Robot) -> None:
         info = robot.info
-        self._robot, self._kind = robot, info.kind
+        self._robot, self._comes_about = robot, kind_of(info.kind).comes_about
         self._manner = MANNERS[info.kind]
         self.cruise, self.clear = min(CRUISE * info.max_speed, FASTEST), info.radius + 0.18
-        self.turning = BOAT_TURNS if info.kind == "boat" else 0.0
+        self.turning = BOAT_TURNS if kind_of(info.kind).comes_about else 0.0
         self.height = math.nan
         self.aloft = "take_off" not in info.manoeuvres
         self.measured = math.nan
@@ -100,13 +101,13 @@ class Coursing:
         distance, bearing = follower.aim(pose, self._speed)
         speed = follower.speed(pose, bearing, distance)
         if abs(bearing) > TURNS_FIRST:
-            speed = SLOW if self._kind == "boat" else 0.0
+            speed = SLOW if self._comes_about else 0.0
         self._speed = speed if sure else min(speed, UNSURE_SPEED)
         self.along(wrap(pose.yaw + bearing), self._speed)
 
     def face(self, pose: Pose2, yaw: float) -> bool:
         """Turn to `yaw`; a boat, which turns only by going, looks wherever it came from."""
-        if self._kind == "boat" or abs(wrap(yaw - pose.yaw)) < ALIGNED:
+        if self._comes_about or abs(wrap(yaw - pose.yaw)) < ALIGNED:
             return True
         self.along(yaw, 0.0)
         return False

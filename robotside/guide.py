@@ -69,13 +69,19 @@ class Goal:
         return name if name == self.place else f"{name[0].lower()}{name[1:]}"
 
 
+GOINGS: dict[str, Callable[[Robot], Going]] = {
+    "wheels": Wheeling,
+    "ackermann": Trucking,
+    "boat": Coursing,
+    "hexapod": Coursing,
+    "quadrotor": Coursing,
+}
+"""How robots go, by kind."""
+
+
 def going_of(robot: Robot) -> Going:
     """How a robot of its kind goes; one of an unknown kind as if on wheels."""
-    if robot.info.kind == "ackermann":
-        return Trucking(robot)
-    if robot.info.kind in ("boat", "hexapod", "quadrotor"):
-        return Coursing(robot)
-    return Wheeling(robot)
+    return GOINGS.get(robot.info.kind, Wheeling)(robot)
 
 
 def room_of(info: RobotInfo) -> float:

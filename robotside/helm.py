@@ -14,6 +14,7 @@ from robotside.controls import Controls
 from robotside.events import Say
 from robotside.excess import Excesses
 from robotside.guarded import Guarded
+from robotside.kinds import kind_of
 from robotside.limits import Measured, turned_over
 from robotside.manoeuvres import BY_STICK, Order, settled
 from robotside.safe_state import Act, SafeState
@@ -124,7 +125,7 @@ class Helm:
         """Why `order` starts no rotors: that takes a task, which nobody gives by brushing against a stick; empty when it need not."""
         info = self._robot.info
         twist = order if isinstance(order, Twist) else order.twist
-        if info.kind != "quadrotor" or not self._measured().landed or not twist.linear.z > 0:
+        if not kind_of(info.kind).flies or not self._measured().landed or not twist.linear.z > 0:
             return ""
         return f"{info.name} stands on the ground: sticks start no rotors, the task take_off does."
 

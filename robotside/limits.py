@@ -20,6 +20,7 @@ from robotside.drifting import BACK_AT, BACK_TO, CREEP, DRIFTS, Drift, back, way
 from robotside.fence import Fence
 from robotside.fencing import LEVEL_FROM, MOST_DOUBT, SURE_ENOUGH, Fencing, doubt_of
 from robotside.grid import Grid
+from robotside.kinds import kind_of
 from robotside.manoeuvres import BY_ITSELF, Order, kept, leads_to, levelled
 from robotside.planner import place_sentence
 from robotside.pose2 import Pose2
@@ -83,7 +84,7 @@ class Kept(NamedTuple):
 
 def turned_over(measured: Measured, kind: str) -> bool:
     """A robot of this `kind` lies on its side or its back, as only a swimmer may."""
-    return kind != "hexapod" and math.cos(measured.roll) * math.cos(measured.pitch) < UPSIDE_DOWN
+    return not kind_of(kind).dives and math.cos(measured.roll) * math.cos(measured.pitch) < UPSIDE_DOWN
 
 
 class Keeper:
@@ -273,7 +274,7 @@ class Keeper:
 
     def _within(self, twist: Twist, measured: Measured, pose: Pose2, doubt: float) -> Clamped:
         v, w = twist.linear, twist.angular
-        creeps = self._own.kind == "boat" and w.z != 0.0 and abs(v.x) < CREEP
+        creeps = kind_of(self._own.kind).comes_about and w.z != 0.0 and abs(v.x) < CREEP
         wanted = Moving(math.copysign(CREEP, v.x) if creeps else v.x, v.y, w.z)
         if not wanted.speed:
             return Clamped(twist)

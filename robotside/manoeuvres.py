@@ -14,6 +14,7 @@ from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from bridge.units import wrap
 from robotside.drifting import CREEP
+from robotside.kinds import kind_of
 from robotside.slower import slower, within
 
 if TYPE_CHECKING:
@@ -120,7 +121,7 @@ def leads_to(order: Manoeuvre, info: RobotInfo, measured: Measured) -> Twist:
         case "course":
             return Twist.planar(_speed(order, info), _turn(order.yaw, info, measured))
         case "hover":
-            creeps = CREEP if info.kind == "boat" else 0.0
+            creeps = CREEP if kind_of(info.kind).comes_about else 0.0
             return Twist.planar(creeps, _turn(order.yaw, info, measured))
         case "tilt" if _leans(info):
             x = measured.moving.x + LEAN * GRAVITY * math.tan(order.pitch)
@@ -185,7 +186,7 @@ def levelled(order: Manoeuvre, lowest: float, highest: float, height: float) -> 
 
 def _leans(info: RobotInfo) -> bool:
     """It goes where it leans to."""
-    return info.kind == "quadrotor"
+    return kind_of(info.kind).flies
 
 
 def _speed(order: Manoeuvre, info: RobotInfo) -> float:

@@ -68,7 +68,7 @@ class _Usual:
     then: str = "stay"
 
 
-_USUAL = {
+USUAL = {
     "wheels": _Usual("brake"),
     "ackermann": _Usual("brake_straight"),
     "boat": _Usual("hold_heading"),
@@ -86,7 +86,7 @@ class SafeState:
         `knows` are the manoeuvres that it can be told in place of twists.
         """
         self._knows = knows
-        usual = _USUAL.get(kind, _USUAL["wheels"])
+        usual = USUAL.get(kind, USUAL["wheels"])
         self._action = settings.action or usual.action
         self._usual_then = self._then = settings.then or usual.then
         self._hold_for = usual.hold_for if settings.hold_for is None else settings.hold_for

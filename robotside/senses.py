@@ -10,6 +10,7 @@ from bridge.msgs import Msg
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import FlightState
 from bridge.msgs.sensor_msgs import Imu
+from robotside.kinds import kind_of
 from robotside.limits import Measured
 from robotside.pose2 import Pose2
 from robotside.tracks import Moving
@@ -17,9 +18,6 @@ from robotside.tracks import Moving
 __all__ = ["PATIENCE", "Senses", "needed"]
 
 _NAMES = {"/odom": "odometry", "/scan": "laser", "/sonar": "sonars"}
-
-_ON_THE_GROUND = ("wheels", "ackermann")
-"""Kinds that drive by themselves only while they see what is in the way."""
 
 _MORE = {
     "/imu/data": "IMU",
@@ -43,7 +41,7 @@ def needed(kind: str, heard: Container[str]) -> dict[str, str]:
     What measures distances all round counts where it was heard, and has to be there on the ground: a laser, or else sonars.
     """
     ranging = next((topic for topic in ("/scan", "/sonar") if topic in heard), "")
-    if not ranging and kind in _ON_THE_GROUND:
+    if not ranging and kind_of(kind).on_the_ground:
         ranging = "/scan"
     return {topic: _NAMES[topic] for topic in ("/odom", ranging) if topic}
 

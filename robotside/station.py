@@ -44,6 +44,7 @@ from robotside.guarded import Guarded, port_info
 from robotside.helm import FOLLOW_LINK, LOST_LINK_STOPS_TASK, Helm, Options
 from robotside.history import History
 from robotside.interrupted import Interrupted
+from robotside.kinds import kind_of, unknown
 from robotside.latch import Latch
 from robotside.limits import Keeper, Measured
 from robotside.manoeuvres import Order
@@ -61,11 +62,6 @@ NO_MAP = "There is no map of where the robot is: it can be driven by hand only."
 
 REMARK_PERIOD = 3.0
 """Bad drive commands of a client, and faults of the program, are told at most this often [s]."""
-
-AT_REST = (0.01, 0.03)
-"""Measured speeds below which the wheels stand still [m/s, rad/s]; three times as much means that they do not."""
-CARRIED = {"boat": (0.15, 0.10), "hexapod": (0.08, 0.08), "quadrotor": (0.08, 0.08)}
-"""The same for what current, waves and wind carry along, by its kind: none of them is ever quite still."""
 
 
 class Station:
@@ -288,6 +284,8 @@ class Station:
         self.bus.publish("/limits", self.keeper.message)
         self.bus.publish("/intruders", IntruderArray(Header(Time.at(self.now), "map")))
         self.bus.publish("/control/status", self._control)
+        if said := unknown(self.info.kind):
+            self.events.say("robot", said, "warn")
 
     def _agenda(self, civil: Callable[[], float], zone: tzinfo) -> Agenda:
         return Agenda(
@@ -466,13 +464,13 @@ class Station:
         return "PAUSED" if engine.paused else "AUTO" if engine.running else "MANUAL"
 
     def _at_rest(self) -> bool:
-        factor = 3.0 if self._control.at_rest else 1.0
+        factor = 3.0 if self._control.at_rest else 1.0  # so that it does not change all the time
         where = self.autonomy.whereabouts
         if not self.autonomy.measured(self.now, since=self._turned):
             return False
         if self.robot.trouble and not self._trouble:
             return False  # it began just now
-        speed, turn = CARRIED.get(self.info.kind, AT_REST)
+        speed, turn = kind_of(self.info.kind).at_rest
         return abs(where.speed) < speed * factor and abs(where.turn) < turn * factor
 
     def _diagnostics(self) -> DiagnosticArray:

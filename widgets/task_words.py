@@ -103,11 +103,12 @@ PECULIAR = ("take_off", "land", "surface")
 """Tasks of robots that fly or dive."""
 HOLDS = {
     "wheels": "Stands still where it is",
+    "ackermann": "Stands still where it is",
     "boat": "Keeps its place on the water",
     "hexapod": "Keeps its place in the water",
     "quadrotor": "Hovers where it is",
 }
-GOES = {"wheels": "Drives", "boat": "Sails", "hexapod": "Swims", "quadrotor": "Flies"}
+GOES = {"wheels": "Drives", "ackermann": "Drives", "boat": "Sails", "hexapod": "Swims", "quadrotor": "Flies"}
 """Kind of robot to its verb; any other one is as wheels."""
 DAYS = ("Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun")
 REACTS = {

@@ -12,11 +12,9 @@ from robotside.behaviours.course import Span
 from robotside.behaviours.fly import TakeOff
 from robotside.behaviours.situation import Situation
 from robotside.guide import Goal, Guide, Leg
+from robotside.kinds import kind_of
 
-__all__ = ["ASTRAY", "Hold"]
-
-ASTRAY = {"boat": 4.0, "hexapod": 1.5}
-"""What drifts, by kind, comes back from farther away than this [m]."""
+__all__ = ["Hold"]
 
 
 class Hold(Behaviour):
@@ -63,7 +61,7 @@ class Hold(Behaviour):
             if not math.isnan(self._height):
                 self._rise.tell_robot()
             return  # it stands on the ground
-        astray = ASTRAY.get(guide.kind, math.inf)
+        astray = kind_of(guide.kind).astray
         if place and not self._returns and now.pose.distance(place.x, place.y) > astray:
             self._returns = True
             guide.head_for(place)

@@ -10,9 +10,8 @@ import pytest
 from robotside.going import Going, Grounded
 from robotside.grid import Grid
 from robotside.guide import Guide
+from robotside.kinds import KINDS
 from tests.fakes import FakeRobot
-
-KINDS = ("wheels", "ackermann", "boat", "hexapod", "quadrotor")
 
 
 class Hopping(Grounded):

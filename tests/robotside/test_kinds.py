@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import ast
 import math
 from pathlib import Path
 
 import msgspec
 import pytest
 
+import robotside
+from app.screens.connect import KINDS as KINDS_SHOWN
 from bridge.msgs.pilothouse_msgs import (
     FlightState,
     Manoeuvre,
@@ -18,8 +21,16 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from robotside.assignments import tasks_of
 from robotside.config import NOTHING_SET, Config, LimitSettings
+from robotside.coursing import MANNERS, Coursing
+from robotside.guide import GOINGS
+from robotside.kinds import KINDS, unknown
+from robotside.safe_state import USUAL
+from robotside.tracks import HANDLING
+from robotside.wheeling import Wheeling
+from sim.robot import ROBOTS
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
+from widgets.task_words import GOES, HOLDS
 
 EVERYWHERE = ["patrol", "deliver", "guide", "go_to", "go_home", "hold", "follow_heading"]
 
@@ -108,3 +119,44 @@ def test_who_does_not_come_off_the_ground_gives_up_and_says_so(tmp_path: Path) -
     assert status.reason == "Taking off took longer than 20 s; the robot stays where it is."
     assert isinstance(run.robot, Agile)
     assert set(run.robot.orders) == {"take_off"}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_is_known_wherever_it_counts(kind: str) -> None:
+    """A kind that a place does not know would pass for wheels there, without a word."""
+    assert unknown(kind) == ""
+    assert kind in HANDLING
+    assert kind in USUAL
+    assert kind in GOINGS
+    assert (kind in MANNERS) == (GOINGS[kind] is Coursing)
+    assert kind in KINDS_SHOWN
+    assert kind in HOLDS
+    assert kind in GOES
+
+
+def test_every_simulated_vehicle_is_of_a_known_kind() -> None:
+    assert {model.parameters.info.kind for model in ROBOTS.values()} == set(KINDS)
+
+
+def test_no_other_place_decides_by_a_kind() -> None:
+    tables = {"kinds.py", "guide.py", "coursing.py", "tracks.py", "safe_state.py"}
+    kinds = set(KINDS) - {"wheels"}
+    root = Path(robotside.__file__).parent
+    found = {
+        path.name
+        for path in root.rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text()))
+        if isinstance(node, ast.Constant) and node.value in kinds
+    }
+    assert found == tables
+
+
+def test_an_unknown_kind_is_said_once_and_goes_as_if_on_wheels(tmp_path: Path) -> None:
+    run = scene("hovercraft", tmp_path)
+    run.run(1.0)
+    said = "A robot of the kind 'hovercraft' is not known here; it is driven as if on wheels. Known are"
+    told = run.station.events.since(0, run.station.events.boot)
+    events = [event.text for event in told if event.text.startswith(said)]
+    assert len(events) == 1
+    assert isinstance(run.station.autonomy.guide.going, Wheeling)
+    assert "dock" not in run.station.info.tasks
