@@ -274,7 +274,7 @@ def _two_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
     cards = between(left, actions.top + gap, left + across, video.y - gap)
     figures = min(116 * scale, across * 0.3)
     side = (cards.width - figures - 2 * gap) / 2
-    tape = Rect(body.x + body.width * 0.1, body.top - gap - 52 * scale, body.width * 0.8, 52 * scale)
+    tape = Rect(body.x + body.width * 0.1, body.top - gap / 2 - 52 * scale, body.width * 0.8, 52 * scale)
     places = {
         "video": video,
         "stop": stop,
@@ -297,6 +297,7 @@ def _badge_beside(places: dict[str, Rect], gap: float) -> dict[str, Rect]:
     """What was found beside the strip of a low picture, and what is said between them and the tape."""
     strip, tape = places["senses"], places["top"]
     wide = 0.55 * strip.width
+    strip = Rect(strip.x, places["video"].y + gap / 3, strip.width, strip.height)
     return {
         "senses": Rect(strip.x, strip.y, wide, strip.height),
         "badge": between(strip.x + wide + gap, strip.y, strip.right, strip.top),

@@ -14,7 +14,7 @@ from kivy.animation import Animation
 from kivy.clock import Clock
 from kivy.lang import Builder
 from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, NumericProperty, OptionProperty, StringProperty
+from kivy.properties import AliasProperty, ListProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.widget import Widget
 
 from widgets.base import fitting_size
@@ -75,10 +75,12 @@ class SlideToConfirm(Grip, Gauge):
     """Dispatches `on_confirm` the moment the knob is at the end; let go before, it slides back and nothing is done."""
 
     __events__ = ("on_confirm",)
-    drawn_from: ClassVar = ("text", "icon", "role", "share", "outcome")
+    drawn_from: ClassVar = ("text", "kin", "icon", "role", "share", "outcome")
 
     text = StringProperty("confirm")
     """What sliding does, in the words of an order, as in `take off`."""
+    kin = ListProperty()
+    """What slides beside it do: the words of all are on one line, or of all on two."""
     icon = StringProperty("chevron_right")
     """Name of the icon on the knob."""
     role = OptionProperty("accent", options=["accent", "plan", "danger"])
@@ -166,7 +168,7 @@ class SlideToConfirm(Grip, Gauge):
         whole, middle = f"slide to {self.text}", (start + end) / 2
         size = sp(16 if room > dp(200) else 14)
         taken = wide(whole, size, bold=True)
-        if taken > room:
+        if max(taken, *(wide(f"slide to {text}", size, bold=True) for text in self.kin), 0) > room:
             yield Word("slide to", middle, y + sp(9), sp(12), tint(theme.muted, strength))
             size = fitting_size([self.text], sp(14), room, bold=True)
             yield Word(self.text, middle, y - sp(8), size, tint(theme.text, strength), bold=True)
@@ -217,6 +219,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "no reply": make(outcome="no_reply", **up),
         "narrow": make(176, **up),
         "narrow land": make(176, **down),
+        "narrow land beside take off": make(176, kin=["take off"], **down),
         "narrow sent": make(176, outcome="sent", **up),
         "narrow no reply": make(176, outcome="no_reply", **up),
         "danger": make(text="cut the motors", icon="warning", role="danger"),

@@ -108,13 +108,15 @@ class DriveScreen(Driving):
         self.notice, low = places["notice"], places["notice_low"]
         touched = (places[slot] for slot in ("switch", "actions") if slot in places)
         over = (one.y for one in touched if one.y > low.y and one.x < low.right and low.x < one.right)
-        self.place_checks(low, min([places["top"].y, *over]), dp)
+        beside = self._two and tall  # beside the picture's own words; unfolded it takes the tape's room
+        self.checks.pos_hint = {"right": 1} if beside else {"center_x": 0.5}
+        self.place_checks(low, self.video.top if beside else min([places["top"].y, *over]), dp)
         self._strip = Rect(0, 0, 0, 0)
-        self.uncover()
         self.sight.place(places["badge"], to_right=form != "wide")
         chip = places["badge" if form == "wide" else "top"].y
         aside = max(0.0, body.right - self.notice.right - 8 * dp)
         self.video.insets = [self.notice.x - 8 * dp - body.x, 0, aside, body.top - chip]
+        self.uncover()
         return places["stop"]
 
     def _arrange(self, body: Rect, form: str, dp: float) -> dict[str, Rect]:
@@ -141,6 +143,9 @@ class DriveScreen(Driving):
         lids = [cover] if cover is not None else []
         if self.senses.covers:
             lids.append(self.arranged["senses_open"])
+        if not self.hide_checks() and self.checks.open:
+            lids.append(Rect(*self.low.pos, *self.low.size))
+        self.hide_chip(lids)
         for slot in HIDES:
             place = self.arranged[slot]
             hidden = any(lid.overlaps(place) for lid in lids)
@@ -148,7 +153,6 @@ class DriveScreen(Driving):
                 widget.opacity = 0 if hidden else 1
                 # what has a shader of its own knows nothing of opacity
                 put(widget, off(place) if hidden else place)
-        self.hide_checks()
         self.sight.covered = cover is not None and cover.overlaps(self.arranged["badge"])
         strip = self.arranged["senses"]
         if cover is not None and cover.overlaps(strip) and self.senses.folded:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from kivy.metrics import dp
 from kivy.properties import ObjectProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
@@ -28,6 +29,9 @@ from widgets import Video
 from widgets.stick import Stick
 
 __all__ = ["Driving"]
+
+CHIP = 170, 24
+"""Room of the picture's size and rate at its upper edge [dp]."""
 
 
 class Driving(FloatLayout):
@@ -160,16 +164,24 @@ class Driving(FloatLayout):
         self.places.setdefault(slot, []).append(widget)
         self.add_widget(widget)
 
-    def place_checks(self, low: Rect, top: float, dp: float) -> None:
-        """The checks stand on the lower edge of `low` and end below `top` [px]."""
+    def place_checks(self, low: Rect, top: float, unit: float) -> None:
+        """The checks stand on the lower edge of `low` and end below `top` [px]; `unit` is one dp there."""
         self.low.pos, self.low.width, self.low.height = (low.x, low.y), low.width, self.low.minimum_height
-        self.checks.wide, self.checks.room = min(low.width, 340 * dp), top - 8 * dp - low.y
+        self.checks.wide, self.checks.room = min(low.width, 340 * unit), top - 8 * unit - low.y
 
     def hide_checks(self) -> bool:
-        """Take the checks away where something is said over them; whether they are away."""
-        under = self.cover is not None and self.cover.overlaps(Rect(*self.low.pos, *self.low.size))
+        """Take the checks away where something is said over them, or sensors unfolded; whether they are away."""
+        lids = [self.cover, self.arranged["senses_open"] if self.senses.covers else None]
+        low = Rect(*self.low.pos, *self.low.size)
+        under = any(lid.overlaps(low) for lid in lids if lid is not None)
         self.low.opacity, self.low.disabled = float(not under), under
         return under
+
+    def hide_chip(self, lids: list[Rect]) -> None:
+        """The picture's own words are away where they would be seen only in part."""
+        left, top = self.video.x + self.video.insets[0] + dp(8), self.video.top - self.video.insets[3] - dp(8)
+        chip = Rect(left, top - dp(CHIP[1]), dp(CHIP[0]), dp(CHIP[1]))
+        self.video.show_chip = not any(lid.overlaps(chip) for lid in lids)
 
     def _cover_up(self, *_: object) -> None:
         if self.arranged:

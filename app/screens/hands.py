@@ -220,6 +220,9 @@ class Hands(EventDispatcher):
             widget.state = "live" if may else "disabled"
             if action is not None and not one.title and hasattr(widget, "text"):
                 widget.text = _within(action.text)
+        slides = [widget for widget, _ in self._asking if hasattr(widget, "kin")]
+        for widget in slides:
+            widget.kin = [other.text for other in slides if other is not widget]
         self.arm.tick()
 
     def _vain(self) -> str:

@@ -30,7 +30,7 @@ CARRIED = (
     ),
     Instrument(SENSES, "SonarRingView", "/sonar", title="Sonar"),
     Instrument(SENSES, "LineSensorView", "/line_sensor", title="Line"),
-    Instrument(SENSES, "LaserScanView", "/scan", title="Laser"),
+    Instrument(SENSES, "LaserScanView", "/scan"),
 )
 """Of what any robot may carry: among the small sensors of one whose layout does not name it, once it says something."""
 
@@ -79,7 +79,10 @@ class Instruments:
     def _picture(self, one: Instrument) -> Any:
         kind = getattr(widgets, one.widget)
         offered = {"card": True, "title": one.title}
-        widget = kind(**{name: value for name, value in offered.items() if hasattr(kind, name) and value})
+        small = one.slot == SENSES  # no room for a name that is not wanted
+        widget = kind(
+            **{key: value for key, value in offered.items() if hasattr(kind, key) and (value or small)}
+        )
         if one.title and hasattr(kind, "title"):
             self._titled.append((widget, one))
         return widget

@@ -85,6 +85,15 @@ def test_what_stays_until_it_is_dealt_with_has_room_for_a_finger(size: tuple[int
     assert room.height >= 53
 
 
+@pytest.mark.parametrize("size", [(412, 892), (800, 1280)])
+def test_with_two_sticks_upright_it_lies_between_the_tape_and_the_sensors(size: tuple[int, int]) -> None:
+    places = screens(*size)["two"]
+    room = places["notice_low"]
+    assert room.height >= 53
+    assert places["senses"].top < room.y
+    assert room.top < places["top"].y
+
+
 @pytest.mark.parametrize(("size", "name"), CASES)
 def test_nothing_leaves_the_screen(size: tuple[int, int], name: str) -> None:
     body = shell(*size)["body"]

@@ -168,6 +168,23 @@ def test_a_scout_is_driven_by_a_stick_or_sent_to_a_goal(
     assert pad.right < 0 < screen.speed.x
 
 
+def test_slow_on_the_slider_turns_slower_too_but_never_below_half_and_steers_as_far_as_ever(
+    driving: Glass, robot: FakeRobot, meet: Callable[..., Any]
+) -> None:
+    screen = meet(SCOUT)
+    screen.stick.lean(0.0, 1.0)
+
+    def turns(speed: float) -> float:
+        screen.speed.maximum_speed = speed
+        assert screen.stick.max_yaw_rate == screen.hands.reach.yaw_rate, "the stick says what it means"
+        return screen.hands.reach.yaw_rate
+
+    assert [turns(speed) for speed in (1.0, 0.5, 0.1)] == pytest.approx([2.0, 1.5, 1.1])
+    screen = meet(TRUCK)
+    screen.speed.maximum_speed = 0.5
+    assert screen.hands.reach.steering == pytest.approx(0.5)
+
+
 def test_the_screen_of_before_rests_and_is_heard_no_longer(
     driving: Glass, robot: FakeRobot, meet: Callable[..., Any]
 ) -> None:

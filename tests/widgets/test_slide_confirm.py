@@ -125,3 +125,12 @@ def test_it_is_as_high_as_a_finger_needs(stage):
         assert slide.height >= theme.target
     finally:
         theme.gloves = False
+
+
+def test_slides_beside_each_other_have_their_words_on_as_many_lines(stage):
+    slide = stage.show(SlideToConfirm(text="land"), size=(176, 62))
+    stage.frames(2)
+    assert "slide to land" in slide.texts
+    slide.kin = ["take off"]
+    stage.frames(2)
+    assert {"slide to", "land"} <= set(slide.texts)
