@@ -100,16 +100,10 @@ def _play(arguments: argparse.Namespace, robot: Any, settings: Path) -> int:
         app.run()
     finally:
         witness.close()
-    seconds = round(time.monotonic() - started, 1)
     recording = {"file": record.name, "bytes": record.stat().st_size} if record.exists() else None
-    return report.write(
-        robot=arguments.robot,
-        url=robot.url,
-        world=arguments.world,
-        speed=arguments.speed,
-        seconds=seconds,
-        recording=recording,
-    )
+    told = {name: getattr(arguments, name) for name in ("robot", "world", "speed")}
+    seconds = round(time.monotonic() - started, 1)
+    return report.write(**told, url=robot.url, seconds=seconds, recording=recording)
 
 
 def main(argv: list[str] | None = None) -> int:
