@@ -120,6 +120,13 @@ def test_a_slow_link_leaves_its_share_of_everything(share: float, a: float, b: f
     assert done.roll * b == pytest.approx(done.pitch * a)
 
 
+def test_no_wheel_is_asked_to_turn_farther_than_it_can() -> None:
+    for share in (1.0, 0.2):
+        done = paced(Manoeuvre(kind="steer", steering=-3.0, speed=0.5), TRUCK, share)
+        assert isinstance(done, Manoeuvre)
+        assert done.steering == -TRUCK.max_steering  # a slow link takes speed off it and leaves it its bend
+
+
 def test_on_a_good_link_an_order_stays_as_it_is() -> None:
     order = tilt(pitch=0.2, z=0.5, turn=-0.3)
     done = paced(order, DRONE, 1.0)
