@@ -70,3 +70,12 @@ def test_a_goal_that_was_passed_closely_counts_as_reached() -> None:
     assert not follower.arrived(Pose2(9.9, 0.15, 0.0))
     assert follower.arrived(Pose2(10.0, 0.21, 0.0)) is follower.arrived(Pose2(10.05, 0.21, 0.0))
     assert not Follower(STRAIGHT, cruise=0.6).arrived(Pose2(9.5, 0.0, 0.0))
+
+
+def test_a_way_that_begins_far_behind_is_joined_beside_the_robot() -> None:
+    path = resampled(np.array([[0.0, 0.0], [20.0, 0.0]]))
+    follower = Follower(path, cruise=0.6)
+    distance, bearing = follower.aim(Pose2(7.0, 0.0, 0.0), 0.0)
+    assert bearing == pytest.approx(0.0)
+    assert distance == pytest.approx(0.5, abs=0.11)
+    assert follower.remaining(Pose2(7.0, 0.0, 0.0)) == pytest.approx(13.0, abs=0.1)
