@@ -230,8 +230,9 @@ def _two_short(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
     stop, slider, stick, tape = places["stop"], places["slider"], places["stick"], places["top"]
     right = Rect(stop.x - gap - stick.width, stick.y, stick.width, stick.height)
     left, width = slider.right + gap, right.x - slider.right - 2 * gap
-    slides = Rect(left, stick.y, width, 2 * 56 * scale + 8 * scale)
+    slides = Rect(left, stick.y, width, 2 * 53 * scale + 8 * scale)
     strip = Rect(left, slides.top + 8 * scale, width, STRIP * scale)
+    tape = between(tape.x, tape.y + 12 * scale, tape.right, tape.top)
     actions = Rect(tape.x, tape.y - 8 * scale - STRIP * scale, tape.width, STRIP * scale)
     middle = between(tape.x, strip.top + 8 * scale, tape.right, actions.y - 8 * scale)
     card, room = places["top_right"], Rect(stop.x, stick.y, body.right - gap - stop.x, 156 * scale)
@@ -243,13 +244,14 @@ def _two_short(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
             "top_left": between(seen.x, chosen.top + 8 * scale, seen.right, seen.top),
         }
     return places | {
+        "top": tape,
         "badge": between(room.x, room.top + 8 * scale, body.right - gap, card.y - 8 * scale),
         "right_stick": right,
         "confirm": slides,
         "actions": actions,
         "senses": strip,
         "notice": middle,
-        "notice_low": between(left, strip.top + 4 * scale, left + width, middle.top),
+        "notice_low": between(tape.x, strip.top + 4 * scale, tape.right, actions.y - 4 * scale),
     }
 
 

@@ -113,9 +113,13 @@ class DriveScreen(Driving):
         self.place_checks(low, self.video.top if beside else min([places["top"].y, *over]), dp)
         self._strip = Rect(0, 0, 0, 0)
         self.sight.place(places["badge"], to_right=form != "wide")
-        chip = places["badge" if form == "wide" else "top"].y
+        start, chip = self.notice.x, places["badge" if form == "wide" else "top"].y
+        if (
+            self._two and form == "short"
+        ):  # under the tape is what is done once, under the instrument room for a line
+            start, chip = places["top_left"].x, places["top_left"].y + 7 * dp
         aside = max(0.0, body.right - self.notice.right - 8 * dp)
-        self.video.insets = [self.notice.x - 8 * dp - body.x, 0, aside, body.top - chip]
+        self.video.insets = [start - 8 * dp - body.x, 0, aside, body.top - chip]
         self.uncover()
         return places["stop"]
 

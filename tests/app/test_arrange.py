@@ -85,6 +85,14 @@ def test_what_stays_until_it_is_dealt_with_has_room_for_a_finger(size: tuple[int
     assert room.height >= 53
 
 
+def test_with_two_sticks_on_its_side_it_lies_under_what_is_done_once() -> None:
+    places = screens(892, 412)["two"]
+    room = places["notice_low"]
+    assert room.width >= 200
+    assert room.height >= 53
+    assert room.top < places["actions"].y
+
+
 @pytest.mark.parametrize("size", [(412, 892), (800, 1280)])
 def test_with_two_sticks_upright_it_lies_between_the_tape_and_the_sensors(size: tuple[int, int]) -> None:
     places = screens(*size)["two"]
