@@ -31,11 +31,11 @@ from bridge.msgs.std_msgs import Header
 from widgets.base import fitting_size
 from widgets.errand import Errand
 from widgets.gauge import Gauge
-from widgets.geometry import DASH, Points, View, nice_floor, rounded
+from widgets.geometry import DASH
+from widgets.goal_picture import Box, draw, ground
 from widgets.grip import Grip
 from widgets.icons import icon
 from widgets.ink import Word, tint
-from widgets.map_marks import arrow
 from widgets.readout import figure
 from widgets.shapes import Shapes
 from widgets.theme import theme
@@ -86,9 +86,6 @@ OUTCOMES = {
 """What became of the goal to what the button says."""
 UNDER_WAY = ("sent", "accepted", "waiting", "paused")
 """The robot has the goal, and has not done with it."""
-
-Box = tuple[float, float, float, float]
-"""Left, low, width, height [px]."""
 
 
 class GoalPad(Grip, Gauge):
@@ -299,7 +296,8 @@ class GoalPad(Grip, Gauge):
             if name != "here" or figures is not None:
                 yield from self._draw_button(shapes, name)
         if picture is not None:
-            yield from self._draw_picture(shapes, picture)
+            sent = self.outcome in UNDER_WAY
+            yield from draw(shapes, picture, self.actual, self.wanted, self.way, self.step, sent=sent)
         if figures is None:
             yield from self._in_corners(shapes)
         else:
@@ -307,11 +305,6 @@ class GoalPad(Grip, Gauge):
             left, low, width, height = self._cell(2, 2)
             for row, step in ((-1, f"{self.step:g} m"), (1, f"{math.degrees(TURN):.0f}°")):
                 yield Word(step, left + width / 2, low + height / 2 - row * sp(9), sp(12), theme.muted)
-
-    def _ground(self, shapes: Shapes, box: Box, fill: Any, border: Any) -> None:
-        rim = rounded(*box, dp(9))
-        shapes.polygon([(x, y) for x, y in rim], fill)
-        shapes.line(np.array([*rim, rim[0]]), dp(1.2), border)
 
     def _draw_button(self, shapes: Shapes, name: str) -> Iterator[Word]:
         left, low, width, height = box = self.button(name)
@@ -325,9 +318,9 @@ class GoalPad(Grip, Gauge):
             ink = theme.plan
         elif not can:
             ink = theme.faint
-        self._ground(shapes, box, fill, fill if main else theme.line)
+        ground(shapes, box, fill, fill if main else theme.line)
         if self.pressed == name:
-            self._ground(shapes, box, tint(ink, 0.18), ink)
+            ground(shapes, box, tint(ink, 0.18), ink)
         words, sign = self.says if name == "go" else (AXES.get(name, ""), BUTTONS[name][2])
         if height < sp(LEAST_WORDS):
             words = ""
@@ -352,7 +345,7 @@ class GoalPad(Grip, Gauge):
             left, low, width, height = box = self._cell(column, 2)
             if column == 0:
                 fill = tint(theme.accent, 0.25) if self.pressed == "here" else theme.raised
-                self._ground(shapes, box, fill, theme.line)
+                ground(shapes, box, fill, theme.line)
             if height < sp(LEAST_WORDS):
                 sign, ink = icon("my_location") if column == 0 else "", theme.text
                 yield Word(sign, left + width / 2, low + height / 2, sp(24), ink, font=theme.icons)
@@ -385,59 +378,6 @@ class GoalPad(Grip, Gauge):
                 yield Word(text, x, low + rows * (2.5 - row), size, theme.text, bold=True, anchor=(1, 0.5))
         for row, axis in enumerate(AXIS_NAMES):
             yield Word(axis, left, low + rows * (2.5 - row), sp(12), theme.muted, anchor=(0, 0.5))
-
-    def _draw_picture(self, shapes: Shapes, box: Box) -> Iterator[Word]:
-        """Robot, goal and way from above, north up."""
-        left, low, width, height = box
-        self._ground(shapes, box, theme.bg, theme.line)
-        places = [place for place in (self.actual, self.wanted) if place]
-        if not places:
-            yield Word("where is the robot?", left + width / 2, low + height / 2, sp(11), theme.muted)
-            return
-        inner = left + dp(20), low + dp(20), width - dp(40), height - dp(40)
-        view = View.fitting(np.array([place[:2] for place in places]), box=inner, most=dp(70))
-        self._grid(shapes, view, box)
-        if self.wanted and self.actual:
-            ends = view.many_to_screen(np.array([self.actual[:2], self.wanted[:2]]))
-            shapes.dashes(ends, dp(3.4), tint(theme.plan, 0.8), period=dp(9), dash=dp(3))
-        if len(self.way) > 1:
-            inside = _within(view.many_to_screen(self.way), box)
-            for start, end in inside:
-                shapes.line(np.array([start, end]), dp(2.4), theme.plan)
-        if self.actual:
-            x, y = view.to_screen(*self.actual[:2])
-            shapes.disc(x, y, dp(10), theme.accent)
-            shapes.polygon(arrow(x, y, self.actual[2], dp(10)), theme.ink_accent)
-        if self.wanted:
-            x, y = view.to_screen(*self.wanted[:2])
-            if self.outcome in UNDER_WAY:
-                shapes.disc(x, y, dp(10), tint(theme.plan, 0.35))
-            shapes.ring(x, y, dp(10), dp(2.4), theme.plan)
-            shapes.polygon(arrow(x, y, self.wanted[2], dp(13)), theme.plan)
-
-    def _grid(self, shapes: Shapes, view: View, box: Box) -> None:
-        """Lines of a round distance, inside the box."""
-        left, low, width, height = box
-        gap = max(nice_floor(dp(48) / view.scale), self.step)
-        (first_x, first_y), (last_x, last_y) = (
-            view.to_world(left, low),
-            view.to_world(left + width, low + height),
-        )
-        easts = np.arange(math.ceil(first_x / gap), math.floor(last_x / gap) + 1) * gap
-        norths = np.arange(math.ceil(first_y / gap), math.floor(last_y / gap) + 1) * gap
-        columns = [view.to_screen(east, 0.0)[0] for east in easts]
-        rows = [view.to_screen(0.0, north)[1] for north in norths]
-        starts = [(x, low) for x in columns] + [(left, y) for y in rows]
-        ends = [(x, low + height) for x in columns] + [(left + width, y) for y in rows]
-        shapes.segments(np.array(starts), np.array(ends), dp(1), tint(theme.muted, 0.3))
-
-
-def _within(points: Points, box: Box) -> list[tuple[tuple[float, float], tuple[float, float]]]:
-    """The pieces of a line whose ends are both inside the box."""
-    left, low, width, height = box
-    kept = [left <= x <= left + width and low <= y <= low + height for x, y in points]
-    pairs = zip(points[:-1], points[1:], kept[:-1], kept[1:], strict=True)
-    return [((a[0], a[1]), (b[0], b[1])) for a, b, first, second in pairs if first and second]
 
 
 def _pose(x: float, y: float, degrees: float) -> PoseWithCovarianceStamped:
