@@ -48,7 +48,8 @@ def steered(kind: str, yaw: float, *, fastest: float = 1.5, sure: bool = True) -
 @pytest.mark.parametrize("kind", COURSES)
 def test_it_keeps_the_course_to_its_goal_at_nine_tenths_of_its_speed(kind: str) -> None:
     order = steered(kind, 0.0)
-    assert (order.kind, order.yaw) == ("course", pytest.approx(0.0))
+    assert order.kind == "course"
+    assert order.yaw == pytest.approx(0.0)
     assert order.speed == pytest.approx(0.9 * 1.5)
 
 
