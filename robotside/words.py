@@ -1,8 +1,17 @@
-"""What others send, made fit to be shown and kept."""
+"""What is said to people: figures as they read them, and what others send made fit to be shown and kept."""
 
 from __future__ import annotations
 
-__all__ = ["number", "plain"]
+import math
+
+from bridge.units import heading_from_yaw
+
+__all__ = ["heading", "number", "plain"]
+
+
+def heading(yaw: float) -> str:
+    """A yaw [rad] as the heading that people steer by, as in `090°`: 0 north, clockwise; `?` for what is no number."""
+    return f"{round(heading_from_yaw(yaw)) % 360:03d}°" if math.isfinite(yaw) else "?"
 
 
 def number(value: float) -> str:

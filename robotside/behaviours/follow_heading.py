@@ -18,6 +18,7 @@ from robotside.planner import MARGIN
 from robotside.pose2 import Points
 from robotside.tracks import HANDLING
 from robotside.trucking import Trucking
+from robotside.words import heading
 
 __all__ = ["FollowHeading"]
 
@@ -81,10 +82,10 @@ class FollowHeading(Behaviour):
             now.tell("taking off", waits)
             return Status.FAILURE if self._guide.reason else Status.RUNNING
         error = math.remainder(self._heading - now.pose.yaw, math.tau)
-        degrees = math.degrees(self._heading) % 360.0
+        towards = heading(self._heading)
         bends = self._guide.going.turning > 0
         if abs(error) > ALIGNED and not bends:
-            now.tell("turning", f"Turning to the heading of {degrees:.0f} degrees.")
+            now.tell("turning", f"Turning to {towards}.")
             self._go(0.0, error)
             return Status.RUNNING
         wall, thing = self._wall(), self._thing()
@@ -92,11 +93,7 @@ class FollowHeading(Behaviour):
             return self._stand(wall < NEAR)
         self._blocked_since = math.nan
         turns = abs(error) > ALIGNED
-        said = (
-            f"Coming round to {degrees:.0f} degrees."
-            if turns
-            else f"Going straight at {degrees:.0f} degrees."
-        )
+        said = f"Coming round to {towards}." if turns else f"Going straight at {towards}."
         now.tell("turning" if turns else "driving", said)
         pace = self._pace(min(wall, thing))
         self._go(min(pace, BENDING) if turns else pace, error)

@@ -1,4 +1,4 @@
-"""What others send."""
+"""What others send, and figures as people read them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from robotside.words import number, plain
+from robotside.words import heading, number, plain
 
 
 @pytest.mark.parametrize(
@@ -42,3 +42,18 @@ def test_a_number_is_short_however_large_it_is(value: float, shown: str) -> None
 def test_a_long_name_is_cut() -> None:
     assert plain("é" * 900_000, 40) == "é" * 40
     assert plain("a" * 39 + " b", 40) == "a" * 39
+
+
+@pytest.mark.parametrize(
+    ("yaw", "said"),
+    [
+        (0.0, "090°"),
+        (math.pi / 2, "000°"),
+        (math.pi / 2 + 0.004, "000°"),
+        (-math.pi / 6, "120°"),
+        (3 * math.pi, "270°"),
+        (math.nan, "?"),
+    ],
+)
+def test_a_heading_is_told_as_people_steer_by_it(yaw: float, said: str) -> None:
+    assert heading(yaw) == said

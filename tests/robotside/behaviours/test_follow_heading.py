@@ -24,7 +24,7 @@ def test_it_turns_and_goes_at_the_speed_asked_for_until_the_time_is_over() -> No
     tree = make(stage, math.pi / 2, 0.2, 12.0)
     stage.tick(tree)
     assert stage.phase == "turning"
-    assert stage.situation.doing.text == "Turning to the heading of 90 degrees."
+    assert stage.situation.doing.text == "Turning to 000°."
     assert stage.tick(tree, 20.0) is Status.SUCCESS
     x, y, yaw = stage.robot.pose
     assert abs(x) < 0.25
