@@ -82,7 +82,7 @@ Builder.load_string("""
     size_hint_y: None
     height: root.high
     anchor_x: 'left' if root.flow == 'horizontal' else 'center'
-    padding: (dp(14), 0, dp(14) + root.taken + (dp(10) if root.taken else 0), 0) if root.flow == 'horizontal' else (dp(4), 0, dp(4), 0)
+    padding: (dp(14), 0, dp(14) + root.taken + (dp(10) if root.taken else 0), 0) if root.flow == 'horizontal' else (dp(8), 0, dp(8), 0)
     canvas.after:
         Color:
             rgba: theme.warn if root.current else (0, 0, 0, 0)
@@ -251,7 +251,7 @@ class ActionColumn(Outlined, Control, BoxLayout):
 
     def _mark(self, *_: object) -> None:
         count = max(1, round(self.across))
-        room = (self.roll.width - (count - 1) * self.grid.spacing[0]) / count - dp(12)
+        room = (self.roll.width - (count - 1) * self.grid.spacing[0]) / count - dp(20)
         for name, button in self._buttons.items():
             button.current = name == self.current and bool(self.switches)
             press = f"press {self.switches[1]}" if button.current and not button.disabled else ""

@@ -24,6 +24,7 @@ ROOMY = 840.0
 """A phone's side narrower than this has no room for the satellites [dp]."""
 
 Builder.load_string("""
+#:import fitting_size widgets.base.fitting_size
 <TopBar>:
     size_hint: None, None
     padding: (dp(2), 0, dp(8), 0) if root.form == 'tall' else (dp(6), 0, dp(16), 0)
@@ -51,7 +52,7 @@ Builder.load_string("""
         id: name
         text: root.robot_name
         bold: True
-        font_size: theme.size_title if root.form != 'tall' else sp(16)
+        font_size: theme.size_title if root.form != 'tall' else fitting_size([self.text], sp(16), self.width - dp(8), bold=True)
         shorten: root.form == 'tall'
         shorten_from: 'right'
         pos_hint: {'center_y': .5}
@@ -111,6 +112,8 @@ class TopBar(BoxLayout):
     mode_role = StringProperty("muted")
     mode_offered = BooleanProperty(False)
     """The robot takes a command for its mode."""
+    located = BooleanProperty(True)
+    """The robot tells its position by satellite, or has not yet said what it tells."""
     fix_text = StringProperty("—")
     fix_role = StringProperty("muted")
     control_text = StringProperty("")
@@ -121,13 +124,14 @@ class TopBar(BoxLayout):
         super().__init__(**kwargs)
         for name in PARTS:  # kv holds ids weakly, and the narrow bar takes some of them out
             self.ids[name] = self.ids[name].__self__
+        self.fbind("located", lambda *_: self.arrange(self.form))
 
     def arrange(self, form: str) -> None:
         """Take the shape of the window; the narrow bar leaves out what is said elsewhere."""
         self.form = form
         wanted = list(PARTS[:NARROW] if form == "tall" else PARTS)
-        if form == "short" and self.width < ROOMY * Metrics.density:
-            wanted.remove("satellites")
+        if form == "short" and self.width < ROOMY * Metrics.density or not self.located:
+            wanted = [name for name in wanted if name != "satellites"]
         shown = [self.ids[name] for name in wanted]
         if list(reversed(self.children)) != shown:
             self.clear_widgets()
@@ -140,6 +144,8 @@ class TopBar(BoxLayout):
         self.mode_text, self.mode_icon, self.mode_role = standing.mode(session, brief=self.form == "tall")
         self.mode_offered = session.connected and not session.foreign and session.offers("/mode/set")
         self.fix_text, self.fix_role = standing.fix(session)
+        offer = session.offer
+        self.located = offer is None or "/fix" in offer.topics or session.feeds.latest("/fix") is not None
         self.control_text, self.control_icon, self.control_role = standing.control(
             session, brief=self.form != "wide"
         )

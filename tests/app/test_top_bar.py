@@ -8,6 +8,7 @@ import pytest
 
 from app.screens.top_bar import TopBar
 from bridge.msgs.sensor_msgs import BatteryState
+from widgets.base import text_texture
 
 
 @pytest.mark.parametrize("mode", ["AUTO", "STOPPED", "no link"])
@@ -26,3 +27,25 @@ def test_a_phone_has_room_for_the_name_and_keeps_clear_of_its_edge(stage: Any, m
     name.texture_update()
     assert name.texture_size[0] <= name.width
     assert bar.right - bar.ids.link.right >= 8
+
+
+def test_a_long_name_is_written_smaller_and_not_cut(stage: Any) -> None:
+    bar = TopBar()
+    stage.show(bar, size=(412, 56))
+    bar.arrange("tall")
+    bar.robot_name, bar.mode_text = "Commander-1", "MANUAL"
+    bar.ids.battery.state = bar.ids.link.state = "live"
+    bar.ids.battery.show(BatteryState(percentage=0.62))
+    bar.ids.link.rtt = 0.041
+    stage.frames(4)
+    name = bar.ids.name
+    assert text_texture("Commander-1", name.font_size, bold=True).width <= name.width
+
+
+def test_what_has_no_satellites_to_tell_of_has_no_chip_for_them(stage: Any) -> None:
+    bar = TopBar()
+    stage.show(bar, size=(1280, 56))
+    bar.arrange("wide")
+    assert bar.ids.satellites in bar.children
+    bar.located = False
+    assert bar.ids.satellites not in bar.children
