@@ -130,7 +130,7 @@ class TopBar(BoxLayout):
         """Take the shape of the window; the narrow bar leaves out what is said elsewhere."""
         self.form = form
         wanted = list(PARTS[:NARROW] if form == "tall" else PARTS)
-        if form == "short" and self.width < ROOMY * Metrics.density or not self.located:
+        if (form == "short" and self.width < ROOMY * Metrics.density) or not self.located:
             wanted = [name for name in wanted if name != "satellites"]
         shown = [self.ids[name] for name in wanted]
         if list(reversed(self.children)) != shown:
