@@ -94,10 +94,24 @@ class DriveSlot:
 
         ValueError for a manoeuvre that is no drive command.
         """
-        if isinstance(order, Manoeuvre) and order.kind not in KINDS:
-            raise ValueError(f"A robot is driven by {', '.join(KINDS)}, not by the manoeuvre {order.kind!r}.")
+        self._check(order)
         with self._lock:
             self._wanted = order if _is_finite(order) else _ZERO
+
+    def amend(self, order: Drive) -> None:
+        """Drive so instead of what is wanted, from any thread; rest stays rest until the stick is pushed anew.
+
+        ValueError as with `want`.
+        """
+        self._check(order)
+        with self._lock:
+            if self._wanted != _ZERO and self._now() - self._beat <= REARM:
+                self._wanted = order if _is_finite(order) else _ZERO
+
+    @staticmethod
+    def _check(order: Drive) -> None:
+        if isinstance(order, Manoeuvre) and order.kind not in KINDS:
+            raise ValueError(f"A robot is driven by {', '.join(KINDS)}, not by the manoeuvre {order.kind!r}.")
 
     def beat(self) -> None:
         """Say that the user interface is alive, from any thread."""

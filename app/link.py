@@ -174,6 +174,11 @@ class Link:
         self._slot.want(order)
         self._network.call(self._wake.set)
 
+    def amend(self, order: Drive) -> None:
+        """What the hand that drives now means has changed; a robot that rests goes on resting."""
+        self._slot.amend(order)
+        self._network.call(self._wake.set)
+
     @property
     def driving(self) -> bool:
         """The robot was last told to move."""

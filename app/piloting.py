@@ -7,7 +7,7 @@ robot leans. Which of it a layout has is written in its file; which of it the ro
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Hashable
+from collections.abc import Callable, Collection, Hashable, Mapping
 from dataclasses import dataclass, fields
 from typing import Self
 
@@ -136,23 +136,34 @@ class Piloting:
         kinds: Callable[[], Collection[str]],
         reach: Callable[[], Reach] = Reach,
         says: Collection[str] = PARTS,
+        amend: Callable[[Drive], object] | None = None,
     ) -> None:
-        """`send` drives the robot; `kinds` are the manoeuvres that it knows now, `reach` what the controls mean at their ends.
+        """`send` drives the robot, `amend` only one that is driven already; `kinds` are the manoeuvres that it knows now, `reach` what the controls mean at their ends.
 
         `says` is which of `PARTS` the controls may say at all.
         """
         self._send, self._kinds, self._reach, self._says = send, kinds, reach, frozenset(says)
+        self._amend = amend or send
         self._said: dict[Hashable, Parts] = {}
 
     def take(self, control: Hashable, parts: Parts) -> None:
         """A control says something else than before; all of it together is sent. What is not finite counts as rest of that control."""
-        if not all(math.isfinite(getattr(parts, name)) for name in PARTS):
-            parts = Parts()
-        if parts.rest:
+        self._keep(control, parts)
+        self._send(self.order)
+
+    def retake(self, said: Mapping[Hashable, Parts]) -> None:
+        """What a push means has changed: each control says this now. Only what is pushed counts, and it is sent at once."""
+        held = [control for control in said if control in self._said]
+        for control in held:
+            self._keep(control, said[control])
+        if held:
+            self._amend(self.order)
+
+    def _keep(self, control: Hashable, parts: Parts) -> None:
+        if parts.rest or not all(math.isfinite(getattr(parts, name)) for name in PARTS):
             self._said.pop(control, None)
         else:
             self._said[control] = parts
-        self._send(self.order)
 
     @property
     def parts(self) -> Parts:

@@ -16,7 +16,7 @@ from app.dashboard import Dashboard
 from app.drive_slot import Drive
 from app.feeds import Post
 from app.layout import SAYS, SLIDER, Control, Layout
-from app.link import OUTCOME
+from app.link import OFFER, OUTCOME
 from app.piloting import Parts, Piloting, Reach
 from app.screens.arm_hand import ARM, ArmHand
 from app.screens.in_vain import InVain
@@ -71,7 +71,7 @@ class Hands(EventDispatcher):
         self.chosen = next(iter(self.choices), "")
         self.bind(chosen=lambda *_: self.rest())
         says = {part for _, one in self._sticks for part in one.says}
-        self.piloting = Piloting(self._drive, self._kinds, lambda: self.reach, says)
+        self.piloting = Piloting(self._drive, self._kinds, lambda: self.reach, says, self._amend)
 
     def take_up(self) -> bool:
         """Take up the arm where the robot has one, and put it away where it has none any more; True when that changed."""
@@ -129,15 +129,19 @@ class Hands(EventDispatcher):
     # what the fingers do
 
     def _pushed(self, stick: Stick, said: Drive, one: Control) -> None:
+        self.piloting.take(stick, self._meant(stick, said, one))
+
+    def _meant(self, stick: Stick, said: Drive, one: Control) -> Parts:
         if one.widget in SAYS:
-            self.piloting.take(stick, Parts.of(said))
-            return
-        reach = self.reach
+            return Parts.of(said)
         shares = ((one.forward, stick.forward), (one.left, stick.left))
-        self.piloting.take(stick, Parts(**{part: share * reach.of(part) for part, share in shares if part}))
+        return Parts(**{part: share * self.reach.of(part) for part, share in shares if part})
 
     def _drive(self, order: Drive) -> None:
         self._session.link.drive(order)
+
+    def _amend(self, order: Drive) -> None:
+        self._session.link.amend(order)
 
     def _kinds(self) -> tuple[str, ...]:
         session = self._session
@@ -178,6 +182,8 @@ class Hands(EventDispatcher):
         """A message came: what the robot may, and what became of what was asked for."""
         if channel in ("/robot/info", "/limits"):
             self.take_limits()
+        elif channel == OFFER:
+            self._retake()
         elif channel == OUTCOME:
             self.arm.hear(post.value)
             self._answer(post.value)
@@ -277,6 +283,11 @@ class Hands(EventDispatcher):
             for name, end in ends.items():
                 if hasattr(stick, name):
                     setattr(stick, name, end)
+        self._retake()
+
+    def _retake(self) -> None:
+        """A finger that rests on a stick drives on, and shall do so by what the glass says now."""
+        self.piloting.retake({stick: self._meant(stick, stick.order, one) for stick, one in self._sticks})
 
 
 def _within(words: str) -> str:

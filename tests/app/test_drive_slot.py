@@ -95,6 +95,22 @@ def test_a_stick_held_through_a_long_stall_must_be_pushed_anew(hand: Hand) -> No
     assert hand.pass_time(1.0) == []
 
 
+def test_what_a_held_stick_means_anew_is_sent_at_once_but_pushes_no_stick(hand: Hand) -> None:
+    hand.slot.amend(AHEAD)
+    assert hand.pass_time(0.1) == [], "nobody pushed"
+    hand.slot.want(AHEAD)
+    hand.pass_time(0.1)
+    hand.slot.amend(TURN)
+    assert hand.pass_time(0.01) == [TURN]
+    hand.pass_time(1.2, alive=False)
+    hand.slot.amend(AHEAD)
+    assert hand.pass_time(0.3) == [], "after a long stall the stick must be pushed anew"
+    hand.slot.want(AHEAD)
+    hand.slot.drop()
+    hand.slot.amend(AHEAD)
+    assert hand.pass_time(0.3) == [], "it did not wait for the lost link"
+
+
 def test_a_twist_that_waited_for_a_lost_link_is_never_sent(hand: Hand) -> None:
     hand.slot.want(AHEAD)
     hand.slot.drop()

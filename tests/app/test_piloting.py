@@ -114,3 +114,15 @@ def test_a_control_that_says_what_is_no_number_counts_as_let_go() -> None:
     piloting.take("stick", Parts(ahead=0.5))
     piloting.take("stick", Parts(ahead=math.nan, turn=1.0))
     assert sent[-1] == Twist()
+
+
+def test_what_a_push_means_anew_is_sent_at_once_and_for_nothing_that_is_let_go() -> None:
+    sent: list[Drive] = []
+    piloting = Piloting(sent.append, tuple)
+    piloting.take("stick", Parts(ahead=2.0))
+    piloting.retake({"stick": Parts(ahead=0.5), "lever": Parts(turn=1.0)})
+    assert sent == [Twist.planar(2.0, 0.0), Twist.planar(0.5, 0.0)]
+    piloting.take("stick", Parts())
+    piloting.retake({"stick": Parts(ahead=1.0)})
+    assert sent[-1] == Twist(), "a control that is let go drives nothing, whatever it would mean"
+    assert len(sent) == 3

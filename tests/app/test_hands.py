@@ -1,0 +1,81 @@
+"""Hands of the drive screen: what is held follows what slider, limits and kind of the robot come to mean."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import msgspec
+import pytest
+
+from app.feeds import Post
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
+from tests.app.fakes import FakeRobot
+from tests.app.glass import Glass
+from tests.app.test_profiles import BOAT, DRONE, TRUCK
+
+SLOW = {
+    "commander": (1.0, lambda said: said.speed),
+    "dory": (0.4, lambda said: said.throttle * BOAT.max_speed),
+    "ardrone": (0.8, lambda said: said.pitch / DRONE.max_tilt * DRONE.max_speed),
+}
+"""By model what the slider is drawn to, and how the speed is read from what is told [m/s]."""
+
+
+class Told:
+    """A link that keeps what the robot is told to do by hand."""
+
+    def __init__(self, link: Any) -> None:
+        self.orders: list[Any] = []
+        link.drive = link.amend = self.orders.append
+
+    @property
+    def last(self) -> Any:
+        return self.orders[-1]
+
+
+@pytest.fixture
+def meet(driving: Glass, robot: FakeRobot) -> Callable[[RobotInfo], Any]:
+    """Have the robot say what it is, and give the screen that comes and what is told from there."""
+
+    def meet(info: RobotInfo) -> tuple[Any, Told]:
+        before = driving.app.screens["drive"]
+        robot.publish("/robot/info", info)
+        driving.until(lambda: driving.app.screens["drive"] is not before, "the screen of before")
+        screen = driving.app.screens["drive"]
+        driving.until(lambda: screen.stick.state == "live", "nothing to drive by")
+        return screen, Told(screen.session.link)
+
+    return meet
+
+
+def hear(screen: Any, channel: str, message: Any) -> None:
+    post = Post(message, screen.session.now(), 1)
+    screen.session.feeds.put(channel, post)
+    screen.hear(channel, post)
+
+
+def test_the_slider_acts_at_once_on_a_stick_that_is_held(meet: Callable[..., Any]) -> None:
+    for info in (TRUCK, BOAT, DRONE):
+        screen, told = meet(info)
+        slow, reads = SLOW[info.model]
+        for stick, _ in screen.sticks:
+            stick.lean(1.0, 0.0)
+        assert reads(told.last) == pytest.approx(0.6 * info.max_speed), info.model
+        screen.speed.maximum_speed = slow
+        assert reads(told.last) == pytest.approx(slow), f"{info.model} drives on as fast as before"
+        screen.rest()
+        count = len(told.orders)
+        screen.speed.maximum_speed = info.max_speed
+        assert told.last == Twist()
+        assert len(told.orders) == count, "what is let go stays so"
+
+
+def test_a_limit_and_a_kind_that_come_while_a_stick_is_held_act_at_once(meet: Callable[..., Any]) -> None:
+    screen, told = meet(TRUCK)
+    screen.stick.lean(1.0, 0.0)
+    hear(screen, "/limits", Limits(max_speed=0.7))
+    assert told.last.speed == pytest.approx(0.7)
+    hear(screen, "/robot/info", msgspec.structs.replace(TRUCK, manoeuvres=["twist"]))
+    assert told.last == Twist.planar(0.7, 0.0), "it is told in words that it knows no more"
