@@ -109,14 +109,14 @@ class Grid:
         if not len(points):
             return self
         rows, columns, inside = self._cells(points)
-        cells = np.unique(np.column_stack([rows[inside], columns[inside]]), axis=0)
+        rows, columns = rows[inside], columns[inside]
         occupied, distance = self.occupied.copy(), self.distance.copy()
-        occupied[cells[:, 0], cells[:, 1]] = True
+        occupied[rows, columns] = True
         yield from bits(occupied.size, 10 * BIT)
         most = math.ceil(reach / self.resolution) + 1
         side = np.arange(-most, most + 1)
         stamp = (np.hypot(side[:, None], side[None, :]) - 0.5) * self.resolution
-        for done, (row, column) in enumerate(cells.tolist()):
+        for done, (row, column) in enumerate(sorted(set(zip(rows.tolist(), columns.tolist(), strict=True)))):
             if done % STAMPS == 0:
                 yield
             top, left = max(0, row - most), max(0, column - most)

@@ -45,6 +45,9 @@ MOST = 5_000
 FIELD = 0.4
 """Cells of the map by which the rest of the way is reckoned [m]."""
 
+DEAR = 2
+"""Steps more that it counts to try the last part of a way."""
+
 DEEP = 1.0
 """So far from the surface of a wall no way is reckoned [m]."""
 
@@ -96,7 +99,7 @@ class Lattice:
                 return pieces
 
     def search(self, start: Pose2, goal: tuple[float, float, float]) -> Generator[None, None, list[Piece]]:
-        """The same, bit by bit: it yields before each of at most `MOST` poses that it looks at, and while it reckons before."""
+        """The same, bit by bit: it yields at least once for each of at most `MOST` poses, and while it reckons before."""
         field = yield from self._field(goal)
         room = float(self._room(np.array([start])).min())
         first = _Node(start, 0.0, None, 0.0, 0.0)
@@ -110,11 +113,11 @@ class Lattice:
                 continue
             yield
             seen.add(key)
-            last = (
-                self._last(node, goal, min(self._need, room)) if self._tries(node, goal, len(seen)) else None
-            )
-            if last is not None:
-                return _pieces(last)
+            if self._tries(node, goal, len(seen)):
+                yield from bits(DEAR, 1)
+                last = self._last(node, goal, min(self._need, room))
+                if last is not None:
+                    return _pieces(last)
             for child in self._children(node, start, room):
                 if _key(child.pose) not in seen:
                     left = field(child.pose.x, child.pose.y)
