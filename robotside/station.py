@@ -53,6 +53,7 @@ from robotside.readiness import Readiness
 from robotside.robot import Robot
 from robotside.safe_state import SafeState
 from robotside.shown import Shown
+from robotside.stopped import still_moves
 
 __all__ = ["NO_MAP", "Station"]
 
@@ -171,6 +172,9 @@ class Station:
         self.readiness.stop_pressed()
         self._press(lambda: self.autonomy.engine.pause(f"Stopped by {name}.", "alarm"))
         self._note()
+        moves = still_moves(self.info.name, self.info.kind, self._measured())
+        if fresh and moves and not self._ending:
+            self.events.say("control", moves, "alarm")
 
     def _press(self, act: Callable[[], None]) -> None:
         try:

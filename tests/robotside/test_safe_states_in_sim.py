@@ -175,6 +175,9 @@ def test_stop_in_the_air_hovers_and_never_switches_the_rotors_off(hand: Make) ->
     assert run.speed < 0.1
     assert math.dist(before, run.state.position) < 2.5
     assert slowest > 150.0
+    assert (
+        f"{run.station.info.name} hovers, on its battery. Hold STOP to release it, then land." in run.events
+    )
     run.wait(8.0, heard=False)
     assert run.height == pytest.approx(before[2], abs=0.3)
     assert vehicle(run).pilot.phase == "flying"
@@ -190,6 +193,7 @@ def test_stop_under_water_stills_the_fins_whatever_is_pushed(hand: Make) -> None
     run.push(tilt(pitch=0.4, throttle=1.0), 3.0)
     assert max(vehicle(run).fins.amplitudes) < 0.01
     assert run.state.velocity[2] > 0
+    assert f"{run.station.info.name} floats up. Hold STOP to release it, then hold its depth." in run.events
 
 
 def test_stop_on_the_water_takes_the_way_off_a_boat(hand: Make) -> None:
