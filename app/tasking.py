@@ -49,7 +49,6 @@ class Tasking:
         self.on_history: Callable[[GetHistoryResponse], object] = nobody
         """Called with each part of the history that comes."""
         self._waits_for_mission: TaskOrder | None = None
-        self._waits_for_end: TaskOrder | None = None
         self._deleted: dict[tuple[str, int], Callable[[], None]] = {}
         self._words: dict[tuple[str, int], str] = {}
 
@@ -64,12 +63,8 @@ class Tasking:
             self._robot.command("start", order=order)
 
     def start_instead(self, order: TaskOrder) -> None:
-        """End the task that is under way and start this one; without an answer to the first nothing starts.
-
-        One that has just ended by itself cannot be ended: the robot says so, and is asked to start this one all the same.
-        """
-        self._waits_for_end = order
-        self._robot.command("cancel")
+        """Start this one instead of the task that is under way, which goes on when this one is refused."""
+        self._robot.command("start", order=order, instead=True)
 
     def keep_place(self, place: Place) -> None:
         """Store a place; one with the id 0 is new."""
@@ -108,10 +103,6 @@ class Tasking:
             self.queue.answered(accepted)
         elif outcome.name == "mission":
             self._go_on(accepted)
-        elif outcome.name == "cancel":
-            order, self._waits_for_end = self._waits_for_end, None
-            if outcome.phase in ("accepted", "refused") and order is not None:
-                self._robot.command("start", order=order)
         elif outcome.name in ("place_delete", "schedule_delete"):
             key = outcome.name, outcome.fields["id"]
             undo, words = self._deleted.pop(key, None), self._words.pop(key, "")
@@ -126,7 +117,7 @@ class Tasking:
 
     def dropped(self) -> None:
         """The link is another one now: what was under way has no answer."""
-        self._waits_for_mission = self._waits_for_end = None
+        self._waits_for_mission = None
         self._deleted.clear()
         self._words.clear()
         self.queue.answered(False)

@@ -56,22 +56,26 @@ class TaskOrders:
         self._engine = station.autonomy.engine
 
     def start(self, client: Operator, asked: StartTaskRequest) -> str:
-        """Start a task."""
+        """Start a task, on demand also instead of the one that is under way: that goes on if this one is refused."""
         order = asked.order if asked.order.task else msgspec.structs.replace(asked.order, task=asked.task)
         if order.task == "go_home":
             return self.go_home(client, asked)
         station, permits = self._station, self._permits
         permits.may_move(client)
-        permits.idle()
+        if not asked.instead:
+            permits.idle()
         task = station.autonomy.assignments.task(order, station.controls.name(client))
         permits.charged(task)
+        if self._engine.active:
+            station.agenda.hold("another task was asked for instead")
         self._begin()
         self._engine.start(task, station.now)
         return " ".join(part for part in (_started(task), station.agenda.parked) if part)
 
     def run(self, client: Operator, asked: RunTaskGoal) -> str:
-        """Start a task that is the only one."""
-        self._permits.idle()
+        """Start a task that is the only one, whatever it is."""
+        if not asked.instead:
+            self._permits.idle()
         return self.start(client, asked)
 
     def go_to(self, client: Operator, goal: Waypoint) -> str:

@@ -135,6 +135,8 @@ class TaskButtons(Control, Column):
     """What became of it: `none`, `sent`, `accepted`, `refused` or `no_reply`."""
     why = StringProperty("")
     """The robot's sentence when it refused."""
+    what = StringProperty("")
+    """The command in words; empty for those of its button."""
     took = NumericProperty(math.nan)
     """From the command to its answer [s]; NaN unknown."""
 
@@ -187,12 +189,14 @@ class TaskButtons(Control, Column):
     def _sentence(self) -> str:
         if self.outcome == "none":
             return self.reason
-        words = COMMANDS.get(self.command, (self.command,))[0]
+        words = self.what or COMMANDS.get(self.command, (self.command,))[0]
         after = f" ({self.took * 1000:.0f} ms)" if math.isfinite(self.took) else ""
         what = words[:1].lower() + words[1:]
         return OUTCOMES[self.outcome][0].format(what=what, after=after, why=self.why or what)
 
-    sentence = AliasProperty(_sentence, bind=["outcome", "command", "why", "took", "reason"], cache=True)
+    sentence = AliasProperty(
+        _sentence, bind=["outcome", "command", "what", "why", "took", "reason"], cache=True
+    )
     """What became of the last command, or what the task does, in words."""
 
     def _outcome_icon(self) -> str:
@@ -223,9 +227,12 @@ class TaskButtons(Control, Column):
         self.command = COMMANDS[name] and name
         self.dispatch("on_command", name)
 
-    def answer(self, name: str, outcome: str, why: str = "", took: float = math.nan) -> None:
-        """Say what became of a command: `sent`, `accepted`, `refused` (and why) or `no_reply`, after `took` [s]."""
-        self.command, self.why, self.took, self.outcome = name, why, took, outcome
+    def answer(self, name: str, outcome: str, why: str = "", took: float = math.nan, what: str = "") -> None:
+        """Say what became of a command: `sent`, `accepted`, `refused` (and why) or `no_reply`, after `took` [s].
+
+        `what` is the command in words, where it is not what the button says, as in `start heading 120°`.
+        """
+        self.command, self.why, self.took, self.what, self.outcome = name, why, took, what, outcome
         self._told.cancel()
         if outcome in STAYS:
             self._told = Clock.schedule_once(lambda _: self._forget(), STAYS[outcome])

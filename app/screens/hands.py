@@ -189,13 +189,12 @@ class Hands(EventDispatcher):
             self._answer(post.value)
 
     def _answer(self, outcome: Outcome) -> None:
-        """Tell the control that asked; the end of the task before is asked for first, and is told only when it is refused."""
+        """Tell the control that asked."""
         if self._asked is None:
             return
         widget, task = self._asked
         order = outcome.fields.get("order")
-        ours = outcome.name == "start" and order is not None and order.task == task
-        if not ours and not (outcome.name == "cancel" and outcome.phase in ("refused", "no_reply")):
+        if outcome.name != "start" or order is None or order.task != task:
             return
         if hasattr(widget, "answer"):
             widget.answer(outcome.phase)

@@ -397,7 +397,8 @@ class MissionScreen(FloatLayout):
     def _show_outcome(self, outcome: Outcome) -> None:
         name = {"cancel": "stop"}.get(outcome.name, outcome.name)
         if name in ("start", "pause", "resume", "home") or outcome.name == "cancel":
-            self.panel.tasks.answer(name, outcome.phase, outcome.reason, outcome.latency)
+            what = outcome.label if name == "start" else ""
+            self.panel.tasks.answer(name, outcome.phase, outcome.reason, outcome.latency, what)
 
     def _mode_changed(self, *_: object) -> None:
         self.map.mode = self.mode

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from app.actions import ACTIONS, Actions
-from app.commands import COMMANDS, Outcome
+from app.commands import COMMANDS
 from app.feeds import Feeds, Post
 from app.layout import ACTIONS as OFFERED
 from app.layout import Action as Line
@@ -104,23 +104,11 @@ def test_a_task_is_started_and_ended_by_the_same_button(asked: Asked) -> None:
     assert asked.commands[-1] == ("cancel", {})
 
 
-def test_another_task_is_ended_first_and_without_an_answer_nothing_starts(asked: Asked) -> None:
+def test_another_task_is_asked_for_instead_and_the_one_of_now_is_not_ended_before(asked: Asked) -> None:
     asked.tell("/task/status", TaskStatus(task_id=1, task="follow_heading", state="RUNNING"))
     asked.actions.act("task.surface")
-    assert [name for name, _ in asked.commands] == ["cancel"]
-    asked.session.tasking.answered(Outcome("cancel", "1", "no_reply"))
-    assert [name for name, _ in asked.commands] == ["cancel"]
-    asked.actions.act("task.surface")
-    asked.session.tasking.answered(Outcome("cancel", "2", "accepted"))
-    assert [name for name, _ in asked.commands] == ["cancel", "cancel", "start"]
-    assert asked.commands[-1][1]["order"].task == "surface"
-
-
-def test_a_task_that_has_just_ended_by_itself_holds_up_no_other(asked: Asked) -> None:
-    asked.tell("/task/status", TaskStatus(task_id=1, task="follow_heading", state="RUNNING"))
-    asked.actions.act("task.surface")
-    asked.session.tasking.answered(Outcome("cancel", "1", "refused", "No task is running."))
-    assert [name for name, _ in asked.commands] == ["cancel", "start"]
+    ((name, fields),) = asked.commands
+    assert (name, fields["order"].task, fields["instead"]) == ("start", "surface", True)
 
 
 def test_home_is_gone_to_whatever_it_does(asked: Asked) -> None:

@@ -8,9 +8,11 @@ from typing import Any
 import msgspec
 import pytest
 
+from app.commands import Outcome
 from app.feeds import Post
+from app.link import OUTCOME
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
+from bridge.msgs.pilothouse_msgs import Limits, RobotInfo, TaskOrder
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 from tests.app.test_profiles import BOAT, DRONE, TRUCK
@@ -79,3 +81,12 @@ def test_a_limit_and_a_kind_that_come_while_a_stick_is_held_act_at_once(meet: Ca
     assert told.last.speed == pytest.approx(0.7)
     hear(screen, "/robot/info", msgspec.structs.replace(TRUCK, manoeuvres=["twist"]))
     assert told.last == Twist.planar(0.7, 0.0), "it is told in words that it knows no more"
+
+
+def test_the_mission_screen_calls_what_was_started_by_its_own_name(meet: Callable[..., Any]) -> None:
+    screen, _ = meet(BOAT)
+    mission = screen.app.screens["mission"]
+    order = TaskOrder(task="follow_heading", heading=0.0)
+    outcome = Outcome("start", "1", "accepted", latency=0.3, fields={"order": order})
+    mission.hear(OUTCOME, Post(outcome, screen.session.now(), 1))
+    assert mission.panel.tasks.sentence == "Accepted: start heading 090° (300 ms)"

@@ -303,6 +303,18 @@ def test_a_goal_that_is_published_takes_the_place_of_the_one_before_it(house: Sc
     assert house.events("command") == ["A task is running already; stop it first."]
 
 
+def test_a_task_that_is_asked_for_instead_ends_the_one_of_now_only_when_it_can_be_done(house: Scene) -> None:
+    begin(house, "go_to", "Lab")
+    before = house.task.task_id
+    outside = TaskOrder(task="go_to", goals=[Waypoint(500.0, 0.0)])
+    assert "off the map" in house.refused("/task/start", StartTaskRequest(order=outside, instead=True))
+    house.run(0.2)
+    assert (house.task.task_id, house.task.state) == (before, "RUNNING"), "a refused order ended the way"
+    order = TaskOrder(task="go_to", goals=[Waypoint(6.0, 0.0)])
+    assert house.ask("/task/start", StartTaskRequest(order=order, instead=True)).success
+    assert (house.task.task_id, house.task.state) == (before + 1, "RUNNING")
+
+
 @pytest.mark.parametrize("task", ["deliver", "guide", "go_to", "hold", "patrol", "dock"])
 def test_progress_and_time_left_are_told_for_every_task(house: Scene, task: str) -> None:
     names = {"deliver": ["Office 12", "Lab"], "guide": ["Office 12", "Lab"], "go_to": ["Lab"]}

@@ -53,6 +53,7 @@ def test_the_first_button_says_what_it_does(panel):
     [
         (("start", "sent"), "Sent: start patrol", "muted"),
         (("start", "accepted", "", 0.018), "Accepted: start patrol (18 ms)", "ok"),
+        (("start", "accepted", "", 0.3, "start heading 120°"), "Accepted: start heading 120° (300 ms)", "ok"),
         (("pause", "accepted"), "Accepted: pause", "ok"),
         (("start", "refused", "The mission has no points."), "Refused: The mission has no points.", "danger"),
         (("home", "no_reply"), "No reply to: go home", "warn"),

@@ -245,12 +245,15 @@ class StartTaskRequest(CommandRequest, frozen=True, gc=False):
         "string",
         "string",
         "pilothouse_msgs/TaskOrder",
+        "bool",
     )
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
     task: str = "patrol"
     """patrol or go_home; counts only while the order's own task is empty."""
     order: TaskOrder = field(default_factory=TaskOrder)
     """What to do; with its task empty, the field `task` says it."""
+    instead: bool = False
+    """Also while a task is under way, which ends only when this one is accepted; the queue waits then."""
 
 
 class RunTaskGoal(StartTaskRequest, frozen=True, gc=False):
@@ -265,6 +268,7 @@ class RunTaskGoal(StartTaskRequest, frozen=True, gc=False):
         "string",
         "string",
         "pilothouse_msgs/TaskOrder",
+        "bool",
     )
     UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
 
