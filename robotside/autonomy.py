@@ -246,6 +246,8 @@ class Autonomy:
         if pose is None:
             return
         self.guide.sure = self.whereabouts.sure
+        if self.whereabouts.pushes and self.engine.running and self.engine.status.phase != "docking":
+            self.engine.pause("Paused: the wheels turn, but something holds the robot.", "alarm")
         points = self._points
         if self._swept is not None and self.engine.running:
             points = pose.inverse().apply(self._swept.apply(points))
@@ -325,6 +327,7 @@ class Autonomy:
     def _bumper(self, msg: Bumper) -> None:
         was, self._bumped = self._bumped, msg.pressed
         self.situation.touched = msg.pressed
+        self.whereabouts.take_bumper(msg)
         if not msg.pressed or was or self.engine.status.phase == "docking":
             return
         pose = self.whereabouts.pose

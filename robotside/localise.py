@@ -50,6 +50,9 @@ SURE = 0.5
 UNSURE_AFTER = 8
 """Sweeps in a row that must disagree before the position is called unsure."""
 
+DISTRUSTED = 16
+"""A position that is distrusted for another reason is as bad as after so many of them."""
+
 
 class Field:
     """A map's distance field, readable between the cells and with slopes."""
@@ -133,6 +136,7 @@ class Localiser:
         """Something else puts it at (x, y) [m], to `spread` [m] (one standard deviation) along each axis."""
         if self.pose is None:
             return
+        self._bad = max(0, self._bad - 1)
         gain = self.covariance[:, :2] @ np.linalg.inv(self.covariance[:2, :2] + np.eye(2) * spread**2)
         dx, dy, turn = (gain @ np.array([x - self.pose.x, y - self.pose.y])).tolist()
         self.pose = Pose2(self.pose.x + dx, self.pose.y + dy, wrap(self.pose.yaw + turn))
@@ -161,20 +165,36 @@ class Localiser:
             return
         match = self._fit(self.pose, points)
         if match.fit >= SURE:
+            self._bad = max(0, self._bad - 1)
             self.pose = match.pose
             self.covariance = np.asarray(np.linalg.inv(match.information), dtype=np.float64)
 
-    def predict(self, odom: Pose2) -> None:
-        """Move on by what the wheels say: `odom` is the pose in the odometry's frame."""
+    def predict(self, odom: Pose2, against: float = math.nan) -> float:
+        """Move on by what the wheels say: `odom` is the pose in the odometry's frame.
+
+        Something that stands is in touch at the bearing `against` [rad], NaN for nothing: what the wheels say of a way into it
+        is not believed, only doubted. Returns that way [m].
+        """
         before, self._odom = self._odom, odom
         if self.pose is None or before is None:
-            return
+            return 0.0
         step = odom.since(before)
+        into = 0.0
+        if not math.isnan(against):
+            c, s = math.cos(against), math.sin(against)
+            into = max(0.0, c * step.x + s * step.y)
+            step = Pose2(step.x - into * c, step.y - into * s, step.yaw)
         self.pose = self.pose.then(step)
         travelled, turned = math.hypot(step.x, step.y), abs(step.yaw)
-        spread = (SLIP * travelled) ** 2 + 1e-9
+        doubt = 2.0 * into * math.sqrt(float(self.covariance[:2, :2].trace())) + into**2
+        spread = (SLIP * travelled) ** 2 + doubt + 1e-9
         turn = (SWERVE[0] * travelled + SWERVE[1] * turned) ** 2 + 1e-9
         self.covariance += np.diag([spread, spread, turn])
+        return into
+
+    def distrust(self) -> None:
+        """What it believes may be wrong: it is unsure until sweeps, echoes or fixes have fitted for a while."""
+        self._bad = DISTRUSTED
 
     def correct(self, points: Points) -> None:
         """Lay one sweep on the map; `points` are its end points in `base_link`."""

@@ -19,7 +19,7 @@ from bridge.msgs.geometry_msgs import (
     zeros36,
 )
 from bridge.msgs.nav_msgs import Odometry
-from bridge.msgs.pilothouse_msgs import RobotInfo
+from bridge.msgs.pilothouse_msgs import Bumper, RobotInfo
 from bridge.msgs.sensor_msgs import Imu, NavSatFix
 from bridge.msgs.std_msgs import Header, Time
 from bridge.msgs.tf2_msgs import TFMessage
@@ -28,6 +28,7 @@ from robotside.bus import Publish
 from robotside.doubt import Doubt
 from robotside.events import Say
 from robotside.grid import Grid
+from robotside.kinds import kind_of
 from robotside.localise import Localiser
 from robotside.pose2 import Points, Pose2
 
@@ -58,6 +59,13 @@ RINGS = 4
 
 
 _NO_IDEA = "There is no fix or compass: the robot supposes to be near the map's origin. Place it on the map."
+
+PUSHED = 0.3
+"""So far the wheels may run against something before it is told [m]."""
+
+_PUSHES = "Position unsure: the wheels turn and the bumper is pressed, so that their way is not counted. Drive away from it."
+
+_UNFITTING = "Position unsure: the laser does not see what the map says. Place the robot on the map."
 
 _NO_LASER = (
     "There is no laser: the position is reckoned, and may drift. Place the robot on the map when it is off."
@@ -112,6 +120,9 @@ class Whereabouts:
         self._swept = False
         self._faced = -math.inf
         self._rings: list[NDArray[np.float64]] = []
+        self._rolls = kind_of(info.kind).on_the_ground
+        self._touch: Bumper | None = None
+        self._pushed = 0.0
         self.track = Track()
         """Poses in `map` of the last seconds."""
         self.odometer = 0.0
@@ -128,6 +139,11 @@ class Whereabouts:
     def sure(self) -> bool:
         """What the laser sees agrees with the map."""
         return self._localiser is not None and self._localiser.sure
+
+    @property
+    def pushes(self) -> bool:
+        """The wheels turn against something and the robot does not get on."""
+        return self._pushed > PUSHED
 
     @property
     def fit(self) -> float:
@@ -179,11 +195,19 @@ class Whereabouts:
         if localiser is None or odom is None or self._swept:
             return
         self._doubt.see()
+        if self._pushed:
+            self._rings.clear()  # they would make its place sure again while its wheels say that it leaves it
+            return
         self._rings.append(odom.apply(arcs.reshape(-1, 2)).reshape(arcs.shape))
         if len(self._rings) == RINGS:
             ends = np.concatenate(self._rings)
             self._rings.clear()
             localiser.echo(odom.inverse().apply(ends.reshape(-1, 2)).reshape(ends.shape))
+            self._watch(localiser, _PUSHES)
+
+    def take_bumper(self, bumper: Bumper) -> None:
+        """Remember what is in touch: without a laser it cannot be seen that the wheels turn in vain."""
+        self._touch = bumper if bumper.pressed and self._rolls else None
 
     def told(self, pose: Pose2) -> None:
         """The operator says that the robot is at `pose`; the next sweep corrects the finger's error."""
@@ -210,13 +234,27 @@ class Whereabouts:
         self.speed, self.turn = msg.twist.twist.linear.x, msg.twist.twist.angular.z
         if self._localiser is None:
             return
-        self._localiser.predict(odom)
+        self._push(self._localiser, self._localiser.predict(odom, self._against()))
         self._doubt.reckon(max(msg.pose.covariance[0], msg.pose.covariance[7]))
         self._suppose(odom, stamp.seconds)
         pose = self._localiser.pose
         if pose is not None:
             self.track.add(stamp.seconds, pose)
             self._tell(stamp, pose, odom, self._localiser)
+
+    def _against(self) -> float:
+        """Bearing of what it may push against [rad]; NaN for nothing, and where a laser sees better. One that is not told lies ahead of its way."""
+        if self._touch is None or self._swept:
+            return math.nan
+        bearing = self._touch.bearing
+        return bearing if math.isfinite(bearing) else 0.0 if self.speed >= 0 else math.pi
+
+    def _push(self, localiser: Localiser, into: float) -> None:
+        """The wheels went on `into` something [m]; once that is more than a touch the place is not trusted any more."""
+        self._pushed = self._pushed + into if into > 0 else 0.0
+        if self.pushes:
+            localiser.distrust()
+            self._watch(localiser, _PUSHES)
 
     def _suppose(self, odom: Pose2, stamp: float) -> None:
         """Without a laser it is where satellite and compass say, else where it has come to by its own reckoning."""
@@ -249,7 +287,7 @@ class Whereabouts:
         now, then = localiser.pose, self.track.at(stamp)
         lag = then.inverse().then(now) if now is not None and then is not None else Pose2(0.0, 0.0, 0.0)
         localiser.correct(points if abs(lag.x) > 0.5 else lag.inverse().apply(points))
-        self._watch(localiser)
+        self._watch(localiser, _UNFITTING)
 
     def _guess(self, stamp: float) -> tuple[Pose2, float, float] | None:
         if math.isnan(self._since):
@@ -262,15 +300,15 @@ class Whereabouts:
             return Pose2(0.0, 0.0, 0.0), GUESS_REACH, math.pi
         return None
 
-    def _watch(self, localiser: Localiser) -> None:
+    def _watch(self, localiser: Localiser, unsure: str) -> None:
         if localiser.pose is None or localiser.sure is self._was_sure:
             return
         self._was_sure = localiser.sure
         if localiser.sure:
             self._say("localisation", "Position sure again.", "ok")
         else:
-            text = "Position unsure: the laser does not see what the map says. Place the robot on the map."
-            self._say("localisation", text, "warn")
+            # who drives it against something has to see that at once
+            self._say("localisation", unsure, "alarm" if self.pushes else "warn")
 
     def _tell(self, stamp: Time, pose: Pose2, odom: Pose2, localiser: Localiser) -> None:
         covariance = zeros36()

@@ -13,7 +13,7 @@ from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import LaserScan
 from robotside.grid import Grid
 from robotside.laser import Laser
-from robotside.localise import UNSURE_AFTER, Localiser
+from robotside.localise import DISTRUSTED, UNSURE_AFTER, Localiser
 from robotside.pose2 import Points, Pose2
 from tests.fakes import Box, FakeRobot, Pillar
 
@@ -143,6 +143,29 @@ def test_echoes_of_what_the_map_does_not_know_and_too_few_change_nothing() -> No
     localiser.echo(np.full((30, 3, 2), 0.8))
     localiser.echo(arcs(Pose2(0.3, 0.0, 0.01))[:5])
     assert localiser.pose == start
+
+
+def test_a_way_into_what_is_touched_is_doubted_and_not_believed() -> None:
+    localiser = Localiser(HALL)
+    localiser.place(Pose2(0.0, 0.0, math.pi / 2), spread=0.02, turn=0.01)
+    localiser.predict(Pose2(0.0, 0.0, 0.0))
+    assert localiser.predict(Pose2(0.4, 0.3, 0.0), 0.0) == pytest.approx(0.4)
+    assert localiser.pose is not None
+    assert (localiser.pose.x, localiser.pose.y) == (pytest.approx(-0.3), pytest.approx(0.0))
+    assert math.sqrt(localiser.covariance[0, 0]) > 0.4
+    assert localiser.predict(Pose2(0.2, 0.3, 0.0), 0.0) == 0.0  # away from it
+    assert localiser.pose.y == pytest.approx(-0.2)
+
+
+def test_who_is_distrusted_is_sure_again_after_echoes_that_fit_for_a_while() -> None:
+    localiser, true = Localiser(HALL), Pose2(1.0, -0.5, 0.1)
+    localiser.place(true, spread=0.1, turn=0.1)
+    localiser.distrust()
+    localiser.echo(arcs(true))
+    assert not localiser.sure
+    for _ in range(DISTRUSTED):
+        localiser.echo(arcs(true))
+    assert localiser.sure
 
 
 def arcs(pose: Pose2, count: int = 24) -> NDArray[np.float64]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from bridge.msgs.pilothouse_msgs import CommandRequest, Waypoint
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import Bumper, CommandRequest, Waypoint
 from sim.robot import make
 from tests.robotside.sim_run import Run
 
@@ -47,3 +48,48 @@ def test_a_scout_without_its_sonars_does_not_go_on_by_itself(tmp_path: Path) -> 
     run.station.close()
     assert state == "PAUSED"
     assert reason == "Paused: the sonars have been silent for 0.6 s."
+
+
+def test_a_scout_that_pushes_against_a_wall_stays_where_it_is_and_says_that_it_is_unsure(
+    tmp_path: Path,
+) -> None:
+    run = Run(make("scout", "office", seed=2, camera=False), tmp_path)
+    said: list[str] = []
+    run.station.bus.subscribe("/events", lambda _, event: said.append(event.text))
+    push(run, 0.6, 8.0)
+    pushes = [text for text in said if text.startswith("Position unsure: the wheels turn")]
+    where = run.station.autonomy.whereabouts
+    spread, sure, error = where.spread, where.sure, run.error
+    push(run, -0.3, 2.0)
+    run.wait(4.0)
+    back = run.error
+    run.station.close()
+    assert len(pushes) == 1
+    assert not sure
+    assert spread > 1.0
+    assert error < 0.15
+    assert back < 0.15
+    assert where.sure
+    assert said[-1] == "Position sure again."
+
+
+def test_a_task_whose_wheels_turn_in_vain_is_paused(tmp_path: Path) -> None:
+    run = Run(make("scout", "office", seed=2, camera=False), tmp_path)
+    read, pressed = run.robot.read, Bumper(pressed=True, bearing=0.0)
+    run.robot.read = lambda now: [  # type: ignore[method-assign]
+        (topic, pressed if topic == "/bumper" else msg) for topic, msg in read(now)
+    ]
+    run.wait(0.5)
+    run.order("go_to", goals=[Waypoint(-9.9, -1.0)])
+    run.wait(5.0)
+    state, reason = run.task.state, run.task.reason
+    run.station.close()
+    assert state == "PAUSED"
+    assert reason == "Paused: the wheels turn, but something holds the robot."
+
+
+def push(run: Run, speed: float, seconds: float) -> None:
+    """Hold the stick there."""
+    for _ in range(round(seconds / 0.1)):
+        run.station.hear(run.anna, "/cmd_vel", Twist.planar(speed, 0.0), None)
+        run.wait(0.1)
