@@ -1,4 +1,6 @@
-"""The course that a boat keeps: commanded against actual heading, north up; a finger drags a new one and lets go to set it.
+"""The course that a boat keeps: commanded against actual heading, north up.
+
+A finger drags its mark, or rests on the rim until there is one, and lets go to set it; a touch in passing sets nothing.
 
 dial = CourseDial()
 robot.on("/compass", dial.show), robot.on("/manoeuvre", dial.show)
@@ -12,6 +14,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, ClassVar
 
 import numpy as np
+from kivy.clock import Clock
 from kivy.metrics import dp, sp
 from kivy.properties import BooleanProperty, NumericProperty, OptionProperty
 from kivy.uix.widget import Widget
@@ -28,6 +31,10 @@ from widgets.theme import theme
 
 __all__ = ["CourseDial", "samples"]
 
+HOLD = 0.6
+"""A finger that rests on the rim for so long sets a course [s]; on the mark of one it does at once."""
+SLIP = 14
+"""One that moves farther before that was only passing [dp]."""
 STEP = 5.0
 """A finger sets courses in steps of this [deg]."""
 INNER = 0.42
@@ -42,7 +49,7 @@ WIDE = 1.25
 """A card this many times broader than high has its figures beside the dial."""
 ON_COURSE = 2.5
 """A heading that is no farther off is on course [deg]."""
-INVITES = "drag to set"
+INVITES = "hold to set"
 OUTCOMES = {
     "": "",
     "sent": "sent",
@@ -57,7 +64,7 @@ class CourseDial(Grip, Gauge):
 
     __events__ = ("on_course",)
     accepts: ClassVar = (Compass, Manoeuvre)
-    drawn_from: ClassVar = ("heading", "wanted", "asked", "aim", "dragged", "outcome")
+    drawn_from: ClassVar = ("heading", "wanted", "asked", "aim", "resting", "dragged", "outcome")
 
     heading = NumericProperty(math.nan)
     """Of the bow [deg], 0 north, clockwise; NaN when not known."""
@@ -67,12 +74,16 @@ class CourseDial(Grip, Gauge):
     """That was asked for and that the robot does not follow yet [deg]; NaN without one."""
     aim = NumericProperty(math.nan)
     """Under the finger [deg]; NaN without one, and where letting go sets nothing."""
+    resting = BooleanProperty(False)
+    """A finger is on the rim, and nothing follows it yet."""
     dragged = BooleanProperty(False)
-    """A finger is on the dial."""
+    """A course follows the finger."""
     outcome = OptionProperty("", options=list(OUTCOMES))
     """What became of the course that was asked for; empty when there is nothing to say."""
 
     def __init__(self, **kwargs: Any) -> None:
+        self._came: tuple[float, float] | None = None
+        self._catch = Clock.create_trigger(lambda _: self._caught(), HOLD)
         super().__init__(**{"title": "Course", **kwargs})
         self.veil_radius = theme.radius
 
@@ -108,7 +119,9 @@ class CourseDial(Grip, Gauge):
 
     @property
     def course(self) -> tuple[float, str]:
-        """The course that is shown in figures [deg] and what it is: `let go to set`, `sent`, `drag to set`, or nothing."""
+        """The course that is shown in figures [deg] and what it is: `let go to set`, `sent`, `hold to set`, or nothing."""
+        if self.resting:
+            return self.wanted, "keep holding"
         if self.dragged:
             return (self.aim, "let go to set") if math.isfinite(self.aim) else (self.wanted, "no change")
         if math.isfinite(self.asked):
@@ -135,24 +148,54 @@ class CourseDial(Grip, Gauge):
         return INNER * radius <= math.dist((x, y), (middle_x, middle_y)) <= radius + dp(4)
 
     def follow(self, touch: Any) -> None:
-        """Point where the finger is; in the middle, nowhere."""
-        self.dragged = True
+        """Wait until the finger means it, then point where it is; in the middle, nowhere."""
+        if self._came is None:
+            self._came = touch.pos
+            self.dragged = self._on_mark(*touch.pos)
+            self.resting = not self.dragged
+            if self.dragged:
+                self.aim = self.asked if math.isfinite(self.asked) else self.wanted
+            else:
+                self._catch()
+        elif self.resting:
+            if math.dist(touch.pos, self._came) > dp(SLIP):
+                self.rest()
+        else:
+            self._point(*touch.pos)
+
+    def _on_mark(self, x: float, y: float) -> bool:
+        """On the mark of the course that is followed or asked for."""
+        middle_x, middle_y, radius = self.place
+        marks = [one for one in (self.wanted, self.asked) if math.isfinite(one)]
+        knobs, reach = [dial_point(one, radius * KNOB) for one in marks], min(theme.target / 2, radius / 2)
+        return any(math.dist((x - middle_x, y - middle_y), knob) <= reach for knob in knobs)
+
+    def _caught(self) -> None:
+        """The finger rested long enough."""
+        if self.finger is not None and self.resting:
+            self.resting, self.dragged = False, True
+            self._point(*self.finger.pos)
+
+    def _point(self, to_x: float, to_y: float) -> None:
         x, y, radius = self.place
-        if math.dist(touch.pos, (x, y)) < INNER * radius:
+        if math.dist((to_x, to_y), (x, y)) < INNER * radius:
             self.aim = math.nan
             return
-        bearing = heading_from_yaw(math.atan2(touch.y - y, touch.x - x))
+        bearing = heading_from_yaw(math.atan2(to_y - y, to_x - x))
         self.aim = round(bearing / STEP) * STEP % 360.0
 
     def spring(self) -> None:
         """Leave the course as it was."""
-        self.aim, self.dragged = math.nan, False
+        self._catch.cancel()
+        self._came = None
+        self.aim, self.dragged, self.resting = math.nan, False, False
 
     def on_touch_up(self, touch: Any) -> bool:
-        """Ask for the course under the finger."""
-        aim = self.aim if touch.grab_current is self else math.nan
+        """Ask for the course under the finger, where that is another one."""
+        ours = touch.grab_current is self and self.dragged
+        aim, now = self.aim if ours else math.nan, self.asked if math.isfinite(self.asked) else self.wanted
         done = bool(super().on_touch_up(touch))
-        if math.isfinite(aim):
+        if math.isfinite(aim) and aim != now:
             self.asked, self.outcome = aim, "sent"
             self.dispatch("on_course", yaw_from_heading(aim))
         return done
@@ -305,6 +348,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "live": made(**usual),
         "far off": made(**far),
         "on course": made(heading=44.0, wanted=45.0),
+        "finger rests": made(**usual, resting=True),
         "asked": made(**usual, asked=120.0, outcome="sent"),
         "taken": made(**usual, asked=120.0, outcome="accepted"),
         "dragged": made(**usual, aim=120.0, dragged=True),

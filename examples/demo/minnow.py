@@ -72,7 +72,7 @@ def _drive(scene: Scene) -> Wait:
 
 
 def _course(scene: Scene) -> Wait:
-    """Set on the dial by a finger along its rim, and held."""
+    """Set on the dial by a finger that rests on its rim and goes along it, and held."""
     glass, witness = scene.glass, scene.witness
     wanted = yaw_from_heading(COURSE)
     with scene.step("course") as check:
@@ -83,7 +83,13 @@ def _course(scene: Scene) -> Wait:
             (x + 0.86 * radius * math.sin(math.radians(one)), y + 0.86 * radius * math.cos(math.radians(one)))
             for one in ways
         ]
-        yield from scene.hand.drag([at(dial, *point) for point in rim], hold=4)
+        finger = scene.hand.down(at(dial, *rim[0]))
+        held = yield from glass.soon(lambda: dial.dragged, 5)
+        check("a finger that rests on the rim takes hold of a course", bool(held), bool(held))
+        for point in rim[1:]:
+            scene.hand.move(finger, at(dial, *point))
+            yield from glass.pause(0.1)
+        scene.hand.up(finger)
         runs = yield from glass.soon(lambda: scene.task("follow_heading"), 5)
         check("let go, the dial sets the course and the boat follows it", bool(runs), bool(runs))
         order = yield from glass.soon(lambda: _course_of(scene, wanted), 5)

@@ -6,7 +6,7 @@ import pytest
 
 from bridge.msgs.pilothouse_msgs import Compass, Manoeuvre
 from bridge.units import yaw_from_heading
-from widgets.course_dial import INNER, CourseDial
+from widgets.course_dial import HOLD, INNER, KNOB, CourseDial
 from widgets.geometry import dial_point
 
 
@@ -25,27 +25,65 @@ def at(dial, heading, share=0.8):
     return x + across, y + up
 
 
+def set_course(stage, dial, heading):
+    """Rest on the rim until the dial takes the finger, and lift it."""
+    finger = stage.touch(*at(dial, heading))
+    finger.touch_down()
+    stage.run_for(HOLD + 0.1)
+    finger.touch_up()
+
+
 def course(heading):
     return Manoeuvre(kind="course", yaw=yaw_from_heading(heading))
 
 
-def test_a_course_is_asked_for_when_the_finger_is_lifted_and_not_before(stage, dial):
+@pytest.mark.parametrize("followed", [math.nan, 200.0])
+@pytest.mark.parametrize("way", [(), (20, 30), (40, 90, 160)])
+def test_a_tap_or_a_brush_sets_nothing(stage, dial, followed, way):
+    if math.isfinite(followed):
+        dial.show(course(followed))
     finger = stage.touch(*at(dial, 10))
     finger.touch_down()
+    stage.run_for(HOLD / 3)
+    assert dial.course[1] == "keep holding"
+    for heading in way:
+        finger.touch_move(*at(dial, heading))
+        stage.run_for(HOLD / 4)
+    finger.touch_up()
+    stage.run_for(2 * HOLD)
+    assert (dial.courses, dial.dragged, dial.resting) == ([], False, False)
+    assert math.isnan(dial.asked)
+
+
+def test_a_finger_that_rests_sets_a_course_when_it_is_lifted_and_not_before(stage, dial):
+    finger = stage.touch(*at(dial, 10))
+    finger.touch_down()
+    stage.run_for(HOLD + 0.1)
+    assert dial.course == (10.0, "let go to set")
     finger.touch_move(*at(dial, 88))
     assert (dial.aim, dial.courses) == (90.0, [])
-    assert dial.course == (90.0, "let go to set")
     finger.touch_up()
     assert dial.courses == [pytest.approx(0.0)]
     assert (dial.asked, dial.course) == (90.0, (90.0, "sent"))
 
 
-def test_let_go_in_the_middle_nothing_is_asked_for(stage, dial):
+def test_the_mark_of_the_course_is_dragged_at_once_and_a_tap_on_it_sets_nothing(stage, dial):
     dial.show(course(45))
-    finger = stage.touch(*at(dial, 90))
+    stage.tap(*at(dial, 50, KNOB))
+    assert (dial.courses, math.isnan(dial.asked)) == ([], True)
+    finger = stage.touch(*at(dial, 45, KNOB))
+    finger.touch_down()
+    finger.touch_move(*at(dial, 120))
+    finger.touch_up()
+    assert dial.courses == [pytest.approx(yaw_from_heading(120))]
+
+
+def test_let_go_in_the_middle_nothing_is_asked_for(stage, dial):
+    dial.show(course(90))
+    finger = stage.touch(*at(dial, 90, KNOB))
     finger.touch_down()
     finger.touch_move(*at(dial, 90, INNER * 0.5))
-    assert dial.course == (45.0, "no change")
+    assert dial.course == (90.0, "no change")
     finger.touch_up()
     assert (dial.courses, math.isnan(dial.asked)) == ([], True)
 
@@ -59,6 +97,8 @@ def test_a_finger_in_the_middle_does_not_take_hold(stage, dial):
 def test_a_drag_that_is_broken_off_sets_no_course(stage, dial, how):
     finger = stage.touch(*at(dial, 90))
     finger.touch_down()
+    stage.run_for(HOLD + 0.1)
+    assert dial.dragged
     if how == "rest":
         dial.rest()
     elif how == "disabled":
@@ -72,7 +112,7 @@ def test_a_drag_that_is_broken_off_sets_no_course(stage, dial, how):
 
 def test_what_is_asked_for_becomes_the_course_only_when_the_robot_follows_it(stage, dial):
     dial.show(course(45))
-    stage.tap(*at(dial, 120))
+    set_course(stage, dial, 120)
     dial.answer("accepted")
     assert (dial.wanted, dial.course) == (45.0, (120.0, "taken"))
     dial.show(course(120))
@@ -83,7 +123,7 @@ def test_what_is_asked_for_becomes_the_course_only_when_the_robot_follows_it(sta
 @pytest.mark.parametrize(("outcome", "said"), [("refused", "refused"), ("no_reply", "no reply")])
 def test_a_course_that_was_not_taken_goes_from_the_dial(stage, dial, outcome, said):
     dial.show(course(45))
-    stage.tap(*at(dial, 120))
+    set_course(stage, dial, 120)
     dial.answer(outcome)
     assert dial.course == (45.0, said)
 
@@ -125,7 +165,7 @@ def test_no_letter_stands_under_a_knob(stage, dial):
 def test_while_the_robot_follows_no_course_it_says_how_to_set_one(dial):
     assert dial.course[1] == ""
     dial.show(Compass(heading=340.0))
-    assert dial.course[1] == "drag to set"
+    assert dial.course[1] == "hold to set"
     dial.show(course(75))
     assert dial.course[1] == ""
     dial.show(Manoeuvre(kind="rest"))
@@ -147,6 +187,6 @@ def test_where_it_is_low_what_became_of_a_course_takes_the_place_of_its_name(sta
     dial.show(course(75))
     stage.frames(2)
     assert dial.texts[-4:] == ["COURSE", "075°", "HEADING", "340°"]
-    stage.tap(*at(dial, 120))
+    set_course(stage, dial, 120)
     stage.frames(2)
     assert dial.texts[-4:] == ["SENT", "120°", "HEADING", "340°"]
