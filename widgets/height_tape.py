@@ -12,10 +12,10 @@ from typing import Any, ClassVar
 
 import numpy as np
 from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, NumericProperty, StringProperty
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
-from bridge.msgs.pilothouse_msgs import FlightState
+from bridge.msgs.pilothouse_msgs import ControlStatus, FlightState
 from widgets.base import fitting_size
 from widgets.gauge import Gauge, first_fitting, wide
 from widgets.geometry import DASH, nice_floor
@@ -36,13 +36,15 @@ STEADY = 0.05
 """Climbing or sinking slower than this is neither [m/s]."""
 SHORT = {"taking_off": "Rising"}
 """A phase in a shorter word, where there is no room for its own."""
+HOVERS = "Hovers"
+"""What is stopped in the air does this."""
 
 
 class HeightTape(Gauge):
     """A scale that runs past a fixed pointer, the ground as the end of it; a bar beside it for the climb."""
 
-    accepts: ClassVar = (FlightState,)
-    drawn_from: ClassVar = ("own_height", "climb", "phase", "wanted", "max_climb")
+    accepts: ClassVar = (FlightState, ControlStatus)
+    drawn_from: ClassVar = ("own_height", "climb", "phase", "stopped", "wanted", "max_climb")
 
     own_height = NumericProperty(math.nan)
     """Above the ground [m]; NaN when not known, or higher than is measured. `height` is the widget's own."""
@@ -50,6 +52,8 @@ class HeightTape(Gauge):
     """Upward speed [m/s]; NaN when not known."""
     phase = StringProperty("")
     """`landed`, `taking_off`, `flying` or `landing`; empty before the first."""
+    stopped = BooleanProperty(False)
+    """STOP is pressed: what is in the air hovers, whatever it was about."""
     wanted = NumericProperty(math.nan)
     """Height to go to or to hold [m]; NaN when nobody asked."""
     max_climb = NumericProperty(1.0)
@@ -66,16 +70,24 @@ class HeightTape(Gauge):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**{"title": "Height", **kwargs})
 
-    def show(self, msg: FlightState) -> None:
-        """Show height, climb and phase; NaN is a dash."""
+    def show(self, msg: FlightState | ControlStatus) -> None:
+        """Show height, climb and phase, NaN is a dash; or take over whether STOP is pressed."""
+        if isinstance(msg, ControlStatus):
+            self.stopped = msg.stopped
+            return
         self.phase = msg.phase
         self.own_height = round(msg.height, 2) if math.isfinite(msg.height) else math.nan
         self.climb = round(msg.climb, 2) if math.isfinite(msg.climb) else math.nan
 
     @property
     def phase_words(self) -> str:
-        """The phase in words."""
-        return self.phase.replace("_", " ").capitalize()
+        """The phase in words; `Hovers` for what is stopped in the air."""
+        return HOVERS if self.hovers else self.phase.replace("_", " ").capitalize()
+
+    @property
+    def hovers(self) -> bool:
+        """It is in the air, and STOP is pressed."""
+        return self.stopped and self.phase not in ("", "landed")
 
     def _span(self) -> float:
         known = 0.0 if math.isnan(self.own_height) else self.own_height
@@ -102,10 +114,9 @@ class HeightTape(Gauge):
     def _figures(self, shapes: Shapes, box: tuple[float, float, float, float]) -> Iterator[Word]:
         left, bottom, room, high = box
         y = bottom + high - sp(10)
-        role = PHASES.get(self.phase, "muted")
-        said = first_fitting((self.phase_words,), sp(13), room, bold=True) or SHORT.get(
-            self.phase, self.phase_words
-        )
+        role = "warn" if self.hovers else PHASES.get(self.phase, "muted")
+        short = self.phase_words if self.hovers else SHORT.get(self.phase, self.phase_words)
+        said = first_fitting((self.phase_words,), sp(13), room, bold=True) or short
         size = fitting_size([said], sp(13), room, bold=True)
         yield Word(said, left, y, size, theme.roles[role], bold=True, anchor=(0, 0.5))
         size = min(sp(44), high * 0.34)
@@ -222,7 +233,7 @@ class HeightTape(Gauge):
         )
 
     def _brief(self, shapes: Shapes) -> Iterator[Word]:
-        """As in `1.2 m high`, or that it has landed."""
+        """As in `1.2 m high`, that it hovers there, or that it has landed."""
         room, size = self.width - 2 * self.edge, min(sp(24), self.height * 0.5)
         if self.phase == "landed":
             yield Word(
@@ -233,8 +244,10 @@ class HeightTape(Gauge):
                 bold=True,
             )
             return
-        tail = " m high" if self.words != DASH else " high"
+        tail = " high" if self.words == DASH else " m, hovers" if self.hovers else " m high"
         behind = max(size * 0.56, sp(12))
+        if self.hovers:
+            behind = min(behind, fitting_size([tail], behind, room - wide(self.words, size, bold=True)))
         if wide(self.words, size, bold=True) + wide(tail, behind) > room:
             tail = " m" if self.words != DASH else ""
         taken = wide(self.words, size, bold=True)
@@ -251,12 +264,14 @@ def samples() -> dict[str, Callable[[], Widget]]:
         height: float = 1.24,
         climb: float = 0.32,
         size: tuple[float, float] = (176, 176),
+        stopped: bool = False,
         **more: Any,
     ) -> Callable[[], Widget]:
         def build() -> HeightTape:
             tape = HeightTape(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
             if phase:
                 tape.show(FlightState(phase=phase, height=height, climb=climb))
+            tape.show(ControlStatus(stopped=stopped))
             return tape
 
         return build
@@ -268,6 +283,9 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "landed": made("landed", 0.05, 0.0, state="live"),
         "taking off": made("taking_off", 0.4, 0.6, wanted=1.5, state="live"),
         "landing": made("landing", 0.8, -0.5, wanted=0.0, state="live"),
+        "stopped": made(climb=0.0, stopped=True, state="live"),
+        "stopped upright": made(climb=0.0, stopped=True, size=(124, 150), state="live"),
+        "stopped low": made(climb=0.0, stopped=True, size=(128, 44), state="live"),
         "high": made(height=23.6, climb=-0.9, wanted=12.0, state="live"),
         "very high": made(height=112.0, climb=0.0, state="live"),
         "out of reach": made(height=nan, climb=0.1, state="live"),

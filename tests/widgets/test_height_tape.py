@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from bridge.msgs.pilothouse_msgs import FlightState
+from bridge.msgs.pilothouse_msgs import ControlStatus, FlightState
 from widgets.height_tape import PHASES, HeightTape
 
 
@@ -84,3 +84,41 @@ def test_on_an_upright_phone_phase_and_units_have_room_too(stage, phase, word):
     tape = stage.show(HeightTape(state="live"), size=(124, 150))
     fly(tape, stage, phase=phase, climb=0.3)
     assert {word, "m", "m/s"} <= set(tape.texts)
+
+
+@pytest.mark.parametrize("size", [(176, 176), (124, 150), (112, 150), (188, 97), (72, 90)])
+@pytest.mark.parametrize(
+    ("phase", "words"),
+    [
+        ("taking_off", {"Taking off", "Rising"}),
+        ("flying", {"Flying"}),
+        ("landing", {"Landing"}),
+        ("landed", {"Landed"}),
+    ],
+)
+def test_a_phase_is_told_in_whole_words_however_little_room_there_is(stage, size, phase, words):
+    tape = stage.show(HeightTape(state="live"), size=size)
+    fly(tape, stage, phase=phase, climb=0.3)
+    assert words & set(tape.texts)
+
+
+@pytest.mark.parametrize(
+    ("size", "word"), [((176, 176), "Hovers"), ((124, 150), "Hovers"), ((128, 44), " m, hovers")]
+)
+@pytest.mark.parametrize("phase", ["taking_off", "flying", "landing"])
+def test_what_is_stopped_in_the_air_hovers(stage, size, word, phase):
+    tape = stage.show(HeightTape(state="live"), size=size)
+    fly(tape, stage, phase=phase)
+    tape.show(ControlStatus(stopped=True))
+    stage.frames(2)
+    assert word in tape.texts
+    tape.show(ControlStatus(stopped=False))
+    stage.frames(2)
+    assert word not in tape.texts
+
+
+def test_what_is_stopped_on_the_ground_has_landed(stage, tape):
+    fly(tape, stage, phase="landed")
+    tape.show(ControlStatus(stopped=True))
+    stage.frames(2)
+    assert "Landed" in tape.texts
