@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import Any, Protocol
 
 from app.session import Session
@@ -86,6 +87,28 @@ class Actions:
             if what not in self._besides or self._carries(what)
         )
         return [action for action in looks if action is not None]
+
+    def slides(self) -> list[Action]:
+        """Each as a slide has it, which never ends what it began: a task that is paused goes on by it, one that runs needs none."""
+        return [self._slide(action) if action.meaning == "end" else action for action in self.look()]
+
+    def _slide(self, action: Action) -> Action:
+        task = action.name.removeprefix("task.")
+        if not self._paused:
+            return replace(action, text=self._words[action.name][0], able=False, meaning="")
+        able = action.able and not self._session.stop_latched
+        return replace(action, text=f"Resume {TASKS[task].doing}", able=able, meaning="resume")
+
+    def confirm(self, what: str) -> str:
+        """Do what a slide to its end means now; the command that is asked for, empty for none."""
+        action = next((one for one in self.slides() if one.name == what and one.able), None)
+        if action is None:
+            return ""
+        if action.meaning == "resume":
+            self._session.command("resume")
+            return "resume"
+        self.act(what)
+        return "home" if what == "task.go_home" else "start"
 
     def _carries(self, what: str) -> bool:
         """The robot says that it has that."""

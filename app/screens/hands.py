@@ -53,8 +53,8 @@ class Hands(EventDispatcher):
         self._sticks: list[tuple[Stick, Control]] = []
         self._asking: list[tuple[Any, Control]] = []
         """Controls that ask for something once."""
-        self._asked: tuple[Any, str] | None = None
-        """The control that asked last, and for which task; None once that is answered."""
+        self._asked: tuple[Any, str, str] | None = None
+        """The control that asked last, by which command, and for which task; None once that is answered."""
         self._limited = False
         self.reach = OWN
         """What the controls mean at the end of their way now."""
@@ -148,8 +148,8 @@ class Hands(EventDispatcher):
         return tuple(session.info.manoeuvres) if session.link.steers else ()
 
     def _act(self, widget: Any, what: str) -> None:
-        self._asked = widget, what.removeprefix("task.")
-        self._actions.act(what)
+        name = self._actions.confirm(what)
+        self._asked = (widget, name, what.removeprefix("task.")) if name else None
 
     def _follow(self, widget: Any, yaw: float) -> None:
         self._start(widget, TaskOrder(task="follow_heading", heading=yaw))
@@ -159,7 +159,7 @@ class Hands(EventDispatcher):
         self._start(widget, TaskOrder(task="go_to", goals=[Waypoint(point.x, point.y, yaw)]))
 
     def _start(self, widget: Any, order: TaskOrder) -> None:
-        session, self._asked = self._session, (widget, order.task)
+        session, self._asked = self._session, (widget, "start", order.task)
         if session.running:
             session.tasking.start_instead(order)
         else:
@@ -192,9 +192,9 @@ class Hands(EventDispatcher):
         """Tell the control that asked."""
         if self._asked is None:
             return
-        widget, task = self._asked
+        widget, name, task = self._asked
         order = outcome.fields.get("order")
-        if outcome.name != "start" or order is None or order.task != task:
+        if outcome.name != name or (order is not None and order.task != task):
             return
         if hasattr(widget, "answer"):
             widget.answer(outcome.phase)
@@ -216,7 +216,7 @@ class Hands(EventDispatcher):
         session = self._session
         for stick, _ in self._sticks:
             stick.state = "live" if session.may_drive else "disabled"
-        able = {action.name: action for action in self._actions.look()}
+        able = {action.name: action for action in self._actions.slides()}
         asked = session.may_ask and not session.stop_latched
         for widget, one in self._asking:
             action = able.get(one.action)

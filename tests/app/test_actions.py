@@ -111,6 +111,22 @@ def test_another_task_is_asked_for_instead_and_the_one_of_now_is_not_ended_befor
     assert (name, fields["order"].task, fields["instead"]) == ("start", "surface", True)
 
 
+def test_a_slide_never_ends_what_it_began(asked: Asked) -> None:
+    def slide() -> Any:
+        return next(action for action in asked.actions.slides() if action.name == "task.surface")
+
+    assert (slide().text, slide().able) == ("Surface", True)
+    asked.tell("/task/status", TaskStatus(task_id=1, task="surface", state="RUNNING"))
+    assert (slide().text, slide().able) == ("Surface", False)
+    assert asked.actions.confirm("task.surface") == ""
+    asked.tell("/task/status", TaskStatus(task_id=1, task="surface", state="PAUSED"))
+    assert (slide().text, slide().able) == ("Resume surfacing", True)
+    assert asked.actions.confirm("task.surface") == "resume"
+    assert asked.commands == [("resume", {})]
+    asked.tell("/control/status", ControlStatus(driver_id="me", stopped=True))
+    assert not slide().able
+
+
 def test_home_is_gone_to_whatever_it_does(asked: Asked) -> None:
     asked.tell("/task/status", TaskStatus(task_id=1, task="hold", state="RUNNING"))
     asked.actions.act("task.go_home")

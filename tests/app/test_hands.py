@@ -12,7 +12,7 @@ from app.commands import Outcome
 from app.feeds import Post
 from app.link import OUTCOME
 from bridge.msgs.geometry_msgs import Twist
-from bridge.msgs.pilothouse_msgs import Limits, RobotInfo, TaskOrder
+from bridge.msgs.pilothouse_msgs import FlightState, Limits, RobotInfo, TaskOrder, TaskStatus
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 from tests.app.test_profiles import BOAT, DRONE, TRUCK
@@ -90,3 +90,21 @@ def test_the_mission_screen_calls_what_was_started_by_its_own_name(meet: Callabl
     outcome = Outcome("start", "1", "accepted", latency=0.3, fields={"order": order})
     mission.hear(OUTCOME, Post(outcome, screen.session.now(), 1))
     assert mission.panel.tasks.sentence == "Accepted: start heading 090° (300 ms)"
+
+
+def test_the_slide_that_lands_never_ends_a_landing(
+    meet: Callable[..., Any], driving: Glass, robot: FakeRobot
+) -> None:
+    screen, _ = meet(DRONE)
+    _, down = screen.hands.places["confirm"]
+    hear(screen, "/flight", FlightState(phase="flying"))
+    for state, text, use in (("RUNNING", "land", "disabled"), ("PAUSED", "resume landing", "live")):
+        screen.session.deliver(
+            "/task/status", Post(TaskStatus(task_id=1, task="land", state=state), screen.session.now(), 1)
+        )
+        screen.tick()
+        assert (down.text, down.state) == (text, use), state
+    down.dispatch("on_confirm")
+    driving.until(lambda: "/task/resume" in robot.services(), "the landing does not go on")
+    driving.until(lambda: down.outcome == "accepted", "the slide does not say what became of it")
+    assert "/task/cancel" not in robot.services()
