@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 from py_trees.behaviour import Behaviour
@@ -14,6 +15,12 @@ from robotside.guide import Goal, Guide, Leg
 __all__ = ["LEG_STATUS", "DriveTo"]
 
 LEG_STATUS = {Leg.UNDER_WAY: Status.RUNNING, Leg.ARRIVED: Status.SUCCESS, Leg.BLOCKED: Status.FAILURE}
+
+STANDS = 4.0
+"""Without moving for so long it is said that it makes no way [s]."""
+
+MOVES, TURNS = 0.1, 0.2
+"""Less than this is no way [m, rad]."""
 
 
 class DriveTo(Behaviour):
@@ -29,24 +36,37 @@ class DriveTo(Behaviour):
         """`words` say where it goes, as one sentence."""
         super().__init__("drive to point")
         self._course, self._guide, self._situation, self._words = course, guide, situation, words
+        self._was, self._since = situation.pose, situation.worked
 
     def initialise(self) -> None:
         """Set out for the course's point."""
         self._guide.head_for(self._course.goal)
+        self._was, self._since = self._situation.pose, self._situation.worked
 
     def update(self) -> Status:
         """Drive on."""
         now, goal = self._situation, self._course.goal
         leg = self._guide.update(now.pose, now.points, now.now)
         self.feedback_message = self._sentence(leg)
+        if self._guide.waits_for or self._guide.planning:
+            self._was, self._since = now.pose, now.worked
         if self._guide.waits_for:
             now.tell("taking off", self._guide.waits_for, place=goal.place)
             return LEG_STATUS[leg]
         if self._guide.planning:
             now.tell("planning", f"Looking for a way to {goal.spoken}.", place=goal.place)
             return LEG_STATUS[leg]
-        now.tell("turning" if self._guide.turning else "driving", self._words(goal), place=goal.place)
+        said = f"Makes no way to {goal.spoken}; it goes on trying." if self._stands() else self._words(goal)
+        now.tell("turning" if self._guide.turning else "driving", said, place=goal.place)
         return LEG_STATUS[leg]
+
+    def _stands(self) -> bool:
+        """It was to move and has not, for a while."""
+        pose, clock = self._situation.pose, self._situation.worked
+        turned = abs(math.remainder(pose.yaw - self._was.yaw, math.tau))
+        if pose.distance(self._was.x, self._was.y) > MOVES or turned > TURNS:
+            self._was, self._since = pose, clock
+        return clock - self._since > STANDS
 
     def terminate(self, new_status: Status) -> None:
         """Stand still, whatever the reason."""
