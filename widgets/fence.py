@@ -17,7 +17,7 @@ from widgets.geometry import Points
 
 __all__ = ["GOAL_ROOM", "Border", "Fence"]
 
-GOAL_ROOM = 0.35
+GOAL_ROOM = 0.4
 """What a robot wants between its body and the fence at a place that it is sent to [m]."""
 MOST_CORNERS = 2000
 """Of a fence that is drawn: one with more would take the glass longer than a finger waits."""

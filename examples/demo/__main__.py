@@ -12,6 +12,7 @@ import shutil
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -69,9 +70,9 @@ def _play(arguments: argparse.Namespace, robot: Any, settings: Path) -> int:
 
     from app.application import PilothouseApp
     from examples.demo.fingers import Hand
-    from examples.demo.glass import Glass, Unseen
+    from examples.demo.glass import Glass
     from examples.demo.report import Report
-    from examples.demo.scene import Enough, Scene
+    from examples.demo.scene import Scene
     from examples.demo.stories import tell, topics
     from examples.demo.witness import Witness
 
@@ -82,19 +83,9 @@ def _play(arguments: argparse.Namespace, robot: Any, settings: Path) -> int:
     scene = Scene(Glass(hand), witness, report, robot.url, arguments.speed, arguments.until, robot.power_cut)
     record = arguments.out / "run.mcap"
     story = tell(arguments.story, scene, lambda: app.start_recording(record))
-
-    def turn(_: float) -> None:
-        try:
-            next(story)
-        except (StopIteration, Enough):
-            app.stop()
-        except (Unseen, RuntimeError) as problem:
-            report.fault = f"{report.steps[-1].name if report.steps else 'start'}: {problem}"
-            app.stop()
-
     record.unlink(missing_ok=True)
     EventLoop.add_input_provider(hand)
-    Clock.schedule_interval(turn, 0)
+    Clock.schedule_interval(lambda _: _turn(story, report, app), 0)
     started = time.monotonic()
     try:
         app.run()
@@ -104,6 +95,20 @@ def _play(arguments: argparse.Namespace, robot: Any, settings: Path) -> int:
     told = {name: getattr(arguments, name) for name in ("robot", "world", "speed")}
     seconds = round(time.monotonic() - started, 1)
     return report.write(**told, url=robot.url, seconds=seconds, recording=recording)
+
+
+def _turn(story: Iterator[None], report: Any, app: Any) -> None:
+    """Go on with the story; its end, or what went wrong in it, ends the app."""
+    from examples.demo.glass import Unseen
+    from examples.demo.scene import Enough
+
+    try:
+        next(story)
+    except (StopIteration, Enough):
+        app.stop()
+    except (Unseen, RuntimeError) as problem:
+        report.fault = f"{report.steps[-1].name if report.steps else 'start'}: {problem}"
+        app.stop()
 
 
 def main(argv: list[str] | None = None) -> int:

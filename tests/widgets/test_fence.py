@@ -38,9 +38,9 @@ def test_a_robot_without_areas_may_be_anywhere():
 def test_a_place_outside_and_one_too_near_are_told_with_their_figures():
     fence = told([SQUARE], [HOLE])
     assert fence.fault("Point 2", 5.0, 5.0, 0.2) == "Point 2 at (5.0, 5.0) is outside the robot's fence."
-    near = "Home at (2.0, 9.7) is 0.30 m from the robot's fence; the robot needs 0.55 m."
+    near = "Home at (2.0, 9.7) is 0.30 m from the robot's fence; the robot needs 0.60 m."
     assert fence.fault("Home", 2.0, 9.7, 0.2) == near
-    assert fence.fault("Home", 2.0, 9.4, 0.2) == ""
+    assert fence.fault("Home", 2.0, 9.35, 0.2) == ""
 
 
 def test_areas_that_touch_have_no_border_between_them():
@@ -66,10 +66,10 @@ def test_every_piece_has_the_robots_ground_on_its_left(turned):
 
 def test_a_place_asked_for_again_is_judged_by_what_is_known_of_it(monkeypatch):
     fence = told([SQUARE])
-    assert fence.forbids(9.6, 5.0, 0.2)
-    assert not fence.forbids(9.6, 5.0, 0.02)
+    assert fence.forbids(9.55, 5.0, 0.2)
+    assert not fence.forbids(9.55, 5.0, 0.02)
     monkeypatch.setattr(fence, "fault", lambda *_: 1 / 0)
-    assert fence.forbids(9.6, 5.0, 0.2)
+    assert fence.forbids(9.55, 5.0, 0.2)
 
 
 def test_areas_that_are_none_are_left_out():
