@@ -42,12 +42,19 @@ class Errand:
         """No run is for the goal: it was refused, or it is another goal now."""
         self._asked, self.run = False, 0
 
-    def adopt(self) -> bool:
-        """Take the run of now for the goal's own; False where the robot goes to no goal."""
+    @property
+    def going(self) -> int:
+        """Number of the run in which the robot goes to a goal now, whoever asked for it; 0 for none."""
         status = self._newest
         if status is None or status.task != TASK or status.state not in ("RUNNING", "PAUSED"):
+            return 0
+        return status.task_id
+
+    def adopt(self) -> bool:
+        """Take the run of now for the goal's own; False where the robot goes to no goal."""
+        if self._newest is None or not self.going:
             return False
-        self._asked, self.run = False, status.task_id
+        self._asked, self.run = False, self.going
         return True
 
     def hear(self, status: TaskStatus) -> str | None:

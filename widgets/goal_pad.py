@@ -93,12 +93,14 @@ class GoalPad(Grip, Gauge):
 
     accepts: ClassVar = (PoseWithCovarianceStamped, Path, TaskStatus)
     sends = (PoseStamped,)
-    drawn_from: ClassVar = ("actual", "wanted", "outcome", "way", "pressed")
+    drawn_from: ClassVar = ("actual", "wanted", "followed", "outcome", "way", "pressed")
 
     actual = ListProperty()
     """Where the robot is: x, y [m], yaw [rad]; empty while that is not known."""
     wanted = ListProperty()
     """Where it is to go: x, y [m], yaw [rad]; empty before anybody said."""
+    followed = ListProperty()
+    """Where the robot goes while another goal is being set here: x, y [m], yaw [rad]; empty where it goes to no other."""
     outcome = OptionProperty("", options=list(OUTCOMES))
     """What became of the goal: empty while it has not been sent as it is."""
     way = ObjectProperty(np.zeros((0, 2)), force_dispatch=True, comparator=lambda *_: False)
@@ -113,6 +115,7 @@ class GoalPad(Grip, Gauge):
         self.veil_radius = theme.radius
         self._errand = Errand()
         self._end: list[float] = []
+        self._left: tuple[int, list[float]] = 0, []
         self._taken = False
         self._repeat = Clock.create_trigger(lambda _: self.press(self.pressed), REPEAT_EVERY, interval=True)
         self._held = Clock.create_trigger(lambda _: self._repeat(), REPEAT_AFTER)
@@ -122,11 +125,12 @@ class GoalPad(Grip, Gauge):
 
         The end of the way of a robot that goes to a goal is the goal while none is being set here; another task's is not.
         """
-        if isinstance(msg, Path):
-            self._show_way(msg)
-            return
-        if isinstance(msg, TaskStatus):
-            self._show_task(msg)
+        if isinstance(msg, Path | TaskStatus):
+            if isinstance(msg, Path):
+                self._show_way(msg)
+            else:
+                self._show_task(msg)
+            self._follow_up()
             return
         pose = msg.pose.pose
         place = [round(value, 3) for value in (pose.position.x, pose.position.y, pose.orientation.yaw)]
@@ -154,6 +158,19 @@ class GoalPad(Grip, Gauge):
             self.wanted, self._taken = self._end, True
             if self.outcome not in UNDER_WAY:
                 self.outcome = "accepted"
+
+    def _follow_up(self) -> None:
+        """Keep in sight where the robot goes: the end of its way, or the goal that it had when another one was begun here."""
+        going = self._errand.going
+        run, left = self._left
+        now = (self._end or (left if run == going else [])) if going and self.wanted else []
+        other = (
+            bool(now)
+            and self.outcome != "sent"
+            and going != self._errand.run
+            and math.dist(now[:2], self.wanted[:2]) > self.step / 2
+        )
+        self.followed = now if other else []
 
     @property
     def goal(self) -> PoseStamped:
@@ -191,6 +208,7 @@ class GoalPad(Grip, Gauge):
             self._errand.drop()
         if outcome != "accepted" or not self._errand.run:  # what it does may be heard before its answer
             self.outcome = outcome
+        self._follow_up()
 
     def press(self, name: str) -> None:
         """Do what a button says, as a finger would."""
@@ -214,9 +232,12 @@ class GoalPad(Grip, Gauge):
 
     def _want(self, place: list[float]) -> None:
         x, y = (max(-FARTHEST, min(FARTHEST, value)) + 0.0 for value in place[:2])
+        if self._errand.run:
+            self._left = self._errand.run, list(self.wanted)
         self._errand.drop()
         self._taken = False
         self.wanted, self.outcome = [x, y, math.remainder(place[2], math.tau)], ""
+        self._follow_up()
 
     def spring(self) -> None:
         """Count no further; the goal stays."""
@@ -297,7 +318,16 @@ class GoalPad(Grip, Gauge):
                 yield from self._draw_button(shapes, name)
         if picture is not None:
             sent = self.outcome in UNDER_WAY
-            yield from draw(shapes, picture, self.actual, self.wanted, self.way, self.step, sent=sent)
+            yield from draw(
+                shapes,
+                picture,
+                self.actual,
+                self.wanted,
+                self.way,
+                self.step,
+                sent=sent,
+                followed=self.followed,
+            )
         if figures is None:
             yield from self._in_corners(shapes)
         else:
@@ -340,7 +370,7 @@ class GoalPad(Grip, Gauge):
         """Where the robot is in the lower left corner, which is a button too, where it is to go in the lower right one."""
         for column, name, place, colour in (
             (0, "ROBOT", self.actual, theme.accent),
-            (2, "GOAL", self.wanted, theme.plan),
+            (2, "NEW" if self.followed else "GOAL", self.wanted, theme.plan),
         ):
             left, low, width, height = box = self._cell(column, 2)
             if column == 0:
@@ -365,9 +395,10 @@ class GoalPad(Grip, Gauge):
         left, low, width, height = box
         right, rows = left + width, height / 4
         middle = left + sp(22) + (width - sp(22)) / 2
+        new = "NEW GOAL" if width > sp(170) else "NEW"
         for x, name, place, colour in (
             (middle, "ROBOT", self.actual, theme.accent),
-            (right, "GOAL", self.wanted, theme.plan),
+            (right, new if self.followed else "GOAL", self.wanted, theme.plan),
         ):
             yield Word(name, x, low + rows * 3.5, sp(11), colour, bold=True, anchor=(1, 0.5))
             units = (" m", " m", "") if width > dp(116) else ("", "", "")
@@ -390,6 +421,7 @@ def _made(
     size: tuple[float, float] = (176, 176),
     outcome: str = "",
     at: PoseWithCovarianceStamped | None = None,
+    followed: tuple[float, ...] = (),
     **more: Any,
 ) -> Callable[[], Widget]:
     """A pad on which these buttons were pressed, before the robot went to `at`."""
@@ -403,6 +435,7 @@ def _made(
         if at is not None:
             pad.show(at)
         pad.answer(outcome)
+        pad.followed = list(followed)
         return pad
 
     return build
@@ -430,6 +463,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "large": _made(*steps, size=large),
         "large never": _made(size=large, state="never"),
         "large going": _made(*steps, size=large, outcome="accepted"),
+        "other goal": _made(*steps, size=large, followed=(-1.0, 1.5, 0.5)),
+        "other goal, huge": _made(*steps, size=(420, 470), followed=(-1.0, 1.5, 0.5)),
         "huge": _made(*steps, size=(420, 470), outcome="accepted"),
         "broad": _made(*steps, size=(420, 190)),
         "stale": _made(*steps, size=large, state="stale", age=3.0),

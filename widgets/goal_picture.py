@@ -9,9 +9,11 @@ from typing import Any
 import numpy as np
 from kivy.metrics import dp, sp
 
+from widgets.base import fitting_size
 from widgets.geometry import Points, View, nice_floor, rounded
 from widgets.ink import Word, tint
 from widgets.map_marks import arrow
+from widgets.readout import figure
 from widgets.shapes import Shapes
 from widgets.theme import theme
 
@@ -37,12 +39,14 @@ def draw(
     step: float,
     *,
     sent: bool,
+    followed: Sequence[float] = (),
 ) -> Iterator[Word]:
     """Where the robot is and where it is to go, each x, y [m], yaw [rad] or empty, the way between [m], and lines of at least
-    `step` [m] between them; `sent`: the robot has the goal."""
+    `step` [m] between them; `sent`: the robot has the goal; `followed`
+    is where it goes until then, like `wanted`."""
     left, low, width, height = box
     ground(shapes, box, theme.bg, theme.line)
-    places = [place for place in (actual, wanted) if place]
+    places = [place for place in (actual, wanted, followed) if place]
     if not places:
         yield Word("where is the robot?", left + width / 2, low + height / 2, sp(11), theme.muted)
         return
@@ -55,6 +59,13 @@ def draw(
     if len(way) > 1:
         for start, end in _within(view.many_to_screen(way), box):
             shapes.line(np.array([start, end]), dp(2.4), theme.plan)
+    if followed:
+        x, y = view.to_screen(*followed[:2])
+        shapes.disc(x, y, dp(9), theme.plan)
+        shapes.polygon(arrow(x, y, followed[2], dp(8)), theme.ink_plan)
+        told = f"going to {figure(followed[0], 2)} / {figure(followed[1], 2)}"
+        size = fitting_size([told], sp(12), width - dp(12), bold=True)
+        yield Word(told, left + width / 2, low + height - dp(10), size, theme.plan, bold=True)
     if actual:
         x, y = view.to_screen(*actual[:2])
         shapes.disc(x, y, dp(10), theme.accent)

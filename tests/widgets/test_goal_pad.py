@@ -188,6 +188,41 @@ def test_where_the_robot_goes_by_somebody_elses_order_is_the_goal_while_nobody_s
     assert len(pad.way) == 0
 
 
+def test_the_goal_that_is_followed_stays_in_sight_while_another_one_is_set(stage, pad):
+    pad.size = 326, 228
+    pad.show(pose(0.0, 0.0))
+    tap(stage, pad, "east", "go")
+    pad.answer("accepted")
+    pad.show(does())
+    assert pad.followed == []
+    tap(stage, pad, *["north"] * 4)
+    assert (pad.wanted[:2], pad.followed[:2]) == ([0.25, 1.0], [0.25, 0.0])
+    stage.frames(2)
+    assert {"NEW", "going to 0.25 / 0.00", "Go"} <= set(pad.texts)
+    tap(stage, pad, "go")
+    pad.answer("refused")
+    assert pad.followed[:2] == [0.25, 0.0], "it still goes there"
+    tap(stage, pad, "go")
+    pad.answer("accepted")
+    pad.show(does(run=8))
+    assert pad.followed == []
+    tap(stage, pad, "north")
+    assert pad.followed[:2] == [0.25, 1.0]
+    pad.show(does("SUCCEEDED", run=8))
+    assert pad.followed == []
+
+
+def test_where_somebody_else_sends_the_robot_is_in_sight_beside_the_goal_that_is_set_here(pad):
+    pad.show(pose(0.0, 0.0))
+    pad.press("east")
+    pad.show(way(3.0))
+    assert pad.followed == [], "nobody said that it goes to a goal"
+    pad.show(does())
+    assert pad.followed[:2] == [3.0, 1.0]
+    pad.show(does("CANCELED"))
+    assert pad.followed == []
+
+
 @pytest.mark.parametrize("plan_first", [True, False])
 def test_another_tasks_way_is_no_goal(pad, plan_first):
     messages = [way(3.0), does(task="patrol")]
