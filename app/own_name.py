@@ -23,6 +23,8 @@ SAYS = {
     "{} has control.": "You have control.",
     "STOP pressed by {}.": "You pressed STOP.",
     "STOP released by {}.": "You released STOP.",
+    "Stopped by {}.": "You pressed STOP.",
+    "Canceled by {}.": "You canceled it.",
 }
 """A robot's sentence about somebody, and what is said to the one whom it is about."""
 

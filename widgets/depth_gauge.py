@@ -16,7 +16,7 @@ from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
 from kivy.uix.widget import Widget
 
-from bridge.msgs.pilothouse_msgs import Manoeuvre
+from bridge.msgs.pilothouse_msgs import ControlStatus, Manoeuvre
 from bridge.msgs.sensor_msgs import FluidPressure
 from widgets.gauge import Gauge, first_fitting, wide
 from widgets.geometry import DASH, Points, nice_floor
@@ -33,13 +33,15 @@ REACHES = (2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 """Depths that the scale may end at [m]."""
 HOLDS = ("course", "hover")
 """Kinds of manoeuvre that tell a depth to hold."""
+BELOW = 0.3
+"""Deeper than this what is stopped has a way up [m]."""
 
 
 class DepthGauge(Gauge):
     """A figure and a scale with the surface at its top; the robot is the blue pointer, the wanted depth the violet one."""
 
-    accepts: ClassVar = (FluidPressure, Manoeuvre)
-    drawn_from: ClassVar = ("depth", "wanted", "held", "reach")
+    accepts: ClassVar = (FluidPressure, Manoeuvre, ControlStatus)
+    drawn_from: ClassVar = ("depth", "wanted", "held", "stopped", "reach")
 
     depth = NumericProperty(math.nan)
     """Below the surface [m]; NaN when not known."""
@@ -47,6 +49,8 @@ class DepthGauge(Gauge):
     """Depth to hold [m]; NaN when nobody asked."""
     held = BooleanProperty(False)
     """The robot holds the depth where it is, and has not said which one that is."""
+    stopped = BooleanProperty(False)
+    """STOP is pressed: nothing keeps it below."""
     surface_pressure = NumericProperty(101_325.0)
     """Of the air on the water [Pa]."""
     density = NumericProperty(1000.0)
@@ -68,8 +72,16 @@ class DepthGauge(Gauge):
             self.fbind(name, self._fit)
         self._fit()
 
-    def show(self, msg: FluidPressure | Manoeuvre) -> None:
-        """Take the depth from a pressure of water and air, or the depth to hold from what the robot follows now."""
+    @property
+    def rises(self) -> bool:
+        """It is stopped below the surface, where it weighs less than the water."""
+        return self.stopped and self.depth > BELOW
+
+    def show(self, msg: FluidPressure | Manoeuvre | ControlStatus) -> None:
+        """Take the depth from a pressure of water and air, the depth to hold from what the robot follows now, or whether it is stopped."""
+        if isinstance(msg, ControlStatus):
+            self.stopped = msg.stopped
+            return
         if isinstance(msg, FluidPressure):
             depth = (msg.fluid_pressure - self.surface_pressure) / (self.density * GRAVITY)
             self.depth = round(max(depth, 0.0), 2) if math.isfinite(depth) else math.nan
@@ -104,7 +116,10 @@ class DepthGauge(Gauge):
         middle = bottom + high * 0.62
         yield from self._value(self.words, left, middle, size, "text")
         y = middle - size * 0.62 - sp(16)
-        if math.isfinite(self.wanted):
+        if self.rises:
+            told = first_fitting(("stopped, floats up", "floats up"), sp(13), room, bold=True) or "rises"
+            yield Word(told, left, y, sp(13), theme.warn, bold=True, anchor=(0, 0.5))
+        elif math.isfinite(self.wanted):
             yield Word("TARGET", left, y, sp(11.5), theme.plan, anchor=(0, 0.5))
             told = figure(self.wanted, 1)
             small = self._fitting(told, " m", room, min(size * 0.7, sp(26)))
@@ -164,8 +179,10 @@ class DepthGauge(Gauge):
         """As in `4.2 m depth`."""
         y, room = self.center_y, self.width - 2 * self.edge
         size = min(sp(26), self.height * 0.55)
-        tail = " m depth" if self.words != DASH else " depth"
+        tail = " depth" if self.words == DASH else " m, floats up" if self.rises else " m depth"
         behind = max(size * 0.56, sp(12))
+        if wide(self.words, size, bold=True) + wide(tail, behind) > room and self.rises:
+            tail = " m, rises"
         if wide(self.words, size, bold=True) + wide(tail, behind) > room:
             tail = " m" if self.words != DASH else ""
         size = min(size, size * room / (wide(self.words, size, bold=True) + wide(tail, behind)))
@@ -209,6 +226,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "live": made(state="live"),
         "no target": made(wanted=nan, state="live"),
         "held": made(wanted=nan, held=True, state="live"),
+        "stopped": made(1.2, nan, stopped=True, state="live"),
+        "stopped low": made(1.2, nan, size=(128, 40), stopped=True, state="live"),
         "surface": made(0.0, 0.0, state="live"),
         "deep": made(63.4, 80.0, state="live"),
         "very deep": made(412.0, nan, state="live"),

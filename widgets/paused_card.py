@@ -52,8 +52,11 @@ class PausedCard(NoticeCard):
         self.resume.meaning = self.headline
 
     def _tell(self, *_: object) -> None:
-        mine = bool(self.name) and self._why == f"{self.name} took the stick."
-        self.said = "You took the stick." if mine else self._why
+        mine = {
+            f"{self.name} took the stick.": "You took the stick.",
+            f"Stopped by {self.name}.": "You pressed STOP.",
+        }
+        self.said = mine.get(self._why, self._why) if self.name else self._why
 
     def _block(self, *_: object) -> None:
         self.resume.disabled = self.held or self.blocked

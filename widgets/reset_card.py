@@ -19,6 +19,7 @@ from widgets.notice_card import NoticeCard
 __all__ = ["ResetCard"]
 
 WHAT = "Its task ends, and it stands still where it started."
+WHAT_FLIES = "Its task ends, and it stands on the ground where it started, rotors off."
 
 
 class ResetCard(NoticeCard):
@@ -28,6 +29,8 @@ class ResetCard(NoticeCard):
 
     name = StringProperty("the robot")
     """What the robot is called."""
+    flies = BooleanProperty(False)
+    """It is one that flies."""
     mishap = StringProperty("")
     """What has gone wrong with it, as a sentence; empty when nothing has."""
     asked = BooleanProperty(False)
@@ -40,7 +43,7 @@ class ResetCard(NoticeCard):
         self.leave, self.go = self.add_below(("Leave it", "close", False), ("Put back", "replay", False))
         self.leave.bind(on_release=lambda _: self.close())
         self.go.bind(on_release=lambda _: self.press())
-        for name in ("name", "mishap", "asked", "sent", "blocked"):
+        for name in ("name", "flies", "mishap", "asked", "sent", "blocked"):
             self.fbind(name, self._write)
         self._write()
 
@@ -78,7 +81,10 @@ class ResetCard(NoticeCard):
 
     def _write(self, *_: object) -> None:
         if self.asked:
-            self.headline, self.said = f"Put {self.name} back to where it started?", WHAT
+            self.headline, self.said = (
+                f"Put {self.name} back to where it started?",
+                WHAT_FLIES if self.flies else WHAT,
+            )
             self.go.text, self.leave.text = "Yes, put back", "No"
         else:
             self.headline = self.mishap or self.name

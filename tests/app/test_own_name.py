@@ -40,6 +40,9 @@ def test_of_two_of_one_name_each_is_told_what_is_about_itself(name: OwnName, min
     assert said(name, f"{mine} has control.") == "You have control."
     assert said(name, f"{other} has control.") == f"{other} has control."
     assert said(name, f"STOP pressed by {mine}.") == "You pressed STOP."
+    assert said(name, f"Stopped by {mine}.") == "You pressed STOP."
+    assert said(name, f"Canceled by {mine}.") == "You canceled it."
+    assert said(name, f"Canceled by {other}.") == f"Canceled by {other}."
     assert said(name, f"STOP released by {other}.") == f"STOP released by {other}."
 
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from bridge.msgs.pilothouse_msgs import Manoeuvre
+from bridge.msgs.pilothouse_msgs import ControlStatus, Manoeuvre
 from bridge.msgs.sensor_msgs import FluidPressure
 from widgets.depth_gauge import DepthGauge
 
@@ -98,3 +98,26 @@ def test_a_depth_held_where_the_robot_is_does_not_read_as_if_nothing_were_held(s
     gauge.show(Manoeuvre(kind="rest"))
     stage.frames(2)
     assert gauge.texts[-1] == "no target"
+
+
+@pytest.mark.parametrize(
+    ("size", "words"),
+    [
+        ((326, 228), {"stopped, floats up"}),
+        ((176, 176), {"floats up"}),
+        ((128, 40), {" m, floats up", " m, rises"}),
+    ],
+)
+def test_what_is_stopped_below_the_surface_floats_up(stage, size, words):
+    gauge = stage.show(DepthGauge(state="live"), size=size)
+    gauge.show(at(1.2))
+    gauge.show(ControlStatus(stopped=True))
+    stage.frames(2)
+    assert words & set(gauge.texts)
+    gauge.show(at(0.1))
+    stage.frames(2)
+    assert not words & set(gauge.texts)
+    gauge.show(at(1.2))
+    gauge.show(ControlStatus())
+    stage.frames(2)
+    assert not words & set(gauge.texts)

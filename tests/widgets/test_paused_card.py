@@ -30,6 +30,8 @@ def tap(stage, button):
     [
         ("Paused: tablet-A took the stick.", "You took the stick."),
         ("Paused: Bob took the stick.", "Bob took the stick."),
+        ("Stopped by tablet-A.", "You pressed STOP."),
+        ("Stopped by Bob.", "Stopped by Bob."),
         ("Paused by Bob.", "Paused by Bob."),
     ],
 )

@@ -36,6 +36,13 @@ def test_after_a_mishap_the_first_press_asks_and_the_second_does_it(stage: Stage
     assert card.heard == ["reset"]
 
 
+def test_of_one_that_flies_it_is_said_that_its_rotors_are_off_then(card: Any) -> None:
+    card.ask()
+    assert card.said == "Its task ends, and it stands still where it started."
+    card.flies = True
+    assert card.said == "Its task ends, and it stands on the ground where it started, rotors off."
+
+
 def test_a_second_tap_at_once_is_not_the_confirmation(stage: Stage, card: Any) -> None:
     card.tell("Aqua-1 has sunk.")
     stage.run_for(0.6)
