@@ -10,6 +10,7 @@ from kivy.uix.widget import Widget
 from app import arrange
 from app.arrange import Rect
 from app.layout import Layout
+from app.rects import between
 from app.screens.action_buttons import ActionButtons
 from app.screens.driving import Driving
 from app.screens.placing import off, put
@@ -21,8 +22,10 @@ from widgets.stick import Stick
 
 __all__ = ["DriveScreen"]
 
-HIDES = ("top_left", "top_right", "readouts", "top")
-"""Places that may lie under the unfolded sensors, or under what is said."""
+HIDES = ("top_left", "top_right", "top")
+"""Places of instruments that may lie under the unfolded sensors, or under what is said."""
+LEAST, FIGURES = 110.0, 52.0
+"""Of an instrument, and of the figures in one row, less height shows nothing that can be read [dp]."""
 
 
 class DriveScreen(Driving):
@@ -30,7 +33,7 @@ class DriveScreen(Driving):
 
     def fill(self, layout: Layout) -> None:
         """Put everything on the glass: the picture below, what is touched above what is only seen."""
-        self._strip = Rect(0, 0, 0, 0)
+        self._strip, self._form, self._dp = Rect(0, 0, 0, 0), "wide", 1.0
         self._two = layout.arrangement == "two_sticks"
         self.actions = ActionButtons(layout, self.does)
         self.sight = Sight(self.session, self.video, self.dashboard)
@@ -100,11 +103,7 @@ class DriveScreen(Driving):
         tall, row = form == "tall", places["actions"]
         self.actions.across = row.width > 2 * row.height
         self.actions.tick()
-        figures = places["readouts"]
-        roomy = form == "wide" or figures.width >= 330 * dp
-        narrow = form == "short" or figures.width < 160 * dp
-        self.readouts.cols = 1 if narrow else 4 if roomy and tall else 2
-        self._trim(roomy or figures.height >= 200 * dp)
+        self._form, self._dp = form, dp
         self.notice, low = places["notice"], places["notice_low"]
         touched = (places[slot] for slot in ("switch", "actions") if slot in places)
         over = (one.y for one in touched if one.y > low.y and one.x < low.right and low.x < one.right)
@@ -142,28 +141,59 @@ class DriveScreen(Driving):
             put(widget, off(slider) if alone else slider)
 
     def uncover(self) -> None:
-        """What lies under the unfolded sensors, or under what is said, is not seen, not even at its corners."""
+        """What lies under the unfolded sensors, or under what is said, is not seen, not even at its corners.
+
+        What of an instrument's place is left and can be read, is shown there; the figures are never taken away by what is said.
+        """
         cover = self.cover
         lids = [cover] if cover is not None else []
         if self.senses.covers:
             lids.append(self.arranged["senses_open"])
         if not self.hide_checks() and self.checks.open:
             lids.append(Rect(*self.low.pos, *self.low.size))
+        left = {slot: _left(self.arranged[slot], lids, LEAST * self._dp, 8 * self._dp) for slot in HIDES}
+        figures = left["readouts"] = self._figures_left(lids, alone=left["top_left"] is None)
+        self._show_figures(figures or self.arranged["readouts"])
+        if figures is not None and figures.overlaps(Rect(*self.low.pos, *self.low.size)):
+            self.low.opacity, self.low.disabled = 0.0, True
+        lids += [figures] if figures is not None else []
         self.hide_chip(lids)
-        for slot in HIDES:
-            place = self.arranged[slot]
-            hidden = any(lid.overlaps(place) for lid in lids)
+        for slot, place in left.items():
             for widget in self.places.get(slot, ()):
-                widget.opacity = 0 if hidden else 1
+                widget.opacity = 0 if place is None else 1
                 # what has a shader of its own knows nothing of opacity
-                put(widget, off(place) if hidden else place)
-        self.sight.covered = cover is not None and cover.overlaps(self.arranged["badge"])
+                put(widget, off(self.arranged[slot]) if place is None else place)
+        said = [lid for lid in (cover, figures) if lid is not None]
+        self.sight.covered = any(lid.overlaps(self.arranged["badge"]) for lid in said)
         strip = self.arranged["senses"]
-        if cover is not None and cover.overlaps(strip) and self.senses.folded:
+        if self.senses.folded and any(lid.overlaps(strip) for lid in said):
             strip = off(strip)
         if strip != self._strip:
             self._strip = strip
             self.senses.place(strip, self.arranged["senses_open"])
+
+    def _figures_left(self, lids: list[Rect], *, alone: bool) -> Rect | None:
+        """Where the figures are: in their own place, in all of the row whose instruments are away, or over what is said."""
+        place, least, gap = self.arranged["readouts"], FIGURES * self._dp, 8 * self._dp
+        cover = self.cover
+        if cover is None or not cover.overlaps(place):
+            return _left(place, lids, LEAST * self._dp, gap)
+        if self._form != "tall" or not alone:
+            return _left(place, lids, least, gap)
+        row = [self.arranged[slot] for slot in ("top_left", "top_right", "readouts")]
+        low, top = min(one.y for one in row), max(one.top for one in row)
+        whole = between(min(one.x for one in row), low, max(one.right for one in row), top)
+        over = Rect(whole.x, cover.top + gap, whole.width, least)
+        free = over.top <= self.arranged["top"].y and not any(lid.overlaps(over) for lid in lids)
+        return _left(whole, lids, least, gap) or (over if free else None)
+
+    def _show_figures(self, place: Rect) -> None:
+        """In columns, and as many of them, as the place has room for."""
+        dp, tall = self._dp, self._form == "tall"
+        roomy = self._form == "wide" or place.width >= 330 * dp
+        narrow = self._form == "short" or place.width < 160 * dp
+        self.readouts.cols = 1 if narrow else 4 if roomy and tall else 2
+        self._trim(roomy or place.height >= 200 * dp)
 
     def _trim(self, roomy: bool) -> None:
         """A phone has room for two figures."""
@@ -183,6 +213,20 @@ class DriveScreen(Driving):
         super().tick()
         self.sight.tick()
         self.actions.tick()
+
+
+def _left(place: Rect, lids: list[Rect], least: float, gap: float) -> Rect | None:
+    """What is left of a place above or below what lies over it, at a gap; None where that is lower than `least` [px]."""
+    low, top = place.y, place.top
+    for lid in lids:
+        if lid.overlaps(between(place.x, low, place.right, top)):
+            if lid.y - low >= top - lid.top:
+                top = lid.y - gap
+            else:
+                low = lid.top + gap
+            if top - low < least:
+                return None
+    return between(place.x, low, place.right, top)
 
 
 def _beside(place: Rect, found: list[Widget], dp: float) -> list[Rect]:
