@@ -264,19 +264,16 @@ def samples() -> dict[str, Callable[[], Widget]]:
         height: float = 1.24,
         climb: float = 0.32,
         size: tuple[float, float] = (176, 176),
-        stopped: bool = False,
         **more: Any,
     ) -> Callable[[], Widget]:
         def build() -> HeightTape:
             tape = HeightTape(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
             if phase:
                 tape.show(FlightState(phase=phase, height=height, climb=climb))
-            tape.show(ControlStatus(stopped=stopped))
             return tape
 
         return build
 
-    nan = math.nan
     return {
         "never": made(""),
         "live": made(wanted=1.5, state="live"),
@@ -285,10 +282,9 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "landing": made("landing", 0.8, -0.5, wanted=0.0, state="live"),
         "stopped": made(climb=0.0, stopped=True, state="live"),
         "stopped upright": made(climb=0.0, stopped=True, size=(124, 150), state="live"),
-        "stopped low": made(climb=0.0, stopped=True, size=(128, 44), state="live"),
         "high": made(height=23.6, climb=-0.9, wanted=12.0, state="live"),
         "very high": made(height=112.0, climb=0.0, state="live"),
-        "out of reach": made(height=nan, climb=0.1, state="live"),
+        "out of reach": made(height=math.nan, climb=0.1, state="live"),
         "large": made(wanted=1.5, size=(326, 228), state="live"),
         "large never": made("", size=(326, 228)),
         "tall": made(wanted=1.5, size=(160, 330), state="live"),
