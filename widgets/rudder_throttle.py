@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, NumericProperty
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RudderState
@@ -47,6 +47,7 @@ class RudderThrottle(Stick, Gauge):
         "max_steering",
         "angle",
         "throttle",
+        "led",
     )
 
     max_steering = NumericProperty(0.61)
@@ -57,6 +58,9 @@ class RudderThrottle(Stick, Gauge):
     """Of the rudder as the boat tells it [rad], positive turns to the left; NaN when not known."""
     throttle = NumericProperty(math.nan)
     """Of the propeller as the boat tells it, -1 to 1; NaN when not known."""
+
+    led = BooleanProperty(False)
+    """A task steers: while no hand does, rudder and throttle of the boat are told, and said to be the task's."""
 
     def _knob_radius(self) -> float:
         return min(min(self.size) * 0.15, theme.target * 0.75)
@@ -121,14 +125,24 @@ class RudderThrottle(Stick, Gauge):
     @property
     def throttle_words(self) -> str:
         """What is commanded, as in `60 % ahead`; `idle` at rest."""
+        if self._told:
+            return f"task {self.throttle * 100:.0f} %" if math.isfinite(self.throttle) else "task"
         percent = round(self.forward * self.most * 100)
         return f"{abs(percent)} % {'ahead' if percent > 0 else 'astern'}" if percent else "idle"
 
     @property
     def rudder_words(self) -> str:
         """What is commanded, as in `12° left`; `amidships` at rest."""
-        degrees = round(math.degrees(self.left * self.max_steering))
+        turned = self.left * self.max_steering
+        if self._told:
+            turned = self.angle if math.isfinite(self.angle) else 0.0
+        degrees = round(math.degrees(turned))
         return f"{abs(degrees)}° {'left' if degrees > 0 else 'right'}" if degrees else "amidships"
+
+    @property
+    def _told(self) -> bool:
+        """What the boat does is said, and not what the hand does."""
+        return bool(self.led) and not (self.forward or self.left)
 
     def draw(self) -> None:
         """Pad, boat, scales, knob; in the gauge's way."""
@@ -191,7 +205,8 @@ class RudderThrottle(Stick, Gauge):
     def _figures(self) -> Iterator[Word]:
         left, top = self.x + self.edge, self.top - self.edge
         right = self.right - self.edge - (dp(18) if self.alarmed else 0)
-        colour = theme.text if self.state != "disabled" else theme.faint
+        colour = theme.plan if self._told else theme.text
+        colour = colour if self.state != "disabled" else theme.faint
         size = sp(14)
         if self.roomy:
             yield Word("THROTTLE", left, top - sp(6), sp(11.5), theme.muted, anchor=(0, 0.5))
@@ -206,7 +221,7 @@ class RudderThrottle(Stick, Gauge):
         """What is said of throttle and rudder, and how large [px], so that both fit into `room` [px]."""
         throttle, rudder = self.throttle_words, self.rudder_words
         brief = throttle.replace("ahead", "").replace("astern", "back"), rudder.replace("amidships", "0°")
-        least = figure(self.forward * self.most * 100, 0) + " %", brief[1]
+        least = throttle if self._told else figure(self.forward * self.most * 100, 0) + " %", brief[1]
         for words in ((throttle, rudder), brief, least):
             for height in (size, sp(14), sp(12), sp(10.5)):
                 if height <= size and sum(wide(text, height, bold=True) for text in words) <= room:
@@ -252,6 +267,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "small at rest": make(size=(176, 176)),
         "smallest": make((-1.0, -1.0), (-0.8, -0.5), (140, 140)),
         "large": make((0.75, -0.6), (0.7, -0.2), (326, 242)),
+        "a task steers": make(told=(0.86, -0.45), led=True),
+        "small, a task steers": make(told=(0.86, -0.45), size=(176, 176), led=True),
         "gamepad drives": make((0.75, 0.2), (0.7, 0.1), (176, 176), gamepad="drives"),
         "stale": make(told=(0.3, 0.1), state="stale", age=3.0),
         "alarm": make(told=(0.3, 0.1), state="alarm"),

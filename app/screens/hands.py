@@ -23,7 +23,8 @@ from app.screens.in_vain import InVain
 from app.screens.speed_card import SpeedCard, allowed
 from app.session import Session
 from bridge.msgs.geometry_msgs import PoseStamped
-from bridge.msgs.pilothouse_msgs import FlightState, TaskOrder, Waypoint
+from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.pilothouse_msgs import FlightState, TaskOrder, TaskStatus, Waypoint
 from widgets.stick import Stick
 
 __all__ = ["Hands"]
@@ -228,7 +229,28 @@ class Hands(EventDispatcher):
         slides = [widget for widget, _ in self._asking if hasattr(widget, "kin")]
         for widget in slides:
             widget.kin = [other.text for other in slides if other is not widget]
+        self._tell_driven()
         self.arm.tick()
+
+    def _tell_driven(self) -> None:
+        """Slider and lever mean the hand alone: while a task drives, its own speed stands there."""
+        status: TaskStatus | None = self._session.feeds.latest("/task/status")
+        led = status is not None and status.state == "RUNNING" and not self._session.stop_latched
+        if self.speed is not None:
+            self.speed.driven = f"task: {self._speed_words}" if led else ""
+        for stick, _ in self._sticks:
+            if hasattr(stick, "led"):
+                stick.led = led
+
+    @property
+    def _speed_words(self) -> str:
+        """How fast the robot goes, as in `1.9 m/s`; a dash where that is not known."""
+        feeds = self._session.feeds
+        told: Odometry | None = feeds.latest("/odom")
+        if told is None or feeds.state("/odom") != "live":
+            return "–"
+        way = told.twist.twist.linear
+        return f"{math.hypot(way.x, way.y, way.z):.1f}\u00a0m/s"
 
     def _vain(self) -> str:
         """The action that is done already: what flies need not take off, and what stands need not land."""

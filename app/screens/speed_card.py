@@ -6,7 +6,7 @@ import math
 
 from kivy.lang import Builder
 from kivy.metrics import dp
-from kivy.properties import AliasProperty, NumericProperty
+from kivy.properties import AliasProperty, NumericProperty, StringProperty
 
 from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
 from widgets.kit import Card
@@ -29,6 +29,7 @@ Builder.load_string("""
     Fader:
         id: fader
         size_hint_x: 1
+        opacity: .4 if root.driven else 1
         on_change: root.maximum_speed = args[1]
     ValueUnit:
         value: '%.2f' % root.maximum_speed
@@ -37,9 +38,11 @@ Builder.load_string("""
         unit_size: sp(14)
         room: root.width - dp(18)
         pos_hint: {'center_x': .5}
+        opacity: .4 if root.driven else 1
     Remark:
         id: limits
-        text: root.limits
+        text: root.driven or root.limits
+        role: 'plan' if root.driven else 'muted'
         font_size: sp(12)
         halign: 'center'
 """)
@@ -54,6 +57,9 @@ class SpeedCard(Card):
     """Greatest speed that the robot's configuration allows [m/s]; NaN for none."""
     turn_limit = NumericProperty(math.nan)
     """Greatest turn rate that it allows [rad/s]; NaN for none."""
+
+    driven = StringProperty("")
+    """What drives instead of the stick, and how fast, as in `task: 1.9 m/s`; empty while nothing does."""
 
     def _limits(self) -> str:
         word = "limit" if self.width > dp(90) else "≤"

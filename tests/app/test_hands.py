@@ -11,7 +11,8 @@ import pytest
 from app.commands import Outcome
 from app.feeds import Post
 from app.link import OUTCOME
-from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.geometry_msgs import Twist, TwistWithCovariance
+from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import FlightState, Limits, RobotInfo, TaskOrder, TaskStatus
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
@@ -108,3 +109,19 @@ def test_the_slide_that_lands_never_ends_a_landing(
     driving.until(lambda: "/task/resume" in robot.services(), "the landing does not go on")
     driving.until(lambda: down.outcome == "accepted", "the slide does not say what became of it")
     assert "/task/cancel" not in robot.services()
+
+
+def test_while_a_task_drives_slider_and_lever_say_so_and_how_fast(meet: Callable[..., Any]) -> None:
+    screen, _ = meet(BOAT)
+    way = Odometry(twist=TwistWithCovariance(Twist.planar(1.9, 0.0)))
+    screen.session.feeds.put("/odom", Post(way, screen.session.now(), 1))
+    for state, driven in (
+        ("RUNNING", "task: 1.9\u00a0m/s"),
+        ("PAUSED", ""),
+        ("RUNNING", "task: 1.9\u00a0m/s"),
+    ):
+        hear(screen, "/task/status", TaskStatus(task_id=1, task="patrol", state=state))
+        screen.tick()
+        assert (screen.speed.driven, screen.stick.led) == (driven, bool(driven)), state
+    assert screen.speed.ids.limits.text == screen.speed.driven
+    assert screen.speed.ids.fader.opacity < 1, "it looks as if it were the slider's doing"

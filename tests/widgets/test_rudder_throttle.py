@@ -108,3 +108,19 @@ def test_knob_and_words_stay_inside_at_every_size(stage, side, push):
     assert left <= x - helm.knob_radius <= x + helm.knob_radius <= left + width + 1e-6
     assert low <= y - helm.knob_radius <= y + helm.knob_radius <= low + height + 1e-6
     assert len(helm.texts) == (4 if side > 200 else 2)
+
+
+def test_while_a_task_steers_and_no_hand_does_the_boats_own_throttle_and_rudder_are_told(stage, helm):
+    helm.show(RudderState(throttle=0.86, angle=-math.radians(26)))
+    assert (helm.throttle_words, helm.rudder_words) == ("idle", "amidships")
+    helm.led = True
+    assert (helm.throttle_words, helm.rudder_words) == ("task 86 %", "26° right")
+    hold(stage, helm, up=1)
+    assert (helm.throttle_words, helm.rudder_words) == ("80 % ahead", "amidships")
+
+
+def test_what_a_task_steers_fits_where_there_is_little_room(stage, helm):
+    helm.size, helm.led = (140, 140), True
+    helm.show(RudderState(throttle=0.86, angle=-math.radians(26)))
+    stage.frames(2)
+    assert "task 86 %" in helm.texts
