@@ -185,6 +185,7 @@ def test_a_robot_comes_onto_the_glass_with_all_that_is_known_of_it(glass: Glass,
     entered = app._enter_robot
 
     def enter() -> None:
+        app._enter_robot = lambda: None  # the frames of the wait ask for it again
         glass.until(lambda: app.session.control == "other" and app.session.info.name, "nothing told")
         entered()
         mission = app.screens["mission"]
