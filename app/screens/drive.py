@@ -40,7 +40,7 @@ class DriveScreen(Driving):
         self.place("video", self.video)
         places = dict(self.instruments.places)
         self._figures = places.pop("readouts", [])
-        card = Card(floating=True, padding=("12dp", "8dp"))
+        card = self._figures_card = Card(floating=True, padding=("12dp", "8dp"))
         self.readouts = GridLayout(cols=2, spacing=("10dp", "4dp"))
         for figure in self._figures:
             self.readouts.add_widget(figure)
@@ -193,6 +193,7 @@ class DriveScreen(Driving):
         roomy = self._form == "wide" or place.width >= 330 * dp
         narrow = self._form == "short" or place.width < 160 * dp
         self.readouts.cols = 1 if narrow else 4 if roomy and tall else 2
+        self._figures_card.padding = 12 * dp, (8 if place.height >= 62 * dp or narrow else 2) * dp
         self._trim(roomy or place.height >= 200 * dp)
 
     def _trim(self, roomy: bool) -> None:
