@@ -47,6 +47,9 @@ ECHO, ECHOES = 0.5, 12
 SURE = 0.5
 """Part of the end points that must lie on surfaces for the position to be trusted."""
 
+HEARD = 0.7
+"""Part of all echoes that must come from surfaces for the position to be believed again: 0.8 do at the least, where it is right, and 0.45 at the most, where it is wrong."""
+
 UNSURE_AFTER = 8
 """Sweeps in a row that must disagree before the position is called unsure."""
 
@@ -158,16 +161,29 @@ class Localiser:
         """
         if self.pose is None or not len(ends):
             return
-        off = np.abs(self._field.read(self.pose.apply(ends.reshape(-1, 2)))[:, 0]).reshape(ends.shape[:2])
+        off = self._off(self.pose, ends)
         nearest = off.argmin(axis=1)
         points = ends[np.arange(len(ends)), nearest][off.min(axis=1) < ECHO]
+        if len(ends) >= ECHOES:
+            self._hear(off.min(axis=1))
         if len(points) < ECHOES:
             return
         match = self._fit(self.pose, points)
         if match.fit >= SURE:
-            self._bad = max(0, self._bad - 1)
             self.pose = match.pose
             self.covariance = np.asarray(np.linalg.inv(match.information), dtype=np.float64)
+
+    def _off(self, pose: Pose2, ends: NDArray[np.float64]) -> NDArray[np.float64]:
+        """How far each place on each arc is from a surface of the map [m]."""
+        return np.abs(self._field.read(pose.apply(ends.reshape(-1, 2)))[:, 0]).reshape(ends.shape[:2])
+
+    def _hear(self, off: NDArray[np.float64]) -> None:
+        """Be the surer of it the more echoes are of what the map knows; each is so far `off` it [m]."""
+        known = float((off < FITS).mean())
+        if known < SURE:
+            self._bad = min(self._bad + 1, DISTRUSTED)
+        elif known >= HEARD:
+            self._bad = self._bad - 1 if self._bad >= UNSURE_AFTER else 0
 
     def predict(self, odom: Pose2, against: float = math.nan) -> float:
         """Move on by what the wheels say: `odom` is the pose in the odometry's frame.

@@ -65,6 +65,8 @@ PUSHED = 0.3
 
 _PUSHES = "Position unsure: the wheels turn and the bumper is pressed, so that their way is not counted. Drive away from it."
 
+_UNHEARD = "Position unsure: the sonars do not hear what the map says. Place the robot on the map."
+
 _UNFITTING = "Position unsure: the laser does not see what the map says. Place the robot on the map."
 
 _NO_LASER = (
@@ -203,7 +205,7 @@ class Whereabouts:
             ends = np.concatenate(self._rings)
             self._rings.clear()
             localiser.echo(odom.inverse().apply(ends.reshape(-1, 2)).reshape(ends.shape))
-            self._watch(localiser, _PUSHES)
+            self._watch(localiser, _UNHEARD)
 
     def take_bumper(self, bumper: Bumper) -> None:
         """Remember what is in touch: without a laser it cannot be seen that the wheels turn in vain."""

@@ -168,6 +168,16 @@ def test_who_is_distrusted_is_sure_again_after_echoes_that_fit_for_a_while() -> 
     assert localiser.sure
 
 
+def test_echoes_of_what_the_map_does_not_know_make_it_unsure_after_a_while() -> None:
+    localiser = Localiser(HALL)
+    localiser.place(Pose2(0.0, 0.0, 0.0), spread=0.1, turn=0.1)
+    for _ in range(UNSURE_AFTER - 1):
+        localiser.echo(np.full((30, 3, 2), 0.8))
+    assert localiser.sure
+    localiser.echo(np.full((30, 3, 2), 0.8))
+    assert not localiser.sure
+
+
 def arcs(pose: Pose2, count: int = 24) -> NDArray[np.float64]:
     """Ends of cones all round, each as far as the nearest wall of the hall in it, in the frame of `pose`."""
     ends = []
