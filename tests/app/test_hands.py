@@ -18,7 +18,7 @@ from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 from tests.app.test_profiles import BOAT, DRONE, TRUCK
 
-SLOW = {
+SLOW: dict[str, tuple[float, Callable[[Any], float]]] = {
     "commander": (1.0, lambda said: said.speed),
     "dory": (0.4, lambda said: said.throttle * BOAT.max_speed),
     "ardrone": (0.8, lambda said: said.pitch / DRONE.max_tilt * DRONE.max_speed),
