@@ -132,7 +132,7 @@ class Hands(EventDispatcher):
     def _pushed(self, stick: Stick, said: Drive, one: Control) -> None:
         self.piloting.take(stick, self._meant(stick, said, one))
 
-    def _meant(self, stick: Stick, said: Drive, one: Control) -> Parts:
+    def _meant(self, stick: Stick, said: Any, one: Control) -> Parts:
         if one.widget in SAYS:
             return Parts.of(said)
         shares = ((one.forward, stick.forward), (one.left, stick.left))
@@ -300,7 +300,7 @@ class Hands(EventDispatcher):
             "max_steering": self.reach.steering,
             "most": share,
         }
-        for stick, _ in self._sticks:
+        for stick, _control in self._sticks:
             for name, end in ends.items():
                 if hasattr(stick, name):
                     setattr(stick, name, end)
