@@ -209,7 +209,8 @@ def test_a_chip_with_nothing_to_say_leaves_no_ground_behind(stage, change):
 def test_a_veil_that_is_taken_away_covers_nothing(stage):
     video = stage.show(Video(state="disabled", corner=0), size=(320, 240))
     stage.frames(3)
-    (veil,) = (one for one in video.canvas.after.children if getattr(one, "size", None) == (320, 240))
+    covers = tuple(video.veil_box[2:])
+    (veil,) = (one for one in video.canvas.after.children if getattr(one, "size", None) == covers)
     video.state = "live"
     stage.frames(3)
     assert 0 < max(veil.size) <= 1
