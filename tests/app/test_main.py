@@ -18,7 +18,10 @@ ROOT = Path(__file__).parents[2]
     [
         (["http://10.0.0.3"], "An address begins with ws:// or wss://, not http://."),
         (["ws://10.0.0.3:99999"], "ws://10.0.0.3:99999 has no valid port: it is a number from 1 to 65535."),
-        (["--layout", "boat"], "There is no layout 'boat'; there are: aqua, ardrone, commander, minnow, patrol, scout."),
+        (
+            ["--layout", "boat"],
+            "There is no layout 'boat'; there are: aqua, ardrone, commander, minnow, patrol, scout.",
+        ),
         (["--size", "large"], "A size is written as 412x892, not 'large'."),
         (["--colour"], "Unrecognized arguments: --colour."),
     ],

@@ -11,7 +11,13 @@ import pytest
 from app.feeds import Post
 from app.screens.drive import DriveScreen
 from bridge.msgs.geometry_msgs import Pose, PoseWithCovariance, PoseWithCovarianceStamped, Twist
-from bridge.msgs.pilothouse_msgs import Compass, FlightState, Manoeuvre, RobotInfo, TaskStatus
+from bridge.msgs.pilothouse_msgs import (
+    Compass,
+    FlightState,
+    Manoeuvre,
+    RobotInfo,
+    TaskStatus,
+)
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 

@@ -74,5 +74,7 @@ def test_the_body_ahead_of_the_axle_keeps_off_what_stands_there() -> None:
 
 
 def test_there_may_be_no_way() -> None:
-    closed = walled((5.0, -4.0, 11.0, -3.5), (5.0, 3.5, 11.0, 4.0), (5.0, -4.0, 5.5, 4.0), (10.5, -4.0, 11.0, 4.0))
+    closed = walled(
+        (5.0, -4.0, 11.0, -3.5), (5.0, 3.5, 11.0, 4.0), (5.0, -4.0, 5.5, 4.0), (10.5, -4.0, 11.0, 4.0)
+    )
     assert lattice(closed).way(Pose2(-4.0, 0.0, 0.0), (8.0, 0.0, math.nan)) == []
