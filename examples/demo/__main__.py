@@ -50,14 +50,18 @@ def _prepare(size: str, *, window: bool) -> None:
 
 LARGEST = 900
 """Either side of the sizes that a story changes to is at most this [px]."""
-GUIDE = {"connect-screen": "connect", "watching": "mission", "driving": "drive"}
-"""Pictures of the demo that the guide shows, and their names there."""
+GUIDE = {
+    "patrol": {"connect-screen": "connect", "watching": "mission", "driving": "drive"},
+    "aqua": {"driving": "dive"},
+    "ardrone": {"driving": "drone"},
+}
+"""Pictures of each robot's demo that the guide shows, and their names there."""
 
 
-def _keep_pictures(out: Path, folder: Path) -> None:
-    """Copy what the guide shows."""
+def _keep_pictures(out: Path, robot: str, folder: Path) -> None:
+    """Copy what the guide shows of this robot's demo."""
     folder.mkdir(parents=True, exist_ok=True)
-    for step, name in GUIDE.items():
+    for step, name in GUIDE.get(robot, {}).items():
         for picture in out.glob(f"[0-9][0-9]-{step}.png"):
             shutil.copyfile(picture, folder / f"{name}-tablet.png")
 
@@ -138,7 +142,7 @@ def main(argv: list[str] | None = None) -> int:
             f"demo: the robot side ended with exit code {left}; its words are in {arguments.out}/robot.log."
         )
     if arguments.pictures and not code:
-        _keep_pictures(arguments.out, arguments.pictures)
+        _keep_pictures(arguments.out, arguments.robot, arguments.pictures)
     print(
         f"demo: {'all held' if not code else 'NOT all held'}; pictures and summary.json are in {arguments.out}"
     )
