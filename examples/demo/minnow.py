@@ -25,7 +25,7 @@ __all__ = ["TOPICS", "play"]
 TOPICS = ("/rudder", "/compass")
 DRIFTS, RUNS_OUT = 0.35, 5.0
 """Current and waves take a boat along that fast [m/s]; the water takes the way off it within this [s]."""
-COURSE = 120.0
+COURSE = 100.0
 """That is set on the dial [deg], 0 north, clockwise."""
 HELD = math.radians(6)
 """A course is held so well [rad], waves and wind and all."""
