@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.units import wrap
-from robotside.follow import Follower, Manner
-from robotside.going import CRUISE, UNSURE_SPEED, Search
+from robotside.follow import Manner
+from robotside.going import CRUISE, UNSURE_SPEED, OneWay
 from robotside.kinds import kind_of
-from robotside.planner import Planner
 from robotside.pose2 import Points, Pose2
 from robotside.robot import Manoeuvrable, Robot
 
@@ -43,7 +40,7 @@ MANNERS = {
 """By kind; the circles of arrival are as large as waves, currents and the way that one has on make them."""
 
 
-class Coursing:
+class Coursing(OneWay):
     """`going.Going` of a robot that keeps courses."""
 
     stands = False
@@ -53,45 +50,13 @@ class Coursing:
 
     def __init__(self, robot: Robot) -> None:
         info = robot.info
+        super().__init__(MANNERS[info.kind])
         self._robot, self._comes_about = robot, kind_of(info.kind).comes_about
-        self._manner = MANNERS[info.kind]
         self.cruise, self.clear = min(CRUISE * info.max_speed, FASTEST), info.radius + 0.18
         self.turning = BOAT_TURNS if kind_of(info.kind).comes_about else 0.0
         self.height = math.nan
         self.aloft = "take_off" not in info.manoeuvres
         self.measured = math.nan
-        self._follower: Follower | None = None
-        self._speed = 0.0
-
-    @property
-    def under_way(self) -> bool:
-        """It has a way."""
-        return self._follower is not None
-
-    @property
-    def ahead(self) -> Points:
-        """What is left of the way, from beside the robot on."""
-        return self._follower.ahead if self._follower else np.empty((0, 2))
-
-    def search(
-        self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
-    ) -> Search:
-        """For a way to `goal`. Unreachable raises."""
-        path = yield from planner.search((pose.x, pose.y), goal[:2], name, obstacles)
-        self._follower = Follower(path, cruise=self.cruise, manner=self._manner)
-        return path
-
-    def forget(self) -> None:
-        """Have no way any more."""
-        self._follower, self._speed = None, 0.0
-
-    def remaining(self, pose: Pose2) -> float:
-        """Along the way to its end [m]."""
-        return self._follower.remaining(pose) if self._follower else math.nan
-
-    def arrived(self, pose: Pose2) -> bool:
-        """The way is gone to its end."""
-        return self._follower is not None and self._follower.arrived(pose)
 
     def steer(self, pose: Pose2, points: Points, *, sure: bool) -> None:
         """Go on."""

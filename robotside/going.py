@@ -6,10 +6,13 @@ import math
 from collections.abc import Generator
 from typing import Protocol
 
+import numpy as np
+
+from robotside.follow import ON_WHEELS, Follower, Manner
 from robotside.planner import Planner
 from robotside.pose2 import Points, Pose2
 
-__all__ = ["CRUISE", "UNSURE_SPEED", "Going", "Grounded", "Search"]
+__all__ = ["CRUISE", "UNSURE_SPEED", "Going", "Grounded", "OneWay", "Search"]
 
 CRUISE = 0.9
 """Part of the robot's greatest speed that it travels with by itself."""
@@ -93,3 +96,45 @@ class Grounded:
 
     def take_off(self, height: float = math.nan) -> None:
         """It stays on the ground."""
+
+
+class OneWay:
+    """What `Going` says of the way, for what goes along a single path."""
+
+    cruise: float
+
+    def __init__(self, manner: Manner = ON_WHEELS) -> None:
+        super().__init__()
+        self._manner = manner
+        self._follower: Follower | None = None
+        self._speed = 0.0
+
+    @property
+    def under_way(self) -> bool:
+        """It has a way."""
+        return self._follower is not None
+
+    @property
+    def ahead(self) -> Points:
+        """What is left of the way, from beside the robot on."""
+        return self._follower.ahead if self._follower else np.empty((0, 2))
+
+    def search(
+        self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
+    ) -> Search:
+        """For a way to `goal`. Unreachable raises."""
+        path = yield from planner.search((pose.x, pose.y), goal[:2], name, obstacles)
+        self._follower = Follower(path, cruise=self.cruise, manner=self._manner)
+        return path
+
+    def forget(self) -> None:
+        """Have no way any more."""
+        self._follower, self._speed = None, 0.0
+
+    def remaining(self, pose: Pose2) -> float:
+        """Along the way to its end [m]."""
+        return self._follower.remaining(pose) if self._follower else math.nan
+
+    def arrived(self, pose: Pose2) -> bool:
+        """The way is gone to its end."""
+        return self._follower is not None and self._follower.arrived(pose)

@@ -8,9 +8,7 @@ import numpy as np
 
 from bridge.msgs.geometry_msgs import Twist
 from robotside.avoidance import Avoidance, free_lengths
-from robotside.follow import Follower
-from robotside.going import CRUISE, UNSURE_SPEED, Grounded, Search
-from robotside.planner import Planner
+from robotside.going import CRUISE, UNSURE_SPEED, Grounded, OneWay
 from robotside.pose2 import Points, Pose2
 from robotside.robot import Robot
 
@@ -25,10 +23,8 @@ PATIENCE, BACKS, BACK = 80, 50, 0.12
 CLOSE, ROOM = 0.04, 0.4
 """It goes back where it passes everything by this, and has so much room [m]."""
 
-NOWHERE: Points = np.empty((0, 2))
 
-
-class Wheeling(Grounded):
+class Wheeling(OneWay, Grounded):
     """`going.Going` of a robot that turns where it stands."""
 
     stands = False
@@ -43,40 +39,13 @@ class Wheeling(Grounded):
         self._robot, self._turn = robot, info.max_yaw_rate
         self._avoidance = Avoidance(info.radius, max_yaw_rate=info.max_yaw_rate)
         self.cruise, self.clear = CRUISE * info.max_speed, info.radius + 0.18
-        self._follower: Follower | None = None
-        self._speed = 0.0
         self._stood = 0
         """Times that it was to go on and could not, of late."""
 
-    @property
-    def under_way(self) -> bool:
-        """It has a way."""
-        return self._follower is not None
-
-    @property
-    def ahead(self) -> Points:
-        """What is left of the way, from beside the robot on."""
-        return self._follower.ahead if self._follower else NOWHERE
-
-    def search(
-        self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
-    ) -> Search:
-        """For a way to `goal`. Unreachable raises."""
-        path = yield from planner.search((pose.x, pose.y), goal[:2], name, obstacles)
-        self._follower = Follower(path, cruise=self.cruise)
-        return path
-
     def forget(self) -> None:
         """Have no way any more."""
-        self._follower, self._speed, self._stood = None, 0.0, 0
-
-    def remaining(self, pose: Pose2) -> float:
-        """Along the way to its end [m]."""
-        return self._follower.remaining(pose) if self._follower else math.nan
-
-    def arrived(self, pose: Pose2) -> bool:
-        """The way is gone to its end."""
-        return self._follower is not None and self._follower.arrived(pose)
+        super().forget()
+        self._stood = 0
 
     def steer(self, pose: Pose2, points: Points, *, sure: bool) -> None:
         """Go on."""
