@@ -118,10 +118,10 @@ if ! "$venv/bin/python" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11)
     rm -rf "$venv"
     "$python" -m venv "$venv"
 fi
-say "installing the Python packages (about 60, a minute or two)"
+say "installing the Python packages (about 80, two or three minutes)"
 log=$venv/setup.log
 if ! "$venv/bin/python" -m pip install --disable-pip-version-check --no-input --progress-bar off \
-    -c constraints.txt -e '.[handheld,robot,sim,dev]' >"$log" 2>&1; then
+    -c constraints.txt -e '.[handheld,voice,robot,sim,dev]' >"$log" 2>&1; then
     tail -n 15 "$log" >&2
     say "pip could not install everything; all it said is in $log." >&2
     exit 1

@@ -1,4 +1,4 @@
-"""The only file that knows whether it runs on a phone."""
+"""The only package that knows whether it runs on a phone."""
 
 from __future__ import annotations
 
