@@ -1,0 +1,263 @@
+"""The motion sensors for all methods at once: on only while somebody listens, looked through for what cannot be, and judged.
+
+forget = sensing.listen("acceleration", shake.feed)     # feed(t, (x, y, z)), in the UI thread
+if fault := sensing.health("acceleration", least=25.0).sentence: …
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from app.device.motion import GRAVITY, KINDS, Axes, Kind, MotionError, MotionSource
+
+__all__ = ["SILENT", "Fault", "Health", "Judge", "Sensing"]
+
+log = logging.getLogger(__name__)
+
+Feed = Callable[[float, Axes], object]
+"""Told when a sample was measured [s] and its x, y, z [m/s²]."""
+Fault = str
+"""`absent`, `refused`, `paused`, `waiting`, `silent`, `broken`, `jumps`, `frozen`, `slow`; empty for none."""
+
+QUEUE = 256
+"""Samples that wait for the UI thread: 2.5 s of two kinds. The oldest make room."""
+SILENT = 0.3
+"""Without a sample for so long it is silent [s]."""
+FIRST = 1.5
+"""How long the first sample may take [s]: a phone's fusion begins slowly."""
+WINDOW = 1.0
+"""What the rate is counted over [s]."""
+FROZEN = 1.0
+"""The same to the last bit for so long is no hand, and no table either [s]."""
+LONG = 2.0
+"""How long a fault is told after it was last seen [s]."""
+OLD = 1.0
+"""What was measured so long ago is no news [s]: a phone that slept hands it out in one go."""
+BEYOND = 200.0
+"""No phone measures more [m/s²]; most end at 78 or 157."""
+LEAP = {"acceleration": 120.0, "gravity": 10.0}
+"""From one sample to the next no hand does that [m/s²]; for gravity that is 60°."""
+SPARE = {"acceleration": BEYOND, "gravity": 0.25 * GRAVITY}
+"""How far its length may be from 1 g [m/s²]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Health:
+    """How one kind of samples comes."""
+
+    fault: Fault = ""
+    sentence: str = ""
+    """For the operator; empty without a fault."""
+    rate: float = math.nan
+    """Samples in a second [Hz]; NaN before a second is over."""
+    age: float = math.inf
+    """Since the last sample was handed over [s]; infinite before the first."""
+
+
+class Judge:
+    """Looks through the samples of one kind, in their order, and tells how they come."""
+
+    def __init__(self, kind: Kind, begun: float) -> None:
+        """The sensor was started at `begun` [s]."""
+        self._kind, self._begun = kind, begun
+        self._times: deque[float] = deque(maxlen=512)
+        self._last: tuple[float, Axes] | None = None
+        self._leapt: Axes | None = None
+        self._heard = -math.inf
+        self._same_since = math.nan
+        self._seen: dict[Fault, float] = {}
+
+    def take(self, t: float, axes: Axes, now: float) -> bool:
+        """Whether that sample, measured at `t`, may be handed on."""
+        if not all(math.isfinite(value) for value in (t, *axes)):
+            self._seen["broken"] = now
+            return False
+        if now - t > OLD or (self._last is not None and t <= self._last[0]):
+            return False
+        if self._jumped(axes):
+            self._seen["jumps"] = now
+            return False
+        if self._last is None or axes != self._last[1]:
+            self._same_since = t
+        self._last, self._heard = (t, axes), now
+        self._times.append(t)
+        while self._times[0] < t - WINDOW:
+            self._times.popleft()
+        return True
+
+    def _jumped(self, axes: Axes) -> bool:
+        """It is longer than can be, or too far from the one before and from the one that was left out for that."""
+        length = math.hypot(*axes)
+        if length > BEYOND or abs(length - GRAVITY) > SPARE[self._kind]:
+            return True
+        leap = LEAP[self._kind]
+        known = [other for other in (self._last and self._last[1], self._leapt) if other is not None]
+        if known and all(math.dist(axes, other) > leap for other in known):
+            self._leapt = axes
+            return True
+        self._leapt = None
+        return False
+
+    @property
+    def rate(self) -> float:
+        """Samples in a second [Hz] by their own times; NaN while it is not known."""
+        times = self._times
+        if len(times) < 3 or times[-1] - times[0] < WINDOW / 2:
+            return math.nan
+        return (len(times) - 1) / (times[-1] - times[0])
+
+    def health(self, now: float, least: float) -> Health:
+        """How they come at `now`, for one who needs `least` in a second [Hz]."""
+        fault = self._fault(now, least)
+        return Health(fault, self._words(fault, least), self.rate, now - self._heard)
+
+    def _fault(self, now: float, least: float) -> Fault:
+        recent = [name for name, at in self._seen.items() if now - at < LONG]
+        if self._heard == -math.inf and not recent:
+            return "waiting" if now - self._begun < FIRST else "silent"
+        if recent:
+            return "broken" if "broken" in recent else recent[0]
+        if now - self._heard > SILENT:
+            return "silent"
+        if self._last is not None and self._last[0] - self._same_since > FROZEN:
+            return "frozen"
+        return "slow" if self.rate < least else ""
+
+    def _words(self, fault: Fault, least: float) -> str:
+        name = "motion" if self._kind == "acceleration" else "gravity"
+        return {
+            "": "",
+            "waiting": f"Waiting for the {name} sensor.",
+            "silent": f"The {name} sensor is silent.",
+            "broken": f"The {name} sensor delivers what is no number.",
+            "jumps": f"The {name} sensor jumps about as no hand can.",
+            "frozen": f"The {name} sensor has stood still for a second.",
+            "slow": f"The {name} sensor delivers {self.rate:.0f} Hz, and at least {least:.0f} Hz are needed.",
+        }[fault]
+
+
+@dataclass(slots=True)
+class _Kind:
+    judge: Judge
+    feeds: list[Feed] = field(default_factory=list)
+
+
+class Sensing:
+    """Owns the source. Everything but the source's own call happens in the UI thread; `look` belongs to the heartbeat."""
+
+    def __init__(self, source: MotionSource, now: Callable[[], float] = time.monotonic) -> None:
+        self._source, self._now = source, now
+        self._kinds = {kind: _Kind(Judge(kind, now())) for kind in KINDS}
+        self._queue: deque[tuple[Kind, float, Axes]] = deque(maxlen=QUEUE)
+        self._running: frozenset[Kind] = frozenset()
+        self._refused = ""
+        self._paused = self._closed = False
+
+    @property
+    def possible(self) -> bool:
+        """There is any sensor."""
+        return self._source.possible
+
+    @property
+    def sentence(self) -> str:
+        """Why there is none; empty where there is one."""
+        return self._source.sentence
+
+    def has(self, kind: Kind) -> bool:
+        """There is a sensor of that kind."""
+        return kind in self._source.kinds
+
+    @property
+    def running(self) -> frozenset[Kind]:
+        """What is on: empty while nobody listens."""
+        return self._running
+
+    def use(self, source: MotionSource) -> None:
+        """Listen to another source from now on; the one before is stopped."""
+        self._stop()
+        self._source = source
+        self._fit()
+
+    def listen(self, kind: Kind, feed: Feed) -> Callable[[], None]:
+        """Tell `feed` every sample of that kind that can be true; what is returned ends it. The first listener starts the sensor."""
+        feeds = self._kinds[kind].feeds
+        feeds.append(feed)
+        self._fit()
+
+        def forget() -> None:
+            if feed in feeds:
+                feeds.remove(feed)
+                self._fit()
+
+        return forget
+
+    def look(self, now: float | None = None) -> None:
+        """Hand on what came since the last look."""
+        now = self._now() if now is None else now
+        for _ in range(len(self._queue)):
+            kind, t, axes = self._queue.popleft()
+            one = self._kinds[kind]
+            if kind in self._running and one.judge.take(t, axes, now):
+                for feed in tuple(one.feeds):
+                    feed(t, axes)
+
+    def health(self, kind: Kind, least: float = 25.0, now: float | None = None) -> Health:
+        """How samples of that kind come, for one who needs `least` in a second [Hz]; without a fault where nobody asked for them."""
+        if kind not in self._source.kinds:
+            return Health("absent", self._source.sentence or f"This device has no {kind} sensor.")
+        if self._refused:
+            return Health("refused", self._refused)
+        if self._paused:
+            return Health("paused", "The sensors rest while the app is in the background.")
+        if kind not in self._running:
+            return Health()
+        return self._kinds[kind].judge.health(self._now() if now is None else now, least)
+
+    def pause(self) -> None:
+        """The app is in the background: every sensor is off."""
+        self._paused = True
+        self._fit()
+
+    def resume(self) -> None:
+        """It is back."""
+        self._paused = False
+        self._fit()
+
+    def close(self) -> None:
+        """For good: nothing is started again."""
+        self._closed = True
+        self._fit()
+
+    def _fit(self) -> None:
+        """Exactly what is listened to is on."""
+        wanted = frozenset(kind for kind, one in self._kinds.items() if one.feeds and self._source.possible)
+        wanted = frozenset() if self._paused or self._closed else wanted & self._source.kinds
+        if wanted == self._running:
+            return
+        fresh = wanted - self._running
+        self._stop()
+        if not wanted:
+            return
+        try:
+            self._source.start(wanted, self._hear)
+        except MotionError as problem:
+            log.warning("%s", problem)
+            self._refused = str(problem)
+            return
+        self._running = wanted
+        for kind in fresh:
+            self._kinds[kind].judge = Judge(kind, self._now())
+
+    def _stop(self) -> None:
+        self._source.stop()
+        self._queue.clear()
+        self._running, self._refused = frozenset(), ""
+
+    def _hear(self, kind: Kind, t: float, axes: Axes) -> None:
+        """In any thread; a deque's own append needs no lock."""
+        self._queue.append((kind, t, axes))
