@@ -105,11 +105,15 @@ class Gamepads:
             self.sticks = frozenset(sticks)
             self.forbid()
 
-    def press(self, number: int, button: int) -> None:
-        """A button went down, by Kivy's event: one that is short falls between two looks."""
+    def is_stop(self, number: int, button: int) -> bool:
+        """That button of that gamepad, by Kivy's numbers, means STOP."""
         known = self._known.get(number)
-        if button == (known.state.stop_button if known is not None else EAST):
-            self._on_stop()
+        return button == (known.state.stop_button if known is not None else EAST)
+
+    def name(self, number: int) -> str:
+        """What that gamepad calls itself."""
+        known = self._known.get(number)
+        return known.state.name if known is not None else "Gamepad"
 
     def lose(self) -> None:
         """The system took an input device away and does not say which: no gamepad drives until it is let go."""

@@ -9,26 +9,22 @@ Each control is looked at for itself; whatever takes one away from a gamepad tak
 from __future__ import annotations
 
 import logging
-import math
 import time
 from collections.abc import Callable
-from functools import partial
 from typing import Any
 
 from kivy.base import EventLoop
-from kivy.core.window import Window
-from kivy.uix.anchorlayout import AnchorLayout
+from kivy.core.window import Keyboard, Window
 from kivy.uix.behaviors import FocusBehavior
-from kivy.uix.boxlayout import BoxLayout
-from kivy.uix.floatlayout import FloatLayout
-from kivy.uix.gridlayout import GridLayout
-from kivy.uix.widget import Widget
 
+from app.covering import covered
 from app.device import input_devices, rotation, sdl_library
-from app.gamepad import Gamepads, News, Told
+from app.gamepad import Gamepads, Told
+from app.pad_news import PadNews
+from app.press import Press, Presses
 from app.sdl import Sdl
 
-__all__ = ["BACK", "Inputs", "covered"]
+__all__ = ["BACK", "Inputs", "typing"]
 
 log = logging.getLogger(__name__)
 
@@ -41,39 +37,11 @@ ESCAPE = 41
 SPACE = 32
 SWITCHES = {9: "Tab", 13: "Enter"}
 """Key codes that two switches send, on to the next action and do it, by their names."""
-ROUND = 0.96
-"""Of a stick's width and height is its round, less an edge that a neighbour may touch."""
-BARE = (FloatLayout, BoxLayout, AnchorLayout, GridLayout, Widget)
-"""Classes that show nothing themselves: they cover what their children cover."""
+KEYS = {code: name for name, code in Keyboard.keycodes.items()}
+"""Names of Kivy's key codes."""
 
 
-def covered(widget: Widget) -> bool:
-    """Something is drawn over the round in the widget's middle, or it is not on the glass."""
-    child, middle = widget, widget.to_window(*widget.center)
-    round_ = (*middle, min(widget.size) * ROUND / 2)
-    while child.parent is not None and child.parent is not child:
-        siblings = child.parent.children
-        if any(_over(other, round_) for other in siblings[: siblings.index(child)]):
-            return True
-        if child.parent is Window:
-            return False
-        child = child.parent
-    return True
-
-
-def _over(widget: Widget, round_: tuple[float, float, float]) -> bool:
-    if not widget.opacity or not all(widget.size):
-        return False
-    x, y, radius = round_
-    left, low = widget.to_window(*widget.pos)
-    nearest = min(max(x, left), left + widget.width), min(max(y, low), low + widget.height)
-    apart = math.dist(nearest, (x, y)) >= radius
-    if apart or type(widget) not in BARE:
-        return not apart
-    return any(_over(child, round_) for child in widget.children)
-
-
-def _typing() -> bool:
+def typing() -> bool:
     """A field on the glass takes what is typed."""
     everything = (widget for root in Window.children for widget in root.walk())
     return any(isinstance(widget, FocusBehavior) and widget.focus for widget in everything)
@@ -95,14 +63,14 @@ class Inputs:
         `devices` numbers what the system has plugged in, `turned` says how the screen is turned [quarters].
         """
         self._app, self._devices, self._turned = app, devices, turned
-        self._source = source or _source()
+        self._now, self._source = now, source or _source()
+        self._news = PadNews(app, lambda: self.gamepads)
         self.gamepads = Gamepads(
-            now, on_stop=self.stop, on_news=self._tell, wired=app.settings.get("wired_gamepads") or ()
+            now, on_stop=self.stop, on_news=self._news.tell, wired=app.settings.get("wired_gamepads") or ()
         )
-        self._keys: set[int] = set()
-        """Keys that are down and mean something here: a held one repeats."""
-        self._offered: set[str] = set()
-        """Gamepads whose silence was told before."""
+        self.presses = Presses(self._is_stop, lambda _: self.stop())
+        """Every key and every button of a gamepad; whoever wants them before all others puts himself first in `takers`."""
+        self.presses.takers.append(_Column(app))
         self._led = False
         """A gamepad pushes the controls that have no finger."""
         self._hidden: set[Any] = set()
@@ -113,7 +81,8 @@ class Inputs:
             "on_key_down": self._key_down,
             "on_key_up": self._key_up,
             "on_keyboard": self._keyboard,
-            "on_joy_button_down": self._button,
+            "on_joy_button_down": self._button_down,
+            "on_joy_button_up": self._button_up,
             "on_joy_axis": self._axis,
             "on_touch_down": self._touch_down,
             "focus": self._focus,
@@ -249,7 +218,7 @@ class Inputs:
         self._forbid()
 
     def _focus(self, _: object, focus: bool) -> None:
-        self._keys.clear()
+        self.presses.forget()
         if not focus:
             self.rest()
 
@@ -259,78 +228,59 @@ class Inputs:
             if stick.finger is touch:
                 stick.rest()
 
-    def _key_down(self, _: object, key: int, scancode: int, *__: object) -> bool:
-        if self._is_stop(key, scancode):
-            act: Callable[[], object] = self.stop
-        elif key in SWITCHES and self._switched is not None and not _typing():
-            act = partial(self._switched, SWITCHES[key])
-        else:
-            return False
-        if key not in self._keys:
-            self._keys.add(key)
-            act()
-        return True
-
-    @property
-    def _switched(self) -> Callable[[str], object] | None:
-        """What takes the keys of two switches on the screen on the glass; None where nothing does."""
-        shell = self._app.shell
-        press: Callable[[str], object] | None = (
-            getattr(shell.screens.get(shell.screen), "press_switch", None) if shell is not None else None
+    def _key_down(
+        self, _: object, key: int, scancode: int = 0, text: str | None = None, held: Any = (), *__: object
+    ) -> bool:
+        name = KEYS.get(key, f"key {key}")
+        press = Press(
+            "key", key, name, self._now(), scancode=scancode, modifiers=frozenset(held), text=text or ""
         )
-        return press
+        return self.presses.press(press)
 
     def _key_up(self, _: object, key: int, *__: object) -> None:
-        self._keys.discard(key)
+        self.presses.release("key", 0, key)
 
-    def _is_stop(self, key: int, scancode: int) -> bool:
-        """Escape everywhere, Space where nothing is being typed, where there is a robot to stop."""
+    def _is_stop(self, press: Press) -> bool:
+        """Escape everywhere, Space where nothing is being typed, where there is a robot to stop; a gamepad's B."""
+        if press.source == "pad":
+            return self.gamepads.is_stop(press.number, press.code)
         if self._app.session is None and not self._app.corner.button.robots:
             return False
-        return (key == BACK and scancode == ESCAPE) or (key == SPACE and not _typing())
+        return (press.code == BACK and press.scancode == ESCAPE) or (press.code == SPACE and not typing())
 
     def _keyboard(self, _: object, key: int, *__: object) -> bool:
         return bool(self._app.back()) if key == BACK else False
 
-    def _button(self, _: object, number: int, button: int) -> None:
-        self.gamepads.press(number, button)
+    def _button_down(self, _: object, number: int, button: int) -> None:
+        name, device = f"button {button}", self.gamepads.name(number)
+        self.presses.press(Press("pad", button, name, self._now(), device, number))
+
+    def _button_up(self, _: object, number: int, button: int) -> None:
+        self.presses.release("pad", number, button)
 
     def _axis(self, _: object, number: int, axis: int, value: int) -> None:
         if isinstance(self._source, Told):
             self._source.axis(number, axis, value)
 
-    # what is said
 
-    def _tell(self, news: News) -> None:
+class _Column:
+    """Two switches on the column of actions, where the screen on the glass has one."""
+
+    def __init__(self, app: Any) -> None:
+        self._app = app
+
+    def pressed(self, press: Press) -> bool:
+        """On to the next action, or do it."""
         shell = self._app.shell
-        if shell is None:
-            return
-        if news.what == "plugged":
-            hands = "both its sticks drive" if len(self.gamepads.sticks) > 1 else "its left stick drives"
-            shell.say(f"{news.name}: {hands}, B is STOP.", "info", about="gamepad")
-        elif news.what == "unplugged":
-            shell.say(f"{news.name} is unplugged.", "info", about="gamepad")
-        elif news.what == "unplugged driving":
-            shell.say(f"{news.name} is unplugged: the robot was told to rest.", "warn", about="gamepad")
-        else:
-            self._tell_silence(shell, news.name)
+        if press.source != "key" or press.code not in SWITCHES or shell is None or typing():
+            return False
+        act = getattr(shell.screens.get(shell.screen), "press_switch", None)
+        if act is not None:
+            act(SWITCHES[press.code])
+        return act is not None
 
-    def _tell_silence(self, shell: Any, name: str) -> None:
-        """With a way out the first time: what hangs on a cable and is held still tells nothing either."""
-        shell.unsay("gamepad")
-        if name in self._offered:
-            shell.say("The gamepad is silent: told to rest.", "warn", about="gamepad")
-        else:
-            self._offered.add(name)
-            text = "The gamepad is silent: told to rest. Is it wired?"
-            shell.notices.offer(text, "Wired", lambda: self._trust(name), icon="cable")
-
-    def _trust(self, name: str) -> None:
-        """The operator says that it hangs on a cable: it may be held still from now on."""
-        settings = self._app.settings
-        wired = [*(settings.get("wired_gamepads") or ()), name]
-        settings.set("wired_gamepads", wired)
-        self.gamepads.wired = wired
+    def released(self, press: Press) -> None:
+        """Nothing ends with it."""
 
 
 def _source() -> Sdl | Told:

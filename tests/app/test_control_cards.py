@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from app.arrange import Rect
-from app.inputs import covered
+from app.covering import covered
 from bridge.msgs.pilothouse_msgs import Check, Checklist, ControlStatus, TaskStatus
 from bridge.msgs.std_msgs import Time
 from tests.app.fakes import FakeRobot

@@ -189,12 +189,10 @@ def test_its_button_is_stop_once_for_each_press(desk: Desk) -> None:
     assert desk.stops == 2
 
 
-def test_a_press_between_two_looks_is_stop_too_and_another_button_is_not(desk: Desk) -> None:
-    desk.pads.press(1, 0)
-    assert desk.stops == 0
-    desk.pads.press(1, 1)
-    desk.pads.press(7, 1)
-    assert desk.stops == 2
+def test_it_knows_which_button_is_stop_also_of_a_gamepad_that_it_has_not_met(desk: Desk) -> None:
+    assert not desk.pads.is_stop(1, 0)
+    assert desk.pads.is_stop(1, 1)
+    assert desk.pads.is_stop(7, 1)
 
 
 def test_a_device_that_the_system_took_away_brings_the_gamepads_to_rest(desk: Desk) -> None:
