@@ -73,6 +73,16 @@ class DriveSlot:
         self._sent_at = -math.inf
         self._zeros = 0
         self._latched = False
+        self._voided = 0
+
+    @property
+    def voided(self) -> int:
+        """How often a wish to move was dropped though nobody let go: what pushed is to spring back, and is pushed anew."""
+        return self._voided
+
+    def _void(self) -> None:
+        if self._wanted != _ZERO:
+            self._wanted, self._voided = _ZERO, self._voided + 1
 
     @property
     def latched(self) -> bool:
@@ -85,7 +95,8 @@ class DriveSlot:
         It is how a robot without a STOP of its own is stopped. Afterwards the stick must be pushed anew.
         """
         with self._lock:
-            self._latched, self._wanted = on, _ZERO
+            self._latched = on
+            self._void()
             if on:
                 self._sent_at = -math.inf
 
@@ -121,12 +132,14 @@ class DriveSlot:
     def drop(self) -> None:
         """Forget everything unsent, as when the link is lost: nothing old may leave later."""
         with self._lock:
-            self._wanted, self._last_sent, self._zeros = _ZERO, _ZERO, 0
+            self._void()
+            self._last_sent, self._zeros = _ZERO, 0
 
     def rest(self) -> None:
         """Say rest a few times, whatever was said before; the stick must be pushed anew."""
         with self._lock:
-            self._wanted, self._last_sent, self._zeros = _ZERO, _ZERO, ZEROS
+            self._void()
+            self._last_sent, self._zeros = _ZERO, ZEROS
 
     @property
     def driving(self) -> bool:
@@ -148,7 +161,7 @@ class DriveSlot:
         """
         with self._lock:
             if not allowed or self._latched:
-                self._wanted = _ZERO
+                self._void()
             now = self._now()
             order = self._effective(now)
             changed = not _alike(order, self._last_sent)
@@ -165,5 +178,5 @@ class DriveSlot:
     def _effective(self, now: float) -> Drive:
         silence = now - self._beat
         if silence > REARM:
-            self._wanted = _ZERO
+            self._void()
         return self._wanted if silence <= HEARTBEAT else _ZERO

@@ -75,6 +75,8 @@ class Inputs:
         """A gamepad pushes the controls that have no finger."""
         self._hidden: set[Any] = set()
         """Controls that something was over at the last look."""
+        self._voided = 0
+        """As of the link, at the last look."""
         self._held_under: tuple[frozenset[int], int] | None = None
         """Devices and turn of the screen while any of them is pushed."""
         self._bound = {
@@ -135,7 +137,7 @@ class Inputs:
         if not sticks:
             self._forbid()
             return
-        ended = not self._app.session.may_drive or self._moved_on(controls)
+        ended = self._dropped() or not self._app.session.may_drive or self._moved_on(controls)
         covered_ = [stick for stick in controls if self._covered(stick)]
         for stick in controls:
             if ended or stick in covered_ or (stick.finger is not None and self._gone(stick.finger)):
@@ -194,6 +196,11 @@ class Inputs:
         """The touch is over though its end was not told."""
         known = any(touch is other for other in EventLoop.touches)
         return not known or touch.time_end >= 0 or self._source.lifted(touch.device, touch.id)
+
+    def _dropped(self) -> bool:
+        """The network has dropped a push that nobody let go of, as after a freeze: what is not driven is not shown as pushed."""
+        before, self._voided = self._voided, self._app.session.link.voided
+        return before != self._voided
 
     def _moved_on(self, controls: list[Any]) -> bool:
         """The screen was turned, or an input device was taken away, while a control is pushed."""

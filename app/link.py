@@ -184,6 +184,11 @@ class Link:
         """The robot was last told to move."""
         return self._slot.driving
 
+    @property
+    def voided(self) -> int:
+        """As of `DriveSlot.voided`."""
+        return self._slot.voided
+
     def beat(self) -> None:
         """The user interface is alive; without this for 0.15 s the robot is told to rest."""
         self._slot.beat()

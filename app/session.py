@@ -340,7 +340,9 @@ class Session:
         self.feeds.link(self.connected)
         self._stopping.reach(self.connected, state.sentence, hopeless=state.phase is Phase.CLOSED)
         self.authority.link_changed()
-        if self.connected:
+        if not self.connected:
+            self.on_rest()  # it may be back before anybody looks
+        else:
             self.ever_connected = True
             self._asked_control = False
             self._take_control()

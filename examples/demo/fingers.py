@@ -56,6 +56,11 @@ class Hand(MotionEventProvider):
             moved.add(finger.uid)
             dispatch_fn(kind, finger)
 
+    @property
+    def busy(self) -> bool:
+        """Something asked of it has not happened yet."""
+        return bool(self._waiting)
+
     def down(self, at: Point) -> Finger:
         """Put a finger down at `at` [px, window]."""
         self._count += 1

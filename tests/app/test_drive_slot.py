@@ -221,3 +221,16 @@ def test_what_lasts_is_no_drive_command(hand: Hand) -> None:
 def test_a_manoeuvre_says_when_the_finger_was_there() -> None:
     assert stamped_at(STEER, 12.5).header.stamp.seconds == 12.5
     assert stamped_at(STEER, math.nan).header.stamp.seconds == 0.0
+
+
+def test_a_push_that_is_dropped_is_counted_and_one_that_is_let_go_is_not(hand: Hand) -> None:
+    hand.slot.want(AHEAD)
+    hand.pass_time(0.2)
+    hand.slot.want(ZERO)
+    hand.pass_time(0.2)
+    assert hand.slot.voided == 0
+    hand.slot.want(AHEAD)
+    hand.pass_time(1.5, alive=False)
+    assert hand.slot.voided == 1
+    hand.pass_time(1.5, alive=False)
+    assert hand.slot.voided == 1

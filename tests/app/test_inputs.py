@@ -42,7 +42,12 @@ class Source:
 
 
 class Session:
+    """The robot may be driven over a link that is the sender itself."""
+
     may_drive = True
+
+    def __init__(self, link: DriveSlot) -> None:
+        self.link = link
 
 
 class Shell:
@@ -87,7 +92,8 @@ class Hands:
         from app.inputs import Inputs
         from widgets import Joystick, StopButton
 
-        self.stage, self.source, self.session = stage, Source(), Session()
+        self.stage, self.source, self.slot = stage, Source(), DriveSlot(stage.time)
+        self.session = Session(self.slot)
         self.devices, self.turn = frozenset({1, 2}), 0
         self.settings: dict[str, Any] = {}
         self.page = FloatLayout()
@@ -102,7 +108,6 @@ class Hands:
         stage.show(self.root, stage.window.size)
         screen: Any = type("Screen", (), {"stick": self.stick, "sticks": [(self.stick, "left")]})
         self.shell: Any = Shell(screen, self.stop)
-        self.slot = DriveSlot(stage.time)
         self.stick.bind(on_command=lambda _, twist: self.slot.want(twist))
         self.sent: list[tuple[float, Twist]] = []
         self.corner = Corner()
@@ -492,3 +497,15 @@ def test_the_gamepads_button_is_stop_on_every_screen(hands: Hands) -> None:
     hands.pass_time(0.1)
     hands.stage.window.dispatch("on_joy_button_down", 1, 1)
     assert hands.stops == 1
+
+
+def test_a_stick_that_a_freeze_took_from_the_robot_is_not_shown_as_pushed_afterwards(hands: Hands) -> None:
+    touch = hands.push()
+    hands.pass_time(0.2)
+    hands.frozen = True
+    hands.pass_time(1.5)
+    hands.frozen = False
+    hands.pass_time(0.2)
+    assert not hands.stick.forward
+    assert hands.stick.finger is None
+    touch.touch_up()

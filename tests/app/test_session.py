@@ -139,3 +139,11 @@ def test_a_stop_that_is_not_done_goes_on_over_a_new_link(watch: Watch) -> None:
     later = Wire()
     watch.session.resume(later)  # type: ignore[arg-type]
     assert later.asked == []
+
+
+def test_a_link_that_is_lost_and_found_before_anybody_looks_brings_every_control_to_rest(watch: Watch) -> None:
+    rests: list[str] = []
+    watch.session.on_rest = lambda: rests.append("rest")
+    for phase in (Phase.CONNECTED, Phase.CONNECTING, Phase.CONNECTED):
+        watch.session.deliver(LINK, Post(LinkState(phase, "", 0, 0.0), watch.clock(), 1))
+    assert rests == ["rest"]

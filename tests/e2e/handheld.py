@@ -74,6 +74,24 @@ class Handheld:
             self.hand.move(finger, (x - left * reach * share, y + forward * reach * share))
         return finger
 
+    def drive(self, stick: Any, moves: Callable[[], Any], seconds: float = PATIENCE) -> Finger:
+        """Push the stick forward until the robot moves; the finger stays on it.
+
+        A stick that springs back under the finger, as when the machine stood still, is pushed anew, as a person would.
+        """
+        finger = self.push(stick, 0.0, 1.0)
+        end = time.monotonic() + seconds
+        while not moves():
+            assert time.monotonic() < end, (
+                f"waited {seconds:g} s for the robot to drive; the glass says: {self.words()}"
+            )
+            EventLoop.idle()
+            if stick.finger is None and not self.hand.busy:
+                self.hand.up(finger)
+                self.until(lambda: stick.state == "live", "a stick to push anew")
+                finger = self.push(stick, 0.0, 1.0)
+        return finger
+
     def words(self) -> list[str]:
         """Everything that can be read on the glass."""
         return [str(w.text) for w in self.glass.all("Widget") if getattr(w, "text", "") and w.opacity > 0]

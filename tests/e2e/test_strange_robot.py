@@ -52,8 +52,7 @@ def test_its_address_is_typed_and_what_is_missing_is_said(strange: Strange, tmp_
 def test_a_finger_that_lets_go_has_it_at_rest(glass: Handheld, strange: Strange) -> None:
     stick = glass.app.screens["drive"].stick
     glass.until(lambda: stick.state == "live", "a stick to push")
-    finger = glass.push(stick, 0.0, 1.0)
-    glass.until(lambda: strange.robot.speed > 0.1, "the robot to drive")
+    finger = glass.drive(stick, lambda: strange.robot.speed > 0.1)
     glass.hand.up(finger)
     glass.until(lambda: strange.robot.speed == 0.0, "the robot to rest", 2.0)
     assert speeds(strange)[-1] == 0.0, "it was told to rest, and not left to its watchdog"
@@ -62,17 +61,15 @@ def test_a_finger_that_lets_go_has_it_at_rest(glass: Handheld, strange: Strange)
 def test_a_cut_link_heals_and_nothing_old_moves_it(glass: Handheld, strange: Strange) -> None:
     stick = glass.app.screens["drive"].stick
     glass.until(lambda: stick.state == "live", "a stick to push")
-    finger = glass.push(stick, 0.0, 1.0)
-    glass.until(lambda: strange.robot.speed > 0.1, "the robot to drive")
+    finger = glass.drive(stick, lambda: strange.robot.speed > 0.1)
     strange.cut()
-    glass.until(lambda: not glass.app.session.connected, "the app to notice")
+    glass.until(lambda: stick.finger is None, "the stick to spring back")
     glass.until(lambda: glass.app.session.connected and stick.state == "live", "the link to heal")
     glass.run(1.0)
     assert strange.robot.speed == 0.0, "a finger that never left the glass must push anew"
     assert not any(speeds(strange))
     glass.hand.up(finger)
-    finger = glass.push(stick, 0.0, 1.0)
-    glass.until(lambda: strange.robot.speed > 0.1, "the robot to drive again")
+    finger = glass.drive(stick, lambda: strange.robot.speed > 0.1)
     glass.hand.up(finger)
 
 
@@ -81,8 +78,7 @@ def test_instruments_live_it_is_driven_and_stop_brings_it_to_rest(glass: Handhel
     for kind in ("LaserScanView", "ArtificialHorizon", "HeadingTape", "Video"):
         glass.until(lambda kind=kind: glass.one(kind).state == "live", f"a live {kind}")
     glass.until(lambda: drive.stick.state == "live", "a stick to push")
-    finger = glass.push(drive.stick, 0.0, 1.0)
-    glass.until(lambda: strange.robot.speed > 0.1, "the robot to drive")
+    finger = glass.drive(drive.stick, lambda: strange.robot.speed > 0.1)
     before = strange.robot.x
     glass.until(lambda: strange.robot.x > before + 0.05, "the robot to get on")
     stop = glass.one("StopButton")
