@@ -5,22 +5,20 @@ What they measure comes from SDL (`app.sdl`) or, where that cannot be asked, fro
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Collection, Container, Iterable
 from dataclasses import dataclass
 
+from app.pad_map import Profile
 from app.sdl import PadState
 
-__all__ = ["DEAD_ZONE", "SILENT", "Gamepads", "News", "Told"]
+__all__ = ["SILENT", "Gamepads", "News", "Told"]
 
-DEAD_ZONE = 0.12
-"""Of the way of the stick, round its middle, that commands nothing: worn sticks do not come back to the very middle."""
 SILENT = 0.12
 """A pushed gamepad that measures nothing new for longer drives nothing [s]."""
 REARM = 1.0
 """After a longer silence its stick must be let go before it drives again [s]."""
-AXES, RIGHT_AXES, EAST = (0, 1), (2, 3), 1
-"""Axes of the left and of the right stick and the button on the right of the four, as most gamepads number them."""
+AXES, RIGHT_AXES, FOUR = (0, 1), (2, 3), ("a", "b", "x", "y")
+"""Axes of the left and of the right stick and the four buttons, as most gamepads number them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,14 +41,6 @@ class _Known:
     """Its stick was let go since it was last forbidden to drive."""
     told_silent: bool = False
 
-    def push(self, stick: str) -> tuple[float, float]:
-        """How far its `left` or `right` stick is pushed, as it measures."""
-        return self.state.right if stick == "right" else (self.state.forward, self.state.left)
-
-    def pushed(self, sticks: Collection[str]) -> bool:
-        """One of `sticks` is out of its middle."""
-        return any(math.hypot(*self.push(stick)) > DEAD_ZONE for stick in sticks)
-
 
 class Gamepads:
     """Looked at with each heartbeat of the user interface."""
@@ -59,13 +49,18 @@ class Gamepads:
         self,
         now: Callable[[], float],
         *,
-        on_stop: Callable[[], object],
         on_news: Callable[[News], object],
         wired: Container[str] = (),
+        profile: Callable[[str], Profile] = lambda _: Profile(),
     ) -> None:
-        """`wired` names those that hang on a cable: they may be silent, since one that is pulled out is gone at once."""
-        self._now, self._on_stop, self._on_news = now, on_stop, on_news
-        self.wired = wired
+        """`wired` names those that hang on a cable: they may be silent, since one that is pulled out is gone at once.
+
+        `profile` gives what the sticks and buttons of the gamepad of that name mean now.
+        """
+        self._now, self._on_news = now, on_news
+        self.wired, self.profile = wired, profile
+        self.on = True
+        """They drive; whatever is pushed while they do not must be let go first."""
         self.sticks: frozenset[str] = frozenset({"left"})
         """Those that push something now, of `left` and `right`; the other one is not looked at."""
         self._known: dict[int, _Known] = {}
@@ -80,8 +75,18 @@ class Gamepads:
             return "drives"
         return "silent" if any(known.told_silent for known in self._known.values()) else "ready"
 
+    @property
+    def states(self) -> list[PadState]:
+        """What each of those that are plugged in measured last."""
+        return [known.state for known in self._known.values()]
+
+    def age(self, number: int) -> float:
+        """Since when it has measured nothing new [s]; 0 for one that is not known."""
+        known = self._known.get(number)
+        return self._now() - known.alive if known is not None else 0.0
+
     def hear(self, states: Iterable[PadState]) -> None:
-        """Take in what is plugged in now and what it measures; STOP and news are told from here."""
+        """Take in what is plugged in now and what it measures; news are told from here."""
         there = {state.number: state for state in states}
         for number in self._known.keys() - there.keys():
             self._lose(number)
@@ -91,10 +96,8 @@ class Gamepads:
                 self._known[number] = _Known(state, self._now())
                 self._on_news(News("plugged", state.name))
                 continue
-            if state.stop and not known.state.stop:
-                self._on_stop()
             if state.raw != known.state.raw:
-                if self._now() - known.alive > REARM and known.pushed(self.sticks):
+                if self._now() - known.alive > REARM and self._pushed(known):
                     known.centred = False
                 known.alive = self._now()
             known.state = state
@@ -105,15 +108,21 @@ class Gamepads:
             self.sticks = frozenset(sticks)
             self.forbid()
 
-    def is_stop(self, number: int, button: int) -> bool:
-        """That button of that gamepad, by Kivy's numbers, means STOP."""
-        known = self._known.get(number)
-        return button == (known.state.stop_button if known is not None else EAST)
+    def is_stop(self, number: int, button: str) -> bool:
+        """The button of that name means STOP on that gamepad."""
+        return button in self.profile(self.name(number)).stops
 
     def name(self, number: int) -> str:
         """What that gamepad calls itself."""
         known = self._known.get(number)
         return known.state.name if known is not None else "Gamepad"
+
+    def button(self, number: int, button: int) -> str:
+        """What Kivy's number of one of its buttons is called."""
+        known = self._known.get(number)
+        names = known.state.names if known is not None else {}
+        usual = FOUR[button] if not names and button < len(FOUR) else f"button {button}"
+        return names.get(button, usual)
 
     def lose(self) -> None:
         """The system took an input device away and does not say which: no gamepad drives until it is let go."""
@@ -133,12 +142,20 @@ class Gamepads:
             self._judge(number, known)
         if self._driver is None:
             return None
-        driver = self._known[self._driver]
-        return {stick: _eased(*driver.push(stick)) for stick in self.sticks}
+        lean = self._lean(self._known[self._driver])
+        return {stick: lean[stick] for stick in self.sticks}
+
+    def _lean(self, known: _Known) -> dict[str, tuple[float, float]]:
+        return self.profile(known.state.name).lean(known.state)
+
+    def _pushed(self, known: _Known) -> bool:
+        """One of `sticks` is out of its middle."""
+        lean = self._lean(known)
+        return any(lean[stick] != (0.0, 0.0) for stick in self.sticks)
 
     def _judge(self, number: int, known: _Known) -> None:
         """One that is pushed drives if it was let go before, is alive, and no other does."""
-        drives, pushed = self._driver == number, known.pushed(self.sticks)
+        drives, pushed = self._driver == number, self._pushed(known)
         if not pushed:
             known.centred, known.told_silent = True, False
         silent = pushed and self._now() - known.alive > SILENT and known.state.name not in self.wired
@@ -147,11 +164,11 @@ class Gamepads:
             self._on_news(News("silent", known.state.name))
         if known.told_silent and not silent:
             known.told_silent = False
-        if drives and (silent or not pushed or not known.centred):
+        if drives and (silent or not pushed or not known.centred or not self.on):
             self._driver = None
-        elif self._driver is None and pushed and known.centred and not silent:
+        elif self._driver is None and self.on and pushed and known.centred and not silent:
             self._driver = number
-        elif pushed and not drives and self._driver is not None:
+        elif pushed and not drives and (self._driver is not None or not self.on):
             known.centred = False
 
     def _lose(self, number: int) -> None:
@@ -161,25 +178,25 @@ class Gamepads:
         self._on_news(News("unplugged driving" if drives else "unplugged", known.state.name))
 
 
-def _eased(forward: float, left: float) -> tuple[float, float]:
-    """Nothing in the dead zone, the whole at the rim, and no step between."""
-    length = math.hypot(forward, left)
-    if length <= DEAD_ZONE:
-        return 0.0, 0.0
-    scale = (min(1.0, length) - DEAD_ZONE) / (1.0 - DEAD_ZONE) / length
-    return forward * scale, left * scale
-
-
 class Told:
     """Gamepads as Kivy's events tell of them, for a system whose SDL cannot be asked: none ever comes out."""
 
     def __init__(self) -> None:
         self._axes: dict[int, dict[int, float]] = {}
         self._events: dict[int, int] = {}
+        self._down: dict[int, set[int]] = {}
 
     def axis(self, number: int, axis: int, value: int) -> None:
         """An axis moved; `value` is from -32768 to 32767."""
         self._axes.setdefault(number, {})[axis] = value / 32768.0
+        self._events[number] = self._events.get(number, 0) + 1
+
+    def button(self, number: int, button: int, *, down: bool) -> None:
+        """A button went down or up."""
+        self._axes.setdefault(number, {})
+        (self._down.setdefault(number, set()).add if down else self._down.setdefault(number, set()).discard)(
+            button
+        )
         self._events[number] = self._events.get(number, 0) + 1
 
     def pads(self) -> list[PadState]:
@@ -191,15 +208,23 @@ class Told:
                 forward=-axes.get(AXES[1], 0.0),
                 left=-axes.get(AXES[0], 0.0),
                 stop=False,
-                stop_button=EAST,
+                stop_button=FOUR.index("b"),
                 raw=(self._events[number],),
                 right=(-axes.get(RIGHT_AXES[1], 0.0), -axes.get(RIGHT_AXES[0], 0.0)),
+                buttons=frozenset(
+                    FOUR[button] if button < len(FOUR) else f"button {button}"
+                    for button in self._down.get(number, ())
+                ),
             )
             for number, axes in self._axes.items()
         ]
 
     def lifted(self, device: str, finger: object) -> bool:
         """Nothing is known of fingers."""
+        return False
+
+    def key(self, scancode: int) -> bool:
+        """Nothing is known of keys."""
         return False
 
     def close(self) -> None:

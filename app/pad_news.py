@@ -6,6 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 from app.gamepad import Gamepads, News
+from app.mapped import Mapped
+from app.pad_map import button_words
 
 __all__ = ["PadNews"]
 
@@ -26,13 +28,21 @@ class PadNews:
             return
         if news.what == "plugged":
             hands = "both its sticks drive" if len(self._gamepads().sticks) > 1 else "its left stick drives"
-            shell.say(f"{news.name}: {hands}, B is STOP.", "info", about="gamepad")
+            stop = button_words(self._gamepads().profile(news.name).stops[0]).partition(",")[0]
+            shell.say(f"{news.name}: {hands}, {stop} is STOP.", "info", about="gamepad")
         elif news.what == "unplugged":
             shell.say(f"{news.name} is unplugged.", "info", about="gamepad")
         elif news.what == "unplugged driving":
             shell.say(f"{news.name} is unplugged: the robot was told to rest.", "warn", about="gamepad")
         else:
             self._tell_silence(shell, news.name)
+
+    def problems(self, mapped: Mapped) -> list[str]:
+        """What is wrong in the settings, each told once, as soon as there is somewhere to say it."""
+        found, mapped.problems = (
+            (mapped.problems, []) if self._app.shell is not None else ([], mapped.problems)
+        )
+        return found
 
     def _tell_silence(self, shell: Any, name: str) -> None:
         """With a way out the first time: what hangs on a cable and is held still tells nothing either."""

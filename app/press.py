@@ -6,7 +6,7 @@ presses.takers.insert(0, mine)      # asked before whoever stands behind it; nev
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -20,7 +20,7 @@ class Press:
     source: str
     """`key` or `pad`."""
     code: int
-    """Kivy's key code, or the number of the button."""
+    """Kivy's key code, or its number of the button; -1 for a trigger or a cross, which have none."""
     name: str
     """What it is called, as in `tab`, `spacebar`, `w`; of a gamepad's as in `a`, `dpup`, `button 7`."""
     at: float
@@ -37,9 +37,9 @@ class Press:
     """What the key types, where the system tells."""
 
     @property
-    def same(self) -> tuple[str, int, int]:
+    def same(self) -> tuple[str, int, str]:
         """What is one and the same key or button, pressed whenever."""
-        return self.source, self.number, self.code
+        return self.source, self.number, self.name
 
 
 class Taker(Protocol):
@@ -60,7 +60,7 @@ class Presses:
         self._is_stop, self._stop = is_stop, stop
         self.takers: list[Taker] = []
         """Those who are asked, one after the other, until one of them takes it."""
-        self._down: dict[tuple[str, int, int], tuple[Press, Taker | None, bool]] = {}
+        self._down: dict[tuple[str, int, str], tuple[Press, Taker | None, bool]] = {}
         """What is down, who took it, and whether it means anything here."""
 
     @property
@@ -80,11 +80,19 @@ class Presses:
         self._down[press.same] = press, taker, taker is not None
         return taker is not None
 
-    def release(self, source: str, number: int, code: int) -> None:
+    def release(self, source: str, number: int, name: str) -> None:
         """It is up; nothing where it was not down."""
-        press, taker, _ = self._down.pop((source, number, code), (None, None, False))
+        press, taker, _ = self._down.pop((source, number, name), (None, None, False))
         if press is not None and taker is not None:
             taker.released(press)
+
+    def buttons(self, number: int, device: str, down: Collection[str], now: float) -> None:
+        """What is down on one gamepad, by the names: what is new is a press, what is missing is a release."""
+        for _, at, name in [same for same in self._down if same[:2] == ("pad", number)]:
+            if name not in down:
+                self.release("pad", at, name)
+        for name in sorted(down):
+            self.press(Press("pad", -1, name, now, device, number))
 
     def forget(self, source: str = "", number: int | None = None) -> None:
         """All that is down, of one source or of one gamepad where that is given, counts as up: its end would not be told."""

@@ -7,21 +7,16 @@ or came. It drops the end of a touch that comes while the app is paused. SDL its
 from __future__ import annotations
 
 import ctypes
-import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any
+
+from app.pad_table import PadTable
 
 __all__ = ["PadState", "Sdl"]
 
 JOYSTICK, CONTROLLER = 0x0200, 0x2000
 """SDL's subsystems."""
-RANGE = 32768.0
-"""Of an axis on either side of its middle."""
-PART = re.compile(r"(\w+):([-+]?)(a|b)(\d+)(~?)")
-"""One entry of SDL's table of gamepads, as in `leftx:a0`, `lefty:a1~`, `b:b1`."""
-LEFT_X, LEFT_Y, RIGHT_X, RIGHT_Y, EAST = 0, 1, 2, 3, 1
-"""Axes of both sticks and the button on the right of the four where SDL's table does not know the gamepad."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +38,12 @@ class PadState:
     """Everything that it measures: a gamepad whose `raw` changes is alive."""
     right: tuple[float, float] = (0.0, 0.0)
     """How far the right stick is pushed away from the operator and to the left, each -1 to 1."""
+    triggers: tuple[float, float] = (0.0, 0.0)
+    """How far the left and the right trigger are pressed, each 0 to 1."""
+    buttons: frozenset[str] = frozenset()
+    """Names of the buttons that are down, triggers and the cross among them."""
+    names: Mapping[int, str] = field(default_factory=dict)
+    """What Kivy's numbers of its buttons are called."""
 
 
 class _Finger(ctypes.Structure):
@@ -50,22 +51,11 @@ class _Finger(ctypes.Structure):
 
 
 class _Pad:
-    """An open gamepad: its handle, its name, and where its stick and its button are."""
+    """An open gamepad: its handle, its name, and where everything on it is."""
 
-    def __init__(self, handle: int, name: str, mapping: str, counts: tuple[int, int]) -> None:
-        self.handle, self.name, self.axes, self.buttons = handle, name, *counts
-        entries = {key: (sign + tilde, int(number)) for key, sign, _, number, tilde in PART.findall(mapping)}
-        self.x = entries.get("leftx", ("", LEFT_X))
-        self.y = entries.get("lefty", ("", LEFT_Y))
-        self.right_x = entries.get("rightx", ("", RIGHT_X))
-        self.right_y = entries.get("righty", ("", RIGHT_Y))
-        self.stop_button = entries.get("b", ("", EAST))[1]
-
-    def share(self, axis: tuple[str, int], raw: Sequence[int]) -> float:
-        """An axis from -1 to 1, turned round where the table says so."""
-        way, index = axis
-        value = raw[index] / RANGE if index < self.axes else 0.0
-        return -value if way in ("-", "~") else value
+    def __init__(self, handle: int, name: str, table: PadTable, counts: tuple[int, int, int]) -> None:
+        self.handle, self.name, self.table = handle, name, table
+        self.axes, self.buttons, self.hats = counts
 
 
 class Sdl:
@@ -92,6 +82,8 @@ class Sdl:
             ("SDL_JoystickGetAttached", number, [pointer]),
             ("SDL_JoystickNumAxes", number, [pointer]),
             ("SDL_JoystickNumButtons", number, [pointer]),
+            ("SDL_JoystickNumHats", number, [pointer]),
+            ("SDL_JoystickGetHat", ctypes.c_uint8, [pointer, number]),
             ("SDL_JoystickGetAxis", ctypes.c_int16, [pointer, number]),
             ("SDL_JoystickGetButton", ctypes.c_uint8, [pointer, number]),
             ("SDL_JoystickGetDeviceInstanceID", ctypes.c_int32, [number]),
@@ -101,6 +93,7 @@ class Sdl:
             ("SDL_GetNumTouchFingers", number, [ctypes.c_int64]),
             ("SDL_GetTouchFinger", ctypes.POINTER(_Finger), [ctypes.c_int64, number]),
             ("SDL_GetMouseState", ctypes.c_uint32, [pointer, pointer]),
+            ("SDL_GetKeyboardState", ctypes.POINTER(ctypes.c_uint8), [ctypes.POINTER(number)]),
         ):
             function = getattr(self._sdl, name)
             function.restype, function.argtypes = result, takes
@@ -122,6 +115,14 @@ class Sdl:
                 if finger:
                     found.add(int(finger.contents.id))
         return found
+
+    # keys
+
+    def key(self, scancode: int) -> bool:
+        """The key at that place of the keyboard is down, as far as SDL knows."""
+        count = ctypes.c_int()
+        keys = self._sdl.SDL_GetKeyboardState(ctypes.byref(count))
+        return 0 <= scancode < count.value and bool(keys[scancode])
 
     # gamepads
 
@@ -151,12 +152,13 @@ class Sdl:
         handle = sdl.SDL_JoystickOpen(index)
         if not handle:
             return None
-        counts = sdl.SDL_JoystickNumAxes(handle), sdl.SDL_JoystickNumButtons(handle)
+        count = (sdl.SDL_JoystickNumAxes, sdl.SDL_JoystickNumButtons, sdl.SDL_JoystickNumHats)
+        counts = count[0](handle), count[1](handle), count[2](handle)
         if counts[0] < 2 or counts[1] < 1:  # a sensor, a pedal: no gamepad
             sdl.SDL_JoystickClose(handle)
             return None
         name = (sdl.SDL_JoystickName(handle) or b"").decode(errors="replace")
-        return _Pad(handle, name or "Gamepad", self._mapping(index), counts)
+        return _Pad(handle, name or "Gamepad", PadTable(self._mapping(index)), counts)
 
     def _mapping(self, index: int) -> str:
         text = self._sdl.SDL_GameControllerMappingForDeviceIndex(index)
@@ -171,8 +173,19 @@ class Sdl:
         sdl, handle = self._sdl, pad.handle
         axes = [sdl.SDL_JoystickGetAxis(handle, axis) for axis in range(pad.axes)]
         buttons = [sdl.SDL_JoystickGetButton(handle, button) for button in range(pad.buttons)]
-        stop = pad.stop_button < len(buttons) and bool(buttons[pad.stop_button])
-        # SDL's axes point right and down
-        forward, left = -pad.share(pad.y, axes), -pad.share(pad.x, axes)
-        right = -pad.share(pad.right_y, axes), -pad.share(pad.right_x, axes)
-        return PadState(number, pad.name, forward, left, stop, pad.stop_button, (*axes, *buttons), right)
+        hats = [sdl.SDL_JoystickGetHat(handle, hat) for hat in range(pad.hats)]
+        table, east = pad.table, pad.table.east
+        return PadState(
+            number,
+            pad.name,
+            # SDL's axes point right and down
+            -table.share("lefty", axes),
+            -table.share("leftx", axes),
+            stop=east < len(buttons) and bool(buttons[east]),
+            stop_button=east,
+            raw=(*axes, *buttons, *hats),
+            right=(-table.share("righty", axes), -table.share("rightx", axes)),
+            triggers=table.triggers(axes, buttons),
+            buttons=table.down(axes, buttons, hats),
+            names=table.names,
+        )

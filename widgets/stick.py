@@ -33,8 +33,9 @@ GAMEPAD = {
     "ready": ("muted", "sports_esports"),
     "drives": ("accent", "sports_esports_fill"),
     "silent": ("warn", "link_off"),
+    "keys": ("accent", "keyboard"),
 }
-"""What is known of a gamepad, which is also the word beside its sign, to the role and the icon of that."""
+"""What is known of a gamepad, which is also the word beside its sign, to the role and the icon of that; `keys` push it instead."""
 
 Builder.load_string("""
 <Stick>:
@@ -78,7 +79,7 @@ class Stick(Grip, Drawing):
     """How far it is pushed to the left, -1 to 1."""
 
     gamepad = OptionProperty("none", options=list(GAMEPAD))
-    """A gamepad drives the stick too: `none`, `ready`, `drives`, or `silent`, which commands nothing."""
+    """A gamepad drives the stick too: `none`, `ready`, `drives`, or `silent`, which commands nothing; `keys` where keys drive it."""
 
     def _sign(self) -> Texture:
         return text_texture(icon(GAMEPAD[self.gamepad][1] or "sports_esports"), sp(20), theme.icons)

@@ -29,6 +29,7 @@ class Source:
         self.there: dict[int, PadState] = {}
         self.trembles, self.count = True, 0
         self.gone: set[Any] = set()
+        self.keys: set[int] = set()
 
     def pads(self) -> list[PadState]:
         self.count += self.trembles
@@ -36,6 +37,9 @@ class Source:
 
     def lifted(self, device: str, finger: Any) -> bool:
         return finger in self.gone
+
+    def key(self, scancode: int) -> bool:
+        return scancode in self.keys
 
     def close(self) -> None:
         """Nothing to close."""
