@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
@@ -32,7 +32,12 @@ WIDE = 1.3
 
 
 class TiltCircle(Stick, Gauge):
-    """Dispatches `on_command(manoeuvre)` of the kind `tilt` at every change. Up is nose down, which is ahead for what flies."""
+    """Dispatches `on_command(manoeuvre)` of the kind `tilt` at every change. Up is nose down, which is ahead for what flies.
+
+    Where it `needs_hold` the tablet leads it, by `steer`, and the finger is the clutch; `on_let_go` tells that it was put to rest.
+    """
+
+    __events__ = ("on_let_go",)
 
     sends = (Manoeuvre,)
     drawn_from: ClassVar[tuple[str, ...]] = (
@@ -42,6 +47,10 @@ class TiltCircle(Stick, Gauge):
         "ahead",
         "max_tilt",
         "needs_hold",
+        "held",
+        "opened",
+        "dead",
+        "in_shares",
         "badge",
         "state",
     )
@@ -54,6 +63,16 @@ class TiltCircle(Stick, Gauge):
     """How far it is up, -1 to 1 at the rim."""
     needs_hold = BooleanProperty(False)
     """The tablet tilts it only while a finger is on it: the finger then says when, and not where to."""
+    clutched = BooleanProperty(False)
+    """A key or a switch holds it as a finger would."""
+    held = BooleanProperty(False)
+    """A finger, a key or a switch holds it."""
+    opened = StringProperty("")
+    """Why it commands nothing though it is held, in a few words; empty when it does."""
+    dead = NumericProperty(NEUTRAL)
+    """Within that share of the way to the rim nothing is commanded; drawn as the green ring."""
+    in_shares = BooleanProperty(False)
+    """What it drives does not lean: the words tell shares of full command instead of degrees."""
 
     def _roll(self) -> float:
         # + 0.0 turns the minus zero of a circle at rest into zero
@@ -68,7 +87,10 @@ class TiltCircle(Stick, Gauge):
     """That it commands [rad], positive nose down."""
 
     def __init__(self, **kwargs: Any) -> None:
+        self._wanted = (0.0, 0.0)
+        self._as_is = False
         super().__init__(**{"title": "Tilt", "card": False, **kwargs})
+        self.fbind("clutched", self._hold)
         for name in ("size", "card", "title"):
             self.fbind(name, self._round_veil)
         self._round_veil()
@@ -135,7 +157,7 @@ class TiltCircle(Stick, Gauge):
     def shaped(self, forward: float, left: float) -> tuple[float, float]:
         """Nothing in the ring, never beyond the rim."""
         length = math.hypot(forward, left)
-        scale = 0.0 if length < NEUTRAL else 1.0 / max(1.0, length)
+        scale = 0.0 if length < self.dead and not self._as_is else 1.0 / max(1.0, length)
         return forward * scale, left * scale
 
     def holds(self, x: float, y: float) -> bool:
@@ -150,26 +172,60 @@ class TiltCircle(Stick, Gauge):
         """
         if not math.isfinite(roll + pitch):
             raise ValueError(f"A tilt is a finite number of radians, not {roll}, {pitch}.")
-        held = self.finger is not None
-        if self.disabled or (held and not self.needs_hold):
+        at = roll / self.max_tilt, pitch / self.max_tilt
+        ahead, left = self.shaped(at[1], -at[0])
+        return self.steer(at, (-left, ahead))
+
+    def steer(self, at: tuple[float, float], command: tuple[float, float]) -> bool:
+        """Show the circle `at` so far to the right and up, and command `command`, both shares of the way to the rim.
+
+        The dead zone and the curve of `command` are its giver's. Returns and raises as `tilt` does.
+        """
+        if not math.isfinite(sum(at) + sum(command)):
+            raise ValueError(f"A circle is steered by finite shares, not by {at}, {command}.")
+        if self.disabled or (self.finger is not None and not self.needs_hold):
             return False
-        self._at(pitch / self.max_tilt, -roll / self.max_tilt)
-        if self.needs_hold and not held:
+        self._at(at[1], -at[0])
+        self._wanted = command
+        if self.needs_hold and not (self.clutched or self.finger is not None):
             return False
-        super()._push(pitch / self.max_tilt, -roll / self.max_tilt)
+        self._command()
         return True
+
+    def _command(self) -> None:
+        """What the tablet's tilt comes to, as it is."""
+        right, ahead = self._wanted
+        self._as_is = True
+        try:
+            super()._push(ahead, -right)
+        finally:
+            self._as_is = False
+
+    def _hold(self, *_: object) -> None:
+        self.held = self.clutched or self.finger is not None
 
     def follow(self, touch: Any) -> None:
         """Go to where the finger is; where that only says when, command how the tablet is tilted."""
+        self._hold()
         if self.needs_hold:
-            super()._push(self.ahead, -self.aside)
+            self._command()
         else:
             super().follow(touch)
+
+    def rest(self) -> None:
+        """Let go of the finger, and have a key or a switch let go as well."""
+        super().rest()
+        self._hold()
+        self.dispatch("on_let_go")
+
+    def on_let_go(self) -> None:
+        """It was put to rest, by a finger that was lifted or by whatever takes a control away from the hand."""
 
     def spring(self) -> None:
         """Command level; where the tablet tilts it the circle stays where that is."""
         if self.needs_hold and not self.disabled:
-            super()._push(0.0, 0.0)
+            self._wanted = (0.0, 0.0)
+            self._command()
         else:
             super().spring()
 
@@ -194,13 +250,13 @@ class TiltCircle(Stick, Gauge):
         cross = np.array([[x - radius, y], [x, y - radius]]), np.array([[x + radius, y], [x, y + radius]])
         shapes.segments(*cross, dp(1), tint(theme.muted, 0.35))
         level = not (self.roll or self.pitch)
-        idle = self.needs_hold and self.finger is None
+        idle = self.needs_hold and (not self.held or bool(self.opened))
         knob = self.knob_pos
         if idle:
             shapes.ring(*knob, self.knob_radius - dp(1.5), dp(3), theme.danger)
         else:
             shapes.disc(*knob, self.knob_radius, theme.danger)
-        ring = self.knob_radius + NEUTRAL * self.travel[0]
+        ring = self.knob_radius + self.dead * self.travel[0]
         shapes.ring(x, y, ring, dp(3 if level else 2), theme.ok)
         if self.wide:
             yield from self._beside(x - radius)
@@ -210,9 +266,7 @@ class TiltCircle(Stick, Gauge):
     def _below(self, shapes: Shapes, x: float, y: float) -> Iterator[Word]:
         """What it commands in a line, or its name."""
         room = self.width - 2 * self.edge - dp(6)
-        tilted = self.roll or self.pitch
-        parts = [_lean_text(self.pitch, "ahead", "back"), _lean_text(self.roll, "right", "left")]
-        told = " · ".join(part for part in parts if part) if tilted else ""
+        told = self._told()
         words = (told,) if told else self._idle_words()
         size = sp(13)
         role = "faint" if self.disabled and not self.card else "text" if told else "muted"
@@ -221,9 +275,25 @@ class TiltCircle(Stick, Gauge):
             ground(shapes, word, tint(theme.bg, 0.7))
         yield word
 
+    def _told(self) -> str:
+        """What it commands, as in `12° ahead · 5° left` or `40\u00a0% ahead`; empty where that is nothing, or next to it."""
+        if self.in_shares:
+            shares = (100 * self.forward, "ahead", "back"), (-100 * self.left, "right", "left")
+            parts = [
+                f"{abs(part):.0f}\u00a0% {plus if part > 0 else minus}"
+                for part, plus, minus in shares
+                if abs(part) >= 1
+            ]
+        else:
+            leans = (self.pitch, "ahead", "back"), (self.roll, "right", "left")
+            parts = [_lean_text(*lean) for lean in leans]
+        return " · ".join(part for part in parts if part)
+
     def _idle_words(self) -> tuple[str, ...]:
         name = spaced(self.title.upper())
-        if self.needs_hold and self.finger is None:
+        if self.needs_hold and self.held and self.opened:
+            return (self.opened, "let go")
+        if self.needs_hold and not self.held:
             return (f"{name} · hold it to tilt", "hold to tilt", self.title)
         return (name, self.title.upper())
 
@@ -283,6 +353,9 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "back": make(0, -8),
         "at the rim": make(-40, 15),
         "not held": make(6, 4, needs_hold=True, title="Tablet tilt"),
+        "held": make(6, 9, needs_hold=True, clutched=True, dead=0.16, title="Tablet tilt"),
+        "held by one who walks": make(0, 14, needs_hold=True, clutched=True, dead=0.32, in_shares=True),
+        "opened": make(-20, 19, needs_hold=True, clutched=True, opened="beyond 50°: let go"),
         "card": make(5, 12, card=True, title="Tablet tilt"),
         "large": make(5, 12, size=(326, 228), card=True, title="Tablet tilt"),
         "large level": make(size=(326, 228), card=True, title="Tablet tilt"),
