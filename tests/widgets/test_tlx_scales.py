@@ -1,0 +1,140 @@
+"""The forms after a task: no answer is there before a hand gave one, and what it took is kept."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from tests.headless import Stage
+from widgets.score_history import ScoreHistory
+from widgets.sus_form import ITEMS, SusForm
+from widgets.tlx_scales import SCALES, TlxScales
+
+
+class Clock:
+    now = 0.0
+
+    def __call__(self):
+        return self.now
+
+
+@pytest.fixture
+def clock():
+    return Clock()
+
+
+@pytest.fixture
+def tlx(clock):
+    return TlxScales(clock)
+
+
+def test_no_scale_has_an_answer_before_a_hand_gave_one(tlx):
+    assert tlx.answers == {}
+    assert not tlx.complete
+    assert {scale.figure for scale in tlx.scales.values()} == {"—"}
+    assert all(math.isnan(scale.ticks.value) for scale in tlx.scales.values())
+
+
+def test_a_place_on_the_line_is_the_nearest_of_21_ticks(tlx):
+    ticks = tlx.scales["mental"].ticks
+    ticks.size = 200 + 24, 60
+    left, right = ticks.span
+    assert {ticks.at(x) for x in range(int(left) - 40, int(right) + 40)} == set(range(0, 101, 5))
+    assert ticks.at(left + (right - left) * 0.36) == 35
+
+
+def test_a_finger_gives_an_answer_and_moves_it(stage: Stage, tlx):
+    stage.show(tlx)
+    ticks = tlx.scales["effort"].ticks
+    left, right = ticks.span
+    y = ticks.center_y
+    finger = stage.touch(*ticks.to_window(left + (right - left) * 0.2, y))
+    finger.touch_down()
+    assert tlx.answers == {"effort": 20}
+    finger.touch_move(*ticks.to_window(left + (right - left) * 0.7, y))
+    finger.touch_up()
+    assert tlx.answers == {"effort": 70}
+
+
+def test_the_first_step_of_a_button_goes_to_the_middle_and_the_others_by_five(tlx):
+    scale = tlx.scales["physical"]
+    scale.step(5)
+    assert scale.value == 50
+    scale.step(5)
+    assert scale.value == 55
+    for _ in range(30):
+        scale.step(-5)
+    assert scale.value == 0
+
+
+def test_each_answer_is_told_with_its_order_and_its_time(tlx, clock):
+    told = []
+    tlx.bind(on_command=lambda _, *answer: told.append(answer))
+    for when, name, value in ((1.0, "effort", 20), (2.5, "mental", 35), (4.0, "effort", 25)):
+        clock.now = when
+        tlx.scales[name].answer(value)
+    assert told == [("effort", 20), ("mental", 35), ("effort", 25)]
+    assert tlx.order == ["effort", "mental"]
+    assert tlx.seconds == {"effort": 4.0, "mental": 2.5}
+
+
+def test_scales_without_an_answer_are_marked_and_named(tlx):
+    tlx.scales["mental"].answer(0)
+    assert tlx.miss() == [name for key, (name, *_) in SCALES.items() if key != "mental"]
+    assert tlx.scales["effort"].figure == "no answer"
+    tlx.scales["effort"].answer(5)
+    assert not tlx.scales["effort"].lacking
+
+
+def test_shown_anew_it_is_empty_and_timed_from_then_on(tlx, clock):
+    for scale in tlx.scales.values():
+        scale.answer(50)
+    assert tlx.complete
+    clock.now = 100.0
+    tlx.begin()
+    assert (tlx.answers, tlx.order, tlx.complete) == ({}, [], False)
+    clock.now = 101.0
+    tlx.scales["mental"].answer(50)
+    assert tlx.seconds == {"mental": 1.0}
+
+
+def test_every_sentence_of_the_usability_scale_takes_one_of_five_steps(clock):
+    form = SusForm(clock)
+    assert (form.answers, form.complete, len(ITEMS)) == ({}, False, 10)
+    for number, item in enumerate(form.items):
+        item.steps.choose(str(number % 5 + 1))
+    assert form.answers == {str(number + 1): number % 5 + 1 for number in range(10)}
+    assert form.complete
+    form.begin()
+    assert (form.answers, form.complete) == ({}, False)
+    assert {item.steps.value for item in form.items} == {""}
+
+
+def test_sentences_without_an_answer_are_told_by_their_number(clock):
+    form = SusForm(clock)
+    for item in form.items[1:]:
+        item.choose(3)
+    assert form.miss() == ["1"]
+    assert form.items[0].lacking
+
+
+def drawn(**kwargs):
+    history = ScoreHistory(size_hint=(None, None), size=(460, 210), state="live", **kwargs)
+    history.draw()
+    return history
+
+
+def test_scores_stand_beside_what_they_are_compared_with():
+    history = drawn(scores=[("Voice", 36.0), ("Shake", 44.2)], baseline=34.2, baseline_words="in the paper")
+    assert {"34.2 in the paper", "newest 44.2", "36", "44", "Voice", "Shake"} <= set(history.texts)
+
+
+def test_of_many_scores_the_newest_are_shown_without_words_over_each_other():
+    history = drawn(scores=[(f"run {number}", float(number)) for number in range(90)])
+    assert "newest 89.0" in history.texts
+    assert not any(text.startswith("run") for text in history.texts)
+
+
+def test_without_scores_that_is_said():
+    assert "Nothing has been filled in yet." in drawn(scores=[], baseline=34.2).texts
