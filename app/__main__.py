@@ -16,7 +16,7 @@ from app.discovery import check_address
 
 __all__ = ["main", "prepare", "quieten"]
 
-SCREENS = ("mission", "drive")
+SCREENS = ("mission", "drive", "tasks", "topics", "inputs")
 THEMES = ("dark", "sunlight", "night")
 SIZE = re.compile(r"(\d{3,5})x(\d{3,5})")
 

@@ -17,6 +17,7 @@ from kivy.core.window import Window
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.widget import Widget
 
+from app.acting import Acting
 from app.camera import PICTURE, Camera
 from app.commands import Commands
 from app.device import device_name, is_android, own_folder
@@ -26,15 +27,19 @@ from app.feeds import Feeds, Mailbox, Post
 from app.fleet import Fleet
 from app.garbage import Collector
 from app.inputs import Inputs
+from app.intents import Intents
 from app.layout import Layout, choose, load, load_all
 from app.link import Link
 from app.logbook import marks
+from app.methods import Methods
 from app.mission import MissionEditor
 from app.nearby import HELLO, LATENCY, Nearby
+from app.permits import Permits
 from app.pictures import Pictures
 from app.records import Records
 from app.screens.connect import THEMES, ConnectScreen
 from app.screens.dialogs import AddressDialog, Question
+from app.screens.inputs.page import InputsPage
 from app.screens.stop_corner import StopCorner
 from app.session import Session
 from app.settings import Settings
@@ -114,6 +119,8 @@ class PilothouseApp(App):
         self._settings_dir = settings_dir
         self.simulating = Simulating(self, simulator, self._say, now)
         self._discover, self._poll, self._now = discover, poll, now
+        self.now = now
+        """Our clock [s]."""
         self.session: Session | None = None
         self.shell: Any = None
         """The frame round the robot's screens; None on the connect screen."""
@@ -146,7 +153,7 @@ class PilothouseApp(App):
 
     @property
     def screens(self) -> dict[str, Any]:
-        """Every screen there is now by its name: `connect`, and with a robot `mission`, `drive`, `tasks` and `topics`."""
+        """Every screen there is now by its name: `connect`, and with a robot `mission`, `drive`, `tasks`, `topics` and `inputs`."""
         return {"connect": self.connect, **(self.shell.screens if self.shell else {})}
 
     # life
@@ -160,6 +167,11 @@ class PilothouseApp(App):
         self.client_id = self._identity()
         self.client_name = str(self.settings.get("client_name") or device_name())
         self.robots = Robots(self._now, self.settings.get("robots") or ())
+        self.acting = Acting(self)
+        self.intents = Intents(self.acting, Permits(self.settings), self._now)
+        self.methods = Methods(self)
+        self.inputs_page = InputsPage(app=self)
+        """Where methods are set up while there is no robot."""
         self.connect = ConnectScreen(app=self, can_simulate=self.simulating.possible)
         self.fleet = Fleet(client_id=self.client_id, client_name=self.client_name, now=self._now)
         self.corner = StopCorner(self, self.fleet, self._say)
@@ -198,6 +210,7 @@ class PilothouseApp(App):
             self._events.append(Clock.schedule_interval(lambda _: Window.mainloop(), 0))
         self.inputs = Inputs(self, self._now)
         self.inputs.open()
+        self.methods.open()
         Window.allow_screensaver = False
         self._list()
         if self._url:
@@ -205,6 +218,7 @@ class PilothouseApp(App):
 
     def on_stop(self) -> None:
         """Leave the robot at rest, end every thread and the simulator."""
+        self.methods.close()
         self.inputs.close()
         for event in self._events:
             event.cancel()
@@ -220,6 +234,7 @@ class PilothouseApp(App):
 
     def on_pause(self) -> bool:
         """The glass is taken away: rest, and let go of the robot; the patrol goes on without us."""
+        self.methods.pause()
         self.inputs.rest()
         self.fleet.look(None)
         if self.session is not None:
@@ -231,6 +246,7 @@ class PilothouseApp(App):
     def on_resume(self) -> None:
         """Come back: connect again; whoever wants to drive has to push the stick anew."""
         self.collector.resume()
+        self.methods.resume()
         if self.session is not None:
             self.session.resume(self._new_link(self.session.link.url, self.session.logbook.known))
             self._pictures.ask_again()
@@ -245,7 +261,7 @@ class PilothouseApp(App):
             if self.shell is None or not self.shell.back():
                 self.leave()
             return True
-        return not is_android()
+        return self.inputs_page.back() or not is_android()
 
     # what comes in
 
@@ -288,11 +304,13 @@ class PilothouseApp(App):
 
     def _beat(self) -> None:
         self.inputs.look()
+        self.methods.look(self._now())
         if self.session is not None:
             self.session.link.beat()
 
     def _tick(self) -> None:
         self.corner.tick()
+        self.inputs_page.tick()
         if self.session is not None and self.shell is None:
             self._tick_connecting()
             return
@@ -410,15 +428,24 @@ class PilothouseApp(App):
         return self._layout or choose(self._layouts, model, kind)
 
     def show(self, screen: str) -> None:
-        """Put `mission`, `drive`, `tasks` or `topics` on the glass; KeyError for another."""
+        """Put `mission`, `drive`, `tasks`, `topics` or `inputs` on the glass; KeyError for another."""
         self.shell.go(screen)
         self._first_screen = screen
         self.corner.tick()  # STOP ALL is never where STOP is, not for a frame
+
+    def show_inputs(self) -> None:
+        """Put on the glass where the ways in are set up, with a robot or without one."""
+        if self.shell is not None:
+            self.show("inputs")
+        elif self.session is None:
+            self.root.show_page(self.inputs_page)
+            self.inputs_page.enter()
 
     def leave(self) -> None:
         """Back to the connect screen; the robot goes on with what it does."""
         if self.session is None:
             return
+        self.intents.rest()
         self.inputs.rest()
         if self.shell is not None:
             self.shell.close()

@@ -18,6 +18,8 @@ __all__ = [
     "corner",
     "drive",
     "form",
+    "inputs",
+    "inputs_alone",
     "mission",
     "shell",
     "stop_list",
@@ -207,6 +209,24 @@ def tasks(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
         places["detail"] = Rect(x, detail.y, detail.width - more, detail.height)
         places["notice"] = Rect(x, places["notice"].y, detail.width - more, places["notice"].height)
     return places
+
+
+def inputs(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+    """Of the inputs screen: as `topics`, without a strip."""
+    return {name: place for name, place in topics(body, shape, dp).items() if name != "strip"}
+
+
+def inputs_alone(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+    """The same where no robot is connected: `list` and `detail`, above STOP ALL where that is there."""
+    gap = 12 * dp
+    low = body.y + (CORNER * dp if crowded(body) else gap)
+    whole = Rect(body.x + gap, low, body.width - 2 * gap, body.top - gap - low)
+    if shape == "tall":
+        return {"list": whole, "detail": whole}
+    left = min(max(420 * dp, 0.3 * body.width) if shape == "wide" else 320 * dp, body.width * 0.42)
+    listed = Rect(whole.x, body.y + gap, left, body.height - 2 * gap)
+    x = listed.right + gap
+    return {"list": listed, "detail": Rect(x, low, whole.right - x, whole.height)}
 
 
 CORNER = 88

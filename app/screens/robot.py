@@ -9,6 +9,7 @@ from app.feeds import Post
 from app.layout import Layout
 from app.screens.dive import DiveScreen
 from app.screens.drive import DriveScreen
+from app.screens.inputs.screen import InputsScreen
 from app.screens.mission import MissionScreen
 from app.screens.shell import Shell
 from app.screens.tasks import TasksScreen
@@ -61,6 +62,7 @@ def robot_shell(app: Any, session: Session, layout_for: Callable[[str, str], Lay
         "drive": profile.screen(),
         "tasks": TasksScreen(app=app, session=session),
         "topics": TopicsScreen(app=app, session=session),
+        "inputs": InputsScreen(app=app),
     }
     shell = Shell(screens, app=app, session=session, **kwargs)
     profile.follow(shell)

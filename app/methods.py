@@ -1,0 +1,121 @@
+"""The ways in beside fingers: one object for each, made when the app starts, at rest while the glass is away, ended with it.
+
+Whoever brings a method adds a line to `METHODS` and touches the application no more. One that is off costs nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any, Protocol
+
+from kivy.core.window import Window
+
+from app.origin import origins
+
+__all__ = ["METHODS", "Method", "Methods"]
+
+METHODS: dict[str, str] = {}
+"""Name of each to its module and class, as in `"shake": "app.shaking:Shaking"`; the class is called with the app."""
+
+
+class Method(Protocol):
+    """One way in."""
+
+    name: str
+    """As in `METHODS`."""
+    on: bool
+    """The operator wants it; kept in the settings by the method itself when it is assigned."""
+
+    @property
+    def standing(self) -> str:
+        """How it stands, in a word or a short sentence: `off`, `listening`, `5 Hz: too slow`."""
+
+    @property
+    def problem(self) -> str:
+        """Why it does not work though it is on, as one sentence; empty when it is well."""
+
+    def start(self) -> None:
+        """Begin, or begin again after a pause; nothing where it has begun."""
+
+    def stop(self) -> None:
+        """Rest: nothing is listened to any more, and nothing costs anything."""
+
+    def close(self) -> None:
+        """End whatever it owns."""
+
+
+class Methods:
+    """All of them. Everything in the UI thread."""
+
+    def __init__(self, app: Any) -> None:
+        self._app = app
+        self._all: dict[str, Any] = {}
+        self._looks: list[Any] = []
+        self._paused = False
+
+    def open(self) -> None:
+        """Make each, and begin with those that are on."""
+        Window.bind(on_touch_down=self._touched, on_touch_up=self._lifted)
+        for name, where in METHODS.items():
+            module, _, made = where.partition(":")
+            self._all[name] = method = getattr(import_module(module), made)(self._app)
+            if hasattr(method, "look"):
+                self._looks.append(method)
+            if method.on:
+                method.start()
+
+    def close(self) -> None:
+        """End each."""
+        Window.unbind(on_touch_down=self._touched, on_touch_up=self._lifted)
+        for method in self._all.values():
+            method.stop()
+            method.close()
+        self._all.clear()
+        self._looks.clear()
+
+    def pause(self) -> None:
+        """The glass is taken away: nothing listens."""
+        self._paused = True
+        self._app.intents.rest()
+        for method in self._all.values():
+            method.stop()
+
+    def resume(self) -> None:
+        """It is back: those that are on begin again."""
+        self._paused = False
+        for method in self._all.values():
+            if method.on:
+                method.start()
+
+    def look(self, now: float) -> None:
+        """With each heartbeat of the user interface, every 30 ms; `now` is our clock [s]."""
+        self._app.intents.look(now)
+        for method in self._looks:
+            if method.on:
+                method.look(now)
+
+    def get(self, name: str) -> Any:
+        """The method of that name; None where there is none."""
+        return self._all.get(name)
+
+    def turn(self, name: str, on: bool) -> None:
+        """Switch one on or off, and remember it; nothing for one that there is not."""
+        method = self._all.get(name)
+        if method is None:
+            return
+        method.on = on
+        if on and not self._paused:
+            method.start()
+        elif not on:
+            method.stop()
+
+    @property
+    def armed(self) -> list[str]:
+        """Names of those that are on."""
+        return [name for name, method in self._all.items() if method.on]
+
+    def _touched(self, *_: object) -> None:
+        origins.touched(self._app.now())
+
+    def _lifted(self, *_: object) -> None:
+        origins.lifted(self._app.now())

@@ -1,0 +1,80 @@
+"""Where a command came from: by which method, how sure it was, and when the hand or the voice began and ended.
+
+with origins.during(Origin("voice", confidence=0.9, began=12.1, ended=12.8, decided=12.9, said="go home")):
+    session.command("home")        # takes the origin along by itself
+
+Everything in the UI thread.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+__all__ = ["ITSELF", "NOBODY", "Origin", "Origins", "origins"]
+
+ITSELF = ""
+"""The method of what nobody asked for just now: the app did it by itself, as taking control that is free."""
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """Who asked, and how. Instants are of our clock [s, monotonic]; NaN for what is not known."""
+
+    method: str = "button"
+    """One of `app.intents.METHODS`, or `ITSELF`."""
+    confidence: float = math.nan
+    """How sure the method was, 0 to 1; NaN where it does not say, as for a button."""
+    began: float = math.nan
+    """When gesture, word, press or touch began."""
+    ended: float = math.nan
+    """When it ended; NaN for what acts before its end, as a shake that means STOP."""
+    decided: float = math.nan
+    """When the app knew what was meant."""
+    said: str = ""
+    """What was understood, in words; empty for a button."""
+    noise: float = math.nan
+    """How loud it was round about then [dB]."""
+    prompt: str = ""
+    """Number of the prompt of the study that it answers; empty outside of it."""
+    intent: str = ""
+    """Key in `app.intents.INTENTS`; empty where a control was used that has none."""
+
+
+NOBODY = Origin(ITSELF)
+"""The app by itself."""
+
+
+class Origins:
+    """Which origin whatever is done now has. Without a word about it that is a finger on a button."""
+
+    def __init__(self) -> None:
+        self._during: list[Origin] = []
+        self._began = self._ended = math.nan
+
+    def current(self) -> Origin:
+        """The origin of what is done now."""
+        return self._during[-1] if self._during else Origin(began=self._began, ended=self._ended)
+
+    @contextlib.contextmanager
+    def during(self, origin: Origin) -> Iterator[None]:
+        """What is done within comes from there."""
+        self._during.append(origin)
+        try:
+            yield
+        finally:
+            self._during.pop()
+
+    def touched(self, now: float) -> None:
+        """A finger came down at `now` [s]: what is pressed next began then."""
+        self._began, self._ended = now, math.nan
+
+    def lifted(self, now: float) -> None:
+        """A finger was lifted."""
+        self._ended = now
+
+
+origins = Origins()
+"""Of this process: one app runs in it."""

@@ -1,0 +1,28 @@
+"""Where the ways in are set up: a list of them, and beside it the pane of the one that is chosen.
+
+A pane is a widget in a module of its own, made as `Pane(app=app)` when it is first looked at, with `enter()`, `leave()` and
+`tick()`; it shows its own title where it needs one. Whoever brings a method adds a line to `PANES`.
+"""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+
+__all__ = ["PANES", "panes"]
+
+PANES: dict[str, tuple[str, str, str]] = {
+    "voice": ("mic", "Voice", "app.screens.inputs.voice_pane:VoicePane"),
+    "shake": ("mobile_vibrate", "Shake", "app.screens.inputs.shake_pane:ShakePane"),
+    "tilt": ("screen_rotation_alt", "Tilt", "app.screens.inputs.tilt_pane:TiltPane"),
+    "switches": ("radio_button_checked", "Switches", "app.screens.inputs.switch_pane:SwitchPane"),
+    "gamepad": ("gamepad", "Gamepad", "app.screens.inputs.pad_pane:PadPane"),
+    "keyboard": ("keyboard", "Keyboard", "app.screens.inputs.keys_pane:KeysPane"),
+    "table": ("tune", "What each may do", "app.screens.inputs.table:TablePane"),
+    "study": ("timeline", "Log and study", "app.screens.inputs.study_pane:StudyPane"),
+}
+"""Name, as of the method where it is one, to icon, title, and module and class of its pane."""
+
+
+def panes() -> dict[str, tuple[str, str, str]]:
+    """Those of `PANES` whose module there is, in their order."""
+    return {name: pane for name, pane in PANES.items() if find_spec(pane[2].partition(":")[0]) is not None}

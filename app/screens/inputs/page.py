@@ -1,0 +1,102 @@
+"""The inputs screen where there is no robot: reached from the connect screen, and left to it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.metrics import Metrics
+from kivy.properties import ObjectProperty
+from kivy.uix.floatlayout import FloatLayout
+
+from app import arrange
+from app.arrange import Body
+from app.screens.inputs.screen import InputsScreen
+from widgets.kit import IconButton, Text
+
+__all__ = ["InputsPage"]
+
+BAR = 56.0
+"""Height of the bar [dp], as on the connect screen."""
+
+Builder.load_string("""
+<InputsPage>:
+    canvas.before:
+        Color:
+            rgba: theme.bg
+        Rectangle:
+            pos: self.pos
+            size: self.size
+        Color:
+            rgba: theme.surface
+        Rectangle:
+            pos: root.x, root.top - dp(56)
+            size: root.width, dp(56)
+        Color:
+            rgba: theme.line
+        Rectangle:
+            pos: root.x, root.top - dp(56)
+            size: root.width, theme.outline
+""")
+
+
+class InputsPage(FloatLayout):
+    """A bar with a way back, and the screen below it."""
+
+    app = ObjectProperty()
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._screen: InputsScreen | None = None
+        self.leave_button = IconButton(icon="arrow_back", role="muted", bare=True, size_hint=(None, None))
+        self.leave_button.bind(on_release=lambda _: self.back() or self._leave())
+        self._title = Text(text="Inputs", bold=True, size_hint=(None, None))
+        self.add_widget(self.leave_button)
+        self.add_widget(self._title)
+        self.bind(size=self._arrange, pos=self._arrange)
+
+    @property
+    def screen(self) -> InputsScreen:
+        """What is below the bar, made when it is first looked at."""
+        if self._screen is None:
+            self._screen = InputsScreen(app=self.app)
+            self.add_widget(self._screen)
+        return self._screen
+
+    def enter(self) -> None:
+        """Come onto the glass."""
+        self.screen.enter()
+        self._arrange()
+
+    def tick(self) -> None:
+        """Bring up to date what time changes; once it is left, leave what was on it."""
+        if self._screen is None:
+            return
+        if self.parent is None:
+            self._screen.leave()
+        else:
+            self._screen.tick()
+
+    def back(self) -> bool:
+        """Back within the page, then to the connect screen; False where it is not on the glass."""
+        if self.parent is None:
+            return False
+        if not self.screen.back():
+            self._leave()
+        return True
+
+    def _leave(self) -> None:
+        self.screen.leave()
+        self.app.root.show_page(self.app.connect)
+        self.app.corner.tick()
+
+    def _arrange(self, *_: object) -> None:
+        if self._screen is None:
+            return
+        dp = Metrics.density
+        bar = BAR * dp
+        self.leave_button.pos = (self.x + 6 * dp, self.top - bar + (bar - self.leave_button.height) / 2)
+        self._title.pos = (self.leave_button.right + 8 * dp, self.top - bar + (bar - self._title.height) / 2)
+        self._title.width = self.width - self.leave_button.right - 16 * dp
+        body = Body(self.x, self.y, self.width, self.height - bar, bool(self.app.corner.button.robots))
+        self._screen.spread(body, arrange.form(self.width, self.height, dp), dp)
