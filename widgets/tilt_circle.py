@@ -91,6 +91,7 @@ class TiltCircle(Stick, Gauge):
         self._as_is = False
         super().__init__(**{"title": "Tilt", "card": False, **kwargs})
         self.fbind("clutched", self._hold)
+        self._hold()
         for name in ("size", "card", "title"):
             self.fbind(name, self._round_veil)
         self._round_veil()
@@ -355,7 +356,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "not held": make(6, 4, needs_hold=True, title="Tablet tilt"),
         "held": make(6, 9, needs_hold=True, clutched=True, dead=0.16, title="Tablet tilt"),
         "held by one who walks": make(0, 14, needs_hold=True, clutched=True, dead=0.32, in_shares=True),
-        "opened": make(-20, 19, needs_hold=True, clutched=True, opened="beyond 50°: let go"),
+        "opened": make(opened="beyond 50°", needs_hold=True, clutched=True, title="Tablet tilt"),
         "card": make(5, 12, card=True, title="Tablet tilt"),
         "large": make(5, 12, size=(326, 228), card=True, title="Tablet tilt"),
         "large level": make(size=(326, 228), card=True, title="Tablet tilt"),

@@ -57,12 +57,12 @@ class DriveScreen(Driving):
         self.ids.update({"video": self.video, **self._named()})
 
     def _take_up(self) -> None:
-        """Put the arm that the robot carries on the glass, or take it off, and a switch where there is something to choose."""
+        """Put an arm that the robot carries and the circle of a tablet on the glass, or take them off, and a switch where there is something to choose."""
         self.hands.take_up()
-        choices, arm = self.hands.choices, self.hands.arm.made
+        choices = self.hands.choices
         wanted = {self.switch: "switch"} | dict.fromkeys(choices.values(), "stick") if choices else {}
-        for widget in (self.switch, arm):
-            if widget is not None and widget.parent is not None and widget not in wanted:
+        for widget in (self.switch, *self.hands.lent):
+            if widget.parent is not None and widget not in wanted:
                 self.remove_widget(widget)
                 kept = {
                     slot: [one for one in found if one is not widget] for slot, found in self.places.items()

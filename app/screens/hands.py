@@ -21,11 +21,13 @@ from app.piloting import Parts, Piloting, Reach
 from app.screens.arm_hand import ARM, ArmHand
 from app.screens.in_vain import InVain
 from app.screens.speed_card import SpeedCard, allowed
+from app.screens.tilt_hand import TILT, TiltHand
 from app.session import Session
 from bridge.msgs.geometry_msgs import PoseStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import FlightState, TaskOrder, TaskStatus, Waypoint
 from widgets.stick import Stick
+from widgets.tilt_circle import TiltCircle
 
 __all__ = ["Hands"]
 
@@ -63,26 +65,60 @@ class Hands(EventDispatcher):
         super().__init__()
         for one in layout.controls:
             self._add(one)
-        slots = [one.slot for one in layout.controls]
+        self.tablet = False
+        """The tablet's tilt shall drive, where the layout has a stick and no circle of its own; `take_up` puts one on the glass."""
+        self.tilt = TiltHand(self._sticks)
         self._own: dict[str, Widget] = {
             one.called: widget for one, widget in self._all(layout) if one.slot == "stick"
         }
-        self.choices: dict[str, Widget] = self._own if slots.count("stick") > 1 else {}
-        """Those of which one is on the glass, by what they are called; an arm that the robot carries is one more."""
+        self.choices: dict[str, Widget] = self._own if len(self._own) > 1 else {}
+        """Those of which one is on the glass, by what they are called; an arm that the robot carries is one more, and so is
+        the circle of a tablet."""
         self.chosen = next(iter(self.choices), "")
         self.bind(chosen=lambda *_: self.rest())
         says = {part for _, one in self._sticks for part in one.says}
         self.piloting = Piloting(self._drive, self._kinds, lambda: self.reach, says, self._amend)
 
     def take_up(self) -> bool:
-        """Take up the arm where the robot has one, and put it away where it has none any more; True when that changed."""
-        if self.arm.carried == (ARM in self.choices):
+        """Take up what the robot has or the operator wants besides, and put away the rest; True when that changed.
+
+        An arm where the robot has one; the circle where the tablet shall drive.
+        """
+        wanted = self._own | self._tilted() | ({ARM: self.arm.panel} if self.arm.carried else {})
+        wanted = wanted if len(wanted) > 1 else {}
+        if wanted == self.choices:
             return False
-        own = self._own if len(self._own) > 1 else {}
-        self.choices = self._own | {ARM: self.arm.panel} if self.arm.carried else own
+        self.choices = wanted
         if self.chosen not in self.choices:
             self.chosen = next(iter(self.choices), "")
         return True
+
+    def _tilted(self) -> dict[str, Widget]:
+        """The circle by its name, made when it is first wanted; nothing where there is none to choose."""
+        made = self.tilt.made
+        if self.tablet and self.tilt.control is not None:
+            circle = self.tilt.circle
+            if made is None:
+                circle.bind(on_command=lambda stick, said: self._pushed(stick, said, self.tilt.control))
+                circle.bind(on_in_vain=lambda _: self._in_vain.tell())
+            if not any(stick is circle for stick, _ in self._sticks):
+                self._sticks.append((circle, self.tilt.control))
+            return {TILT: circle}
+        if made is not None:
+            made.rest()
+            self._sticks = [(stick, one) for stick, one in self._sticks if stick is not made]
+        return {}
+
+    @property
+    def circle(self) -> TiltCircle | None:
+        """What the tablet tilts and is on the glass; None without one."""
+        found = (stick for stick, _ in self.sticks if isinstance(stick, TiltCircle))
+        return next(found, None)
+
+    @property
+    def lent(self) -> list[Widget]:
+        """What has been made besides the layout's own and is on the glass at times: the arm, and the circle of a tablet."""
+        return [widget for widget in (self.arm.made, self.tilt.made) if widget is not None]
 
     def _all(self, layout: Layout) -> list[tuple[Control, Widget]]:
         left = {slot: list(found) for slot, found in self.places.items()}
