@@ -117,7 +117,7 @@ class Heard:
     """So sure that what would wait to be cancelled may act at once."""
 
 
-What = Literal["acted", "waits", "asks", "not allowed", "not now", "cancelled", "lapsed"]
+What = Literal["acted", "waits", "asks", "not allowed", "not now", "cancelled", "lapsed", "practised"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,6 +184,8 @@ class Intents:
         """Called with each verdict, where something waits twice: when it begins to wait and when that ends."""
         self.prompt: Callable[[], str] = lambda: ""
         """The number of the study's prompt that is shown; empty for none."""
+        self.practise: Callable[[Heard], str] = lambda _: ""
+        """Where the study takes what was heard as an answer and nothing shall be done: a sentence; empty where it acts."""
 
     def allowed(self, method: str, intent: str) -> bool:
         """The operator lets that method trigger that; STOP always."""
@@ -197,6 +199,8 @@ class Intents:
     def take(self, heard: Heard) -> Verdict:
         """Take what was understood; KeyError for an intent that there is not."""
         intent, now = INTENTS[heard.intent], self._now()
+        if practised := self.practise(heard):
+            return self._told(heard, Verdict("practised", practised))
         verdict = self._refusal(heard)
         if verdict is None and heard.intent in ("yes", "no"):
             return self._told(heard, self._answered(heard, now))
