@@ -1,0 +1,258 @@
+"""From the switches' contacts to what is done on the glass: the contacts, the tree and the mark, put together.
+
+engine = Engine(glass, Planner(used), desk)
+engine.press("B", ("key", 0, 13), now); engine.release(…); engine.look(now)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+from app.scanning import Glass, Mark, Target
+from app.scanning.plan import Planner
+from app.scanning.presses import Contacts, Event, Timing
+from app.scanning.scan import Pace, Scan
+
+__all__ = ["Desk", "Engine", "Selection"]
+
+LOOKS = 0.25
+"""Between two looks at what is on the glass while something is marked [s]."""
+SETTLES = 0.5
+"""What has begun to mean something else takes no press for so long [s]: that press meant what it did before."""
+
+Sound = Literal["step", "back", "in", "act", "none"]
+"""A step; out of a group; into one; something is done; nothing came of a press."""
+
+
+@dataclass(frozen=True, slots=True)
+class Selection:
+    """Something that was chosen."""
+
+    target: Target
+    place: str
+    began: float
+    """When the press that does it began [s]."""
+    ended: float
+    """When it ended; NaN for what is done at the press."""
+    presses: int
+    """Since the one before was chosen, or since the switches were woken; holds count once."""
+    since: float
+    """When the first of these began [s]."""
+
+
+class Desk(Protocol):
+    """What the engine tells the app."""
+
+    def stop(self, began: float) -> None:
+        """STOP, whatever is marked."""
+
+    def do(self, chosen: Selection) -> None:
+        """Do it, where the operator lets switches do it."""
+
+    def stepped(self, sound: Sound, mark: Mark | None) -> None:
+        """To be heard, and the mark to be spoken."""
+
+    def stuck(self, switch: str, stuck: bool) -> None:
+        """A switch is down for too long and is ignored, or works again."""
+
+
+class Engine:
+    """Asleep until a press; everything in the UI thread, times are our clock's [s, monotonic]."""
+
+    def __init__(
+        self,
+        glass: Glass,
+        planner: Planner,
+        desk: Desk,
+        timing: Timing | None = None,
+        pace: Pace | None = None,
+    ) -> None:
+        self._glass, self._planner, self._desk = glass, planner, desk
+        self.contacts = Contacts(timing or Timing(), self._hear)
+        self.scan = Scan(pace or Pace())
+        self._now = 0.0
+        self._place = ""
+        self._shown: Mark | None = None
+        self._seen = -math.inf
+        """When the glass was asked last."""
+        self._meant: tuple[str, str, float] = ("", "", -math.inf)
+        """Name and words of the target that is marked, and since when it has them after having had others."""
+        self._armed: Target | None = None
+        """Marked when B came down, and done when B comes up."""
+        self._woke = False
+        """The press that is down only woke the scan."""
+        self._presses, self._since = 0, math.nan
+
+    @property
+    def awake(self) -> bool:
+        """Something is marked, or would be if there were anything to do."""
+        return self.scan.awake
+
+    def setup(self, timing: Timing, pace: Pace) -> None:
+        """Go by these figures from now on."""
+        self.contacts.timing, self.scan.pace = timing, pace
+        self._show()
+
+    def press(self, switch: Literal["A", "B"], source: Hashable, now: float) -> None:
+        """A key or button of `switch` came down; again where the system repeats it."""
+        self._now = now
+        self.contacts.down("B" if self.scan.pace.by_itself else switch, source, now)
+
+    def release(self, switch: Literal["A", "B"], source: Hashable, now: float) -> None:
+        """It came up."""
+        self._now = now
+        for each in (switch, "B"):
+            self.contacts.up(each, source, now)
+
+    def look(self, now: float) -> None:
+        """With each heartbeat."""
+        self._now = now
+        self.contacts.look(now)
+        if not self.awake:
+            return
+        if now - self._seen >= LOOKS:
+            self._refresh()
+        if self.scan.look(now, wait=self.contacts.is_down("B")):
+            self._step("step" if self.awake else "none")
+
+    def sleep(self) -> None:
+        """Nothing is marked any more; the next press wakes it."""
+        self.scan.sleep()
+        self._armed, self._presses, self._since = None, 0, math.nan
+        self._show()
+
+    def lost(self) -> None:
+        """Nobody will tell when the switches come up: nothing comes of what is down."""
+        self.contacts.lost()
+        self._armed = None
+
+    # what the contacts tell
+
+    def _hear(self, event: Event) -> None:
+        if event.what == "stop":
+            self._armed = None
+            self._desk.stop(event.began)
+        elif event.what in ("stuck", "free"):
+            self._armed = None
+            self._desk.stuck(event.switch, event.what == "stuck")
+        elif event.what == "down":
+            self._count(event)
+            self._pressed_a() if event.switch == "A" else self._pressed_b(event)
+        elif event.what == "held":
+            self._held(event)
+        elif event.switch == "B":
+            self._let_go(event)
+
+    def _count(self, event: Event) -> None:
+        if not self._presses:
+            self._since = event.began
+        self._presses += 1
+
+    def _pressed_a(self) -> None:
+        self._woke = not self.awake
+        self._refresh()
+        self.scan.next(self._now)
+        self._begin_if_woken()
+        self._step("step")
+
+    def _pressed_b(self, event: Event) -> None:
+        self._woke = not self.awake
+        if self._woke:
+            self.scan.wake(self._now)
+            self._begin_if_woken()
+            self._step("step")
+            return
+        target = self._marked()
+        if target is not None and target.on_release:
+            self._armed = target
+        else:
+            self._select(event.began, math.nan)
+
+    def _begin_if_woken(self) -> None:
+        if self._woke:
+            self._seen = -math.inf
+            self._refresh()
+
+    def _let_go(self, event: Event) -> None:
+        armed, self._armed = self._armed, None
+        target = self._marked()
+        if armed is not None and target is not None and target.name == armed.name:
+            self._select(event.began, event.at)
+
+    def _held(self, event: Event) -> None:
+        if self._woke:
+            return
+        if event.at - event.began < 2 * self.contacts.timing.hold_back:  # the first of this press
+            self.scan.undo(self._now)
+        self.scan.back(self._now)
+        self._step("back")
+
+    # what is done
+
+    def _marked(self) -> Target | None:
+        mark = self._shown
+        return mark.targets[0] if mark is not None and mark.kind == "item" else None
+
+    def _select(self, began: float, ended: float) -> None:
+        """What stood out when B came down, if it is still there and means the same."""
+        before = self._shown
+        self._refresh()
+        after = self._shown
+        if before is None or after is None or not _same(before, after) or self._settling():
+            self._desk.stepped("none", after)
+            return
+        target = self.scan.select(self._now)
+        if target is None:
+            self._step("in" if after.kind == "group" else "back")
+            return
+        chosen = Selection(target, self._place, began, ended, self._presses, self._since)
+        self._presses, self._since = 0, math.nan
+        self._desk.do(chosen)
+        self._seen = -math.inf  # what was done may have changed everything
+        self._step("act")
+
+    def _settling(self) -> bool:
+        return self._now - self._meant[2] < SETTLES
+
+    def _refresh(self) -> None:
+        """Ask the glass what there is now."""
+        if not self.awake:
+            return
+        self._seen = self._now
+        place = self._glass.place
+        fresh, self._place = place != self._place, place
+        self.scan.show(self._planner.tree(place, self._glass.targets()), self._now, fresh=fresh)
+        self._show()
+
+    def _step(self, sound: Sound) -> None:
+        self._show()
+        self._desk.stepped(sound, self._shown)
+
+    def _show(self) -> None:
+        mark = self.scan.mark
+        self._note(mark)
+        if mark != self._shown:
+            self._shown = mark
+            self._glass.mark(mark)
+
+    def _note(self, mark: Mark | None) -> None:
+        """Since when what is marked means what it means."""
+        if mark is None or mark.kind != "item":
+            self._meant = "", "", -math.inf
+            return
+        target, (name, words, _) = mark.targets[0], self._meant
+        if name != target.name:
+            self._meant = target.name, target.words, -math.inf
+        elif words != target.words:
+            self._meant = target.name, target.words, self._now
+
+
+def _same(before: Mark, after: Mark) -> bool:
+    """B does the same with both."""
+    names, now = {one.name for one in before.targets}, {one.name for one in after.targets}
+    if "item" in (before.kind, after.kind):
+        return before.kind == after.kind and names == now
+    return bool(names & now)

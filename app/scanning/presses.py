@@ -1,0 +1,189 @@
+"""From contacts that bounce, repeat, overlap and stick to clean presses of switch A and switch B; STOP before all of them.
+
+contacts = Contacts(Timing(), hear)
+contacts.down("B", ("key", 0, 13), now)     # … up(…), and look(now) with each heartbeat
+
+Any number of keys and buttons may be one switch: it is down while one of them is. A key that the system repeats while it is held
+comes down only once.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, field
+from typing import Literal, NamedTuple
+
+__all__ = ["Contacts", "Event", "Timing"]
+
+Switch = Literal["A", "B"]
+BEYOND = 0.3
+"""STOP and going back need a hold that is at least so much longer than what is accepted as a press at all [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """How presses are told from what is none; all in s. Figures of the accessibility world: docs/switches.md."""
+
+    debounce: float = 0.08
+    """A contact that opens for less is still closed."""
+    ignore_repeat: float = 0.3
+    """A press of the same switch that begins so soon after the last one began is none: a trembling hand."""
+    acceptance: float = 0.0
+    """A switch must be down for so long before it counts: a hand that brushes over it."""
+    back: float = 0.6
+    """A held so long goes back, and on going back once more after each such time."""
+    stop: float = 0.8
+    """B held so long is STOP."""
+    stuck: float = 5.0
+    """What is down for longer is stuck, and counts as up until it has been."""
+
+    @property
+    def hold_back(self) -> float:
+        """A is held so long to go back [s]: no sooner than a press of it counts at all."""
+        return max(self.back, self.acceptance + BEYOND)
+
+    @property
+    def hold_stop(self) -> float:
+        """B is held so long to stop [s]."""
+        return max(self.stop, self.acceptance + BEYOND)
+
+
+class Event(NamedTuple):
+    """What a switch has done."""
+
+    what: Literal["down", "up", "held", "stop", "stuck", "free"]
+    """`down`: pressed. `up`: that press is over. `held`: A long enough to go back, told again while it stays. `stop`: B long
+    enough, or both; nothing more of that press is told. `stuck`: down for too long, nothing is told of it until `free`."""
+    switch: Switch
+    at: float
+    """When [s, monotonic]; of `down` when the contact closed, of `up` when it opened."""
+    began: float
+    """When the press that it belongs to began [s]."""
+
+
+@dataclass(slots=True)
+class _Contact:
+    """One switch."""
+
+    sources: set[Hashable] = field(default_factory=set)
+    began: float = -math.inf
+    opened: float = math.inf
+    """When the last of its sources came up; infinite while one is down."""
+    taken: float = -math.inf
+    """When the last press began that was told."""
+    standing: Literal["up", "waits", "down", "void", "stuck"] = "up"
+    """`waits` to be accepted; `void`: down, and nothing comes of it."""
+    told: int = 0
+    """How often `held` was told of this press."""
+
+    @property
+    def closed(self) -> bool:
+        """It is down, or opened so shortly ago that it may be bouncing, and it is not stuck."""
+        return self.standing not in ("up", "stuck")
+
+
+class Contacts:
+    """Both switches. `look` must be called with each heartbeat; times only grow."""
+
+    def __init__(self, timing: Timing, hear: Callable[[Event], object]) -> None:
+        """`hear` is told each event, in order."""
+        self.timing, self._hear = timing, hear
+        self._contacts: dict[Switch, _Contact] = {"A": _Contact(), "B": _Contact()}
+
+    def is_down(self, switch: Switch) -> bool:
+        """It is pressed now, and not stuck."""
+        contact = self._contacts[switch]
+        return contact.closed and bool(contact.sources)
+
+    @property
+    def stuck(self) -> list[Switch]:
+        """Those that are down for too long."""
+        return [switch for switch, contact in self._contacts.items() if contact.standing == "stuck"]
+
+    def down(self, switch: Switch, source: Hashable, now: float) -> None:
+        """A key or button of that switch closed; nothing where it was told so before."""
+        self.look(now)
+        contact = self._contacts[switch]
+        if source in contact.sources:
+            return
+        contact.sources.add(source)
+        contact.opened = math.inf
+        if contact.standing != "up":
+            return
+        contact.began, contact.told = now, 0
+        other = self._contacts["A" if switch == "B" else "B"]
+        if other.closed and other.sources:
+            self._stop(switch, now)
+        elif now - contact.taken < self.timing.ignore_repeat:
+            contact.standing = "void"
+        else:
+            contact.standing = "waits"
+            self.look(now)
+
+    def up(self, switch: Switch, source: Hashable, now: float) -> None:
+        """It opened; whether that is the end of the press is known after `debounce`."""
+        self.look(now)
+        contact = self._contacts[switch]
+        if source in contact.sources:
+            contact.sources.discard(source)
+            if not contact.sources:
+                contact.opened = now
+            self.look(now)
+
+    def lost(self) -> None:
+        """Nobody will tell how it goes on: both are up, and nothing comes of what was down."""
+        for switch in self._contacts:
+            self._contacts[switch] = _Contact(taken=self._contacts[switch].taken)
+
+    def look(self, now: float) -> None:
+        """What only time tells: accepted, held, let go, stuck."""
+        for switch in self._contacts:
+            self._look(switch, self._contacts[switch], now)
+
+    def _look(self, switch: Switch, contact: _Contact, now: float) -> None:
+        if contact.standing == "up":
+            return
+        until = min(now, contact.opened)
+        if contact.standing == "waits" and until - contact.began >= self.timing.acceptance:
+            contact.standing, contact.taken = "down", contact.began
+            self._tell("down", switch, contact.began)
+        if contact.standing in ("down", "waits", "void") and contact.told >= 0:
+            self._held(switch, contact, until)
+        if contact.standing != "stuck" and until - contact.began >= self.timing.stuck:
+            contact.standing = "stuck"
+            self._tell("stuck", switch, until)
+        if now - contact.opened >= self.timing.debounce:
+            self._end(switch, contact)
+
+    def _held(self, switch: Switch, contact: _Contact, until: float) -> None:
+        if switch == "B":
+            if until - contact.began >= self.timing.hold_stop:
+                self._stop(switch, until)
+            return
+        while contact.standing == "down":
+            at = contact.began + (contact.told + 1) * self.timing.hold_back
+            if at > until:
+                return
+            contact.told += 1
+            self._tell("held", switch, at)
+
+    def _stop(self, switch: Switch, at: float) -> None:
+        """Nothing else comes of what is down now."""
+        for contact in self._contacts.values():
+            if contact.closed or contact.sources:
+                contact.standing = "stuck" if contact.standing == "stuck" else "void"
+                contact.told = -1
+        self._tell("stop", switch, at)
+
+    def _end(self, switch: Switch, contact: _Contact) -> None:
+        before, contact.standing = contact.standing, "up"
+        if before == "down":
+            self._tell("up", switch, contact.opened)
+        elif before == "stuck":
+            self._tell("free", switch, contact.opened)
+
+    def _tell(
+        self, what: Literal["down", "up", "held", "stop", "stuck", "free"], switch: Switch, at: float
+    ) -> None:
+        self._hear(Event(what, switch, at, self._contacts[switch].began))
