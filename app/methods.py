@@ -10,7 +10,9 @@ from typing import Any, Protocol
 
 from kivy.core.window import Window
 
+from app.device.motion import motion_source
 from app.origin import origins
+from app.sensing import Sensing
 
 __all__ = ["METHODS", "Method", "Methods"]
 
@@ -52,6 +54,8 @@ class Methods:
         self._all: dict[str, Any] = {}
         self._looks: list[Any] = []
         self._paused = False
+        app.sensing = self.sensing = Sensing(motion_source(app.now), app.now)
+        """The motion sensors of all of them."""
 
     def open(self) -> None:
         """Make each, and begin with those that are on."""
@@ -70,6 +74,7 @@ class Methods:
         for method in self._all.values():
             method.stop()
             method.close()
+        self.sensing.close()
         self._all.clear()
         self._looks.clear()
 
@@ -77,12 +82,14 @@ class Methods:
         """The glass is taken away: nothing listens."""
         self._paused = True
         self._app.intents.rest()
+        self.sensing.pause()
         for method in self._all.values():
             method.stop()
 
     def resume(self) -> None:
         """It is back: those that are on begin again."""
         self._paused = False
+        self.sensing.resume()
         for method in self._all.values():
             if method.on:
                 method.start()
@@ -90,6 +97,7 @@ class Methods:
     def look(self, now: float) -> None:
         """With each heartbeat of the user interface, every 30 ms; `now` is our clock [s]."""
         self._app.intents.look(now)
+        self.sensing.look(now)
         for method in self._looks:
             if method.on:
                 method.look(now)
