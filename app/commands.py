@@ -11,6 +11,7 @@ from collections.abc import Awaitable, Callable, Hashable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from app.origin import NOBODY, Origin
 from bridge.errors import BridgeError, NoReply, NotConnected, Refused
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (
@@ -164,6 +165,10 @@ class Outcome:
     """What was asked for, beyond the name."""
     answer: Any = None
     """The robot's whole answer, as of `Kind.response`; None without one."""
+    origin: Origin = NOBODY
+    """By which method it was asked for, and when."""
+    sent: float = math.nan
+    """When it left for the robot, by our clock [s]."""
 
     @property
     def label(self) -> str:
@@ -217,7 +222,7 @@ class Commands:
         self._who = {"client_id": client_id, "client_name": client_name}
         self._under_way: dict[Hashable, Outcome] = {}
         """By command and what it is about."""
-        self._next: dict[Hashable, dict[str, Any]] = {}
+        self._next: dict[Hashable, tuple[Origin, dict[str, Any]]] = {}
         """What to ask for, in the same way, once the one that is under way is answered."""
         self._stopping: Outcome | None = None
         """The STOP that is being sent; None when there is none, or it was let go."""
@@ -228,8 +233,8 @@ class Commands:
         """STOP was pressed and the robot has not confirmed it."""
         return self._stopping is not None
 
-    async def send(self, name: str, /, **fields: Any) -> Outcome:
-        """Send a command and wait for what becomes of it; KeyError for a name not in `COMMANDS`.
+    async def send(self, name: str, origin: Origin = NOBODY, /, **fields: Any) -> Outcome:
+        """Send a command from `origin` and wait for what becomes of it; KeyError for a name not in `COMMANDS`.
 
         While one of the same name about the same thing is under way, its state is the answer. One that asks for
         something else is sent after it, the newest only; one that asks for the same is not sent again.
@@ -239,19 +244,19 @@ class Commands:
         if under_way is not None:
             self._next.pop(what, None)
             if not _alike(fields, under_way.fields):
-                self._next[what] = fields
+                self._next[what] = origin, fields
             return under_way
         try:
-            outcome = await self._send_one(name, what, fields)
+            outcome = await self._send_one(name, what, origin, fields)
             while what in self._next:
-                outcome = await self._send_one(name, what, self._next.pop(what))
+                outcome = await self._send_one(name, what, *self._next.pop(what))
         finally:
             self._next.pop(what, None)
         return outcome
 
-    async def _send_one(self, name: str, what: Hashable, fields: dict[str, Any]) -> Outcome:
+    async def _send_one(self, name: str, what: Hashable, origin: Origin, fields: dict[str, Any]) -> Outcome:
         started = self._now()
-        outcome = Outcome(name, self._new_id(), "sent", fields=fields)
+        outcome = Outcome(name, self._new_id(), "sent", fields=fields, origin=origin, sent=started)
         request = self._request(outcome, VALID_FOR, fields)
         self._under_way[what] = outcome
         self._report(outcome)
@@ -291,14 +296,15 @@ class Commands:
                 took = self._now() - started
                 return replace(outcome, phase=phase, reason=answer.message, latency=took, answer=answer)
 
-    async def stop(self) -> None:
-        """Send STOP until the robot confirms it, however long that takes and over reconnects.
+    async def stop(self, origin: Origin = NOBODY) -> None:
+        """Send STOP from `origin` until the robot confirms it, however long that takes and over reconnects.
 
         Pressed again while it is being sent, nothing changes.
         """
         if self._stopping is not None:
             return
-        outcome, started = Outcome("stop", self._new_id(), "sent"), self._now()
+        started = self._now()
+        outcome = Outcome("stop", self._new_id(), "sent", origin=origin, sent=started)
         self._stopping, self._stop_confirmed = outcome, False
         request = self._request(outcome, NEVER_VOID, {})
         self._report(outcome)

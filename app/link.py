@@ -9,6 +9,7 @@ import math
 import time
 import uuid
 from collections.abc import Callable, Coroutine, Mapping
+from functools import partial
 from typing import Any
 
 from app.commands import Commands, Outcome
@@ -16,6 +17,7 @@ from app.drive_slot import Drive, DriveSlot, stamped_at
 from app.events import EventStream, Known
 from app.feeds import Mailbox
 from app.offer import DRIVE, MANOEUVRE, Offer, ask
+from app.origin import origins
 from app.sources import Peek, Seen, Sources
 from bridge.choice import drive_message
 from bridge.client import BridgeClient, CameraStream, LinkState, Phase
@@ -194,8 +196,11 @@ class Link:
         self._slot.beat()
 
     def command(self, name: str, /, **fields: Any) -> None:
-        """Send a one-shot command of `app.commands.COMMANDS`; its `Outcome`s come through the mailbox."""
-        self._network.call(self._spawn, self.commands.send, name, fields)
+        """Send a one-shot command of `app.commands.COMMANDS`; its `Outcome`s come through the mailbox.
+
+        It has the origin that is current now.
+        """
+        self._network.call(self._spawn, partial(self.commands.send, name, origins.current(), **fields))
 
     def stop(self) -> None:
         """STOP: the stick is let go and the robot is told until it confirms.
@@ -208,7 +213,7 @@ class Link:
             self._slot.latch(True)
         self._network.call(self._wake.set)
         if ours or self.offer is None:
-            self._network.call(self._spawn, self.commands.stop, None, {})
+            self._network.call(self._spawn, partial(self.commands.stop, origins.current()))
 
     def latch(self) -> None:
         """Send zero speed until `unlatch`; over a new link too, where STOP was pressed on the one before."""
@@ -222,7 +227,7 @@ class Link:
 
     def look(self, topic: str, type_name: str) -> None:
         """Listen to one topic and tell what is `SEEN` of it; the one before ends."""
-        self._network.call(self._spawn, self._peek.open, None, {"topic": topic, "type_name": type_name})
+        self._network.call(self._spawn, partial(self._peek.open, topic=topic, type_name=type_name))
 
     def look_away(self) -> None:
         """Listen to that topic no longer."""
@@ -230,7 +235,7 @@ class Link:
 
     def ask_offer(self) -> None:
         """Ask again what the robot offers; told when it changed."""
-        self._network.call(self._spawn, self._renew_offer, None, {})
+        self._network.call(self._spawn, self._renew_offer)
 
     def place(self, message: PoseWithCovarianceStamped) -> None:
         """Tell the robot where it is."""
@@ -403,10 +408,8 @@ class Link:
     def _tell(self, outcome: Outcome) -> None:
         self._mailbox.queue(OUTCOME, outcome, self._now())
 
-    def _spawn(
-        self, send: Callable[..., Coroutine[Any, Any, Any]], name: str | None, fields: dict[str, Any]
-    ) -> None:
-        self._keep(self._network.loop.create_task(send(name, **fields) if name else send(**fields)))
+    def _spawn(self, begin: Callable[[], Coroutine[Any, Any, Any]]) -> None:
+        self._keep(self._network.loop.create_task(begin()))
 
     def _keep(self, task: asyncio.Task[Any]) -> None:
         """The loop holds tasks only weakly: keep each until it is done."""

@@ -18,6 +18,7 @@ from app.logbook import Logbook
 from app.mission import Draft, MissionEditor
 from app.missions import KeptMissions
 from app.offer import CAMERA, Offer
+from app.origin import NOBODY, origins
 from app.own_name import OwnName
 from app.refusals import Refusals
 from app.settings import Settings
@@ -322,7 +323,8 @@ class Session:
             link.latch()
         stop = self.outcomes.get("stop")
         if stop is not None and stop.phase != "accepted":
-            link.stop()
+            with origins.during(stop.origin):
+                link.stop()
         if self.mission.sent is not None:
             self.mission.answered(self.mission.sent, False, "No reply: the link was closed.")
         self.tasking.dropped()
@@ -378,7 +380,8 @@ class Session:
             self._asked_control = False
         elif self.wants_control and not self._asked_control:
             self._asked_control = True
-            self.command("acquire")
+            with origins.during(NOBODY):
+                self.command("acquire")
 
     def _drafts(self) -> dict[str, Any]:
         drafts = self._settings.get("drafts", {})
@@ -395,7 +398,7 @@ class Session:
     # what goes out
 
     def command(self, name: str, /, **fields: Any) -> None:
-        """Send a one-shot command of `app.commands.COMMANDS`."""
+        """Send a one-shot command of `app.commands.COMMANDS`, from the origin that is current (`app.origin`)."""
         self.link.command(name, **fields)
 
     def stop(self) -> None:

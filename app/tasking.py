@@ -8,6 +8,7 @@ from typing import Any, Protocol
 import msgspec
 
 from app.commands import Outcome
+from app.origin import Origin, origins
 from app.queueing import QueueEditor
 from bridge.msgs.pilothouse_msgs import (
     GetHistoryResponse,
@@ -48,7 +49,7 @@ class Tasking:
         """Called with what was deleted and how to take that back, once the robot has confirmed it."""
         self.on_history: Callable[[GetHistoryResponse], object] = nobody
         """Called with each part of the history that comes."""
-        self._waits_for_mission: TaskOrder | None = None
+        self._waits_for_mission: tuple[TaskOrder, Origin] | None = None
         self._deleted: dict[tuple[str, int], Callable[[], None]] = {}
         self._words: dict[tuple[str, int], str] = {}
 
@@ -56,7 +57,7 @@ class Tasking:
 
     def start(self, order: TaskOrder, *, send_first: bool = False) -> None:
         """Start a task; with `send_first` the mission is sent before it, and without it being accepted nothing starts."""
-        self._waits_for_mission = order if send_first else None
+        self._waits_for_mission = (order, origins.current()) if send_first else None
         if send_first:
             self._robot.send_mission()
         else:
@@ -123,6 +124,8 @@ class Tasking:
         self.queue.answered(False)
 
     def _go_on(self, accepted: bool) -> None:
-        order, self._waits_for_mission = self._waits_for_mission, None
-        if accepted and order is not None:
-            self._robot.command("start", order=order)
+        waited, self._waits_for_mission = self._waits_for_mission, None
+        if accepted and waited is not None:
+            order, origin = waited
+            with origins.during(origin):  # the wish was there before the points were sent
+                self._robot.command("start", order=order)
