@@ -1,0 +1,192 @@
+"""What the recogniser goes by: its thresholds, those of one person, and how they are kept in the settings."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any, Literal, get_args
+
+from app.shake.ground import Motion
+
+__all__ = [
+    "AXES",
+    "LEAST_GAP",
+    "LEAST_PEAK",
+    "MOST_GAP",
+    "MOST_PEAK",
+    "USUAL",
+    "WORDS",
+    "Axis",
+    "Own",
+    "Tuning",
+    "Way",
+    "fitted",
+    "own_from",
+    "own_to",
+]
+
+Axis = Literal["lr", "ud", "fb"]
+"""Left-right, up-down, forward-back."""
+AXES: tuple[Axis, ...] = get_args(Axis)
+WORDS: dict[Axis, str] = {"lr": "Left-right", "ud": "Up-down", "fb": "Forward-back"}
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """What counts along one of the three directions."""
+
+    way: Motion
+    """Its direction, of length 1: right, up, forward."""
+    threshold: float
+    """A half cycle counts from here on [m/s²]."""
+    gap: float
+    """Two of them come no farther apart [s]."""
+    halves: int
+    """At least so many."""
+    evidence: float
+    """At least so much: each gives its peak over the threshold, up to a cap."""
+    above: float
+    """The mean peak is so many times the background."""
+    beyond: float
+    """The same of what is loud in the background."""
+    speed: float
+    """At least so fast, root of the mean square [m/s]: a step or a knock is hard and yet moves the phone hardly at all."""
+    outrun: float
+    """The speed is so many times that of the background."""
+    weight: float
+    """Of its speed where the directions are compared: up and down is more than it seems, since a hand that swings leans the phone."""
+    share: float
+    """At least so much of the movement, 0 to 1."""
+    straight: float
+    """Least share of the direction with most of it, 1/3 to 1: a circle has a half."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tuning:
+    """What all three share, and the three. Found by search on the recordings of five people, each of them left out in turn (`python -m bench shake`)."""
+
+    ways: tuple[Way, ...]
+    """Left-right, up-down, forward-back."""
+    settling: float = 0.9
+    """Time constant of gravity [s]."""
+    leak: float = 0.25
+    """Time constant with which velocity is forgotten [s]."""
+    cap: float = 1.7
+    """Most that one half cycle is evidence for."""
+    raised: float = 1.2
+    """No half cycle counts below so many times the background."""
+    loud: float = 0.85
+    """The quantile of the background that is called loud."""
+    without: float = 0.7
+    """Share of the background's velocity that is taken off, 0 to 1."""
+    ahead: float = 1.3
+    """For STOP left-right is so many times either other direction, squared."""
+    begins: float = 2.0
+    """A burst begins above this [m/s², root of the mean square over a block]."""
+    begins_above: float = 2.1
+    """And above so many times the background."""
+    ends: float = 0.3
+    """It ends below this share of its loudest block, which counts for 12 m/s² at most."""
+    ends_above: float = 1.6
+    """Or below so many times the background."""
+    quiet: float = 0.35
+    """For so long [s]."""
+    longest: float = 3.8
+    """A burst that took longer is a jog, a drive or a dance [s]."""
+    stop_within: float = 3.5
+    """Nor is STOP meant so long after it began [s]."""
+    rough: float = 6.0
+    """Above this background nothing but STOP is understood [m/s²]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Own:
+    """How one person does one of the three, as the lesson measured it."""
+
+    way: Motion
+    """Where it goes, of length 1: right, up, forward."""
+    peak: float
+    """Median of its half cycles' peaks [m/s²]."""
+    gap: float
+    """Median time between two of them [s]."""
+
+
+# the evidence of one half cycle is its peak over the threshold, so that four gentle ones count like three strong ones
+_LEFT_RIGHT = Way((1.0, 0.0, 0.0), 3.2, 0.75, 3, 4.2, 2.4, 1.2, 0.2, 2.5, 1.0, 0.45, 0.65)
+_UP_DOWN = Way((0.0, 1.0, 0.0), 2.8, 0.75, 4, 4.2, 2.2, 1.2, 0.2, 2.0, 1.5, 0.5, 0.77)
+_FORWARD_BACK = Way((0.0, 0.0, 1.0), 3.2, 0.8, 4, 4.2, 2.2, 1.2, 0.2, 2.0, 1.0, 0.5, 0.75)
+USUAL = Tuning((_LEFT_RIGHT, _UP_DOWN, _FORWARD_BACK))
+"""For anybody."""
+
+LEAST_PEAK, MOST_PEAK = 2.5, 60.0
+"""What a lesson may have measured [m/s²]."""
+LEAST_GAP, MOST_GAP = 0.1, 1.2
+"""[s]"""
+SWUNG = 1.3
+"""Weight of up-down where the person's own directions are known."""
+LONGEST = 9.0
+"""No burst of anybody's is longer [s]."""
+
+
+def fitted(tuning: Tuning, own: Mapping[Axis, Own]) -> Tuning:
+    """The same for one person; what the lesson did not measure stays as it is."""
+    if not own:
+        return tuning
+    ways = tuple(_fitted(way, own.get(axis)) for axis, way in zip(AXES, tuning.ways, strict=True))
+    slow = max(one.gap for one in own.values())
+    return replace(
+        tuning,
+        ways=ways,
+        settling=max(tuning.settling, 1.6 * slow),
+        leak=max(tuning.leak, 0.5 * slow),
+        longest=max(tuning.longest, min(7.5 * slow, LONGEST)),
+        stop_within=max(tuning.stop_within, min(7.5 * slow, LONGEST)),
+        quiet=max(tuning.quiet, min(0.65 * slow, 0.7)),
+        begins=min(tuning.begins, 0.6 * min(way.threshold for way in ways)),
+    )
+
+
+def _fitted(way: Way, own: Own | None) -> Way:
+    if own is None:
+        return way
+    return replace(
+        way,
+        way=own.way,
+        threshold=min(max(0.5 * own.peak, 1.6), 1.3 * way.threshold),
+        gap=min(max(1.75 * own.gap, 0.6), 1.7),
+        weight=SWUNG if way.weight > 1.0 else 1.0,
+        share=min(way.share, 0.45),
+    )
+
+
+def own_to(own: Mapping[Axis, Own]) -> dict[str, Any]:
+    """What a lesson measured, for the settings."""
+    return {axis: {"way": list(one.way), "peak": one.peak, "gap": one.gap} for axis, one in own.items()}
+
+
+def own_from(kept: object) -> dict[Axis, Own]:
+    """What the settings say; ValueError with one sentence for what cannot be."""
+    if not isinstance(kept, Mapping):
+        raise ValueError(f"What the lesson of shaking measured is a table, not {str(kept)[:40]!r}.")
+    return {axis: _own(axis, kept[axis]) for axis in AXES if axis in kept}
+
+
+def _own(axis: Axis, kept: object) -> Own:
+    name = WORDS[axis].lower()
+    if not isinstance(kept, Mapping) or not isinstance(kept.get("way"), list) or len(kept["way"]) != 3:
+        raise ValueError(f"What the lesson measured of {name} is a way of three numbers, a peak and a gap.")
+    peak, gap = _number(kept.get("peak")), _number(kept.get("gap"))
+    x, y, z = (_number(value) for value in kept["way"])
+    length = math.sqrt(x * x + y * y + z * z)
+    if not 0.9 < length < 1.1:
+        raise ValueError(f"The way of {name} has a length of 1, not {length:.3g}.")
+    if not LEAST_PEAK <= peak <= MOST_PEAK:
+        raise ValueError(f"The peak of {name} is {LEAST_PEAK:g} to {MOST_PEAK:g} m/s², not {peak:.3g}.")
+    if not LEAST_GAP <= gap <= MOST_GAP:
+        raise ValueError(f"The gap of {name} is {LEAST_GAP:g} to {MOST_GAP:g} s, not {gap:.3g}.")
+    return Own((x / length, y / length, z / length), peak, gap)
+
+
+def _number(value: object) -> float:
+    return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else math.nan
