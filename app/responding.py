@@ -1,0 +1,277 @@
+"""Keeps the response log of the running app: hears what is understood, sent and answered, and leads the study.
+
+Made and closed with the methods; while the log is switched off nothing is kept, and nothing listens.
+"""
+
+from __future__ import annotations
+
+import time
+import uuid
+from collections import Counter, defaultdict
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from app.feeds import Post
+from app.intents import INTENTS, METHODS, Heard, Verdict
+from app.link import OUTCOME
+from app.response_tracks import Asked, State, Tracks
+from app.responses import Response, ResponseLog, read
+from app.responses_stats import counts
+from app.study import Plan, Prompt, Trials, plan_of, saved
+from app.study_export import SETTINGS, export
+from app.workload import Workload, Workloads
+from bridge.msgs.pilothouse_msgs import ControlStatus, LightState, TaskStatus
+
+__all__ = ["Responding"]
+
+FOLDER = "responses"
+SAVE_EVERY = 60.0
+"""How long the methods were listening is put down so often [s]."""
+STATES = ("/task/status", "/control/status", "/lights")
+"""Topics that show what became of a command."""
+
+
+class Responding:
+    """The log of one run of the app. Everything in the UI thread."""
+
+    name = "log"
+
+    def __init__(self, app: Any, wall: Callable[[], float] = time.time) -> None:
+        """`wall` is the time of day [s since 1970]."""
+        self._app, self._wall, self._session = app, wall, None
+        folder = Path(app.settings.path).parent
+        self.folder, self.exports = folder / FOLDER, folder / "exports"
+        self.log, self.workloads = ResponseLog(self.folder), Workloads(self.folder)
+        self._kept: list[Response] = []
+        """What this run has added to the log."""
+        self.tracks = Tracks(self._put, now=app.now, wall=wall, new_id=lambda: uuid.uuid4().hex[:12])
+        self.tracks.asked = self._asked
+        self.trials: Trials | None = None
+        """The study that is led just now, or was left in the middle; None for none."""
+        self._listening: defaultdict[str, float] = defaultdict(float)
+        self._looked = self._saved = app.now()
+        self._running = False
+        self.tracks.consent = self._setting("snippets", False)
+        self.on = self._setting("log", True)
+        found = plan_of(self._values().get("plan"), METHODS, tuple(INTENTS))
+        if found is not None:
+            self._lead(Trials(found[0], now=app.now, block=found[1], trial=found[2]))
+
+    # settings
+
+    def _values(self) -> dict[str, Any]:
+        values = self._app.settings.get("study")
+        return values if isinstance(values, dict) else {}
+
+    def _setting(self, name: str, usual: bool) -> bool:
+        value = self._values().get(name, usual)
+        return value if isinstance(value, bool) else usual
+
+    def keep(self, name: str, value: Any) -> None:
+        """Remember a setting of the study."""
+        self._app.settings.set("study", {**self._values(), name: value})
+
+    @property
+    def snippets(self) -> bool:
+        """The user agrees that what was measured of a gesture or a word is kept beside it."""
+        return self.tracks.consent
+
+    @snippets.setter
+    def snippets(self, agreed: bool) -> None:
+        self.tracks.consent = agreed
+        self.keep("snippets", agreed)
+
+    def turn(self, on: bool) -> None:
+        """Keep a log or keep none, from now on."""
+        self.on = on
+        self.keep("log", on)
+        (self.start if on else self.stop)()
+
+    # a method's life
+
+    @property
+    def standing(self) -> str:
+        """In a word or two."""
+        return f"{len(self._kept)} responses this time" if self.on else "off"
+
+    @property
+    def problem(self) -> str:
+        """Why lines are lost; empty when none are."""
+        return self.log.problem or self.workloads.problem
+
+    def start(self) -> None:
+        """Listen."""
+        if not self._running:
+            self._running, self._looked = True, self._app.now()
+            self._app.intents.on_taken.append(self._taken)
+            self._app.intents.practise = self._practise
+            self._app.intents.prompt = lambda: self._asked().prompt_id
+
+    def stop(self) -> None:
+        """Rest: put down what is known, and wait in the study."""
+        if not self._running:
+            return
+        self._running = False
+        self._app.intents.on_taken.remove(self._taken)
+        self._app.intents.practise = lambda _: ""
+        self._app.intents.prompt = lambda: ""
+        if self.trials is not None:
+            self.trials.pause()
+        self._follow(None)
+        self.tracks.close()
+        self._save_listening()
+
+    def close(self) -> None:
+        """Write what waits."""
+        self.stop()
+        self.log.close()
+
+    def look(self, now: float) -> None:
+        """With each heartbeat."""
+        if self._app.session is not self._session:
+            self._follow(self._app.session)
+        since, self._looked = now - self._looked, now
+        for name in self._app.methods.armed:
+            if name in METHODS and 0 < since < 1:
+                self._listening[name] += since
+        if now - self._saved >= SAVE_EVERY:
+            self._saved = now
+            self._save_listening()
+        self.tracks.look(now)
+        if self.trials is not None:
+            self.trials.look(now)
+
+    # what comes in
+
+    def _follow(self, session: Any) -> None:
+        if self._session is not None and self._hear in self._session.listeners:
+            self._session.listeners.remove(self._hear)
+        self._session = session
+        self.tracks.robot = ""
+        if session is not None:
+            session.listeners.append(self._hear)
+
+    def _hear(self, channel: str, post: Post) -> None:
+        session = self._session
+        if session is None:
+            return
+        if channel == OUTCOME:
+            self.tracks.robot = session.name
+            self.tracks.outcome(post.value, post.received)
+        elif channel in STATES:
+            self.tracks.see(self._state(session), post.received)
+
+    @staticmethod
+    def _state(session: Any) -> State:
+        task: TaskStatus | None = session.feeds.latest("/task/status")
+        control: ControlStatus | None = session.feeds.latest("/control/status")
+        light: LightState | None = session.feeds.latest("/lights")
+        return State(
+            stopped=control is not None and control.stopped,
+            task="" if task is None else task.task,
+            running="" if task is None else task.state,
+            light=float("nan") if light is None else light.brightness,
+            control=session.control,
+        )
+
+    def _taken(self, heard: Heard, verdict: Verdict) -> None:
+        self.tracks.taken(heard, verdict)
+        if self.trials is not None and verdict.what in ("practised", "acted", "waits", "asks", "not now"):
+            self.trials.heard(heard.intent, heard.method)
+
+    def _practise(self, heard: Heard) -> str:
+        """While prompts are shown nothing is done but STOP, which reaches a robot whatever is practised."""
+        if self.trials is None or not self.trials.running or heard.intent in ("yes", "no"):
+            return ""
+        if heard.intent == "stop" and self._app.session is not None:
+            return ""
+        return f"{INTENTS[heard.intent].words}."
+
+    def _asked(self) -> Asked:
+        trials = self.trials
+        if trials is None or not trials.running:
+            return Asked()
+        block, prompt = trials.now_block, trials.prompt
+        if prompt is None:
+            return Asked(trials.plan.user, block.posture, block.method)
+        return _of(prompt)
+
+    def _put(self, response: Response) -> None:
+        if self.on:
+            self.log.put(response)
+            self._kept.append(response)
+            del self._kept[:-2000]
+
+    def _save_listening(self) -> None:
+        for name, seconds in self._listening.items():
+            if seconds >= 1:
+                self.tracks.listened(name, seconds)
+        self._listening.clear()
+
+    # the study
+
+    def lead(self, plan: Plan) -> Trials:
+        """Begin a study; the log is switched on for it."""
+        if not self.on:
+            self.turn(True)
+        trials = self._lead(Trials(plan, now=self._app.now))
+        self._keep_trials()
+        return trials
+
+    def _lead(self, trials: Trials) -> Trials:
+        self.trials = trials
+        trials.on_missed = lambda prompt: self.tracks.missed(_of(prompt))
+        trials.on_moved = self._keep_trials
+        return trials
+
+    def end(self) -> None:
+        """Leave the study; what was answered stays in the log."""
+        self.trials = None
+        self.keep("plan", None)
+
+    def _keep_trials(self) -> None:
+        done = self.trials is None or self.trials.stage == "done"
+        self.keep("plan", None if done or self.trials is None else saved(self.trials))
+
+    def fill(self, form: str, answers: dict[str, int], order: list[str], seconds: dict[str, float]) -> float:
+        """Keep a form and give its score; ValueError where it cannot be scored."""
+        trials = self.trials
+        about = {}
+        if trials is not None and trials.stage in ("tlx", "sus"):
+            block = trials.now_block
+            about = {"user": trials.plan.user, "task": "prompts"}
+            about |= {"method": block.method, "posture": block.posture} if trials.stage == "tlx" else {}
+        made = Workload(
+            form=form, answers=answers, order=order, seconds=seconds, at=round(self._wall(), 1),
+            session=self.tracks.session, **about,
+        )  # fmt: skip
+        self.workloads.put(made)
+        return made.score
+
+    # what is looked at
+
+    def read(self) -> list[Response]:
+        """Everything that is kept, the oldest first; takes a while, for a thread of its own."""
+        self.log.flush()
+        return read(self.folder)[0]
+
+    def usage(self) -> Counter[str]:
+        """How often each command was given in this run."""
+        return counts(self._kept)
+
+    def export(self) -> Path:
+        """Write everything into one zip; OSError when that fails. Takes a while, for a thread of its own."""
+        self.log.flush()
+        settings = {name: self._app.settings.get(name) for name in SETTINGS}
+        return export(self.folder, self.exports, settings, self._wall())
+
+    def erase(self) -> None:
+        """Delete all lines and forms."""
+        self.log.erase()
+        self.workloads.erase()
+        self._kept.clear()
+
+
+def _of(prompt: Prompt) -> Asked:
+    return Asked(prompt.user, prompt.posture, prompt.method, prompt.id, prompt.intent, prompt.at)

@@ -1,0 +1,265 @@
+"""The log of the running app: what is understood, sent and answered is kept, and the study takes answers without acting."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import zipfile
+from types import SimpleNamespace
+
+import pytest
+
+from app.intents import Heard, Intents
+from app.permits import Permits
+from app.responding import SAVE_EVERY, Responding
+from app.responses import Response, read
+from app.responses_stats import rates
+from app.settings import Settings
+from app.study import Plan
+from app.study_export import COLUMNS, MEANINGS, table
+from app.workload import BASELINE
+
+TLX = dict.fromkeys(("mental", "physical", "temporal", "performance", "effort", "frustration"), 20)
+
+
+class Acts:
+    def __init__(self) -> None:
+        self.done = []
+
+    def why_not(self, intent):
+        return "Nothing is asked just now." if intent in ("yes", "no") else ""
+
+    def words(self, intent):
+        return intent
+
+    def do(self, intent):
+        self.done.append(intent)
+
+    def answer(self, yes):
+        return ""
+
+
+class Running:
+    """The log in an app without a glass, with clocks that are moved by hand."""
+
+    def __init__(self, folder) -> None:
+        self.folder, self.time = folder, 100.0
+        self.open()
+
+    def open(self) -> None:
+        self.settings, self.acts = Settings(self.folder), Acts()
+        self.app = SimpleNamespace(
+            settings=self.settings,
+            now=lambda: self.time,
+            session=None,
+            methods=SimpleNamespace(armed=["voice"]),
+            intents=Intents(self.acts, Permits(self.settings), lambda: self.time),
+        )
+        self.log = Responding(self.app, wall=lambda: 1_700_000_000.0 + self.time)
+        self.log.start()
+
+    def close(self) -> None:
+        self.log.close()
+        self.settings.close()
+
+    def hear(self, intent, method="voice"):
+        return self.app.intents.take(
+            Heard(intent, method, 0.9, self.time - 0.4, self.time - 0.1, said=intent)
+        )
+
+    def wait(self, seconds) -> None:
+        for _ in range(round(seconds / 0.5)):
+            self.time += 0.5
+            self.log.look(self.time)
+
+    def next(self):
+        while self.log.trials.prompt is None:
+            self.wait(0.5)
+        return self.log.trials.prompt
+
+    def kept(self, kind="command"):
+        self.close()
+        return [one for one in read(self.log.folder)[0] if one.kind == kind]
+
+
+@pytest.fixture
+def running(tmp_path):
+    running = Running(tmp_path)
+    yield running
+    running.close()
+
+
+def test_what_is_understood_is_kept(running):
+    running.hear("pause")
+    (line,) = running.kept()
+    assert (line.method, line.recognised, line.verdict, line.user) == ("voice", "pause", "acted", "")
+
+
+def test_nothing_is_kept_while_the_log_is_off_and_that_is_remembered(running):
+    running.log.turn(False)
+    running.hear("pause")
+    running.close()
+    assert read(running.log.folder) == ([], 0)
+    running.open()
+    assert (running.log.on, running.log.standing) == (False, "off")
+
+
+def test_a_setting_that_means_nothing_is_as_if_it_were_not_there(running):
+    running.settings.set("study", {"log": "perhaps", "snippets": 3, "plan": [1]})
+    running.close()
+    running.open()
+    assert (running.log.on, running.log.snippets, running.log.trials) == (True, False, None)
+
+
+def test_how_long_a_method_listened_is_put_down_now_and_then(running):
+    running.wait(SAVE_EVERY + 1)
+    assert sum(one.seconds for one in running.kept("armed")) == pytest.approx(SAVE_EVERY + 1, abs=1)
+
+
+def test_while_the_app_sleeps_nobody_listens(running):
+    running.time += 3600
+    running.log.look(running.time)
+    assert running.kept("armed") == []
+
+
+def plan(**more):
+    return Plan(**{"user": "P1", "methods": ("voice",), "triggers": 1, **more})
+
+
+def test_in_the_study_answers_are_counted_and_nothing_is_done(running):
+    running.log.lead(plan())
+    running.log.trials.begin()
+    answers = 0
+    while running.log.trials.stage != "tlx":
+        prompt = running.next()
+        said = "pause" if prompt.intent == "resume" else prompt.intent
+        assert running.hear(said).what == "practised"
+        answers += 1
+    assert (answers, running.acts.done) == (5, [])
+    found = rates(running.kept())["voice", ""]
+    assert (found.hits, found.trials) == (4, 5)
+
+
+def test_what_comes_between_two_prompts_is_a_false_activation(running):
+    running.log.lead(plan())
+    running.log.trials.begin()
+    running.hear("pause")
+    (line,) = running.kept()
+    assert (line.user, line.posture, line.prompt_id, line.intended) == ("P1", "standing", "", "")
+
+
+def test_a_prompt_without_an_answer_is_kept_as_missed(running):
+    running.log.lead(plan())
+    running.log.trials.begin()
+    prompt = running.next()
+    running.wait(8)
+    assert [(one.intended, one.recognised) for one in running.kept()] == [(prompt.intent, "")]
+
+
+def test_stop_reaches_a_robot_whatever_is_practised(running):
+    running.app.session = SimpleNamespace(listeners=[], name="R2")
+    running.log.lead(plan())
+    running.log.trials.begin()
+    assert running.hear("stop").what == "acted"
+    assert running.acts.done == ["stop"]
+
+
+def test_a_pause_of_the_study_lets_commands_act_again(running):
+    running.log.lead(plan())
+    running.log.trials.begin()
+    running.log.trials.pause()
+    assert running.hear("pause").what == "acted"
+    assert running.kept()[0].user == ""
+
+
+def test_the_study_goes_on_where_it_was_when_the_app_comes_back(running):
+    running.log.lead(plan())
+    running.log.trials.begin()
+    running.hear(running.next().intent)
+    running.close()
+    running.open()
+    assert (running.log.trials.stage, running.log.trials.trial) == ("ready", 1)
+    running.log.end()
+    running.close()
+    running.open()
+    assert running.log.trials is None
+
+
+def test_a_study_switches_the_log_on(running):
+    running.log.turn(False)
+    running.log.lead(plan())
+    assert running.log.on
+
+
+def test_a_form_after_a_block_says_by_whom_and_which_method(running):
+    running.log.lead(plan())
+    running.log.trials.begin()
+    while running.log.trials.stage != "tlx":
+        running.hear(running.next().intent)
+    assert running.log.fill("tlx", TLX, ["mental"], {"mental": 2.0}) == 20.0
+    (form,) = running.log.workloads.kept
+    assert (form.user, form.method, form.posture, form.order) == ("P1", "voice", "standing", ["mental"])
+
+
+def test_all_of_it_goes_into_one_zip(running):
+    running.settings.set("robots", [{"url": "ws://10.0.0.7"}])
+    running.settings.set("voice", {"noise": 70})
+    running.hear("pause")
+    running.log.fill("tlx", TLX, [], {})
+    running.wait(12)
+    path = running.log.export()
+    again = running.log.export()
+    assert path != again
+    assert path.name.startswith("study_")
+    with zipfile.ZipFile(path) as archive:
+        names = set(archive.namelist())
+        assert names == {
+            "responses.jsonl",
+            "responses.csv",
+            "workload.jsonl",
+            "scores.csv",
+            "settings.json",
+            "README.txt",
+        }
+        rows = list(csv.DictReader(io.StringIO(archive.read("responses.csv").decode())))
+        assert [row["recognised"] for row in rows if row["kind"] == "command"] == ["pause"]
+        settings = json.loads(archive.read("settings.json"))
+        assert settings["voice"] == {"noise": 70}
+        assert "robots" not in settings
+        readme = archive.read("README.txt").decode()
+    assert str(BASELINE) in readme
+    assert all(name in readme for name in COLUMNS)
+
+
+def test_a_zip_that_cannot_be_written_leaves_nothing_behind(running, monkeypatch):
+    def fail(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("app.study_export._fill", fail)
+    with pytest.raises(OSError, match="No space"):
+        running.log.export()
+    assert list(running.log.exports.iterdir()) == []
+
+
+def test_the_table_has_every_field_and_no_formula():
+    assert set(MEANINGS) == set(COLUMNS)
+    rows = list(csv.DictReader(io.StringIO(table([Response(user="=1+1", confidence=0.5)]))))
+    assert rows[0]["user"] == "'=1+1"
+    assert (rows[0]["confidence"], rows[0]["t_ack"]) == ("0.5", "")
+
+
+def test_all_can_be_erased(running):
+    running.hear("pause")
+    running.log.fill("tlx", TLX, [], {})
+    running.wait(12)
+    running.log.erase()
+    assert running.log.read() == []
+    assert running.log.workloads.kept == []
+
+
+def test_commands_of_this_run_are_counted_for_whoever_learns_from_them(running):
+    running.hear("pause")
+    running.hear("lights")
+    running.wait(12)
+    assert running.log.usage() == {"pause": 1, "lights": 1}
