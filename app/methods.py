@@ -11,12 +11,19 @@ from typing import Any, Protocol
 from kivy.core.window import Window
 
 from app.device.motion import motion_source
+from app.intents import METHODS as WAYS
+from app.intents import Heard, Verdict
 from app.origin import origins
 from app.sensing import Sensing
 
 __all__ = ["METHODS", "Method", "Methods"]
 
-METHODS: dict[str, str] = {}
+METHODS: dict[str, str] = {
+    "log": "app.responding:Responding",
+    "tilt": "app.tilting:Tilting",
+    "gamepad": "app.by_hand:GamepadMethod",
+    "keyboard": "app.by_hand:KeyboardMethod",
+}
 """Name of each to its module and class, as in `"shake": "app.shaking:Shaking"`; the class is called with the app."""
 
 
@@ -60,6 +67,7 @@ class Methods:
     def open(self) -> None:
         """Make each, and begin with those that are on."""
         Window.bind(on_touch_down=self._touched, on_touch_up=self._lifted)
+        self._app.intents.on_taken.append(self._told)
         for name, where in METHODS.items():
             module, _, made = where.partition(":")
             self._all[name] = method = getattr(import_module(module), made)(self._app)
@@ -97,6 +105,8 @@ class Methods:
     def look(self, now: float) -> None:
         """With each heartbeat of the user interface, every 30 ms; `now` is our clock [s]."""
         self._app.intents.look(now)
+        if self._app.shell is not None:
+            self._app.shell.wishes.look(now)
         self.sensing.look(now)
         for method in self._looks:
             if method.on:
@@ -119,8 +129,17 @@ class Methods:
 
     @property
     def armed(self) -> list[str]:
-        """Names of those that are on."""
-        return [name for name, method in self._all.items() if method.on]
+        """Names of those that are on, and are a way to give commands."""
+        return [name for name, method in self._all.items() if method.on and name in WAYS]
+
+    def standing(self) -> list[tuple[str, bool]]:
+        """Name of each that is on, and whether it is well."""
+        return [(name, not self.get(name).problem) for name in self.armed]
+
+    def _told(self, _: Heard, verdict: Verdict) -> None:
+        """Without a robot there is nothing that waits: only why nothing was done is said."""
+        if self._app.shell is None and verdict.what in ("not allowed", "not now"):
+            self._app.connect.say(verdict.sentence, "warn")
 
     def _touched(self, *_: object) -> None:
         origins.touched(self._app.now())

@@ -1,0 +1,147 @@
+"""What the keys of a keyboard and the buttons of a gamepad do, as caps beside words, in columns that fit the room.
+
+help = KeyHelp()
+help.groups = [("Driving", [(["W", "A", "S", "D"], "Drive while held")])]
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.metrics import dp
+from kivy.properties import BooleanProperty, ListProperty, StringProperty
+from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.label import Label
+from kivy.uix.widget import Widget
+
+from widgets.base import Control
+from widgets.column import Column
+from widgets.frames import Outlined
+from widgets.labels import Text
+from widgets.rows import group_label
+
+__all__ = ["KeyCap", "KeyHelp"]
+
+NARROWEST = 300.0
+"""A column of it is no narrower [dp]."""
+MOST = 4
+"""Columns."""
+
+Builder.load_string("""
+<KeyCap>:
+    size_hint: None, None
+    size: max(dp(30), self.texture_size[0] + dp(14)), dp(30)
+    font_name: theme.font
+    font_size: sp(14)
+    bold: True
+    color: theme.ink_danger if root.grave else theme.text
+    disabled_color: self.color
+    ground: 'danger' if root.grave else 'raised'
+    rim: 'danger' if root.grave else 'line'
+    rim_width: 1.5
+    corner: dp(7)
+    pos_hint: {'center_y': .5}
+
+<HelpRow>:
+    size_hint_y: None
+    height: max(dp(38), words.height + dp(8))
+    spacing: dp(10)
+    BoxLayout:
+        id: caps
+        size_hint_x: None
+        width: max(self.minimum_width, dp(92))
+        spacing: dp(4)
+    Text:
+        id: words
+        text: root.words
+        font_size: sp(15)
+        role: 'danger' if root.grave else 'text'
+        bold: root.grave
+        pos_hint: {'center_y': .5}
+
+<KeyHelp>:
+    Roll:
+        BoxLayout:
+            id: columns
+            size_hint_y: None
+            height: self.minimum_height
+            spacing: dp(24)
+""")
+
+
+class KeyCap(Outlined, Label):
+    """One key or button."""
+
+    grave = BooleanProperty(False)
+    """It is STOP."""
+
+
+class HelpRow(BoxLayout):
+    """Caps, and what they do."""
+
+    words = StringProperty("")
+    grave = BooleanProperty(False)
+
+    def __init__(self, caps: list[str], **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        for cap in caps:
+            self.ids.caps.add_widget(KeyCap(text=cap, grave=self.grave))
+
+
+class KeyHelp(Control, BoxLayout):
+    """Scrolls where it is higher than its room; asks for nothing."""
+
+    groups = ListProperty()
+    """Title of each group and its rows: caps, and what they do. What does `STOP` looks grave."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._count = 0
+        self.bind(groups=self._build, width=self._fit)
+        self._build()
+
+    def _columns(self) -> int:
+        return max(1, min(MOST, len(self.groups), int((self.width + dp(24)) // dp(NARROWEST + 24))))
+
+    def _fit(self, *_: object) -> None:
+        if self._columns() != self._count:
+            self._build()
+
+    def _build(self, *_: object) -> None:
+        """Each group goes to the column that is shortest then."""
+        self._count = self._columns()
+        columns = [Column(spacing=dp(2), pos_hint={"top": 1}) for _ in range(self._count)]
+        heights = [0] * self._count
+        for title, rows in self.groups:
+            shortest = heights.index(min(heights))
+            heights[shortest] += len(rows) + 1
+            column = columns[shortest]
+            column.add_widget(group_label(title))
+            for caps, words in rows:
+                column.add_widget(HelpRow(caps, words=words, grave=words == "STOP"))
+        self.ids.columns.clear_widgets()
+        for column in columns:
+            self.ids.columns.add_widget(column)
+        if not self.groups:
+            self.ids.columns.add_widget(Text(text="No keys mean anything.", role="muted", font_size="15sp"))
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """On a phone, in two columns, with nothing."""
+    groups = [
+        ("STOP", [(["Esc", "Space"], "STOP")]),
+        ("Driving", [(["W", "A", "S", "D"], "Drive while held"), (["Shift"], "Slower, held with them")]),
+        ("Robot", [(["P"], "Pause or resume"), (["B"], "Go home"), (["Page Up"], "Take off")]),
+        ("Gamepad", [(["B"], "STOP"), (["Left stick"], "Left control"), (["Start"], "Pause or resume")]),
+    ]
+
+    def make(width: str, height: str, shown: list[Any]) -> Callable[[], Widget]:
+        return lambda: KeyHelp(groups=shown, size_hint=(None, None), size=(width, height))
+
+    return {
+        "phone": make("340dp", "480dp", groups),
+        "two columns": make("680dp", "300dp", groups),
+        "nothing": make("340dp", "60dp", []),
+    }
