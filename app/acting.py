@@ -269,7 +269,7 @@ class Acting:
             return "There is no link to the robot."
         if session.control == "none":
             return "This robot knows no control."
-        return "You have control already." if session.control == "me" else ""
+        return "You have control already." if session.control == "mine" else ""
 
     # questions
 

@@ -191,10 +191,14 @@ class Intents:
         """The operator lets that method trigger that; STOP always."""
         return self.table.allowed(method, intent)
 
+    def words(self, intent: str) -> str:
+        """What it would do now, as in `Switch the lights off`."""
+        return self._acts.words(intent)
+
     @property
     def asking(self) -> bool:
         """A yes or a no would be understood now."""
-        return self.pending is not None or bool(self._acts.why_not("yes") == "")
+        return self.pending is not None or not self._acts.why_not("yes")
 
     def take(self, heard: Heard) -> Verdict:
         """Take what was understood; KeyError for an intent that there is not."""

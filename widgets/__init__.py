@@ -50,6 +50,7 @@ CATALOGUE: dict[str, str] = {
     "PausedCard": "widgets.paused_card",
     "PlaceForm": "widgets.place_form",
     "PlaceList": "widgets.place_list",
+    "PromptCard": "widgets.prompt_card",
     "QuestionCard": "widgets.question_card",
     "Readout": "widgets.readout",
     "ResponseChart": "widgets.response_chart",

@@ -13,6 +13,7 @@ from kivy.uix.floatlayout import FloatLayout
 
 from app.arrange import connect_columns
 from app.discovery import Entry
+from app.screens.inputs.chip import InputsChip  # noqa: F401 - its rule draws what is used here
 from widgets.kit import Banner, Card, Text
 from widgets.theme import theme
 
@@ -144,6 +145,11 @@ Builder.load_string("""
                 role: 'accent'
                 text: root.nearby if root.columns > 1 else root.nearby_short
                 pos_hint: {'center_y': .5}
+            InputsChip:
+                id: inputs
+                brief: root.columns == 1
+                pos_hint: {'center_y': .5}
+                on_release: root.app.show_inputs()
             Chip:
                 id: theme
                 icon: root.theme_icon

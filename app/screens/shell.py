@@ -23,6 +23,7 @@ from app.screens.placing import put
 from app.screens.rail import Rail
 from app.screens.resetting import Resetting
 from app.screens.top_bar import TopBar
+from app.screens.wishes import Wishes
 from app.session import Session
 from app.stopping import silence
 from bridge.msgs.pilothouse_msgs import TaskStatus
@@ -88,6 +89,7 @@ class Shell(FloatLayout):
         self._dashboard.bind(self.question, "/task/status", fresh=False)
         self.cards = ControlCards(self.session, self.notices, self._dashboard, self.say)
         self.reset = Resetting(self.session, self.notices)
+        self.wishes = Wishes(self.app.intents, self.notices, self.say)
         self._dashboard.enter()
         self.session.listeners.append(self._hear)
         self._greet()
@@ -99,7 +101,7 @@ class Shell(FloatLayout):
         """Bar, navigation, STOP and what is said over them; the ids of their parts are found here too."""
         self.bar, self.nav, self.notices = TopBar(), Rail(), Notices()
         self.bar.bind(on_back=lambda _: self.app.leave(), on_control=lambda _: self.toggle_control())
-        self.bar.bind(on_mode=lambda _: self.cards.ask_mode())
+        self.bar.bind(on_mode=lambda _: self.cards.ask_mode(), on_inputs=lambda _: self.app.show_inputs())
         self.nav.bind(on_press=lambda _, name: self._press(name))
         self.stop = StopButton(size_hint=(None, None))
         self.stop.bind(on_command=self._stop, on_release_stop=self._release_stop)
@@ -124,6 +126,7 @@ class Shell(FloatLayout):
         self.session.missions.deaf()
         self.session.logbook.listeners.clear()
         self.cards.close()
+        self.wishes.close()
         for screen in self.screens.values():
             screen.leave()
 
@@ -283,6 +286,7 @@ class Shell(FloatLayout):
         """Bring everything up to date that time changes; ten times a second."""
         self._tick_banner()
         self.bar.tick(self.session)
+        self.bar.show_methods(self.app.methods.standing())
         self._dashboard.tick()
         self._tick_question()
         self.cards.tick(self.screen)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from kivy.lang import Builder
@@ -13,13 +14,19 @@ import widgets.battery
 import widgets.kit
 import widgets.link_quality  # noqa: F401 - their rules draw what is used here
 from app.screens import standing
+from app.screens.inputs.chip import InputsChip  # noqa: F401 - its rule draws what is used here
 from app.session import Session
 
 __all__ = ["TopBar"]
 
-PARTS = ("back", "name", "mode", "battery", "link", "satellites", "gap", "control")
-"""What it holds, from left to right; a narrow one only the first five."""
-NARROW = 5
+PARTS = ("back", "name", "mode", "battery", "link", "satellites", "gap", "inputs", "control")
+"""What it holds, from left to right."""
+NARROW = ("back", "name", "mode", "stack", "inputs")
+"""What a narrow one holds: battery and link are above each other there."""
+STACKED = ("link", "battery")
+"""From the upper one down."""
+LOW, HIGH = 26.0, 34.0
+"""Height of a chip that is stacked, and of one that is not [dp]."""
 ROOMY = 840.0
 """A phone's side narrower than this has no room for the satellites [dp]."""
 
@@ -88,6 +95,11 @@ Builder.load_string("""
         pos_hint: {'center_y': .5}
     Widget:
         id: gap
+    InputsChip:
+        id: inputs
+        brief: root.form == 'tall'
+        pos_hint: {'center_y': .5}
+        on_release: root.dispatch('on_inputs')
     Chip:
         id: control
         icon: root.control_icon
@@ -100,9 +112,9 @@ Builder.load_string("""
 
 
 class TopBar(BoxLayout):
-    """Dispatches `on_back`, `on_mode` and `on_control` as they are tapped."""
+    """Dispatches `on_back`, `on_mode`, `on_inputs` and `on_control` as they are tapped."""
 
-    __events__ = ("on_back", "on_control", "on_mode")
+    __events__ = ("on_back", "on_control", "on_inputs", "on_mode")
 
     form = OptionProperty("wide", options=["wide", "short", "tall"])
     """Shape of the window, as in `app.arrange.form`."""
@@ -122,6 +134,9 @@ class TopBar(BoxLayout):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
+        self.ids["stack"] = self._stack = BoxLayout(
+            orientation="vertical", size_hint=(None, 1), padding=(0, "2dp")
+        )
         for name in PARTS:  # kv holds ids weakly, and the narrow bar takes some of them out
             self.ids[name] = self.ids[name].__self__
         self.fbind("located", lambda *_: self.arrange(self.form))
@@ -129,7 +144,8 @@ class TopBar(BoxLayout):
     def arrange(self, form: str) -> None:
         """Take the shape of the window; the narrow bar leaves out what is said elsewhere."""
         self.form = form
-        wanted = list(PARTS[:NARROW] if form == "tall" else PARTS)
+        self._stack_up(stacked=form == "tall")
+        wanted = list(NARROW if form == "tall" else PARTS)
         if (form == "short" and self.width < ROOMY * Metrics.density) or not self.located:
             wanted = [name for name in wanted if name != "satellites"]
         shown = [self.ids[name] for name in wanted]
@@ -137,6 +153,25 @@ class TopBar(BoxLayout):
             self.clear_widgets()
             for widget in shown:
                 self.add_widget(widget)
+
+    def _stack_up(self, *, stacked: bool) -> None:
+        """Battery and link come into the stack, or out of it."""
+        for name in STACKED:
+            chip = self.ids[name]
+            if stacked == (chip.parent is self._stack):
+                continue
+            if chip.parent is not None:
+                chip.parent.remove_widget(chip)
+            chip.height = (LOW if stacked else HIGH) * Metrics.density
+            if stacked:
+                self._stack.add_widget(chip)
+                chip.bind(width=self._stack_width)
+            else:
+                chip.unbind(width=self._stack_width)
+        self._stack_width()
+
+    def _stack_width(self, *_: object) -> None:
+        self._stack.width = max((chip.width for chip in self._stack.children), default=0)
 
     def tick(self, session: Session) -> None:
         """Say how the robot stands now."""
@@ -157,6 +192,13 @@ class TopBar(BoxLayout):
 
     def on_back(self) -> None:
         """The arrow was tapped."""
+
+    def show_methods(self, methods: Sequence[tuple[str, bool]]) -> None:
+        """Say which methods are armed, as `InputsChip.show`."""
+        self.ids.inputs.show(methods)
+
+    def on_inputs(self) -> None:
+        """The ways in were tapped."""
 
     def on_mode(self) -> None:
         """The mode was tapped."""

@@ -1,0 +1,127 @@
+"""What was understood and is not done yet: a bar that acts unless it is cancelled, or a question that waits for a yes.
+
+card = IntentCard()
+card.ask(words="Go home", icon="home", who="mic", heard="Voice: go home, 82 %", question=True)
+card.bind(on_command=lambda _, name: intents.answer(name == "yes"))
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.metrics import dp
+from kivy.properties import BooleanProperty, NumericProperty, StringProperty
+from kivy.uix.widget import Widget
+
+from widgets.buttons import PushButton
+from widgets.notice_card import NoticeCard
+
+__all__ = ["IntentCard"]
+
+Builder.load_string("""
+<IntentCard>:
+    canvas.after:
+        Color:
+            rgba: theme.raised
+        Rectangle:
+            pos: root.x + dp(10), root.y + dp(4)
+            size: root.width - dp(20), dp(5)
+        Color:
+            rgba: theme.roles[root.role]
+        Rectangle:
+            pos: root.x + dp(10), root.y + dp(4)
+            size: (root.width - dp(20)) * root.left, dp(5)
+""")
+
+
+class IntentCard(NoticeCard):
+    """Dispatches `on_command(name)`: `yes` or `no`."""
+
+    question = BooleanProperty(False)
+    """It waits for a yes; else it is done when `left` has run out."""
+    words = StringProperty("")
+    """What will be done, as on a button."""
+    heard = StringProperty("")
+    """Who understood what, and how surely."""
+    who = StringProperty("")
+    """Icon of the method that understood it; empty for none."""
+    seconds = NumericProperty(0.0)
+    """Until it is done, or nobody has answered [s]."""
+    left = NumericProperty(1.0)
+    """The same as a share of all the time there is, 1 to 0."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.padding = [dp(14), dp(9), dp(14), dp(18)]
+        self._rows: dict[bool, tuple[PushButton, ...]] = {
+            True: tuple(self.add_below(("No", "close", False), ("Yes", "check", True))),
+            False: tuple(self.add_below(("Cancel", "close", True))),
+        }
+        for buttons in self._rows.values():
+            for button in buttons:
+                name = "yes" if button.text == "Yes" else "no"
+                button.bind(on_release=lambda _, name=name: self.dispatch("on_command", name))
+        for name in ("question", "words", "heard", "seconds", "tiny"):
+            self.fbind(name, self._write)
+        self._write()
+
+    def ask(self, *, words: str, icon: str, who: str, heard: str, question: bool) -> None:
+        """Tell what was understood, and by whom; the time that is left is assigned."""
+        self.words, self.icon, self.who, self.heard, self.question = words, icon, who, heard, question
+        self.left, self.open = 1.0, True
+
+    def count(self, left: float, whole: float) -> None:
+        """So much is left of the whole time [s]."""
+        self.seconds = math.ceil(max(0.0, left))
+        self.left = max(0.0, min(1.0, left / whole)) if whole > 0 else 0.0
+
+    def _write(self, *_: object) -> None:
+        self.role = "warn" if self.question else "accent"
+        self.headline = f"{self.words}?" if self.question else f"{self.words} in {self.seconds:.0f} s"
+        self.said = self.heard
+        for question, buttons in self._rows.items():
+            row = buttons[0].parent
+            wanted = question == self.question
+            if wanted != (row.parent is self):
+                (self.add_widget if wanted else self.remove_widget)(row)
+            for button in buttons:
+                button.meaning = self.words
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """Waiting to be cancelled, nearly done, asking, on a phone."""
+
+    def make(width: str = "420dp", left: float = 1.4, **kwargs: Any) -> Callable[[], Widget]:
+        told = {
+            "words": "Resume",
+            "icon": "play_arrow",
+            "who": "mobile_vibrate",
+            "heard": "Shake, up and down: 91 % sure.",
+            "question": False,
+            **kwargs,
+        }
+
+        def build() -> Widget:
+            card = IntentCard(size_hint_x=None, width=width)
+            card.ask(**told)
+            card.count(left, 5.0 if told["question"] else 2.0)
+            return card
+
+        return build
+
+    asks = {
+        "words": "Start patrol",
+        "icon": "route",
+        "who": "mic",
+        "heard": "Voice, “start patrol”: 82 % sure. Say yes or no.",
+        "question": True,
+    }
+    return {
+        "waits": make(),
+        "nearly": make(left=0.2),
+        "asks": make(left=4.2, **asks),
+        "phone": make("330dp", left=3.1, **asks),
+    }
