@@ -50,6 +50,8 @@ TYPES: dict[Kind, tuple[int, ...]] = {
     "gravity": (TYPE_GRAVITY, TYPE_GAME_ROTATION_VECTOR),
 }
 """Android's sensors that tell it, the better one first."""
+PERIOD, MOST = 0.02, 25
+"""Between two samples of a simulated one [s], and how many it tells at once."""
 LATE = 1.0
 """A sample that is older than that [s] comes from a clock that was set anew."""
 
@@ -108,7 +110,7 @@ class SimulatedMotion:
         self._now = now
         self._hear: Hear | None = None
         self._told: frozenset[Kind] = frozenset()
-        self._count = 0
+        self._count, self._last = 0, math.nan
         self.roll, self.pitch = 0.0, 0.0
         """How it is leaned [rad], as in `leaned`."""
 
@@ -135,13 +137,21 @@ class SimulatedMotion:
         self.roll, self.pitch = roll, pitch
 
     def tell(self) -> None:
-        """One sample of each kind of how it is held now."""
+        """What a sensor would have told of how it is held, since this was called last; at most half a second of it."""
+        now = self._now()
+        due = 1 if math.isnan(self._last) else min(MOST, int((now - self._last) / PERIOD))
+        for back in reversed(range(due)):
+            self._tell(now - back * PERIOD)
+        if due:
+            self._last = now
+
+    def _tell(self, t: float) -> None:
         self._count += 1
         # a real sensor is never the same twice, and one that is counts as frozen
         x, y, z = leaned(self.roll, self.pitch)
         axes = x, y, z + (1e-4 if self._count % 2 else 0.0)
         for kind in KINDS:
-            self.put(kind, self._now(), axes)
+            self.put(kind, t, axes)
 
 
 def leaned(roll: float, pitch: float) -> Axes:

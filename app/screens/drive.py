@@ -131,6 +131,7 @@ class DriveScreen(Driving):
         """Of two controls in one place one is on the glass; what is no stick needs no slider and takes its room too."""
         if not (self.arranged and self.hands.choices):
             return
+        self.switch.value = self.hands.chosen
         stick, slider = self.arranged["stick"], self.arranged["slider"]
         alone = not isinstance(self.hands.choices[self.hands.chosen], Stick)
         low, top = min(stick.y, slider.y), max(stick.top, slider.top)

@@ -13,7 +13,7 @@ from kivy.uix.widget import Widget
 from app.tilt import RANGES
 from app.tilting import CLUTCH_KEY, LEAST, Tilting
 from widgets import TiltCircle
-from widgets.kit import Card, Column, ListRow, QuietButton, Remark, Roll, Stepper, Text, Toggle
+from widgets.kit import Card, Column, ListRow, Remark, Roll, Stepper, Text, Toggle
 
 __all__ = ["TiltPane"]
 
@@ -37,6 +37,7 @@ AMOUNTS = {
     "expo": Amount("timeline", "Flat in the middle", "More of it steers finer near neutral.", 10, "%", 100),
 }
 SWITCHES = {
+    "fixed": ("my_location", "Neutral as it is held now", ""),
     "walking": ("route", "I walk while I steer", "A larger dead zone, and neutral slowly follows the hand."),
     "invert_pitch": ("swap_vert", "Ahead is towards me", "Tilting the upper edge up drives ahead."),
     "invert_roll": (
@@ -52,6 +53,8 @@ SWITCHES = {
     "simulate": ("computer", "Simulate a tablet", "The arrow keys lean it while the circle is held."),
 }
 """Name to icon, title and what it does while it is on."""
+FREE = "Off: neutral is however it is held when the clutch closes."
+FIXED = "Neutral stays as it was set; it drives once it has been there."
 
 Builder.load_string("""
 <TiltPane>:
@@ -77,27 +80,21 @@ class TiltPane(BoxLayout):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.circle = TiltCircle(title="", needs_hold=True, in_shares=True, state="disabled")
+        self.tilting: Tilting = self.app.methods.get("tilt")
+        """The method that is set up here."""
+        self.circle = TiltCircle(title="Tilt", needs_hold=True, in_shares=True, state="disabled")
+        self.circle.size_hint_x = None
+        self.circle.bind(height=self.circle.setter("width"))
         self.lean = Text(bold=True, font_size="22sp")
         self.says, self.sensor = Remark(font_size="15sp"), Remark(font_size="13sp")
         self.steppers: dict[str, Stepper] = {}
         self.toggles: dict[str, Toggle] = {}
         self._rows: dict[str, ListRow] = {}
-        self.neutral = ListRow(icon="my_location", title="Neutral", whole=True)
-        self.fix = QuietButton(text="Set", size_hint_x=None, width="96dp", pos_hint={"center_y": 0.5})
-        self.fix.bind(on_release=lambda _: self._set_neutral())
-        self.neutral.add_widget(self.fix)
         self._column = Column(spacing="8dp")
         self._fill()
         roll = Roll()
         roll.add_widget(self._column)
         self.add_widget(roll)
-
-    @property
-    def tilting(self) -> Tilting:
-        """The method that is set up here."""
-        method: Tilting = self.app.methods.get("tilt")
-        return method
 
     def _fill(self) -> None:
         trial, words = TrialCard(), Column(spacing="8dp", pos_hint={"center_y": 0.5})
@@ -108,7 +105,6 @@ class TiltPane(BoxLayout):
         self._column.add_widget(trial)
         for name in AMOUNTS:
             self._column.add_widget(self._amount(name))
-        self._column.add_widget(self.neutral)
         for name in SWITCHES:
             self._rows[name] = self._switch(name)
             self._column.add_widget(self._rows[name])
@@ -138,14 +134,12 @@ class TiltPane(BoxLayout):
     def _set(self, name: str, value: Any) -> None:
         if name == "others":
             self.tilting.change_others(value)
+        elif name == "fixed":
+            self.tilting.set_neutral(fixed=value)
         elif name == "simulate":
             self.tilting.simulate(on=value)
         else:
             self.tilting.change(**{name: value})
-        self.tick()
-
-    def _set_neutral(self) -> None:
-        self.tilting.set_neutral(fixed=self.tilting.tilt.neutral is None)
         self.tick()
 
     # what the screen calls
@@ -169,7 +163,11 @@ class TiltPane(BoxLayout):
         self.circle.state = "live" if tilting.on else "disabled"
         for name, amount in AMOUNTS.items():
             self.steppers[name].value = round(getattr(settings, name) * amount.scale, 3)
-        values = settings.save() | {"others": tilting.others, "simulate": tilting.simulated}
+        values = settings.save() | {
+            "others": tilting.others,
+            "simulate": tilting.simulated,
+            "fixed": tilting.tilt.neutral is not None,
+        }
         for name, toggle in self.toggles.items():
             toggle.active = bool(values[name])
             self._rows[name].role = "accent" if toggle.active else "muted"
@@ -184,15 +182,9 @@ class TiltPane(BoxLayout):
 
     def _tell_neutral(self) -> None:
         tilt = self.tilting.tilt
-        fixed = tilt.neutral is not None
-        self.neutral.detail = (
-            "As it was set; it drives once the tablet has been there."
-            if fixed
-            else "However the tablet is held when the clutch closes."
-        )
-        self.neutral.role = "accent" if fixed else "muted"
-        self.fix.text = "Unset" if fixed else "Set"
-        self.fix.disabled = not fixed and tilt.up is None
+        row, fixed = self._rows["fixed"], tilt.neutral is not None
+        row.detail = FIXED if fixed else FREE
+        row.disabled = self.toggles["fixed"].disabled = not fixed and tilt.up is None
 
     def _tell(self) -> None:
         tilting = self.tilting
