@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from statistics import median
 
 from app.shake.ground import Ground, Motion
@@ -107,7 +108,7 @@ def measure(axis: Axis, moved: list[tuple[float, Motion]], others: dict[Axis, Ow
     peaks, times = _halves([t for t, _ in moved], along)
     if len(peaks) < FEWEST or median(peaks) < LEAST_PEAK:
         return Measured(None, f"{name} was too gentle: shake harder, to and fro.")
-    gap = median(b - a for a, b in zip(times, times[1:], strict=False))
+    gap = median(b - a for a, b in pairwise(times))
     if gap > MOST_GAP:
         return Measured(None, f"{name} was too slow: once to and fro takes at most {2 * MOST_GAP:.1f} s.")
     if spread.straight < STRAIGHT:
@@ -124,7 +125,7 @@ def _spread(moved: list[tuple[float, Motion]]) -> Spread:
     """Of the velocity, leaky as in the recogniser."""
     vx = vy = vz = 0.0
     sums = [0.0] * 6
-    for (before, _), (t, (x, y, z)) in zip(moved, moved[1:], strict=False):
+    for (before, _), (t, (x, y, z)) in pairwise(moved):
         dt = t - before
         keep = max(0.0, 1.0 - dt / LEAK)
         vx, vy, vz = vx * keep + x * dt, vy * keep + y * dt, vz * keep + z * dt

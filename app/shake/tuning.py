@@ -84,7 +84,7 @@ class Tuning:
     """For STOP left-right is so many times either other direction, squared."""
     begins: float = 2.0
     """A burst begins above this [m/s², root of the mean square over a block]."""
-    begins_above: float = 2.1
+    begins_above: float = 2.3
     """And above so many times the background."""
     ends: float = 0.3
     """It ends below this share of its loudest block, which counts for 12 m/s² at most."""
@@ -113,9 +113,9 @@ class Own:
 
 
 # the evidence of one half cycle is its peak over the threshold, so that four gentle ones count like three strong ones
-_LEFT_RIGHT = Way((1.0, 0.0, 0.0), 3.2, 0.75, 3, 4.2, 2.4, 1.2, 0.2, 2.5, 1.0, 0.45, 0.65)
-_UP_DOWN = Way((0.0, 1.0, 0.0), 2.8, 0.75, 4, 4.2, 2.2, 1.2, 0.2, 2.0, 1.5, 0.5, 0.77)
-_FORWARD_BACK = Way((0.0, 0.0, 1.0), 3.2, 0.8, 4, 4.2, 2.2, 1.2, 0.2, 2.0, 1.0, 0.5, 0.75)
+_LEFT_RIGHT = Way((1.0, 0.0, 0.0), 2.8, 0.75, 3, 4.2, 2.6, 1.2, 0.2, 2.3, 1.0, 0.42, 0.62)
+_UP_DOWN = Way((0.0, 1.0, 0.0), 2.8, 0.75, 4, 4.2, 2.2, 1.2, 0.2, 2.0, 1.4, 0.5, 0.77)
+_FORWARD_BACK = Way((0.0, 0.0, 1.0), 3.2, 0.8, 3, 4.0, 2.2, 1.2, 0.2, 2.0, 1.0, 0.5, 0.75)
 USUAL = Tuning((_LEFT_RIGHT, _UP_DOWN, _FORWARD_BACK))
 """For anybody."""
 
@@ -123,7 +123,7 @@ LEAST_PEAK, MOST_PEAK = 2.5, 60.0
 """What a lesson may have measured [m/s²]."""
 LEAST_GAP, MOST_GAP = 0.1, 1.2
 """[s]"""
-SWUNG = 1.3
+SWUNG = 1.4
 """Weight of up-down where the person's own directions are known."""
 LONGEST = 9.0
 """No burst of anybody's is longer [s]."""
@@ -168,7 +168,7 @@ def own_to(own: Mapping[Axis, Own]) -> dict[str, Any]:
 def own_from(kept: object) -> dict[Axis, Own]:
     """What the settings say; ValueError with one sentence for what cannot be."""
     if not isinstance(kept, Mapping):
-        raise ValueError(f"What the lesson of shaking measured is a table, not {str(kept)[:40]!r}.")
+        raise ValueError(f"What the lesson of shaking measured is a table, not {str(kept)[:40]!r}.")  # noqa: TRY004 - one kind of error for all
     return {axis: _own(axis, kept[axis]) for axis in AXES if axis in kept}
 
 
