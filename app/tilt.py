@@ -128,9 +128,10 @@ def between(neutral: Axes, now: Axes) -> Pair:
 def shaped(roll: float, pitch: float, settings: TiltSettings) -> Pair:
     """What a tilt [deg] commands, to the right and ahead, together at most 1: nothing in the dead zone, flat behind it, full at `full`."""
     tilt = math.hypot(roll, pitch)
-    x = min(1.0, (tilt - settings.zone) / (settings.full - settings.zone))
+    x = (tilt - settings.zone) / (settings.full - settings.zone)
     if not x > 0.0:  # NaN too
         return 0.0, 0.0
+    x = min(1.0, x)
     share = (1.0 - settings.expo) * x + settings.expo * x**3
     right = share * roll / tilt * (-1.0 if settings.invert_roll else 1.0)
     ahead = share * pitch / tilt * (-1.0 if settings.invert_pitch else 1.0)
