@@ -23,7 +23,10 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from app.shake import AXES, USUAL, Axis, Lesson, Own, Recogniser, fitted
+from app.shake.lesson import READY
 from bench.support import motion
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
@@ -210,7 +213,8 @@ def lesson(takes: list[Recording]) -> dict[str, dict[Axis, Own]]:
         if axis in own:
             continue
         asked = Lesson((axis,))
-        for index, (x, y, z) in enumerate(take.samples.tolist()):
+        still = np.tile(take.samples.mean(axis=0), (int(READY * take.rate) + 2, 1))
+        for index, (x, y, z) in enumerate(np.concatenate([still, take.samples]).tolist()):
             asked.feed(index / take.rate, (x, y, z))
             if asked.over or asked.sentence:
                 break

@@ -123,6 +123,10 @@ LEAST_PEAK, MOST_PEAK = 2.5, 60.0
 """What a lesson may have measured [m/s²]."""
 LEAST_GAP, MOST_GAP = 0.1, 1.2
 """[s]"""
+GENTLE = 0.85
+"""A threshold below so much of the usual one is gentle."""
+UNHURRIED = 0.7
+"""Half a cycle that takes longer is slow [s]."""
 SWUNG = 1.4
 """Weight of up-down where the person's own directions are known."""
 LONGEST = 9.0
@@ -150,13 +154,25 @@ def fitted(tuning: Tuning, own: Mapping[Axis, Own]) -> Tuning:
 def _fitted(way: Way, own: Own | None) -> Way:
     if own is None:
         return way
-    return replace(
+    threshold = min(max(0.5 * own.peak, 1.6), 1.3 * way.threshold)
+    found = replace(
         way,
         way=own.way,
-        threshold=min(max(0.5 * own.peak, 1.6), 1.3 * way.threshold),
+        threshold=threshold,
         gap=min(max(1.75 * own.gap, 0.6), 1.7),
         weight=SWUNG if way.weight > 1.0 else 1.0,
-        share=min(way.share, 0.45),
+    )
+    if threshold >= GENTLE * way.threshold and own.gap <= UNHURRIED:
+        return found
+    # what is gentle or slow is like much else that a phone is moved by: it has to be the purer for it
+    return replace(
+        found,
+        halves=way.halves + 1,
+        evidence=way.evidence + 0.8,
+        share=max(way.share, 0.62),
+        straight=max(way.straight, 0.82),
+        above=way.above + 0.6,
+        outrun=way.outrun + 0.7,
     )
 
 

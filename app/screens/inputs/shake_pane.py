@@ -13,7 +13,7 @@ from app.screens.inputs.setting_row import switch_row
 from app.shake import AXES, WORDS, Axis
 from app.shaking import CHOICES, Shaking
 from widgets import ShakeLesson
-from widgets.kit import AccentButton, Column, ListRow, QuietButton, Roll
+from widgets.kit import PrimaryButton, Column, ListRow, QuietButton, Roll
 from widgets.labels import Remark
 from widgets.rows import group_label
 
@@ -61,7 +61,7 @@ class ShakePane(BoxLayout):
         column.add_widget(group_label("The lesson"))
         self.learnt = Remark(font_size="15sp")
         column.add_widget(self.learnt)
-        self.teach = AccentButton(text="Begin the lesson", icon="play_arrow", size_hint_y=None)
+        self.teach = PrimaryButton(text="Begin the lesson", icon="play_arrow", size_hint_y=None)
         self.teach.bind(on_release=lambda _: self._teach())
         self.unlearn = QuietButton(text="Forget the lesson", icon="replay", size_hint_y=None)
         self.unlearn.bind(on_release=lambda _: self._unlearn())
