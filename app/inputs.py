@@ -38,8 +38,6 @@ BACK = 27
 ESCAPE = 41
 """Scan code of Escape, which Back has not."""
 SHIFTS = ("shift", "rshift")
-SWITCHES = {9: "Tab", 13: "Enter"}
-"""Key codes that two switches send, on to the next action and do it, by their names."""
 KEYS = {code: name for name, code in Keyboard.keycodes.items()}
 """Names of Kivy's key codes."""
 
@@ -83,7 +81,9 @@ class Inputs:
         shortcuts = Shortcuts(
             self.meanings, lambda: self.mapped.keys, self.mapped.profile, typing, lambda: self.mapped.pads_on
         )
-        self.presses.takers.extend((_Column(app), self.keys, shortcuts))
+        self.presses.takers.extend((self.keys, shortcuts))
+        self.is_switch: Callable[[Press], bool] = lambda _: False
+        """A key or button is one of somebody's switches: Space is then no STOP."""
         self._pushing = Pushing(app, self.gamepads, self.keys, self._source, devices, turned, now)
         self._bound = {
             "on_key_down": self._key_down,
@@ -175,14 +175,16 @@ class Inputs:
         self.presses.release("key", 0, name)
 
     def _is_stop(self, press: Press) -> bool:
-        """Escape everywhere, Space where nothing is being typed, where there is a robot to stop; a gamepad's B."""
+        """Escape everywhere, Space where nothing is being typed and it is no switch, where there is a robot to stop; a gamepad's B."""
         if press.source == "pad":
             return self.gamepads.is_stop(press.number, press.name)
         if self._app.session is None and not self._app.corner.button.robots:
             return False
         if press.code == BACK:
             return press.scancode == ESCAPE
-        return press.name == "spacebar" and self.mapped.keys.space_stops and not typing()
+        if press.name != "spacebar" or not self.mapped.keys.space_stops or typing():
+            return False
+        return not self.is_switch(press)
 
     def _stop_by(self, press: Press) -> None:
         method = "gamepad" if press.source == "pad" else "keyboard"
@@ -213,26 +215,6 @@ class Inputs:
     def _say(self, text: str) -> None:
         if self._app.shell is not None:
             self._app.shell.say(text, "warn", about="keys")
-
-
-class _Column:
-    """Two switches on the column of actions, where the screen on the glass has one."""
-
-    def __init__(self, app: Any) -> None:
-        self._app = app
-
-    def pressed(self, press: Press) -> bool:
-        """On to the next action, or do it."""
-        shell = self._app.shell
-        if press.source != "key" or press.code not in SWITCHES or shell is None or typing():
-            return False
-        act = getattr(shell.screens.get(shell.screen), "press_switch", None)
-        if act is not None:
-            act(SWITCHES[press.code])
-        return act is not None
-
-    def released(self, press: Press) -> None:
-        """Nothing ends with it."""
 
 
 def _source() -> Sdl | Told:

@@ -21,6 +21,7 @@ __all__ = ["METHODS", "Method", "Methods"]
 METHODS: dict[str, str] = {
     "log": "app.responding:Responding",
     "tilt": "app.tilting:Tilting",
+    "switches": "app.scanning.switches:Switches",
     "gamepad": "app.by_hand:GamepadMethod",
     "keyboard": "app.by_hand:KeyboardMethod",
 }

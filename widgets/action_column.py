@@ -1,4 +1,4 @@
-"""What can be done with a robot at once, as a column of large buttons; two switches are enough to work it.
+"""What can be done with a robot at once, as a column of large buttons.
 
 column = ActionColumn(actions=[Action("task.surface", "Surface", "water"), Action("lights", "Lights", "lightbulb")])
 column.bind(on_action=lambda _, name: commands.ask(name))
@@ -85,12 +85,7 @@ Builder.load_string("""
     padding: (dp(14), 0, dp(14) + root.taken + (dp(10) if root.taken else 0), 0) if root.flow == 'horizontal' else (dp(8), 0, dp(8), 0)
     canvas.after:
         Color:
-            rgba: theme.warn if root.current else (0, 0, 0, 0)
-        SmoothLine:
-            rounded_rectangle: self.x, self.y, self.width, self.height, theme.corner
-            width: dp(2.2)
-        Color:
-            rgba: theme.warn if root.current and not root.disabled else theme.muted
+            rgba: theme.muted
         Rectangle:
             pos: self.right - dp(14) - root.taken, self.center_y - root.end_texture.height / 2
             size: (root.end_texture.width, root.end_texture.height) if root.taken else (0, 0)
@@ -118,19 +113,12 @@ class ActionKey(PushButton):
     """One of them."""
 
     high = NumericProperty("52dp")
-    current = BooleanProperty(False)
-    """The second switch does this one."""
     end = StringProperty("")
     """At its end; empty for nothing."""
     name = StringProperty("")
     """What it stands for, in words."""
     said = StringProperty("")
     """How that stands: at its end, or behind its words where it is narrow and has room for both."""
-
-    @property
-    def settling(self) -> bool:
-        """It has just begun to mean something else, and takes nothing for a moment."""
-        return bool(self._settling.is_triggered)
 
     def _end_texture(self) -> Texture:
         return text_texture(self.end, sp(13), theme.font, bold=True)
@@ -145,10 +133,7 @@ class ActionKey(PushButton):
 
 
 class ActionColumn(Outlined, Control, BoxLayout):
-    """Dispatches `on_action(name)`, and `on_command` with the same.
-
-    With two switches `next` goes on to the one below, past those that cannot be asked for, and `act` does it.
-    """
+    """Dispatches `on_action(name)`, and `on_command` with the same."""
 
     __events__ = ("on_action",)
 
@@ -156,14 +141,12 @@ class ActionColumn(Outlined, Control, BoxLayout):
 
     actions = ListProperty()
     """`Action` after `Action`, from the top."""
-    switches = ListProperty()
-    """Names of the two switches, as in `["A", "B"]`; empty for none, and then no button is the current one."""
-    current = StringProperty("")
-    """Name of the one that `act` does; empty without switches, or while none can be asked for."""
+    hint = StringProperty("")
+    """How else they can be worked, at the end of its title, as in `Tab next · Enter do it`; empty for nothing."""
     across = NumericProperty(1)
     """How many buttons stand side by side."""
     titled = BooleanProperty(True)
-    """Says over the buttons what they are, and what the switches do."""
+    """Says over the buttons what they are."""
     framed = BooleanProperty(True)
     """Is a card of its own."""
     inset = NumericProperty("12dp")
@@ -171,58 +154,26 @@ class ActionColumn(Outlined, Control, BoxLayout):
     foot = NumericProperty(0)
     """Kept free at its lower end for something else [px]."""
 
-    def _hint(self) -> str:
-        if not self.switches:
-            return ""
-        first, second = self.switches
-        return f"{first} next · {second} do it"
-
-    hint = AliasProperty(_hint, bind=["switches"], cache=True)
-    """What the switches do, as in `A next · B do it`; empty without any."""
-
     def __init__(self, **kwargs: Any) -> None:
         self._buttons: dict[str, ActionKey] = {}
         super().__init__(**kwargs)
         self._fitting = Clock.create_trigger(self._fit, -1)
         self.roll, self.grid = self.ids.roll.__self__, self.ids.grid.__self__  # kv holds ids weakly
-        for name in ("actions", "switches", "state"):
+        for name in ("actions", "state"):
             self.fbind(name, self._write)
         for name in ("across", "titled", "foot", "inset", "size"):
             self.fbind(name, self._fitting)
         self.roll.bind(size=self._fitting)
-        self.fbind("current", self._mark)
         self._write()
 
-    # what the switches do
-
-    def next(self) -> None:
-        """Go on to the next one that can be asked for, after the last to the first; nothing where none can."""
-        able = self._able()
-        if not able:
-            self.current = ""
-            return
-        names = [action.name for action in self.actions]
-        at = names.index(self.current) if self.current in names else -1
-        self.current = next(name for name in [*names[at + 1 :], *names[: at + 1]] if name in able)
-        self.roll.scroll_to(self._buttons[self.current], padding=dp(6), animate=False)
-
-    def act(self) -> None:
-        """Do the current one; nothing while it cannot be asked for, or has just begun to mean something else."""
-        button = self._buttons.get(self.current)
-        if button is not None and self.current in self._able() and not button.settling:
-            self._ask(self.current)
-
-    def _able(self) -> frozenset[str]:
-        if self.state == "disabled":
-            return frozenset()
-        return frozenset(action.name for action in self.actions if action.able)
+    # what a finger does
 
     def _ask(self, name: str) -> None:
         self.dispatch("on_action", name)
         self.dispatch("on_command", name)
 
     def on_action(self, name: str) -> None:
-        """A finger or a switch asked for the action of that name."""
+        """Somebody asked for the action of that name."""
 
     # what is where
 
@@ -237,11 +188,7 @@ class ActionColumn(Outlined, Control, BoxLayout):
             button.name, button.icon, button.said = action.text, action.icon, action.said
             button.meaning = action.meaning or action.text
             button.disabled = not action.able or self.state == "disabled"
-        if not self.switches or self.current not in names:
-            self.current = ""
-        if self.switches and not self.current:
-            self.current = next((name for name in names if name in self._able()), "")
-        self._mark()
+        self._say()
 
     def _make(self, name: str) -> ActionKey:
         button = ActionKey()
@@ -249,13 +196,11 @@ class ActionColumn(Outlined, Control, BoxLayout):
         self.grid.add_widget(button)
         return button
 
-    def _mark(self, *_: object) -> None:
+    def _say(self) -> None:
         count = max(1, round(self.across))
         room = (self.roll.width - (count - 1) * self.grid.spacing[0]) / count - dp(20)
-        for name, button in self._buttons.items():
-            button.current = name == self.current and bool(self.switches)
-            press = f"press {self.switches[1]}" if button.current and not button.disabled else ""
-            button.end = press or button.said
+        for button in self._buttons.values():
+            button.end = button.said
             both = f"{button.name} · {button.said}"
             beside = button.flow == "horizontal" or not button.said
             cut = wide(both, sp(LEAST), bold=True) > room
@@ -273,11 +218,11 @@ class ActionColumn(Outlined, Control, BoxLayout):
         wide = (self.roll.width - (across - 1) * between) / across
         for button in self._buttons.values():
             button.high, button.flow = high, "vertical" if wide < dp(NARROW) else "horizontal"
-        self._mark()
+        self._say()
 
 
 def samples() -> dict[str, Callable[[], Widget]]:
-    """With fingers and with switches, some that cannot be asked for, side by side, none of them, disabled."""
+    """Plain and with a hint, some that cannot be asked for, side by side, none of them, disabled."""
     some = [
         Action("task.surface", "Surface", "water"),
         Action("task.hold", "Hold depth", "pause_circle", said="4.5 m"),
@@ -288,22 +233,15 @@ def samples() -> dict[str, Callable[[], Widget]]:
     ]
 
     def make(**kwargs: Any) -> Callable[[], Widget]:
-        def build() -> Widget:
-            column = ActionColumn(
-                **{"actions": some, "size_hint": (None, None), "size": (dp(292), dp(470)), **kwargs}
-            )
-            if column.switches:
-                column.next()
-                column.next()
-            return column
-
-        return build
+        return lambda: ActionColumn(
+            **{"actions": some, "size_hint": (None, None), "size": (dp(292), dp(470)), **kwargs}
+        )
 
     return {
         "fingers": make(),
-        "switches": make(switches=["A", "B"]),
-        "current not able": make(actions=[Action("a", "Surface", "water", able=False)], switches=["A", "B"]),
+        "switches": make(hint="Tab next · Enter do it"),
+        "none able": make(actions=[Action("a", "Surface", "water", able=False)]),
         "two across": make(across=2, titled=False, size=(dp(300), dp(220))),
         "narrow": make(titled=False, size=(dp(150), dp(300))),
-        "disabled": make(state="disabled", switches=["A", "B"]),
+        "disabled": make(state="disabled"),
     }

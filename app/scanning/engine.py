@@ -7,7 +7,7 @@ engine.press("B", ("key", 0, 13), now); engine.release(…); engine.look(now)
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -73,6 +73,8 @@ class Engine:
         self._glass, self._planner, self._desk = glass, planner, desk
         self.contacts = Contacts(timing or Timing(), self._hear)
         self.scan = Scan(pace or Pace())
+        self.first: Callable[[Event], bool] = lambda _: False
+        """Asked of each press before it means anything; True takes it. STOP does not come this way."""
         self._now = 0.0
         self._place = ""
         self._shown: Mark | None = None
@@ -138,6 +140,8 @@ class Engine:
         elif event.what in ("stuck", "free"):
             self._armed = None
             self._desk.stuck(event.switch, event.what == "stuck")
+        elif self.first(event):
+            self._armed = None
         elif event.what == "down":
             self._count(event)
             self._pressed_a() if event.switch == "A" else self._pressed_b(event)

@@ -7,8 +7,9 @@ cost; everything else keeps together with its neighbours, in the order of the gl
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections import OrderedDict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -26,6 +27,8 @@ LEARNED = 3.0
 """Done so often, something stands alone."""
 PRIOR = 10.0
 """What is likely before anything was learned counts as so many times done, over all together."""
+PLACES = 64
+"""Trees that are kept; the one that was not looked at for longest goes."""
 LIKELY = {
     "yes": 10.0,
     "no": 6.0,
@@ -266,17 +269,21 @@ class Planner:
     def __init__(self, used: Mapping[str, Mapping[str, float]]) -> None:
         """`used` says for each place how often each name was done, and under the place `""` how often each intent was."""
         self._used = {place: dict(names) for place, names in used.items()}
-        self._kept: dict[str, tuple[Group, dict[str, Target]]] = {}
+        self._kept: OrderedDict[str, tuple[Group, dict[str, Target]]] = OrderedDict()
 
     def tree(self, place: str, targets: Sequence[Target]) -> Group:
         """The tree for what is there now; what was there before leaves its place empty."""
         now = {target.name: target for target in targets}
-        group, known = self._kept.get(place, (Group(()), {}))
+        group, known = self._kept.pop(place, (Group(()), {}))
         if not now.keys() <= known.keys():
             gone = [target for name, target in known.items() if name not in now]
-            known = {**({one.name: one for one in gone} if len(gone) * 2 <= len(now) else {}), **now}
-            group = plan(_in_order(known.values(), targets), self._counts(place))
-            self._kept[place] = group, known
+            # nothing of the glass is kept beyond what it is called: the widgets go
+            bare = [replace(target, act=_nothing, key=None) for target in targets]
+            known = {one.name: one for one in (*bare, *(gone if len(gone) * 2 <= len(now) else ()))}
+            group = plan(list(known.values()), self._counts(place))
+        self._kept[place] = group, known
+        while len(self._kept) > PLACES:
+            self._kept.popitem(last=False)
         return Group(tuple(_present(group, now)))
 
     def _counts(self, place: str) -> dict[str, float]:
@@ -284,10 +291,8 @@ class Planner:
         return {**intents, **self._used.get(place, {})}
 
 
-def _in_order(known: Iterable[Target], targets: Sequence[Target]) -> list[Target]:
-    """Those that are there in their order, then those that are not."""
-    names = {target.name for target in targets}
-    return [*targets, *(one for one in known if one.name not in names)]
+def _nothing() -> None:
+    """Of what is remembered only."""
 
 
 def _present(group: Group, now: Mapping[str, Target]) -> Iterator[Group | Target]:

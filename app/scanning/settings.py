@@ -23,6 +23,8 @@ RANGES: dict[str, tuple[float, float]] = {
 """Least and most of each figure: seconds, and `loops` a number."""
 MOST_KEYS = 6
 """Keys and buttons that one switch may have."""
+WORDS = {"spacebar": "Space", "numpadenter": "Enter (numbers)"}
+"""What keys are called here that Kivy calls otherwise."""
 NAME = 80
 """Letters of a name, at most."""
 
@@ -33,20 +35,24 @@ class Key:
 
     source: str
     """`key` or `pad`."""
-    code: int
-    """Kivy's key code, or the number of the button."""
-    name: str = ""
-    """What it is called, as in `Tab`."""
+    name: str
+    """As of `app.press.Press`: `tab`, `enter`, `a`, `dpup`, `button 7`."""
     device: str = ""
     """Name of the gamepad; empty for a keyboard, and for any gamepad."""
 
-    def fits(self, source: str, code: int, device: str) -> bool:
+    def fits(self, source: str, name: str, device: str) -> bool:
         """That one is meant."""
-        return (self.source, self.code) == (source, code) and self.device in ("", device)
+        return (self.source, self.name) == (source, name) and self.device in ("", device)
+
+    @property
+    def words(self) -> str:
+        """For the operator, as in `Tab` or `Button A`."""
+        said = WORDS.get(self.name, self.name.replace("_", " ").capitalize())
+        return f"Pad {said}" if self.source == "pad" else said
 
 
 _PACE, _TIMING = Pace(), Timing()
-TAB, ENTER, NUMPAD_ENTER = Key("key", 9, "Tab"), Key("key", 13, "Enter"), Key("key", 271, "Enter (numpad)")
+TAB, ENTER, NUMPAD_ENTER = Key("key", "tab"), Key("key", "enter"), Key("key", "numpadenter")
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +75,8 @@ class Options:
     acceptance: float = _TIMING.acceptance
     tones: bool = True
     """Each step is heard."""
+    vibrates: bool = True
+    """Each step is felt, on what can vibrate."""
     spoken: bool = False
     """What is marked is said, where the app can speak."""
 
@@ -134,10 +142,10 @@ def _keys(value: object) -> tuple[Key, ...] | None:
 def _key(value: object) -> Key | None:
     if not isinstance(value, Mapping):
         return None
-    source, code = value.get("source"), value.get("code")
-    if source not in ("key", "pad") or not isinstance(code, int) or isinstance(code, bool):
+    source, name, device = value.get("source"), value.get("name"), value.get("device", "")
+    if source not in ("key", "pad") or not isinstance(name, str) or not isinstance(device, str):
         return None
-    return Key(source, code, str(value.get("name", ""))[:NAME], str(value.get("device", ""))[:NAME])
+    return Key(source, name, device) if 0 < len(name) <= NAME and len(device) <= NAME else None
 
 
 def _allowed(name: str) -> str:

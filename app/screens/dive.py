@@ -23,12 +23,10 @@ HIDES = ("corner", "motion")
 """Places that may lie under what is said."""
 ARM = "arm"
 """The line of the column that opens an arm over what is seen of the robot, and closes it."""
-SWITCHES = ("Tab", "Enter")
-"""Keys that work the column, as switches send them: on to the next action, and do it."""
 
 
 class DiveScreen(Driving):
-    """Drive one robot by hand, and have it do things by two switches."""
+    """Drive one robot by hand, and have it do things."""
 
     corner = 14
     speed = None
@@ -92,16 +90,6 @@ class DiveScreen(Driving):
         """What a finger may hold besides."""
         return [*super().grips, *([self.hands.arm.panel] if self._arm_open else [])]
 
-    def press_switch(self, key: str) -> None:
-        """`Tab` or `Enter` was pressed: on to the next action, or do it. The first press of any shows which is the next."""
-        column = self.column
-        if not column.switches:
-            column.switches = list(SWITCHES)
-        elif key == SWITCHES[0]:
-            column.next()
-        else:
-            column.act()
-
     # what the shell calls
 
     def arrange(self, body: Rect, form: str, dp: float) -> StopPlace:
@@ -163,3 +151,5 @@ class DiveScreen(Driving):
             self.app.shell.settle()
         if actions != self.column.actions:
             self.column.actions = actions
+        switches = self.app.methods.get("switches")
+        self.column.hint = switches.hint if switches is not None else ""
