@@ -1,0 +1,197 @@
+"""What a tablet's tilt commands: in the hand of one who walks with the clutch held, and when the clutch is let go.
+
+The walker is made of steps of 1.5 to 2.2 Hz in all three axes, with their overtones, noise, and a hand that slowly sinks, seen
+by an accelerometer alone as on a device without a gyroscope, which is the hard case; with `--data DIR` the recordings of
+walking with the phone in the hand that lie in folders below DIR (index.json and acc.npz) are replayed as well. The clutch is
+closed once, after a second, and held to the end; walking is switched on. `mean` is the mean length of the command in shares of
+full command, `busy` the share of heartbeats with any. Each recording counts by its length; the worst one stands beside.
+
+The other way is the common one: the accelerometer's own angles from level, a low pass of 2 Hz, and the same dead zone.
+
+`release` is what the first look after a release commands at most, over every instant of 100 tilts; `sample` and `look` are what
+a sample and a heartbeat cost.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import random
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from app.device.motion import GRAVITY, Axes, leaned
+from app.tilt import Level, Tilt, TiltSettings, between, shaped
+from bench.support.figures import Figure
+from bench.support.harness import Context, Sides
+
+NAIVE = "angles from level, low pass 2 Hz"
+WALKING = TiltSettings(walking=True)
+BEAT = 0.03
+"""Between two heartbeats [s]."""
+CLOSES = 1.0
+"""When the clutch is closed [s]."""
+FIGURES = (
+    Figure("made_mean", "", "synthesised walker, mean command", 0.02, against=NAIVE),
+    Figure("made_busy", "%", "synthesised walker, heartbeats with a command", 5, against=NAIVE),
+    Figure("walk_mean", "", "recorded walkers, mean command", 0.02, against=NAIVE),
+    Figure("walk_busy", "%", "recorded walkers, heartbeats with a command", 5, against=NAIVE),
+    Figure("walk_worst", "", "the worst recording, mean command", against=NAIVE),
+    Figure("release", "", "command at the first look after a release, worst", 0),
+    Figure("reach", "s", "from a sudden tilt of 30° to 90 % of the command, fused gravity", 0.6),
+    Figure("sample", "µs", "a sample, fused gravity, median"),
+    Figure("look", "µs", "a heartbeat, median"),
+)
+REPEATS = 1
+
+Walk = tuple[float, list[Axes]]
+"""Rate [Hz] and samples [m/s²]."""
+
+
+class Told(NamedTuple):
+    """The lengths of the commands of one walk, one a heartbeat."""
+
+    lengths: list[float]
+
+    @property
+    def mean(self) -> float:
+        """Of all."""
+        return sum(self.lengths) / max(1, len(self.lengths))
+
+
+@contextmanager
+def prepare(context: Context) -> Iterator[Sides]:
+    """Read what there is."""
+    made = [_made(seed) for seed in range(8)]
+    recorded = list(_recorded(context.data)) if context.data else []
+    yield Sides(
+        lambda: _walks(_ours, made, recorded) | {"release": _release(), "reach": _reach()} | _costs(),
+        lambda: _walks(_naive, made, recorded),
+    )
+
+
+def _walks(way: Callable[[Walk], Told], made: Sequence[Walk], recorded: Sequence[Walk]) -> dict[str, float]:
+    found: dict[str, float] = {}
+    for name, walks in (("made", made), ("walk", recorded)):
+        if walks:
+            told = [way(walk) for walk in walks]
+            together = Told([one for each in told for one in each.lengths])
+            found[f"{name}_mean"] = together.mean
+            found[f"{name}_busy"] = 100.0 * sum(one > 0.0 for one in together.lengths) / len(together.lengths)
+            if name == "walk":
+                found["walk_worst"] = max(each.mean for each in told)
+    return found
+
+
+def _ours(walk: Walk) -> Told:
+    rate, samples = walk
+    tilt, level, told, due = Tilt(WALKING), Level(), [], CLOSES
+    for n, a in enumerate(samples):
+        t = n / rate
+        tilt.feed(t, level(t, a))
+        tilt.feel(t, a)
+        if t >= due:
+            if (
+                not tilt.pressed or tilt.why
+            ):  # a clutch that opened is pressed anew: what opened it hides nothing
+                tilt.release()
+                tilt.press(t)
+            told.append(math.hypot(*tilt.look(t)))
+            due += BEAT
+    return Told(told)
+
+
+def _naive(walk: Walk) -> Told:
+    rate, samples = walk
+    weight = 1.0 / (1.0 + rate / (2.0 * math.pi * 2.0))
+    roll = pitch = 0.0
+    neutral, told, due = (0.0, 0.0), [], CLOSES
+    for n, a in enumerate(samples):
+        seen = between((0.0, 0.0, 1.0), a)
+        roll, pitch = roll + weight * (seen[0] - roll), pitch + weight * (seen[1] - pitch)
+        if n / rate >= due:
+            neutral = neutral if told else (roll, pitch)
+            told.append(math.hypot(*shaped(roll - neutral[0], pitch - neutral[1], WALKING)))
+            due += BEAT
+    return Told(told)
+
+
+def _made(seed: int, seconds: float = 120.0, rate: float = 50.0) -> Walk:
+    """Steps: up and down twice as strong as to the sides, sideways at half their rate."""
+    chance = random.Random(seed)
+    pace, strength = chance.uniform(1.5, 2.2), chance.uniform(1.2, 2.2)
+    held = math.radians(chance.uniform(10, 45))
+    samples: list[Axes] = []
+    for n in range(round(seconds * rate)):
+        step = 2 * math.pi * pace * n / rate
+        sinks = math.radians(5.0 * math.sin(2 * math.pi * n / rate / 40.0 + seed))
+        x, y, z = leaned(math.radians(1.5 * math.sin(step / 2)), -held + sinks)
+        up = strength * (1.6 * math.sin(step) + 0.6 * math.sin(2 * step + 1))
+        forth, aside = strength * math.sin(step + 0.7), 0.7 * strength * math.sin(step / 2)
+        noise = [chance.gauss(0, 0.3) for _ in range(3)]
+        samples.append((x + aside + noise[0], y + forth + noise[1], z + up + noise[2]))
+    return rate, samples
+
+
+def _recorded(data: Path) -> Iterator[Walk]:
+    """Walks with the phone in the hand, wherever below the folder they are listed."""
+    for index in sorted([*data.glob("index.json"), *data.glob("*/index.json")]):
+        wanted = [one for one in json.loads(index.read_text()) if one["label"] == "walk_inhand"]
+        if wanted:
+            with np.load(index.with_name("acc.npz")) as kept:
+                for one in wanted:
+                    axes = kept[one["key"]].astype(float) / 400.0
+                    yield one["fs"], [(x, y, z) for x, y, z in axes.tolist()]
+
+
+def _tilted(tilt: Tilt, begun: float, seconds: float, axes: Axes) -> float:
+    """Hold it so; the time afterwards."""
+    for n in range(round(seconds * 50)):
+        tilt.feed(begun + n / 50, axes)
+        tilt.look(begun + n / 50)
+    return begun + seconds
+
+
+def _release() -> float:
+    worst, chance = 0.0, random.Random(1)
+    for n in range(100):
+        tilt = Tilt()
+        now = _tilted(tilt, 0.0, 0.4, (0.0, 0.0, GRAVITY))
+        tilt.press(now)
+        now = _tilted(tilt, now, 0.02 * n, leaned(chance.uniform(-0.7, 0.7), chance.uniform(-0.7, 0.7)))
+        tilt.release()
+        worst = max(worst, math.hypot(*tilt.look(now)))
+    return worst
+
+
+def _reach() -> float:
+    tilt = Tilt()
+    begun = _tilted(tilt, 0.0, 0.4, (0.0, 0.0, GRAVITY))
+    tilt.press(begun)
+    for n in range(100):
+        now = begun + n / 50
+        tilt.feed(now, leaned(0.0, math.radians(30)))
+        if tilt.look(now)[1] >= 0.9:
+            return now - begun
+    return math.inf
+
+
+def _costs() -> dict[str, float]:
+    rounds = 2000
+    tilt = Tilt()
+    tilt.press(_tilted(tilt, 0.0, 0.4, (0.0, 0.0, GRAVITY)))
+    spent: dict[str, list[float]] = {"sample": [], "look": []}
+    for n in range(rounds):
+        now, axes = 0.4 + n / 50, leaned(0.2 * math.sin(n / 20), 0.3)
+        begun = time.perf_counter()
+        tilt.feed(now, axes)
+        between_ = time.perf_counter()
+        tilt.look(now)
+        spent["sample"].append(between_ - begun)
+        spent["look"].append(time.perf_counter() - between_)
+    return {name: 1e6 * sorted(those)[rounds // 2] for name, those in spent.items()}
