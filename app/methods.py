@@ -20,6 +20,7 @@ __all__ = ["METHODS", "Method", "Methods"]
 
 METHODS: dict[str, str] = {
     "log": "app.responding:Responding",
+    "shake": "app.shaking:Shaking",
     "tilt": "app.tilting:Tilting",
     "switches": "app.scanning.switches:Switches",
     "gamepad": "app.by_hand:GamepadMethod",

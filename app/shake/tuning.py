@@ -161,6 +161,7 @@ def _fitted(way: Way, own: Own | None) -> Way:
         threshold=threshold,
         gap=min(max(1.75 * own.gap, 0.6), 1.7),
         weight=SWUNG if way.weight > 1.0 else 1.0,
+        outrun=way.outrun + 0.2,
     )
     if threshold >= GENTLE * way.threshold and own.gap <= UNHURRIED:
         return found
@@ -170,9 +171,9 @@ def _fitted(way: Way, own: Own | None) -> Way:
         halves=way.halves + 1,
         evidence=way.evidence + 0.8,
         share=max(way.share, 0.62),
-        straight=max(way.straight, 0.82),
+        straight=max(way.straight, 0.84),
         above=way.above + 0.6,
-        outrun=way.outrun + 0.7,
+        outrun=way.outrun + 1.0,
     )
 
 
