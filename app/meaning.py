@@ -15,7 +15,7 @@ from app.press import Press
 __all__ = ["HOLDS", "MEANINGS", "Meanings", "meaning_icon", "meaning_words"]
 
 METHODS = {"key": "keyboard", "pad": "gamepad"}
-HOLDS = {"talk": ("Talk while held", "mic"), "tilt": ("Tilt drives while held", "screen_rotation")}
+HOLDS = {"talk": ("Talk while held", "mic"), "tilt": ("Tilt drives while held", "screen_rotation_alt")}
 """What is on for as long as a key or a button is held, with its words and its icon."""
 TURNS = "pause_resume"
 MEANINGS: dict[str, tuple[str, str]] = {

@@ -24,7 +24,7 @@ from widgets.rows import group_label
 
 __all__ = ["KeyCap", "KeyHelp"]
 
-NARROWEST = 300.0
+NARROWEST = 260.0
 """A column of it is no narrower [dp]."""
 MOST = 4
 """Columns."""
@@ -99,6 +99,9 @@ class KeyHelp(Control, BoxLayout):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._count = 0
+
+    def on_kv_post(self, _: Widget) -> None:
+        """Its rule is applied: what it shows can be built."""
         self.bind(groups=self._build, width=self._fit)
         self._build()
 

@@ -12,18 +12,19 @@ from app.meaning import meaning_icon, meaning_words
 from app.pad_map import AXES, BUTTONS, DEAD_ZONES, EXPOS, WAYS, Profile, button_words
 from app.press import Press
 from app.screens.inputs.meaning_list import MeaningList
-from app.screens.inputs.setting_row import number_row, switch_row
+from app.screens.inputs.setting_row import number_row
 from app.sdl import PadState
 from widgets import PadPicture
-from widgets.kit import Column, ListRow, QuietButton, Roll, Segmented
+from widgets.kit import Column, IconButton, ListRow, QuietButton, Roll, Segmented
 from widgets.labels import Remark
 from widgets.rows import group_label
 
 __all__ = ["PadPane"]
 
-LIVE, STEADY = 1.0, 0.12
-"""A gamepad that has measured nothing for longer is said to be silent; a shorter silence is that of a hand that is still [s]."""
+LIVE = 1.0
+"""A pushed gamepad that has measured nothing new for longer is said to be silent [s]."""
 HINT = "Press a button to find it in the list. Here it does nothing else, but STOP stays STOP."
+REST = {"left": (0.0, 0.0), "right": (0.0, 0.0)}
 ANY = "Gamepad"
 """What is set up while none is plugged in."""
 
@@ -74,16 +75,13 @@ class PadPane(BoxLayout):
         )  # fmt: skip
         column.add_widget(self._dead)
         column.add_widget(self._curve)
-        self._turns = {}
+        self.turns: dict[str, IconButton] = {}
         for way, words in WAYS.items():
-            row = self.ways[way] = ListRow(icon="joystick", title=words, whole=True)
+            row = self.ways[way] = ListRow(icon="joystick", title=words, whole=True, end="2dp")
+            turn = self.turns[way] = IconButton(icon="swap_vert", bare=True, pos_hint={"center_y": 0.5})
+            turn.bind(on_release=lambda _, way=way: self._turn(way))
             row.bind(on_release=lambda _, way=way: self._ask("way", way))
-            column.add_widget(row)
-        for way, words in WAYS.items():
-            row, toggle = switch_row(
-                "swap_vert", f"{words}: turned round", "", lambda _, way=way: self._turn(way)
-            )
-            self._turns[way] = toggle
+            row.add_widget(turn)
             column.add_widget(row)
         column.add_widget(group_label("Buttons"))
         column.add_widget(Remark(text=HINT, font_size="15sp"))
@@ -150,7 +148,10 @@ class PadPane(BoxLayout):
             return gone or "Plug one in, at any time. Each kind keeps its own set-up."
         pads, wired = self._inputs.gamepads, state.name in self._inputs.gamepads.wired
         age = pads.age(state.number)
-        silent = "" if age < LIVE else f" Nothing new for {age:.0f} s{', on its cable' if wired else ''}."
+        still = self._profile.lean(state) == REST
+        silent = (
+            "" if age < LIVE or still else f" Nothing new for {age:.0f} s{', on its cable' if wired else ''}."
+        )
         drives = "" if self._inputs.mapped.pads_on else " Off: only its STOP counts."
         return f"{state.name}.{drives}{silent}"
 
@@ -218,8 +219,9 @@ class PadPane(BoxLayout):
         profile = self._profile
         self.dead.value, self.expo.value = round(profile.dead_zone * 100), round(profile.expo * 100)
         for way, row in self.ways.items():
-            row.detail = AXES[profile.axes.get(way, "none")]
-            self._turns[way].active = way in profile.inverted
+            turned = way in profile.inverted
+            row.detail = AXES[profile.axes.get(way, "none")] + (", turned round" if turned else "")
+            self.turns[way].role = "accent" if turned else "muted"
         for button, row in self.buttons.items():
             meaning = profile.meaning(button)
             row.detail = "Pushes a control" if button in profile.driving else meaning_words(meaning)
