@@ -1,7 +1,7 @@
 """What was understood and is not done yet: a bar that acts unless it is cancelled, or a question that waits for a yes.
 
 card = IntentCard()
-card.ask(words="Go home", icon="home", who="mic", heard="Voice: go home, 82 %", question=True)
+card.ask(words="Go home", who="mic", heard="Voice: go home, 82 %", question=True)
 card.bind(on_command=lambda _, name: intents.answer(name == "yes"))
 """
 
@@ -12,7 +12,6 @@ from collections.abc import Callable
 from typing import Any
 
 from kivy.lang import Builder
-from kivy.metrics import dp
 from kivy.properties import BooleanProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
@@ -22,19 +21,29 @@ from widgets.notice_card import NoticeCard
 __all__ = ["IntentCard"]
 
 Builder.load_string("""
-<IntentCard>:
-    canvas.after:
+<Drain>:
+    size_hint_y: None
+    height: dp(5)
+    canvas:
         Color:
-            rgba: theme.raised
+            rgba: theme.line
         Rectangle:
-            pos: root.x + dp(10), root.y + dp(4)
-            size: root.width - dp(20), dp(5)
+            pos: self.pos
+            size: self.size
         Color:
             rgba: theme.roles[root.role]
         Rectangle:
-            pos: root.x + dp(10), root.y + dp(4)
-            size: (root.width - dp(20)) * root.left, dp(5)
+            pos: self.pos
+            size: self.width * root.left, self.height
 """)
+
+
+class Drain(Widget):
+    """How much of the time is left, as a bar that runs dry."""
+
+    left = NumericProperty(1.0)
+    """1 to 0."""
+    role = StringProperty("accent")
 
 
 class IntentCard(NoticeCard):
@@ -46,8 +55,6 @@ class IntentCard(NoticeCard):
     """What will be done, as on a button."""
     heard = StringProperty("")
     """Who understood what, and how surely."""
-    who = StringProperty("")
-    """Icon of the method that understood it; empty for none."""
     seconds = NumericProperty(0.0)
     """Until it is done, or nobody has answered [s]."""
     left = NumericProperty(1.0)
@@ -55,11 +62,14 @@ class IntentCard(NoticeCard):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.padding = [dp(14), dp(9), dp(14), dp(18)]
+        self._drain = Drain()
+        self.fbind("left", self._drain.setter("left"))
+        self.fbind("role", self._drain.setter("role"))
         self._rows: dict[bool, tuple[PushButton, ...]] = {
             True: tuple(self.add_below(("No", "close", False), ("Yes", "check", True))),
             False: tuple(self.add_below(("Cancel", "close", True))),
         }
+        self.add_widget(self._drain)
         for buttons in self._rows.values():
             for button in buttons:
                 name = "yes" if button.text == "Yes" else "no"
@@ -68,9 +78,9 @@ class IntentCard(NoticeCard):
             self.fbind(name, self._write)
         self._write()
 
-    def ask(self, *, words: str, icon: str, who: str, heard: str, question: bool) -> None:
-        """Tell what was understood, and by whom; the time that is left is assigned."""
-        self.words, self.icon, self.who, self.heard, self.question = words, icon, who, heard, question
+    def ask(self, *, words: str, who: str, heard: str, question: bool) -> None:
+        """Tell what was understood, and by the method with the icon `who`; `count` tells the time that is left."""
+        self.words, self.icon, self.heard, self.question = words, who, heard, question
         self.left, self.open = 1.0, True
 
     def count(self, left: float, whole: float) -> None:
@@ -86,7 +96,7 @@ class IntentCard(NoticeCard):
             row = buttons[0].parent
             wanted = question == self.question
             if wanted != (row.parent is self):
-                (self.add_widget if wanted else self.remove_widget)(row)
+                self.add_widget(row, index=1) if wanted else self.remove_widget(row)
             for button in buttons:
                 button.meaning = self.words
 
@@ -97,7 +107,6 @@ def samples() -> dict[str, Callable[[], Widget]]:
     def make(width: str = "420dp", left: float = 1.4, **kwargs: Any) -> Callable[[], Widget]:
         told = {
             "words": "Resume",
-            "icon": "play_arrow",
             "who": "mobile_vibrate",
             "heard": "Shake, up and down: 91 % sure.",
             "question": False,
@@ -114,9 +123,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
 
     asks = {
         "words": "Start patrol",
-        "icon": "route",
         "who": "mic",
-        "heard": "Voice, “start patrol”: 82 % sure. Say yes or no.",
+        "heard": "Voice, “start patrol”: 82 % sure. Yes or no, by any method.",
         "question": True,
     }
     return {

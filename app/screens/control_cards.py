@@ -34,6 +34,8 @@ class ControlCards:
     def __init__(self, session: Session, notices: Notices, dashboard: Dashboard, say: Say) -> None:
         self._session, self._notices, self._say = session, notices, say
         self._unknown = False
+        self.yields = False
+        """There is no room now for what can wait."""
         self.handover = HandoverCard(me=session.client_id)
         self.mode, self.paused, self.cap = ModeCard(), PausedCard(), SpeedCap()
         self._closed = self._pause_asked = False
@@ -89,7 +91,7 @@ class ControlCards:
         """Put on the glass what is open; where there is little room only what cannot wait."""
         tight = self._notices.width < TINY * Metrics.density
         asked, chosen = usable and self.handover.open, usable and self.mode.open
-        free = usable and not (tight and (asked or chosen))
+        free = usable and not self.yields and not (tight and (asked or chosen))
         paused = self.paused.open and not (
             self._closed or self._pause_asked or other or self._session.stop_latched
         )

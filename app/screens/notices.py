@@ -77,6 +77,10 @@ class Notices(BoxLayout):
             if isinstance(child, Toast) and not isinstance(child, ActionToast):
                 self.remove_widget(child)
 
+    def hush(self) -> None:
+        """Take the sentence away that is said now, whatever it tells of."""
+        self.unsay(self._said)
+
     def offer(self, text: str, action: str, act: Callable[[], None], icon: str = "undo") -> None:
         """One sentence with something to do about it, `icon` on its button."""
         toast = ActionToast(text=text, action=action, action_icon=icon, stay=LONG)

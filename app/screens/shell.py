@@ -289,6 +289,7 @@ class Shell(FloatLayout):
         self.bar.show_methods(self.app.methods.standing())
         self._dashboard.tick()
         self._tick_question()
+        self.cards.yields = self.wishes.tight = self.form == "short" and self.wishes.card.parent is not None
         self.cards.tick(self.screen)
         self.reset.tick()
         self._show_stop()

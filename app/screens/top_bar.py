@@ -25,8 +25,8 @@ NARROW = ("back", "name", "mode", "stack", "inputs")
 """What a narrow one holds: battery and link are above each other there."""
 STACKED = ("link", "battery")
 """From the upper one down."""
-LOW, HIGH = 26.0, 34.0
-"""Height of a chip that is stacked, and of one that is not [dp]."""
+HIGH = 34.0
+"""Height of a chip that is not stacked [dp]."""
 ROOMY = 840.0
 """A phone's side narrower than this has no room for the satellites [dp]."""
 
@@ -97,7 +97,7 @@ Builder.load_string("""
         id: gap
     InputsChip:
         id: inputs
-        brief: root.form == 'tall'
+        brief: root.form != 'wide'
         pos_hint: {'center_y': .5}
         on_release: root.dispatch('on_inputs')
     Chip:
@@ -162,7 +162,10 @@ class TopBar(BoxLayout):
                 continue
             if chip.parent is not None:
                 chip.parent.remove_widget(chip)
-            chip.height = (LOW if stacked else HIGH) * Metrics.density
+            chip.size_hint_y = 1 if stacked else None
+            chip.height = HIGH * Metrics.density
+            for pill in chip.children:  # it is as high as there is room
+                pill.size_hint_y = 1
             if stacked:
                 self._stack.add_widget(chip)
                 chip.bind(width=self._stack_width)

@@ -38,6 +38,8 @@ class Wishes:
         """`say` is as `Shell.say`."""
         self._intents, self._notices, self._say = intents, notices, say
         self._shown: Pending | None = None
+        self.tight = False
+        """There is room for the card alone: what would be said beside it is said on it."""
         self.card = IntentCard()
         self.card.bind(on_command=lambda _, name: intents.answer(name == "yes"))
         intents.on_taken.append(self._told)
@@ -53,6 +55,7 @@ class Wishes:
         if pending is not self._shown:
             self._shown = pending
             if pending is not None:
+                self._notices.hush()
                 self._show(pending)
             self._notices.keep(self.card, shown=pending is not None, first=True)
         if pending is not None:
@@ -62,13 +65,8 @@ class Wishes:
         heard = pending.heard
         who = PANES[heard.method][0] if heard.method in PANES else "touch_app"
         words = self._intents.words(heard.intent)
-        self.card.ask(
-            words=words,
-            icon=pending.intent.icon,
-            who=who,
-            heard=heard_words(heard),
-            question=pending.question,
-        )
+        said = heard_words(heard) + (" Yes or no, by any method." if pending.question else "")
+        self.card.ask(words=words, who=who, heard=said, question=pending.question)
 
     def _told(self, heard: Heard, verdict: Verdict) -> None:
         """What is done or cancelled is said; what waits has its card."""
@@ -81,7 +79,10 @@ class Wishes:
             return  # whoever pressed it sees what it did
         if heard.intent == "stop" and done:
             return  # the button says what becomes of it
-        name = INTENTS[heard.intent].words if not done else ""
-        lead = heard_words(heard) if verdict.what == "acted" else ""
-        text = f"{lead} {verdict.sentence}".strip() if done or not name else f"{name}: {verdict.sentence}"
-        self._say(text, "info" if done else "warn", about=ABOUT)
+        lead = f"{heard_words(heard)} " if verdict.what == "acted" else ""
+        if verdict.what == "not now":
+            lead = f"{INTENTS[heard.intent].words}: "
+        if self.tight and self.card.parent is not None:
+            self.card.heard = lead + verdict.sentence
+        else:
+            self._say(lead + verdict.sentence, "info" if done else "warn", about=ABOUT)

@@ -53,12 +53,15 @@ class InputsChip(Pressable, BoxLayout):
     def _draw(self, *_: object) -> None:
         self.clear_widgets()
         # what does not work goes before what does: it must not be the one that has no room
-        told = sorted((one for one in self.methods if one[0] in PANES), key=lambda one: one[1])
+        told = sorted((one for one in self.methods if one[0] in PANES), key=self._rank)
         shown = told[: 1 if self.brief else MOST]
         for name, well in shown or [("", True)]:
             icon = PANES[name][0] if name else NOTHING
             role = "muted" if not name else "accent" if well else "warn"
             self.add_widget(Icon(name=icon, role=role, font_size="20sp", pos_hint={"center_y": 0.5}))
+
+    def _rank(self, one: tuple[str, bool]) -> tuple[bool, int]:
+        return one[1], list(PANES).index(one[0])
 
     def collide_point(self, x: float, y: float) -> bool:
         """It is hit within a whole target round it."""

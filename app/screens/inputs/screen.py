@@ -58,7 +58,7 @@ class InputsScreen(FloatLayout):
         self._form, self._dp = "", 1.0
         self._places: dict[str, Rect] = {}
         self.notice = Rect(0, 0, 1, 1)
-        self.head = PaneHead(title="Inputs", sentence="Whatever the hands are doing.")
+        self.head = PaneHead(title="Inputs", sentence="Tap one to set it up.")
         self.back_head = PaneHead(closable=True)
         self.back_head.bind(on_close=lambda _: self.back())
         self.rows: dict[str, MethodRow] = {}

@@ -45,7 +45,7 @@ class TablePane(BoxLayout):
         roll.add_widget(self._column)
         self.usual = QuietButton(text="As usual again", icon="undo")
         self.usual.bind(on_release=lambda _: self._reset())
-        for widget in (self.choice, self.remark, roll, self.usual):
+        for widget in (self.choice, roll):
             self.add_widget(widget)
         self.bind(method=self._fill)
         self._fill()
@@ -64,9 +64,7 @@ class TablePane(BoxLayout):
             row.switch.active = table.allowed(self.method, intent)
             row.faded = not row.switch.active
         self.usual.disabled = table.usual
-        self.remark.text = (
-            table.problem or "Forbidden things are answered with a sentence, and nothing is done."
-        )
+        self.remark.text = table.problem or "What is forbidden is answered with a sentence and not done."
 
     def _fill(self, *_: object) -> None:
         self._column.clear_widgets()
@@ -80,6 +78,8 @@ class TablePane(BoxLayout):
             )
             row.switch.bind(on_change=lambda _, on, name=name: self._allow(name, on))
             self._column.add_widget(row)
+        for widget in (self.remark, self.usual):
+            self._column.add_widget(widget)
         self.tick()
 
     def _allow(self, intent: str, allowed: bool) -> None:
