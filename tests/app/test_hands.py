@@ -125,3 +125,28 @@ def test_while_a_task_drives_slider_and_lever_say_so_and_how_fast(meet: Callable
         assert (screen.speed.driven, screen.stick.led) == (driven, bool(driven)), state
     assert screen.speed.ids.limits.text == screen.speed.driven
     assert screen.speed.ids.fader.opacity < 1, "it looks as if it were the slider's doing"
+
+
+def test_the_tilt_of_a_tablet_says_what_the_stick_would_and_is_chosen_beside_it(
+    meet: Callable[..., Any],
+) -> None:
+    for info, says in ((TRUCK, lambda said: said.steering < 0), (BOAT, lambda said: said.throttle > 0)):
+        screen, told = meet(info)
+        hands = screen.hands
+        hands.tablet = True
+        screen.meet()
+        assert list(hands.choices)[-1] == screen.switch.options[-1] == "Tilt", info.model
+        assert hands.circle is None, "it leads nothing before it is chosen"
+        hands.chosen = "Tilt"
+        circle = hands.circle
+        circle.state, circle.clutched = "live", True
+        circle.steer((0.5, 0.5), (0.5, 0.5))
+        assert says(told.last), info.model
+        hands.tablet = False
+        screen.meet()
+        assert (told.last, hands.circle, circle.parent) == (Twist(), None, None)
+    screen, _ = meet(DRONE)
+    screen.hands.tablet = True
+    screen.meet()
+    assert screen.hands.choices == {}, "it has a circle"
+    assert screen.hands.circle is not None

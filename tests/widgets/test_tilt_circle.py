@@ -100,6 +100,47 @@ def test_where_it_needs_a_hold_the_tablet_tilts_only_while_a_finger_is_on_it(sta
     assert circle.ahead > 0
 
 
+def test_steered_it_commands_what_its_giver_made_of_the_tilt_dead_zone_and_all(circle):
+    circle.needs_hold = circle.clutched = True
+    assert circle.steer((0.3, 0.6), (0.01, 0.5))
+    assert circle.orders == [("tilt", pytest.approx(0.01 * LIMIT), pytest.approx(0.5 * LIMIT))]
+    assert (circle.aside, circle.ahead) == (pytest.approx(0.3), pytest.approx(0.6))
+    with pytest.raises(ValueError, match="finite shares"):
+        circle.steer((0.0, math.nan), (0.0, 0.0))
+
+
+def test_a_finger_that_moves_on_it_says_only_when(stage, circle):
+    circle.needs_hold = True
+    circle.steer((0.0, 0.4), (0.0, 0.2))
+    finger = hold(stage, circle, 0.0, -0.5)
+    finger.touch_move(0.5, 0.9)
+    assert circle.orders == [("tilt", 0.0, pytest.approx(0.2 * LIMIT))]
+    assert circle.held
+
+
+def test_put_to_rest_it_is_level_and_tells_whoever_clutches_it(circle):
+    told = []
+    circle.bind(on_let_go=lambda one: told.append(one.roll))
+    circle.needs_hold = circle.clutched = True
+    circle.steer((0.5, 0.0), (0.5, 0.0))
+    circle.rest()
+    assert told == [0.0]
+
+
+def test_of_what_does_not_lean_shares_are_said(stage, circle):
+    circle.needs_hold = circle.clutched = circle.in_shares = True
+    circle.steer((-0.3, 0.6), (-0.1, 0.5))
+    stage.frames(2)
+    assert circle.texts == ["50\u00a0% ahead · 10\u00a0% left"]
+
+
+def test_a_clutch_that_opened_says_why(stage, circle):
+    circle.needs_hold = circle.clutched = True
+    circle.opened = "Too far"
+    stage.frames(2)
+    assert circle.texts == ["Too far"]
+
+
 def test_disabled_it_lets_go_and_nothing_leans_it(stage, circle):
     hold(stage, circle, 0.0, 1.0)
     circle.state = "disabled"
