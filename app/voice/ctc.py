@@ -182,12 +182,15 @@ class Scorer:
         self._sequences = Sequences([*(way[2] for way in ways), *(sounds for _, sounds in self._others)])
         self._needs = np.maximum(WINS - EASES * (self._lengths - 2), -8.0) - URGENT * self._urgent
 
-    def judge(self, log_probs: Array, heeded: Collection[str]) -> Found | None:
-        """The command of `heeded` that was most likely said; None where nothing was heard or nothing is heeded."""
+    def judge(self, views: Sequence[Array], heeded: Collection[str]) -> Found | None:
+        """The command of `heeded` that was most likely said; None where nothing was heard or nothing is heeded.
+
+        `views` are the model's opinions of the same words, which are taken together: [0] alone, or several."""
         counts = np.array([command in heeded for command in self._commands])
-        if len(log_probs) < 4 or not counts.any():
+        if min(map(len, views)) < 4 or not counts.any():
             return None
-        likely = self._sequences.whole(frames_of(log_probs, self._tokens))
+        frames = [frames_of(view, self._tokens) for view in views]
+        likely: Array = np.mean([self._sequences.whole(each) for each in frames], axis=0)
         ours, others = likely[: len(counts)], likely[len(counts) :]
         explains = ours / self._lengths
         left = np.minimum(ours - others.max() - self._needs, (explains - EXPLAINS) * 4.0)

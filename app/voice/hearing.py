@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from app.voice.ctc import Acoustics, Found, Scorer
 from app.voice.endpoint import Endpointer, Segment
-from app.voice.noise import NoiseMeter, RATE
+from app.voice.noise import RATE, NoiseMeter
 from app.voice.recognizer import Grammar, Hear, Level, Rejected, Result, State
 from app.voice.spotter import Spotted, Spotter
 
@@ -18,8 +18,11 @@ __all__ = ["Hearing", "Judge", "Phonemes"]
 
 METERED = 0.1
 """The meter is told so often [s]."""
-GAPS = RATE // 4
-"""Silence that the model is given before and after words, so that it knows their first and last sound [samples]."""
+GAPS = (RATE // 8, RATE // 4 + 80)
+"""Silence that the model is given before and after words, so that it knows their first and last sound, at first and when
+it is asked again: its frames then lie otherwise [samples]."""
+UNSURE = (0.02, 0.8)
+"""It is asked again between these confidences."""
 SAME = 0.35
 """STOP that ends within this of one that was spotted is the same [s]."""
 
@@ -45,8 +48,12 @@ class Phonemes:
         self._scorer, self._spotter = Scorer(grammar, model.tokens), Spotter(grammar, model)
 
     def judge(self, samples: NDArray[np.float32], heeded: Collection[str]) -> Found | None:
-        """By the whole utterance."""
-        return self._scorer.judge(self._model.hear(samples), heeded)
+        """By the whole utterance; where that is close to call, by a second look at it with other silence about it."""
+        first = self._model.hear(_within(samples, GAPS[0]))
+        found = self._scorer.judge([first], heeded)
+        if found is None or not UNSURE[0] < found.confidence < UNSURE[1]:
+            return found
+        return self._scorer.judge([first, self._model.hear(_within(samples, GAPS[1]))], heeded)
 
     def spot(self, segment: Segment, now: float) -> Spotted | None:
         """By its last second, at the moments when a word may have ended."""
@@ -134,15 +141,11 @@ class Hearing:
             if not again:
                 self._tell(Rejected("That was too long for a command.", ended=segment.ended))
             return
-        gap = np.zeros(GAPS // 2, np.float32)
-        kept = segment.samples[: len(segment.samples)]
-        found = self._judge.judge(np.concatenate((gap, kept, gap)), self._every)
+        found = self._judge.judge(segment.samples, self._every)
         snr = self._meter.heard(segment.samples)
         if found is None:
             self._tell(Rejected("Nothing was understood.", ended=segment.ended))
-        elif again and found.command in self._grammar.urgent:
-            return
-        elif again and not found.accepted:
+        elif (again and found.command in self._grammar.urgent) or (again and not found.accepted):
             return
         else:
             self._tell(self._verdict(found, segment, snr))
@@ -173,3 +176,8 @@ class Hearing:
                 detail=detail,
             )
         return Rejected(reason, found.command, found.confidence, segment.ended)
+
+
+def _within(samples: NDArray[np.float32], gap: int) -> NDArray[np.float32]:
+    silence = np.zeros(gap, np.float32)
+    return np.concatenate((silence, samples, silence))

@@ -119,7 +119,7 @@ class State:
     """How the recogniser stands."""
 
     word: str
-    """`starting`, `ready` (it hears nothing), `listening`, `too loud`, `failed` (it has ended)."""
+    """`starting`, `ready` (it hears nothing now; the sentence says why, if it should), `listening`, `too loud`, `failed` (it has ended)."""
     sentence: str = ""
     """Why, for the operator; empty where there is nothing to say."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,7 +73,8 @@ class Spotter:
         if self._sequences is None or not self._due(segment, now):
             return None
         self._looked = now
-        return self.find(segment.samples[-int(WINDOW * RATE) :], now)
+        spotted = self.find(segment.samples[-int(WINDOW * RATE) :], now)
+        return spotted and replace(spotted, ended=min(spotted.ended, segment.ended))
 
     def find(self, samples: NDArray[np.float32], now: float) -> Spotted | None:
         """The same in any samples, the last of which was heard at `now`."""
@@ -88,8 +89,7 @@ class Spotter:
         if fit < FITS or (len(rivals) and ours[best] < rivals.max() + OVER):
             return None
         command, phrase, _ = self._ways[best]
-        ended = now - (len(frames) - 1 - int(when[best])) * FRAME
-        return Spotted(command, phrase, fit, ended)
+        return Spotted(command, phrase, fit, now - (len(frames) - 1 - int(when[best])) * FRAME)
 
     def _due(self, segment: Segment, now: float) -> bool:
         if segment.began != self._begun:

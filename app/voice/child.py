@@ -1,0 +1,53 @@
+"""The voice process: orders come in on its standard input and events go out on its standard output, a line of JSON each.
+
+`python -m app.voice.child phonemes` is started by `app.voice.worker` and ends with its standard input.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import threading
+from pathlib import Path
+from typing import TextIO
+
+from app.voice.files import FileEars, read
+from app.voice.microphone import Ears, Microphone
+from app.voice.recognizer import Event
+from app.voice.service import Service, judge_of
+from app.voice.wire import event_line, read_grammar
+
+__all__ = ["main"]
+
+
+def main(arguments: list[str], orders: TextIO, events: TextIO) -> int:
+    """Serve until the orders end; `arguments` are the judge's name and, in place of the microphone, recordings."""
+    name, *recordings = arguments
+    first = orders.readline()
+    if not first:
+        return 0
+    ears: Ears = FileEars([read(Path(recording)) for recording in recordings]) if recordings else Microphone()
+
+    def tell(event: Event) -> None:
+        events.write(event_line(event) + "\n")
+        events.flush()
+
+    service = Service(read_grammar(json.loads(first)), ears, lambda grammar: judge_of(name, grammar), tell)
+    threading.Thread(target=_obey, args=(service, orders), name="voice orders", daemon=True).start()
+    service.run()
+    return 0
+
+
+def _obey(service: Service, orders: TextIO) -> None:
+    for line in orders:
+        order = json.loads(line)
+        if "listen" in order:
+            service.listen(on=bool(order["listen"]))
+        elif "heed" in order:
+            heeded = order["heed"]
+            service.heed(None if heeded is None else frozenset(heeded))
+    service.stop()
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:], sys.stdin, sys.stdout))
