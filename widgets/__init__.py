@@ -53,6 +53,7 @@ CATALOGUE: dict[str, str] = {
     "PlaceList": "widgets.place_list",
     "PromptCard": "widgets.prompt_card",
     "QuestionCard": "widgets.question_card",
+    "ReactionTest": "widgets.reaction_test",
     "Readout": "widgets.readout",
     "ResponseChart": "widgets.response_chart",
     "RollPitch": "widgets.roll_pitch",
