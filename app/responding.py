@@ -49,6 +49,9 @@ class Responding:
         self.tracks.asked = self._asked
         self.trials: Trials | None = None
         """The study that is led just now, or was left in the middle; None for none."""
+        self.due = ""
+        """The task that is over and whose workload was not filled in; empty for none."""
+        self._task = ""
         self._listening: defaultdict[str, float] = defaultdict(float)
         self._looked = self._saved = app.now()
         self._running = False
@@ -81,6 +84,15 @@ class Responding:
     def snippets(self, agreed: bool) -> None:
         self.tracks.consent = agreed
         self.keep("snippets", agreed)
+
+    @property
+    def reminds(self) -> bool:
+        """When a task is over, it is said that its workload can be filled in."""
+        return self._setting("remind", False)
+
+    def remind(self, on: bool) -> None:
+        """Say so from now on, or no more."""
+        self.keep("remind", on)
 
     def turn(self, on: bool) -> None:
         """Keep a log or keep none, from now on."""
@@ -160,7 +172,19 @@ class Responding:
             self.tracks.robot = session.name
             self.tracks.outcome(post.value, post.received)
         elif channel in STATES:
-            self.tracks.see(self._state(session), post.received)
+            state = self._state(session)
+            self._watch(state)
+            self.tracks.see(state, post.received)
+
+    def _watch(self, state: State) -> None:
+        """A task that is over leaves its workload to be filled in."""
+        runs = state.running in ("RUNNING", "PAUSED")
+        if self._task and not runs:
+            self.due = self._task
+            if self.reminds:
+                over = "The task is over: its workload can be filled in, at Inputs, Log and study."
+                (self._app.shell or self._app.connect).say(over, "info")
+        self._task = state.task if runs else ""
 
     @staticmethod
     def _state(session: Any) -> State:
@@ -237,7 +261,7 @@ class Responding:
     def fill(self, form: str, answers: dict[str, int], order: list[str], seconds: dict[str, float]) -> float:
         """Keep a form and give its score; ValueError where it cannot be scored."""
         trials = self.trials
-        about = {}
+        about = {"task": self.due}
         if trials is not None and trials.stage in ("tlx", "sus"):
             block = trials.now_block
             about = {"user": trials.plan.user, "task": "prompts"}

@@ -155,7 +155,7 @@ class BarRows(Gauge):
     def _lines(self, shapes: Shapes, span: tuple[float, float], top: float) -> Iterator[Word]:
         (left, right), (full, step) = span, self.scale()
         low = self.y + self.edge + dp(FOOT)
-        every = 1 if (right - left) / max(full / step, 1) >= dp(34) else 2
+        every = 1 if (right - left) / max(full / step, 1) >= dp(46) else 2
         for number in range(int(full / step + 1e-6) + 1):
             x = left + (right - left) * number * step / full
             shapes.segments(np.array([[x, low]]), np.array([[x, top]]), dp(1), tint(theme.muted, 0.45))

@@ -10,7 +10,7 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.metrics import dp
-from kivy.properties import BooleanProperty, NumericProperty, StringProperty
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
 import widgets.amounts
@@ -43,7 +43,7 @@ Builder.load_string("""
             id: words
             text: root.words if root.asking else ''
             font_name: theme.font
-            font_size: sp(36) if root.width >= dp(420) or len(root.words) < 9 else sp(27)
+            font_size: sp(root.type_size)
             bold: True
             color: theme.text
             disabled_color: self.color
@@ -92,12 +92,26 @@ class PromptCard(Outlined, Column):
     share = NumericProperty(0.0)
     """Of all prompts, 0 to 1."""
 
+    def _type_size(self) -> float:
+        if self.width >= dp(420):
+            return 36.0
+        return 27.0 if self.width >= dp(300) or len(self.words) < 9 else 21.0
+
+    type_size = AliasProperty(_type_size, bind=["width", "words"], cache=True)
+    """Of the words [sp]."""
+
 
 def samples() -> dict[str, Callable[[], Widget]]:
     """Asking, waiting, long words on a narrow glass."""
 
     def made(width: float = 460, **kwargs: Any) -> Callable[[], Widget]:
-        given = {"icon": "pause", "words": "Pause", "how": "Voice: say it", "counted": "12 of 50", "share": 0.24}
+        given = {
+            "icon": "pause",
+            "words": "Pause",
+            "how": "Voice: say it",
+            "counted": "12 of 50",
+            "share": 0.24,
+        }
         return lambda: PromptCard(size_hint=(None, None), width=dp(width), **{**given, **kwargs})
 
     return {

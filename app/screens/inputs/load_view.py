@@ -1,0 +1,105 @@
+"""Workload and usability: fill in a form, and how the scores went over time beside what the paper found."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from typing import Any
+
+from app.screens.inputs.form_view import FormView
+from app.screens.inputs.log_view import BESIDE, look_of
+from app.screens.inputs.setting_row import switch_row
+from app.workload import BASELINE, SUS_ABOVE
+from widgets import ScoreHistory
+from widgets.kit import Column, QuietButton, Remark
+
+__all__ = ["LoadView"]
+
+
+class LoadView(Column):
+    """Two buttons and two histories; while a form is open the form."""
+
+    def __init__(self, log: Any, now: Callable[[], float], **kwargs: Any) -> None:
+        """`log` is the app's `Responding`."""
+        super().__init__(spacing="10dp", padding=BESIDE, **kwargs)
+        self._log, self._now = log, now
+        self.form: FormView | None = None
+        """The form that is open; None for none."""
+        self.said = Remark(role="ok", font_size="15sp")
+        self.load = QuietButton(text="Fill in the workload (TLX)", icon="edit")
+        self.use = QuietButton(text="Fill in the usability (SUS)", icon="edit")
+        self.load.bind(on_release=lambda _: self.open("tlx"))
+        self.use.bind(on_release=lambda _: self.open("sus"))
+        self.asks, self.reminds = switch_row(
+            "notifications",
+            "Remind me after each task",
+            "When a task is over, a sentence says that its workload can be filled in.",
+            log.remind,
+        )
+        size = {"size_hint_y": None, "height": "220dp", "state": "live"}
+        self.loads = ScoreHistory(
+            title="Workload, raw TLX",
+            baseline=BASELINE,
+            baseline_words="in the paper; less is better",
+            **size,
+        )
+        self.uses = ScoreHistory(
+            title="Usability, SUS", baseline=SUS_ABOVE, baseline_words="is average; more is better", **size
+        )
+        self._lay()
+
+    def open(self, form: str) -> None:
+        """Show a form, `tlx` or `sus`."""
+        self.form = FormView(form, self._log, self._now)
+        self.form.bind(on_done=lambda _, score: self._done(form, score))
+        self._lay()
+
+    def back(self) -> bool:
+        """Close the form that is open; False where none is."""
+        if self.form is None:
+            return False
+        self.form = None
+        self._lay()
+        return True
+
+    def enter(self) -> None:
+        """Come onto the glass."""
+        if self._log.due and self.form is None:
+            self.open("tlx")
+        self.tick()
+
+    def leave(self) -> None:
+        """Leave the glass; a form that is open stays so."""
+
+    def tick(self) -> None:
+        """Bring up to date what was filled in."""
+        self.reminds.active = self._log.reminds
+        kept = self._log.workloads.kept
+        for history, form in ((self.loads, "tlx"), (self.uses, "sus")):
+            history.scores = [(_name(one), one.score) for one in kept if one.form == form]
+
+    def _done(self, form: str, score: float) -> None:
+        self.form = None
+        self._log.due = ""
+        if math.isfinite(score):
+            self.said.text = f"{'Workload' if form == 'tlx' else 'Usability'} {score:.1f} of 100, kept."
+        self._lay()
+        self.tick()
+
+    def _lay(self) -> None:
+        self.clear_widgets()
+        shown = (
+            [self.form]
+            if self.form is not None
+            else [self.load, self.use, self.said, self.loads, self.uses, self.asks]
+        )
+        for widget in shown:
+            self.add_widget(widget)
+
+
+def _name(one: Any) -> str:
+    """What a score is of: the method, else the task, else the day."""
+    if one.method:
+        return look_of(one.method)[1]
+    return one.task.replace("_", " ") or time.strftime("%d %b", time.localtime(one.at))

@@ -1,0 +1,191 @@
+"""What the response log says: success, response times, false activations; and what is kept, exported and erased."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from kivy.properties import StringProperty
+from kivy.uix.boxlayout import BoxLayout
+
+from app.intents import INTENTS, METHODS
+from app.responses import Response
+from app.responses_stats import (
+    PAPER,
+    false_activations,
+    presses,
+    rates,
+    times,
+    used_well,
+    wrong,
+)
+from app.screens.inputs import PANES
+from app.screens.inputs.setting_row import switch_row
+from widgets import ResponseChart, SuccessBars
+from widgets.kit import Column, QuietButton, Remark, Segmented, Toggle
+
+__all__ = ["BESIDE", "LogView", "facts", "look_of"]
+
+LOOKS = {"button": ("touch_app", "Buttons"), "map": ("map", "Map")}
+UNTIL = [("sent", "Until sent"), ("ack", "Until answered"), ("effect", "Until done")]
+BESIDE = ("0dp", "0dp", "6dp", "0dp")
+"""Room at the right of what scrolls, for the bar that shows how far."""
+SURE = 4.0
+"""A second press on what erases counts within so long [s]."""
+
+
+def look_of(method: str) -> tuple[str, str]:
+    """Icon and name of a method."""
+    return LOOKS.get(method) or PANES[method][:2]
+
+
+def _words(intent: str) -> str:
+    return INTENTS[intent].words if intent in INTENTS else intent.replace("_", " ").capitalize()
+
+
+def _order(method: str) -> int:
+    return METHODS.index(method) if method in METHODS else len(METHODS)
+
+
+def facts(responses: Iterable[Response]) -> str:
+    """The figures that have no bar of their own, as sentences; empty where there are none."""
+    kept, said = list(responses), []
+    for method, falses in false_activations(kept).items():
+        if method in METHODS and math.isfinite(falses.hourly):
+            name = look_of(method)[1]
+            said.append(f"{name}: {falses.hourly:.1f} false activations an hour, in {falses.hours:.1f} h.")
+    for method, rate in wrong(kept).items():
+        if method in METHODS:
+            said.append(f"{look_of(method)[1]}: {rate.share * 100:.0f} % understood as another command.")
+    pressed = presses(kept)
+    if math.isfinite(pressed):
+        said.append(f"Switches: {pressed:.1f} presses for a selection.")
+    return "\n".join(said)
+
+
+class LogView(Column):
+    """The charts, over switches and buttons."""
+
+    source = StringProperty("use")
+    """`use` or `study`."""
+    until = StringProperty("sent")
+    """To what response times go, as of `responses_stats.seconds`."""
+
+    def __init__(self, log: Any, ask: Callable[..., None], now: Callable[[], float], **kwargs: Any) -> None:
+        """`log` is the app's `Responding`; `ask(job, then)` has a job done elsewhere and its result told."""
+        super().__init__(spacing="10dp", padding=BESIDE, **kwargs)
+        self._log, self._ask, self._now = log, ask, now
+        self._responses: list[Response] = []
+        self._sure = -math.inf
+        self.choice = Segmented(options=[("use", "In use"), ("study", "In the study")], value=self.source)
+        self.choice.bind(on_choose=lambda _, value: setattr(self, "source", value))
+        self.success = SuccessBars(state="live")
+        self.ends = Segmented(options=UNTIL, value=self.until)
+        self.ends.bind(on_choose=lambda _, value: setattr(self, "until", value))
+        self.chart = ResponseChart(state="live")
+        self.facts, self.said = Remark(font_size="15sp"), Remark(role="text", font_size="15sp")
+        self._fill()
+        self.bind(source=self._show, until=self._show)
+
+    def _fill(self) -> None:
+        for widget in (self.choice, self.success, self.ends, self.chart, self.facts):
+            self.add_widget(widget)
+        self.keeps = self._switch(
+            "save", "Keep a log", "On this handheld only; 8 MB, then the oldest goes.", self._log.turn
+        )
+        self.agrees = self._switch(
+            "sensors",
+            "Keep what was measured, too",
+            "The movement of a shake, the sounds of a word. Only if whoever gives it agrees.",
+            lambda on: setattr(self._log, "snippets", on),
+        )
+        self.export = QuietButton(text="Export a zip", icon="download")
+        self.export.bind(on_release=lambda _: self._export())
+        self.erase = QuietButton(text="Erase all", icon="delete")
+        self.erase.bind(on_release=lambda _: self._erase())
+        row = BoxLayout(size_hint_y=None, spacing="10dp")
+        self.export.bind(height=row.setter("height"))
+        row.height = self.export.height
+        row.add_widget(self.export)
+        row.add_widget(self.erase)
+        self.add_widget(row)
+        self.add_widget(self.said)
+
+    def _switch(self, icon: str, title: str, detail: str, turn: Callable[[bool], object]) -> Toggle:
+        row, switch = switch_row(icon, title, detail, turn)
+        self.add_widget(row)
+        return switch
+
+    def enter(self) -> None:
+        """Come onto the glass: what is kept is read."""
+        self._ask(self._log.read, self._read)
+        self.tick()
+
+    def leave(self) -> None:
+        """Leave the glass."""
+
+    def tick(self) -> None:
+        """Bring the switches up to date."""
+        self.keeps.active, self.agrees.active = self._log.on, self._log.snippets
+        sure = self._now() - self._sure < SURE
+        self.erase.text = "Press again: erase" if sure else "Erase all"
+        if self._log.problem:
+            self.said.text, self.said.role = self._log.problem, "warn"
+
+    def _read(self, result: Any) -> None:
+        if isinstance(result, list):
+            self._responses = result
+            self._show()
+
+    def _show(self, *_: object) -> None:
+        study = self.source == "study"
+        shown = [
+            one for one in self._responses if bool(one.user) == study or one.kind in ("armed", "selection")
+        ]
+        found = rates(shown) if study else used_well(shown)
+        self.success.title = "Understood as prompted" if study else "Done and not taken back"
+        self.success.rates = [
+            (
+                *look_of(method),
+                rate.hits,
+                rate.trials,
+                *rate.interval,
+                PAPER.get(method, math.nan) if study else math.nan,
+            )
+            for (method, _), rate in sorted(found.items(), key=lambda item: _order(item[0][0]))
+            if method in METHODS
+        ]
+        order = {name: number for number, name in enumerate(INTENTS)}
+        spreads = sorted(
+            times(shown, self.until).items(),
+            key=lambda item: (order.get(item[0][0], 99), item[0][0], _order(item[0][1])),
+        )
+        self.chart.times = [
+            (_words(intent), *look_of(method), one.median, one.low, one.high, one.count)
+            for (intent, method), one in spreads
+            if method in METHODS
+        ]
+        self.facts.text = facts(shown)
+
+    def _export(self) -> None:
+        self.said.text, self.said.role = "Writing …", "muted"
+        self._ask(self._log.export, self._exported)
+
+    def _exported(self, result: Any) -> None:
+        if isinstance(result, OSError):
+            self.said.text, self.said.role = f"It could not be written: {result.strerror or result}.", "warn"
+        else:
+            self.said.text, self.said.role = f"Written: {result}", "ok"
+
+    def _erase(self) -> None:
+        """The first press asks, the second one erases."""
+        if self._now() - self._sure >= SURE:
+            self._sure = self._now()
+        else:
+            self._sure = -math.inf
+            self._log.erase()
+            self._responses = []
+            self._show()
+            self.said.text, self.said.role = "Everything was erased.", "text"
+        self.tick()
