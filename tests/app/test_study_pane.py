@@ -1,0 +1,231 @@
+"""The pane of log and study: what was kept is drawn, a study runs through on it, and nothing of it runs when it is left."""
+
+from __future__ import annotations
+
+import threading
+import time
+from types import SimpleNamespace
+
+import pytest
+
+from app.intents import Intents
+from app.permits import Permits
+from app.responding import Responding
+from app.responses import Response, ResponseLog
+from app.screens.inputs.form_view import FormView
+from app.screens.inputs.log_view import facts
+from app.screens.inputs.setup_view import SetupView, commands_of
+from app.screens.inputs.study_pane import StudyPane
+from app.screens.inputs.trial_view import TrialView
+from app.settings import Settings
+from app.study import COMMANDS
+
+
+class Acts:
+    def why_not(self, intent):
+        return ""
+
+    def words(self, intent):
+        return intent
+
+    def do(self, intent):
+        raise AssertionError(f"{intent} was done in the study")
+
+    def answer(self, yes):
+        return ""
+
+
+class Ways:
+    """The methods of the app: the log, and a shake that is off."""
+
+    armed = ("shake",)
+
+    def __init__(self) -> None:
+        self.all = {"shake": SimpleNamespace(on=False, meaning={"ud": "pause", "fb": "resume"})}
+
+    def get(self, name):
+        return self.all.get(name)
+
+
+class Bench:
+    """The pane on a stage, with an app that has nothing else."""
+
+    def __init__(self, stage, folder) -> None:
+        self.stage, self.time = stage, 100.0
+        self.settings = Settings(folder)
+        self.app = SimpleNamespace(
+            settings=self.settings, now=lambda: self.time, session=None, methods=Ways()
+        )
+        self.app.intents = Intents(Acts(), Permits(self.settings), self.app.now)
+        self.log = self.app.methods.all["log"] = Responding(self.app, wall=lambda: 1.7e9)
+        self.log.start()
+        self.pane = StudyPane(app=self.app)
+        stage.show(self.pane, (500, 800))
+        self.pane.enter()
+
+    def settle(self) -> None:
+        """Wait for what the worker does, and for the glass."""
+        end = time.monotonic() + 10
+        worker = self.pane._worker
+        while worker is not None and time.monotonic() < end:
+            with worker._ready:
+                idle = not worker._waiting
+            if idle and self.pane._results:
+                break
+            time.sleep(0.005)
+        self.tick()
+
+    def tick(self) -> None:
+        self.pane.tick()
+        self.stage.frames(3)
+
+    def prompt(self):
+        while self.log.trials.prompt is None:
+            self.time += 0.5
+            self.log.look(self.time)
+        self.tick()
+        return self.log.trials.prompt
+
+    def close(self) -> None:
+        self.pane.leave()
+        self.log.close()
+        self.settings.close()
+
+
+@pytest.fixture
+def bench(stage, tmp_path):
+    log = ResponseLog(tmp_path / "responses")
+    for number, took in enumerate((0.5, 0.6, 0.9)):
+        log.put(
+            Response(
+                id=str(number),
+                session="s",
+                method="voice",
+                recognised="stop",
+                t_input_start=1.0,
+                t_sent=1 + took,
+            )
+        )
+    log.close()
+    bench = Bench(stage, tmp_path)
+    yield bench
+    bench.close()
+
+
+def test_what_was_kept_is_read_beside_the_glass_and_drawn(bench):
+    bench.settle()
+    view = bench.pane.view
+    assert [rate[1:4] for rate in view.success.rates] == [("Voice", 3, 3)]
+    assert view.chart.times[0][:4] == ("STOP", "mic", "Voice", pytest.approx(0.6))
+    view.choice.choose("study")
+    assert view.chart.times == []
+
+
+def test_no_thread_is_left_when_the_pane_is(bench):
+    bench.settle()
+    bench.pane.leave()
+    assert not [thread for thread in threading.enumerate() if thread.name == "study files"]
+
+
+def test_everything_is_erased_only_by_a_second_press_soon_after_the_first(bench):
+    bench.settle()
+    view = bench.pane.view
+    view.erase.dispatch("on_release")
+    assert view.erase.text == "Press again: erase"
+    bench.time += 10
+    view.tick()
+    view.erase.dispatch("on_release")
+    assert len(bench.log.read()) == 3
+    view.erase.dispatch("on_release")
+    assert bench.log.read() == []
+
+
+def test_a_zip_is_written_and_told_where(bench):
+    bench.settle()
+    bench.pane.view.export.dispatch("on_release")
+    bench.settle()
+    assert bench.pane.view.said.text.startswith("Written: ")
+    assert len(list(bench.log.exports.glob("*.zip"))) == 1
+
+
+def test_a_shake_is_asked_only_for_what_its_directions_mean(bench):
+    assert commands_of("shake", bench.app) == ("stop", "pause", "resume")
+    assert commands_of("voice", bench.app) == COMMANDS
+
+
+def test_a_study_without_a_method_cannot_begin(bench):
+    setup = SetupView(bench.app)
+    for switch in setup.switches.values():
+        switch.active = False
+    setup.tick()
+    assert setup.begin.disabled
+    assert setup.remark.text == "Choose a method."
+
+
+def test_a_method_that_is_not_listening_is_told_before_it_is_asked_for(bench):
+    setup = SetupView(bench.app)
+    setup.tick()
+    assert setup._rows["shake"].detail.startswith("Off: ")
+
+
+def test_a_study_by_buttons_runs_through_to_its_forms(bench):
+    pane = bench.pane
+    pane.choice.choose("study")
+    for method, switch in pane.view.switches.items():
+        switch.active = method == "button"
+    pane.view.often.dispatch("on_change", 1)
+    pane.view.begin.dispatch("on_release")
+    bench.tick()
+    assert isinstance(pane.view, TrialView)
+    pane.view.go.dispatch("on_release")
+    bench.tick()
+    assert pane.choice.parent is None
+    for _ in COMMANDS:
+        prompt = bench.prompt()
+        assert pane.view.card.words.lower().replace(" ", "_") == prompt.intent
+        pane.view._press(prompt.intent)
+    bench.tick()
+    assert isinstance(pane.view, FormView)
+    pane.view.hand_in.dispatch("on_release")
+    assert pane.view.said.text.startswith("No answer yet: Mental demand")
+    for scale in pane.view.sheet.scales.values():
+        scale.answer(30)
+    pane.view.hand_in.dispatch("on_release")
+    bench.tick()
+    assert (pane.view.form, bench.log.workloads.scores("tlx")[-1][1]) == ("sus", 30.0)
+    pane.view.skip.dispatch("on_release")
+    bench.tick()
+    assert bench.log.trials.stage == "done"
+    pane.view.end.dispatch("on_release")
+    bench.tick()
+    assert isinstance(pane.view, SetupView)
+
+
+def test_leaving_the_glass_lets_the_study_wait(bench):
+    bench.log.lead(SetupView(bench.app).plan)
+    bench.log.trials.begin()
+    bench.prompt()
+    bench.pane.leave()
+    assert bench.log.trials.stage == "paused"
+    bench.pane.enter()
+    bench.tick()
+    assert bench.pane.part == "study"
+    assert bench.pane.view.go.text == "Go on"
+
+
+def test_back_closes_a_form_and_then_leaves_the_rest_to_the_screen(bench):
+    bench.pane.choice.choose("load")
+    bench.pane.view.load.dispatch("on_release")
+    assert bench.pane.view.form is not None
+    assert bench.pane.back()
+    assert bench.pane.view.form is None
+    assert not bench.pane.back()
+
+
+def test_figures_without_a_bar_are_sentences(bench):
+    kept = [
+        Response(kind="armed", method="shake", seconds=7200.0),
+        Response(method="shake", recognised="stop", undo=True),
+    ]
+    assert facts(kept) == "Shake: 0.5 false activations an hour, in 2.0 h."
+    assert facts([]) == ""
