@@ -1,0 +1,142 @@
+"""Keys that drive while they are held are lost as everything else is; and who of gamepad, keys and STOP comes first."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+from tests.app.test_inputs import ESCAPE, LOSSES, PAD, Hands, hands, press, upright
+
+__all__ = ["hands", "upright"]
+
+
+def test_a_gamepad_that_is_pushed_slowly_out_of_its_dead_zone_drives(hands: Hands) -> None:
+    hands.source.there = {1: PAD}
+    hands.pass_time(0.1)
+    for step in range(50):
+        hands.source.there = {1: replace(PAD, forward=step / 50)}
+        hands.pass_time(0.04)
+    assert hands.moving
+
+
+W, A, UP = (119, 26), (97, 4), (273, 82)
+
+
+def hold(hands: Hands, keys: tuple[int, int], seconds: float = 0.0) -> None:
+    """The key goes down and repeats, as under X11."""
+    window = hands.stage.window
+    window.dispatch("on_key_down", *keys, None, [])
+    hands.pass_time(min(seconds, 0.66))
+    while seconds > 0.66:
+        window.dispatch("on_key_down", *keys, None, [])
+        hands.pass_time(0.04)
+        seconds -= 0.04
+
+
+def drive_by_key(hands: Hands) -> None:
+    hold(hands, W, 1.0)
+    assert hands.moving
+    assert hands.stick.gamepad == "keys"
+
+
+KEYS: dict[str, Callable[[Hands], object]] = {
+    "let go": lambda hands: hands.stage.window.dispatch("on_key_up", *W),
+    **{
+        name: lambda hands, happens=happens: happens(hands, None)
+        for name, happens in LOSSES.items()
+        if name in ("out of focus", "hidden", "minimised", "turned", "turned upside down", "dialog over it")
+        or name in ("card over it", "another screen", "may not drive", "disabled", "frozen", "paused")
+    },
+}
+
+
+@pytest.mark.usefixtures("upright")
+@pytest.mark.parametrize("happens", KEYS.values(), ids=KEYS)
+def test_a_key_that_is_lost_drives_no_longer(hands: Hands, happens: Callable[[Hands], object]) -> None:
+    drive_by_key(hands)
+    happens(hands)
+    hands.rests_in_time(hands.stage.time.now)
+
+
+def test_a_key_whose_end_is_never_told_ends_with_its_repeats(hands: Hands) -> None:
+    drive_by_key(hands)
+    hands.pass_time(1.0)
+    assert not hands.moving
+
+
+def test_stop_ends_what_keys_drive_and_they_must_be_let_go(hands: Hands) -> None:
+    drive_by_key(hands)
+    hands.stop.bind(on_command=lambda _: hands.stick.rest())
+    press(hands, ESCAPE)
+    hold(hands, W, 1.0)
+    assert (hands.stops, hands.moving) == (1, False)
+    hands.stage.window.dispatch("on_key_up", *W)
+    drive_by_key(hands)
+
+
+def test_keys_do_not_take_the_stick_from_a_gamepad_nor_it_from_them(hands: Hands) -> None:
+    hands.lean()
+    hold(hands, A, 0.5)
+    assert hands.stick.gamepad == "drives"
+    assert hands.stick.left == 0.0
+    hands.source.there = {1: PAD}
+    hands.pass_time(0.1)
+    assert not hands.stick.left, "the key was pressed before, and must be let go"
+    hands.stage.window.dispatch("on_key_up", *A)
+    drive_by_key(hands)
+    hands.source.there = {1: replace(PAD, forward=-1.0)}
+    hands.pass_time(0.1)
+    assert hands.stick.forward > 0
+    hands.stage.window.dispatch("on_key_up", *W)
+    hands.pass_time(0.3)
+    assert not hands.moving, "the gamepad was pushed before, and must be let go"
+
+
+def test_while_somebody_types_keys_do_not_drive(hands: Hands) -> None:
+    from kivy.uix.textinput import TextInput
+
+    field = TextInput(size_hint=(None, None), size=(100, 40), pos=(900, 600))
+    hands.page.add_widget(field)
+    field.focus = True
+    hands.stage.window.dispatch("on_key_down", *W, "w", [])
+    hands.pass_time(0.5)
+    assert not hands.moving
+    field.focus = False
+
+
+def test_on_a_screen_with_nothing_to_drive_the_same_keys_are_left_to_others(hands: Hands) -> None:
+    hands.shell.screen = "mission"
+    assert not hands.stage.window.dispatch("on_key_down", *UP, None, [])
+
+
+def test_the_origin_of_stop_is_the_key_or_the_button(hands: Hands) -> None:
+    from app.origin import origins
+
+    said: list[tuple[str, str]] = []
+    hands.stop.bind(on_command=lambda _: said.append((origins.current().method, origins.current().intent)))
+    press(hands, ESCAPE)
+    hands.source.there = {1: PAD}
+    hands.pass_time(0.1)
+    hands.stage.window.dispatch("on_joy_button_down", 1, 1)
+    assert said == [("keyboard", "stop"), ("gamepad", "stop")]
+
+
+def test_stop_of_a_gamepad_that_is_switched_off_is_stop_all_the_same(hands: Hands) -> None:
+    hands.inputs.mapped.pads_on = False
+    hands.source.there = {1: PAD}
+    hands.pass_time(0.1)
+    hands.source.there = {1: replace(PAD, forward=1.0, buttons=frozenset({"b"}))}
+    hands.pass_time(0.5)
+    assert (hands.stops, hands.moving) == (1, False)
+
+
+def test_what_a_hand_holds_on_a_gamepad_ends_when_it_is_pulled_out(hands: Hands) -> None:
+    told: list[bool] = []
+    hands.inputs.meanings.held["talk"].append(told.append)
+    hands.source.there = {1: replace(PAD, buttons=frozenset({"lefttrigger"}))}
+    hands.pass_time(0.1)
+    hands.source.there.clear()
+    hands.pass_time(0.1)
+    assert told == [True, False]
