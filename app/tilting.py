@@ -268,7 +268,7 @@ class Tilting:
     def _offer(self, *, on: bool) -> None:
         """A drive screen whose robot has no circle gets one beside its stick, or loses it."""
         shell = self._app.shell
-        screen = shell.screens.get(shell.screen) if shell is not None else None
+        screen: Any = shell.screens.get(shell.screen) if shell is not None else None
         hands = getattr(screen, "hands", None)
         if hands is not None and hands.tablet != on and hasattr(screen, "meet"):
             hands.tablet = on

@@ -90,7 +90,8 @@ def _walks(way: Callable[[Walk], Told], made: Sequence[Walk], recorded: Sequence
 
 def _ours(walk: Walk) -> Told:
     rate, samples = walk
-    tilt, level, told, due = Tilt(WALKING), Level(), [], CLOSES
+    tilt, level, due = Tilt(WALKING), Level(), CLOSES
+    told: list[float] = []
     for n, a in enumerate(samples):
         t = n / rate
         tilt.feed(t, level(t, a))
@@ -110,7 +111,8 @@ def _naive(walk: Walk) -> Told:
     rate, samples = walk
     weight = 1.0 / (1.0 + rate / (2.0 * math.pi * 2.0))
     roll = pitch = 0.0
-    neutral, told, due = (0.0, 0.0), [], CLOSES
+    neutral, due = (0.0, 0.0), CLOSES
+    told: list[float] = []
     for n, a in enumerate(samples):
         seen = between((0.0, 0.0, 1.0), a)
         roll, pitch = roll + weight * (seen[0] - roll), pitch + weight * (seen[1] - pitch)
