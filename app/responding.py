@@ -28,6 +28,8 @@ __all__ = ["Responding"]
 FOLDER = "responses"
 SAVE_EVERY = 60.0
 """How long the methods were listening is put down so often [s]."""
+DRIVE_GAP = 1.0
+"""Driving that rests for so long has ended [s]."""
 STATES = ("/task/status", "/control/status", "/lights")
 """Topics that show what became of a command."""
 
@@ -43,8 +45,10 @@ class Responding:
         folder = Path(app.settings.path).parent
         self.folder, self.exports = folder / FOLDER, folder / "exports"
         self.log, self.workloads = ResponseLog(self.folder), Workloads(self.folder)
-        self._kept: list[Response] = []
-        """What this run has added to the log."""
+        self._given: Counter[str] = Counter()
+        self._count = 0
+        self._drive: tuple[str, float, float] | None = None
+        """Method, begin and last instant of the driving that goes on; None for none."""
         self.tracks = Tracks(self._put, now=app.now, wall=wall, new_id=lambda: uuid.uuid4().hex[:12])
         self.tracks.asked = self._asked
         self.trials: Trials | None = None
@@ -105,7 +109,7 @@ class Responding:
     @property
     def standing(self) -> str:
         """In a word or two."""
-        return f"{len(self._kept)} responses this time" if self.on else "off"
+        return f"{self._count} responses this time" if self.on else "off"
 
     @property
     def problem(self) -> str:
@@ -130,6 +134,7 @@ class Responding:
         self._app.intents.prompt = lambda: ""
         if self.trials is not None:
             self.trials.pause()
+        self._end_drive()
         self._follow(None)
         self.tracks.close()
         self._save_listening()
@@ -150,9 +155,27 @@ class Responding:
         if now - self._saved >= SAVE_EVERY:
             self._saved = now
             self._save_listening()
+        self._watch_drive(now)
         self.tracks.look(now)
         if self.trials is not None:
             self.trials.look(now)
+
+    def _watch_drive(self, now: float) -> None:
+        """Driving has a begin and an end; a stick that goes through its middle ends nothing."""
+        link = None if self._session is None else self._session.link
+        if link is not None and link.driving and link.driven_by.method:
+            method = link.driven_by.method
+            if self._drive is None or self._drive[0] != method:
+                self._end_drive()
+                self._drive = (method, now, now)
+            self._drive = (method, self._drive[1], now)
+        elif self._drive is not None and now - self._drive[2] > DRIVE_GAP:
+            self._end_drive()
+
+    def _end_drive(self) -> None:
+        drive, self._drive = self._drive, None
+        if drive is not None:
+            self.tracks.drove(*drive)
 
     # what comes in
 
@@ -224,8 +247,8 @@ class Responding:
     def _put(self, response: Response) -> None:
         if self.on:
             self.log.put(response)
-            self._kept.append(response)
-            del self._kept[:-2000]
+            self._count += response.kind == "command"
+            self._given.update(counts([response]))
 
     def _save_listening(self) -> None:
         for name, seconds in self._listening.items():
@@ -282,7 +305,7 @@ class Responding:
 
     def usage(self) -> Counter[str]:
         """How often each command was given in this run."""
-        return counts(self._kept)
+        return Counter(self._given)
 
     def export(self) -> Path:
         """Write everything into one zip; OSError when that fails. Takes a while, for a thread of its own."""
@@ -294,7 +317,8 @@ class Responding:
         """Delete all lines and forms."""
         self.log.erase()
         self.workloads.erase()
-        self._kept.clear()
+        self._given.clear()
+        self._count = 0
 
 
 def _of(prompt: Prompt) -> Asked:

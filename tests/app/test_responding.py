@@ -11,6 +11,7 @@ from types import SimpleNamespace
 import pytest
 
 from app.intents import Heard, Intents
+from app.origin import Origin
 from app.permits import Permits
 from app.responding import SAVE_EVERY, Responding
 from app.responses import Response, read
@@ -123,6 +124,29 @@ def test_while_the_app_sleeps_nobody_listens(running):
     assert running.kept("armed") == []
 
 
+def test_driving_is_one_line_from_its_begin_to_its_end(running):
+    link = SimpleNamespace(driving=True, driven_by=Origin("gamepad"))
+    running.app.session = SimpleNamespace(listeners=[], name="R2", link=link)
+    running.wait(3)
+    link.driving = False
+    running.wait(0.5)
+    link.driving = True
+    running.wait(1)
+    link.driving = False
+    running.wait(2)
+    ((method, seconds),) = [(one.method, one.seconds) for one in running.kept("drive")]
+    assert (method, seconds) == ("gamepad", pytest.approx(4.0, abs=0.5))
+
+
+def test_another_method_that_drives_begins_another_line(running):
+    link = SimpleNamespace(driving=True, driven_by=Origin("tilt"))
+    running.app.session = SimpleNamespace(listeners=[], name="R2", link=link)
+    running.wait(2)
+    link.driven_by = Origin("button")
+    running.wait(2)
+    assert [one.method for one in running.kept("drive")] == ["tilt", "button"]
+
+
 def plan(**more):
     return Plan(**{"user": "P1", "methods": ("voice",), "triggers": 1, **more})
 
@@ -158,7 +182,9 @@ def test_a_prompt_without_an_answer_is_kept_as_missed(running):
 
 
 def test_stop_reaches_a_robot_whatever_is_practised(running):
-    running.app.session = SimpleNamespace(listeners=[], name="R2")
+    running.app.session = SimpleNamespace(
+        listeners=[], name="R2", link=SimpleNamespace(driving=False, driven_by=Origin())
+    )
     running.log.lead(plan())
     running.log.trials.begin()
     assert running.hear("stop").what == "acted"
