@@ -32,6 +32,8 @@ FELT_STOP = 0.4
 """[s]"""
 SNIPPET = 6.0
 """So much of what was measured goes into the log with the operator's consent [s]."""
+NEEDED = LEAST_RATE - 0.4
+"""A sensor of 25 Hz is never quite that by its own times [Hz]."""
 SURE = 0.85
 """From this confidence on what could be cancelled need not wait."""
 
@@ -130,7 +132,7 @@ class Shaking:
         """Why it does not work though it is on, as one sentence; empty when it is well."""
         if not self._on and self.lesson is None:
             return self.mistaken
-        health = self._app.sensing.health("acceleration", least=LEAST_RATE)
+        health = self._app.sensing.health("acceleration", least=NEEDED)
         return self.mistaken if health.fault in ("", "waiting") else str(health.sentence)
 
     @property
@@ -138,7 +140,7 @@ class Shaking:
         """In a word or two."""
         if not self._on:
             return "off"
-        health = self._app.sensing.health("acceleration", least=LEAST_RATE)
+        health = self._app.sensing.health("acceleration", least=NEEDED)
         words = {"": "listening", "slow": f"{health.rate:.0f} Hz: too slow", "absent": "no sensor"}
         return words.get(health.fault, health.fault)
 
@@ -210,7 +212,7 @@ class Shaking:
         self._recent.append((t, axes))
         self._recogniser.any_shake = self._any and self._moves()
         shake = self._recogniser.feed(t, axes)
-        slow = self._app.sensing.health("acceleration", least=LEAST_RATE).fault == "slow" if shake else False
+        slow = self._app.sensing.health("acceleration", least=NEEDED).fault == "slow" if shake else False
         if shake is not None and not slow:
             self.understood(shake)
 

@@ -74,8 +74,9 @@ class ShakeLesson(Drawing):
         """The phone between its arrows, the words below, and how far it is."""
         shapes, words = Shapes(), []
         foot = dp(6) + sp(22) + dp(14)
-        half = max(1.0, (self.height - foot - dp(8)) / 2)
-        x, y = self.center_x, self.y + foot + half
+        # as high as there is room, and no wider with its arrows than there is
+        half = max(1.0, min((self.height - foot - dp(8)) / 2, (self.width / 2 - dp(20)) / 1.1))
+        x, y = self.center_x, (self.y + foot + self.top) / 2
         colour = theme.accent if self.doing or not self.axis else theme.muted
         shift, scale = self._shift(half)
         if self.axis:

@@ -219,7 +219,7 @@ def made(axis: str, person: int, seed: int, rate: float = 60.0, seconds: float =
     frequency *= rng.uniform(0.93, 1.07)
     at = np.arange(int(seconds * rate)) / rate
     phase = math.tau * np.cumsum(frequency * (1.0 + 0.04 * np.sin(0.9 * at + rng.uniform(0, 6)))) / rate
-    swing = reach * np.sin(phase) + 0.12 * reach * np.sin(3.0 * phase + 0.4)
+    swing = reach * np.sin(phase) + 0.03 * reach * np.sin(3.0 * phase + 0.4)
     away = arc * reach * np.cos(2.0 * phase)
     main = ("lr", "ud", "fb").index(axis)
     motion = np.zeros((len(at), 3))
@@ -238,8 +238,8 @@ PEOPLE = (
     (1.0, 0.16, 0.1, 0.05),
     (1.6, 0.09, 0.05, 0.1),
     (2.2, 0.06, 0.03, 0.05),
-    (3.0, 0.05, 0.03, 0.02),
-    (1.1, 0.12, 0.2, 0.15),
+    (3.0, 0.07, 0.03, 0.02),
+    (1.1, 0.13, 0.14, 0.12),
 )
 """How often a second [Hz], how far each way [m], how much of that along the arc, and how far the hand leans [rad]."""
 

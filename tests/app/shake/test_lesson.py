@@ -1,0 +1,124 @@
+"""The lesson: what it measures, what it asks for again, and how it is kept."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from app.shake import AXES, USUAL, Lesson, Own, Recogniser, fitted, own_from, own_to
+from bench.support import motion
+from bench.support.motion import Recording
+
+OWN = Own((1.0, 0.0, 0.0), 8.0, 0.4)
+
+
+def do(lesson: Lesson, takes: list[Recording], begun: float = 0.0) -> float:
+    """Have somebody do each in turn, holding still before."""
+    t = begun
+    for take in takes:
+        still = np.tile(take.samples.mean(axis=0), (74, 1))
+        for axes in np.concatenate([still, take.samples[: int(3.0 * take.rate)]]).tolist():
+            t += 1 / take.rate
+            lesson.feed(t, tuple(axes))
+    return t
+
+
+def test_three_movements_in_some_ten_seconds_and_it_is_over() -> None:
+    lesson = Lesson()
+    assert (lesson.axis, lesson.doing, lesson.progress) == ("lr", False, 0.0)
+    t = do(lesson, [motion.made(axis, 1, 0) for axis in AXES])
+    assert lesson.over
+    assert lesson.axis is None
+    assert lesson.progress == 1.0
+    assert 10.0 < t < 14.0
+    for axis, way in zip(AXES, np.eye(3), strict=True):
+        own = lesson.own[axis]
+        assert abs(np.dot(own.way, way)) > 0.9
+        assert own.gap == pytest.approx(0.5, abs=0.15)
+        assert own.peak > 3.0
+
+
+@pytest.mark.parametrize(
+    ("take", "sentence"),
+    [
+        (motion.drawn(12.0, 1), "round"),
+        (Recording("", "", 60.0, np.tile([0.0, 0.0, 9.8], (700, 1))), "too gentle"),
+    ],
+)
+def test_what_was_no_movement_to_and_fro_is_asked_for_again(take: Recording, sentence: str) -> None:
+    lesson = Lesson(("ud",))
+    circle = Recording("", "", take.rate, take.samples[int(4.2 * take.rate) :])
+    do(lesson, [circle])
+    assert sentence in lesson.sentence
+    assert lesson.axis == "ud"
+    assert lesson.own == {}
+    do(lesson, [motion.made("ud", 0, 0)], begun=9.0)
+    assert lesson.over
+    assert lesson.sentence == ""
+
+
+def test_two_movements_along_one_line_cannot_be_told_apart() -> None:
+    lesson = Lesson()
+    do(lesson, [motion.made("lr", 0, 0), motion.made("lr", 0, 1)])
+    assert lesson.sentence == "Up-down looked like left-right: do it once more, along another line."
+    assert list(lesson.own) == ["lr"]
+
+
+def test_a_sensor_that_falls_silent_begins_the_movement_anew() -> None:
+    lesson = Lesson()
+    take = motion.made("lr", 0, 0)
+    for index, axes in enumerate(take.samples[:120].tolist()):
+        lesson.feed(index / 60.0, tuple(axes))
+    assert lesson.doing
+    lesson.feed(9.0, (0.0, 0.0, 9.8))
+    assert not lesson.doing
+    assert lesson.elapsed == 0.0
+
+
+def test_who_swings_aslant_is_understood_after_the_lesson() -> None:
+    """A hand that goes up and ahead at once, for its own up-down."""
+    aslant = np.array([[1, 0, 0], [0, math.cos(0.8), -math.sin(0.8)], [0, math.sin(0.8), math.cos(0.8)]])
+
+    def tilted(seed: int) -> Recording:
+        take = motion.made("ud", 0, seed)
+        held = take.samples.mean(axis=0)
+        return Recording("up_down", "", take.rate, (take.samples - held) @ aslant.T + held)
+
+    lesson = Lesson(("ud",))
+    do(lesson, [tilted(0)])
+    trials = motion.trials([tilted(seed) for seed in (1, 2)], 3)
+
+    def said(recogniser: Recogniser, take: Recording) -> list[str]:
+        found = [recogniser.feed(i / take.rate, tuple(axes)) for i, axes in enumerate(take.samples.tolist())]
+        return [shake.axis for shake in found if shake]
+
+    assert lesson.over
+    assert [said(Recogniser(fitted(USUAL, lesson.own)), trial.take) for trial in trials] == [["ud"]] * 6
+    assert sum(said(Recogniser(), trial.take) == ["ud"] for trial in trials) < 6
+
+
+def test_nothing_measured_changes_nothing() -> None:
+    assert fitted(USUAL, {}) is USUAL
+
+
+def test_what_was_measured_comes_back_out_of_the_settings() -> None:
+    assert own_from(own_to({"lr": OWN})) == {"lr": OWN}
+    assert own_from({}) == {}
+
+
+@pytest.mark.parametrize(
+    ("kept", "sentence"),
+    [
+        (3, "is a table"),
+        ({"lr": 3}, "a way of three numbers"),
+        ({"lr": {"way": [1, 0, 0], "peak": 900, "gap": 0.4}}, "2.5 to 60 m/s², not 900"),
+        ({"ud": {"way": [1, 0, 0], "peak": 9, "gap": "x"}}, "0.1 to 1.2 s, not nan"),
+        ({"fb": {"way": [9, 0, 0], "peak": 9, "gap": 0.4}}, "length of 1, not 9"),
+        ({"fb": {"way": [True, 0, 0], "peak": 9, "gap": 0.4}}, "length of 1"),
+    ],
+)
+def test_what_cannot_be_is_said(kept: object, sentence: str) -> None:
+    with pytest.raises(ValueError, match=sentence):
+        own_from(kept)

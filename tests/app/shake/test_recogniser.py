@@ -1,0 +1,159 @@
+"""What is understood as a shake, along which line, when it is said, and what never is one."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable
+
+import numpy as np
+import pytest
+
+from app.shake import AXES, Recogniser, Shake
+from bench.support import motion
+from bench.support.motion import Recording, Trial
+
+GRAVITY = 9.80665
+
+
+def heard(samples: Iterable[tuple[float, float, float]], rate: float = 60.0, **kwargs: bool) -> list[Shake]:
+    """Everything that is understood in samples that come at `rate`."""
+    recogniser = Recogniser(**kwargs)
+    found = (recogniser.feed(index / rate, axes) for index, axes in enumerate(samples))
+    return [shake for shake in found if shake is not None]
+
+
+def of(take: Recording, **kwargs: bool) -> list[Shake]:
+    return heard(map(tuple, take.samples.tolist()), take.rate, **kwargs)
+
+
+def shaken(axis: str, person: int = 0, walks: list[Recording] | None = None) -> list[Trial]:
+    return motion.trials([motion.made(axis, person, seed) for seed in range(2)], 3, walks)
+
+
+@pytest.mark.parametrize("person", range(len(motion.PEOPLE)))
+@pytest.mark.parametrize("axis", AXES)
+def test_a_shake_is_understood_along_its_line_whoever_shakes(axis: str, person: int) -> None:
+    said = Counter(tuple(shake.axis for shake in of(trial.take)) for trial in shaken(axis, person))
+    assert said[(axis,)] >= 5
+    assert set(said) <= {(axis,), ()}, "what is not understood is nothing, and no other command"
+
+
+@pytest.mark.parametrize("axis", AXES)
+def test_it_is_understood_while_walking(axis: str) -> None:
+    walks = [motion.walking(60.0, 1)]
+    said = [
+        [shake.axis for shake in of(trial.take)] for person in (0, 1) for trial in shaken(axis, person, walks)
+    ]
+    assert said.count([axis]) >= 10
+
+
+def test_stop_is_said_inside_the_shake_and_the_others_after_it() -> None:
+    for axis in AXES:
+        for trial in shaken(axis):
+            (shake,) = of(trial.take)
+            assert (shake.told < trial.ended) == (axis == "lr")
+            assert shake.ended == (axis != "lr")
+            assert shake.began == pytest.approx(trial.began, abs=0.4)
+            assert 0.0 < shake.confidence <= 1.0
+
+
+@pytest.mark.parametrize("rate", [25.0, 50.0, 100.0, 200.0])
+def test_the_rate_of_the_sensor_matters_not_from_25_hz_on(rate: float) -> None:
+    for axis in AXES:
+        for trial in shaken(axis):
+            assert [shake.axis for shake in of(trial.take.again(rate))] == [axis]
+
+
+def test_a_phone_that_measures_gravity_downward_is_understood_alike() -> None:
+    for axis in AXES:
+        for trial in shaken(axis):
+            upside = heard(map(tuple, (-trial.take.samples).tolist()), trial.take.rate)
+            assert [shake.axis for shake in upside] == [axis]
+
+
+def test_however_it_is_held_up_is_up() -> None:
+    for lean in np.linspace(0.0, 1.5, 5):
+        take = shaken("ud")[0].take
+        turn = np.array(
+            [[1, 0, 0], [0, math.cos(lean), -math.sin(lean)], [0, math.sin(lean), math.cos(lean)]]
+        )
+        assert [shake.axis for shake in heard(map(tuple, (take.samples @ turn.T).tolist()))] == ["ud"]
+
+
+# what is no shake
+
+
+def test_nobody_who_walks_starts_to_walk_or_drives_gives_a_command() -> None:
+    walks = [motion.walking(60.0, seed) for seed in range(3)]
+    for take in [*walks, *motion.starts(walks), *motion.car(1 / 30)]:
+        assert of(take) == [], take.label
+
+
+def test_a_drawn_circle_is_no_shake() -> None:
+    assert [of(motion.drawn(12.0, seed)) for seed in range(6)] == [[]] * 6
+
+
+def test_rhythmic_exercises_of_the_arm_are_none() -> None:
+    takes = motion.packaged()
+    if not takes:
+        pytest.skip("seglearn is not installed")
+    people = {take.person for take in takes}
+    chosen = [take for take in takes if take.person in sorted(people)[:3]]
+    assert sum(len(of(take)) for take in chosen) == 0
+
+
+def test_what_goes_on_and_on_is_no_command() -> None:
+    for axis in ("ud", "fb"):
+        take = motion.made(axis, 0, 0)
+        assert of(take) == [], "longer than any shake"
+
+
+def test_a_knock_and_a_fall_are_nothing() -> None:
+    still = [(0.0, 0.0, GRAVITY)] * 240
+    knock = [(25.0, 0.0, GRAVITY)] * 3 + [(-20.0, 0.0, GRAVITY)] * 3
+    fall = [(0.0, 0.0, 0.1)] * 30 + [(0.0, 0.0, 60.0)] * 3
+    assert heard([*still, *knock, *still, *fall, *still]) == []
+
+
+def test_one_stroke_is_nothing_and_neither_is_one_there_and_back() -> None:
+    for halves in (1, 2):
+        at = np.arange(60) / 60.0
+        stroke = np.where(at < halves * 0.3, 12.0 * np.sin(math.pi * at / 0.3), 0.0)
+        samples = [(value, 0.0, GRAVITY) for value in (*([0.0] * 240), *stroke, *([0.0] * 120))]
+        assert heard(samples) == [], f"{halves} half cycles"
+
+
+# the option
+
+
+def test_any_strong_shake_is_told_at_once_where_that_is_wanted() -> None:
+    for trial in shaken("ud", 4):
+        assert of(trial.take)[0].ended
+        first = of(trial.take, any_shake=True)[0]
+        assert not first.ended
+        assert first.told < trial.ended
+
+
+# bad input
+
+
+def test_what_is_no_number_or_comes_twice_is_passed_over() -> None:
+    trial = shaken("lr")[0]
+    recogniser, said = Recogniser(), []
+    for index, axes in enumerate(map(tuple, trial.take.samples.tolist())):
+        for wrong in ((math.nan, 0.0, 0.0), (0.0, math.inf, 0.0)):
+            assert recogniser.feed(index / 60.0 + 0.001, wrong) is None
+        said += [recogniser.feed(index / 60.0, axes) for _ in range(2)]
+    assert [shake.axis for shake in said if shake] == ["lr"]
+
+
+def test_after_a_gap_it_begins_anew() -> None:
+    trial = shaken("lr")[0]
+    recogniser = Recogniser()
+    samples = list(map(tuple, trial.take.samples.tolist()))
+    cut = int(trial.began * 60) - 6
+    for index, axes in enumerate(samples[:cut]):
+        recogniser.feed(index / 60.0, axes)
+    said = [recogniser.feed(10.0 + index / 60.0, axes) for index, axes in enumerate(samples[cut:])]
+    assert not any(said), "nothing is known of the background"
