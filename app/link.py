@@ -17,7 +17,7 @@ from app.drive_slot import Drive, DriveSlot, stamped_at
 from app.events import EventStream, Known
 from app.feeds import Mailbox
 from app.offer import DRIVE, MANOEUVRE, Offer, ask
-from app.origin import origins
+from app.origin import NOBODY, origins
 from app.sources import Peek, Seen, Sources
 from bridge.choice import drive_message
 from bridge.client import BridgeClient, CameraStream, LinkState, Phase
@@ -107,6 +107,8 @@ class Link:
         self._advertised: set[str] = set()
         self._moved = False
         """The robot was told over this link to move."""
+        self.driven_by = NOBODY
+        """Whence the last order came that moves the robot; whether it still does is `driving`."""
 
     def _stream(self, known: Known | None, marks: Mapping[str, int] | None) -> EventStream:
         mailbox, now = self._mailbox, self._now
@@ -173,6 +175,8 @@ class Link:
 
         ValueError for a manoeuvre that is no drive command.
         """
+        if order != Twist():
+            self.driven_by = origins.current()
         self._slot.want(order)
         self._network.call(self._wake.set)
 

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from app.commands import COMMANDS, Commands, Outcome
+from app.origin import Origin
 from bridge.errors import NoReply, NotConnected, Refused
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
@@ -274,3 +275,29 @@ def test_every_command_asks_with_a_request_that_has_an_identity(name: str) -> No
     assert issubclass(COMMANDS[name].request, CommandRequest)
     assert COMMANDS[name].service.startswith("/")
     assert COMMANDS[name].label
+
+
+def test_each_step_of_a_command_says_whence_it_came_and_when_it_left() -> None:
+    robot, voice = Robot(0.018, YES), Origin("voice", confidence=0.9)
+    run(robot, lambda commands: commands.send("start", voice))
+    assert [(one.phase, one.origin, one.sent) for one in robot.reports] == [
+        ("sent", voice, 1000.0),
+        ("accepted", voice, 1000.0),
+    ]
+
+
+def test_what_is_asked_for_after_another_of_its_kind_keeps_its_own_origin() -> None:
+    robot = Robot(0.018, YES, 0.018, YES)
+
+    async def ask(commands: Commands) -> None:
+        first = commands.send("mission", Origin("button"), mission=Mission(laps=1))
+        await asyncio.gather(first, commands.send("mission", Origin("shake"), mission=Mission(laps=2)))
+
+    run(robot, ask)
+    assert [one.origin.method for one in robot.reports if one.phase == "accepted"] == ["button", "shake"]
+
+
+def test_stop_says_whence_it_came() -> None:
+    robot = Robot(YES)
+    run(robot, lambda commands: commands.stop(Origin("shake")))
+    assert {one.origin.method for one in robot.reports} == {"shake"}
