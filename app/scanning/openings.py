@@ -42,6 +42,8 @@ class Openings:
         """`words` are those that are likely to be typed: names and addresses that the app knows."""
         self._app, self._words = app, words
         self.pad: ScanPad | None = None
+        self.kind = ""
+        """Of what it belongs to, as in `app.scanning.kinds`."""
         self._of: Widget | None = None
         self._area: Area | None = None
         self._slow = True
@@ -51,7 +53,7 @@ class Openings:
     def open(self, kind: str, widget: Any, words: str) -> None:
         """Open what belongs to a widget of that kind, as in `app.scanning.kinds`; `words` name it."""
         self.close()
-        self._of = widget
+        self._of, self.kind = widget, kind
         if kind == "field":
             self._show(self._keyboard(widget, words))
         elif kind in ("map", "area"):

@@ -44,6 +44,8 @@ class OnGlass:
         self.openings = Openings(app, self._likely_words)
         self.ring = Ring(app, self.openings.stops)
         self._step = -1
+        self.marked: Mark | None = None
+        """What stands out now."""
 
     def close(self) -> None:
         """Take everything away that belongs to the switches."""
@@ -57,7 +59,7 @@ class OnGlass:
         """The screen or the dialog on top, as `drive` or `dialog.address`."""
         self.openings.look()
         if self.openings.pad is not None:
-            return f"pad.{slug(self.openings.pad.title)}"
+            return f"pad.{self.openings.kind}"
         dialog = self._dialog()
         if dialog is not None:
             return f"dialog.{slug(type(dialog).__name__)}"
@@ -157,6 +159,8 @@ class OnGlass:
     def _name(self, one: Found, words: str) -> str:
         """By the ids that lead to it, else by its icon, else by what it says; of a list by its kind."""
         place, path = self.place, ".".join(one.path)
+        if isinstance(one.widget, PadButton):
+            return f"{place}.{one.widget.name}"
         own = one.path[-1:] == (self._own_id(one),)
         if own:
             return f"{place}.{path}"
@@ -178,6 +182,7 @@ class OnGlass:
 
     def mark(self, mark: Mark | None) -> None:
         """Show it, scrolled into view; what drives for a moment rests when another one is marked."""
+        self.marked = mark
         if mark is None:
             self.openings.rest()
             self._step = -1

@@ -1,0 +1,59 @@
+"""A whole patrol by two keys: from the list of robots to STOP and its release, against a real robot side."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from examples.demo.robot import RobotProcess
+from tests.e2e.handheld import handheld
+from tests.e2e.two_switches import TwoSwitches
+
+
+def test_a_patrol_is_planned_started_paused_stopped_and_released_by_two_keys(
+    robot: RobotProcess, tmp_path: Path
+) -> None:
+    with handheld(tmp_path, discover=False) as glass:
+        app, keys = glass.app, TwoSwitches(glass)
+
+        keys.choose("Add by address")
+        keys.choose("192.168.1.7")
+        for letter in robot.url.removeprefix("ws://"):
+            name = {".": "Dot", ":": "Colon"}.get(letter, letter)
+            keys.choose(name)
+        keys.choose("Done")
+        glass.until(lambda: app.shell is not None and app.session.control == "mine", "the robot's screens")
+
+        keys.choose("Mission", within="Screens")
+        glass.until(lambda: app.session.feeds.latest("/map") is not None, "a map")
+        keys.choose("Points", within="Choice")
+        keys.find(lambda target: target.key is app.screens["mission"].map, "the map")
+        keys.choose("Right", times=2)
+        keys.choose("Set or choose here")
+        glass.until(lambda: len(app.mission.draft.points) == 1, "a first point")
+        keys.choose("Up", times=2)
+        keys.choose("Set or choose here")
+        glass.until(lambda: len(app.mission.draft.points) == 2, "a second point")
+        keys.choose("Left")
+        keys.choose("Set or choose here")
+        keys.choose("Undo")
+        glass.until(lambda: len(app.mission.draft.points) == 2, "the third point taken back")
+        keys.choose("Done")
+
+        keys.find(lambda target: target.words.startswith("Send"), "a button that sends the points")
+        glass.until(lambda: app.mission.state == "stored", "the points at the robot")
+        keys.find(lambda target: target.intent == "start", "start")
+        glass.until(lambda: app.session.running, "a patrol")
+        keys.choose("Pause")
+        glass.until(lambda: app.session.control_status.mode == "PAUSED", "a pause")
+        glass.run(0.8)  # a button that has just changed its meaning takes no press
+        keys.find(lambda target: target.intent == "resume", "resume")
+        glass.until(lambda: app.session.control_status.mode == "AUTO", "that it goes on")
+
+        keys.both()
+        glass.until(lambda: app.shell.stop.phase == "stopped", "STOPPED on the button")
+        keys.choose("Release STOP")
+        keys.choose("Release STOP")
+        glass.until(lambda: not app.session.stop_latched, "STOP to be released")
+        keys.choose("Back", within="Top bar")
+        glass.until(lambda: app.shell is None, "the list of robots")
+        assert keys.presses < 900

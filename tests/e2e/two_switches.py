@@ -1,0 +1,86 @@
+"""Somebody who has two keys and eyes: steps to what is wanted and does it, and reads on the glass where the mark is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from kivy.core.window import Window
+
+from app.scanning import Mark, Target
+from tests.e2e.handheld import Handheld
+
+__all__ = ["TwoSwitches"]
+
+A, B = 9, 13
+"""Key codes of Tab and Enter."""
+UP = 0.75
+"""A held so long leads up a level [s]."""
+PAUSE = 0.02
+"""From one press to the next, as a fast hand [s]."""
+MOST = 120
+"""Presses after which something is not to be found."""
+
+
+class TwoSwitches:
+    """The two keys of one handheld, pressed one after the other."""
+
+    def __init__(self, glass: Handheld) -> None:
+        self.glass, self.presses = glass, 0
+        self.switches: Any = glass.app.methods.get("switches")
+        self.switches.change(ignore_repeat=0.0, debounce=0.0, tones=False)
+
+    @property
+    def mark(self) -> Mark | None:
+        """What stands out."""
+        return self.switches.engine._glass.marked
+
+    def press(self, key: int, seconds: float = 0.0) -> None:
+        """One key down, and up again after so long [s]; a slow frame in between is no part of it."""
+        self.presses += 1
+        Window.dispatch("on_key_down", key, 0, None, [])
+        if seconds:
+            self.glass.run(seconds)
+        Window.dispatch("on_key_up", key, 0)
+        self.glass.run(PAUSE)
+
+    def both(self) -> None:
+        """Both keys at once."""
+        for key in (A, B):
+            Window.dispatch("on_key_down", key, 0, None, [])
+        self.glass.run(0.1)
+        for key in (A, B):
+            Window.dispatch("on_key_up", key, 0)
+        self.glass.run(0.05)
+
+    def choose(self, words: str, times: int = 1, within: str = "") -> Target:
+        """Step to what says `words`, in the container `within` where there are several, and press."""
+
+        def wanted(target: Target) -> bool:
+            return target.words == words and (not within or within in target.group)
+
+        return self.find(wanted, f"{words!r} {within}".strip(), times)
+
+    def find(self, wanted: Callable[[Target], bool], what: str, times: int = 1) -> Target:
+        """Step to what is wanted and press it so many times."""
+        stepped: list[str] = []
+        steps = 0
+        for _ in range(MOST):
+            mark = self.mark
+            here = mark is not None and any(wanted(target) for target in mark.targets)
+            stepped.append(f"{mark.kind}: {mark.words}" if mark is not None else "nothing")
+            if mark is not None and mark.kind == "item" and here:
+                target = mark.targets[0]
+                for _ in range(times):
+                    self.press(B)
+                return target
+            inside = mark is not None and mark.kind == "group" and here
+            steps = 0 if inside else steps + 1
+            if mark is not None and steps > mark.count:
+                self.press(A, UP)  # it is not on this level: up
+                steps = 0
+            else:
+                self.press(B if inside else A)
+        raise AssertionError(
+            f"no {what} among {list(dict.fromkeys(stepped))}; the glass says {self.glass.words()}"
+        )
