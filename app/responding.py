@@ -41,7 +41,9 @@ class Responding:
 
     def __init__(self, app: Any, wall: Callable[[], float] = time.time) -> None:
         """`wall` is the time of day [s since 1970]."""
-        self._app, self._wall, self._session = app, wall, None
+        self._app, self._wall = app, wall
+        self._session: Any = None
+        """The session that is heard; None without one."""
         folder = Path(app.settings.path).parent
         self.folder, self.exports = folder / FOLDER, folder / "exports"
         self.log, self.workloads = ResponseLog(self.folder), Workloads(self.folder)

@@ -48,7 +48,7 @@ class ScoreHistory(Gauge):
         )
 
         def at(score: float) -> float:
-            return low + (top - low) * score / MOST
+            return float(low + (top - low) * score / MOST)
 
         for value in (0, 25, 50, 75, 100):
             shapes.segments(
