@@ -85,6 +85,11 @@ class Scan:
         return len(self._here.path)
 
     @property
+    def inside(self) -> list[Target]:
+        """Everything in the group that was gone into; all there is on the top level."""
+        return list(leaves(self._group(self._here.path)))
+
+    @property
     def mark(self) -> Mark | None:
         """What stands out; None asleep and where there is nothing."""
         children = self._children(self._here.path)
