@@ -23,7 +23,7 @@ QUIETEST = -58.0
 """Below this nobody speaks into this microphone [dB over full scale]."""
 SURE = 3
 """Of the last five hops so many must be loud for words to begin."""
-BEFORE = 0.25
+BEFORE = 0.4
 """Taken along of what was before: an `s` is more quiet than the rest of its word [s]."""
 PAUSE = 0.42
 """Words are over after so long a silence: the gap of a `t` or `p` is under 0.15 s, that between two words under 0.3 s [s]."""

@@ -18,7 +18,7 @@ __all__ = ["Hearing", "Judge", "Phonemes"]
 
 METERED = 0.1
 """The meter is told so often [s]."""
-GAPS = (RATE // 8, RATE // 4 + 80)
+GAPS = (0, RATE // 4 + 80)
 """Silence that the model is given before and after words, so that it knows their first and last sound, at first and when
 it is asked again: its frames then lie otherwise [samples]."""
 UNSURE = (0.02, 0.8)
@@ -44,16 +44,22 @@ class Phonemes:
 
     def __init__(self, grammar: Grammar, model: Acoustics) -> None:
         """`VoiceTrouble` for a phrase whose sounds are not known."""
-        self._model = model
+        self._model, self._grammar = model, grammar
         self._scorer, self._spotter = Scorer(grammar, model.tokens), Spotter(grammar, model)
 
     def judge(self, samples: NDArray[np.float32], heeded: Collection[str]) -> Found | None:
         """By the whole utterance; where that is close to call, by a second look at it with other silence about it."""
         first = self._model.hear(_within(samples, GAPS[0]))
         found = self._scorer.judge([first], heeded)
-        if found is None or not UNSURE[0] < found.confidence < UNSURE[1]:
+        if found is None or not UNSURE[0] < found.confidence < UNSURE[1] or self._urgent(found):
             return found
-        return self._scorer.judge([first, self._model.hear(_within(samples, GAPS[1]))], heeded)
+        second = self._model.hear(_within(samples, GAPS[1]))
+        alone = self._scorer.judge([second], heeded)
+        return alone if self._urgent(alone) else self._scorer.judge([first, second], heeded)
+
+    def _urgent(self, found: Found | None) -> bool:
+        """STOP in either look is STOP."""
+        return found is not None and found.accepted and found.command in self._grammar.urgent
 
     def spot(self, segment: Segment, now: float) -> Spotted | None:
         """By its last second, at the moments when a word may have ended."""
@@ -102,7 +108,7 @@ class Hearing:
         self._tell(Level(float("-inf"), self._meter.noise, self._meter.snr))
 
     def _show(self, at: float) -> None:
-        if at - self._metered >= METERED:
+        if at - self._metered >= METERED - 1e-3:
             self._metered = at
             self._tell(self._meter.level(speaking=self._points.speaking))
         if self._meter.too_loud != self._told_loud:

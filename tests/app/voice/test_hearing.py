@@ -1,0 +1,117 @@
+"""From samples to events."""
+
+import numpy as np
+import pytest
+
+from app.voice.ctc import Found
+from app.voice.files import chunks
+from app.voice.hearing import Hearing, Phonemes
+from app.voice.lexicon import COMMANDS
+from app.voice.recognizer import Grammar, Level, Rejected, Result, State
+from app.voice.spotter import Spotted
+from tests.app.voice.sounds import Written, quiet, voice
+
+GRAMMAR = Grammar(COMMANDS)
+
+
+class Judge:
+    """Understands what it was told to."""
+
+    def __init__(self, command="pause", confidence=0.9, spots=""):
+        self.found = Found(command, command, confidence, False, (("hold", 0.2),), -0.1, "paws")
+        self.spots = spots
+
+    def judge(self, samples, heeded):
+        return self.found
+
+    def spot(self, segment, now):
+        return Spotted(self.spots, self.spots, -0.1, now) if self.spots and now > segment.began + 0.3 else None
+
+
+def said(judge, *, samples=None, heed=False, finish=False):
+    told = []
+    hearing = Hearing(GRAMMAR, judge, told.append)
+    if heed is not False:
+        hearing.heed(heed)
+    at = 0.0
+    for part, at in chunks(np.concatenate((quiet(1.0), voice(0.6), quiet(1.0))) if samples is None else samples):
+        hearing.hear(part, at)
+    if finish:
+        hearing.finish(at)
+    return told
+
+
+def words(told):
+    return [event for event in told if isinstance(event, Result | Rejected)]
+
+
+def test_a_command_is_told_with_when_it_was_said_and_how_clearly():
+    (result,) = words(said(Judge()))
+    assert (result.command, result.confidence, result.alternatives) == ("pause", 0.9, (("hold", 0.2),))
+    assert (result.began, result.ended) == (pytest.approx(1.0, abs=0.1), pytest.approx(1.6, abs=0.1))
+    assert result.snr > 20
+
+
+def test_what_is_not_sure_enough_is_rejected_with_what_it_was_like():
+    (rejected,) = words(said(Judge(confidence=0.4)))
+    assert (rejected.command, rejected.reason) == ("pause", "That was no command.")
+
+
+@pytest.mark.parametrize("answer", ["yes", "no"])
+def test_yes_and_no_count_only_while_a_question_is_open(answer):
+    (rejected,) = words(said(Judge(answer)))
+    assert "Nobody asked" in rejected.reason
+    (result,) = words(said(Judge(answer), heed={"yes", "no"}))
+    assert result.command == answer
+
+
+def test_while_a_question_is_open_nothing_else_counts_but_stop():
+    assert isinstance(words(said(Judge("pause"), heed={"yes", "no"}))[0], Rejected)
+    assert words(said(Judge("stop"), heed={"yes", "no"}))[0].command == "stop"
+
+
+def test_stop_is_told_before_its_end_and_once():
+    (result,) = words(said(Judge("stop", spots="stop")))
+    assert (result.command, result.early, result.strong) == ("stop", True, True)
+    assert result.ended < 1.5
+
+
+def test_another_command_after_stop_is_heard_too():
+    samples = np.concatenate((quiet(1.0), voice(0.6), quiet(1.0), voice(0.6), quiet(1.0)))
+    assert [event.command for event in words(said(Judge("stop", spots="stop"), samples=samples))] == ["stop", "stop"]
+
+
+def test_what_was_begun_when_the_ears_close_is_judged():
+    samples = np.concatenate((quiet(1.0), voice(0.6)))
+    assert not words(said(Judge(), samples=samples))
+    assert words(said(Judge(), samples=samples, finish=True))[0].command == "pause"
+
+
+def test_a_speech_is_no_command():
+    (rejected,) = words(said(Judge(), samples=np.concatenate((quiet(1.0), voice(6.0), quiet(1.0)))))
+    assert rejected.reason == "That was too long for a command."
+
+
+def test_the_level_is_told_ten_times_a_second():
+    levels = [event for event in said(Judge(), samples=quiet(2.0)) if isinstance(event, Level)]
+    assert 18 <= len(levels) <= 21
+
+
+def test_where_it_is_too_loud_voice_goes_off_says_so_and_comes_back():
+    states = [e for e in said(Judge(), samples=np.concatenate((quiet(9.0, 0.2), quiet(9.0)))) if isinstance(e, State)]
+    assert [state.word for state in states] == ["too loud", "listening"]
+    assert "dB over the noise" in states[0].sentence
+
+
+def test_stop_is_heard_where_it_is_too_loud_for_anything_else():
+    loud = np.concatenate((quiet(9.0, 0.15), voice(0.6, 0.95), quiet(2.0, 0.15)))
+    assert not any(isinstance(event, Result) for event in said(Judge("pause"), samples=loud))
+    assert any(isinstance(event, Result) for event in said(Judge("stop"), samples=loud))
+
+
+def test_a_close_call_is_looked_at_twice_and_a_clear_one_once():
+    clear, close = Written("p ɔ z"), Written("ɡ oʊ t")
+    Phonemes(GRAMMAR, clear).judge(voice(0.6), frozenset(COMMANDS))
+    found = Phonemes(GRAMMAR, close).judge(voice(0.6), frozenset(COMMANDS))
+    assert clear.asked == 1
+    assert close.asked == (2 if 0.02 < found.confidence < 0.8 else 1)

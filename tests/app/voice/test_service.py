@@ -1,0 +1,97 @@
+"""What runs while voice is on."""
+
+import threading
+
+import numpy as np
+import pytest
+
+from app.voice.files import FileEars
+from app.voice.recognizer import Grammar, Result, State, VoiceTrouble
+from app.voice.service import LINGERS, Service
+from tests.app.voice.sounds import quiet, voice
+from tests.app.voice.test_hearing import GRAMMAR, Judge
+
+SPOKEN = np.concatenate((quiet(1.0), voice(0.6)))
+
+
+class Clock:
+    """Goes on with what is heard."""
+
+    def __init__(self):
+        self.now = 0.0
+
+    def __call__(self):
+        self.now += 0.05
+        return self.now
+
+
+class Deaf(FileEars):
+    """There is no microphone."""
+
+    def start(self):
+        raise VoiceTrouble("There is no microphone.")
+
+
+def ran(*orders, ears=None, make=lambda grammar: Judge()):
+    told = []
+    ears = ears or FileEars([SPOKEN])
+    service = Service(GRAMMAR, ears, make, told.append, Clock())
+    for order in orders:
+        order(service)
+    service.stop()
+    service.run()
+    return told, ears
+
+
+def states(told):
+    return [event.word for event in told if isinstance(event, State)]
+
+
+def test_nothing_is_opened_before_it_is_asked_to_listen():
+    told, ears = ran()
+    assert (states(told), ears.open) == (["starting", "ready"], False)
+
+
+def test_the_ears_are_closed_at_the_end():
+    _, ears = ran(lambda service: service.listen(on=True))
+    assert not ears.open
+
+
+def test_a_judge_that_cannot_be_loaded_is_said():
+    def make(grammar):
+        raise VoiceTrouble("There is no hama.")
+
+    told, _ = ran(make=make)
+    assert (told[-1].word, told[-1].sentence) == ("failed", "There is no hama.")
+
+
+def test_no_microphone_is_said_and_voice_stays_ready():
+    told, _ = ran(lambda service: service.listen(on=True), ears=Deaf([]))
+    assert (told[-1].word, told[-1].sentence) == ("ready", "There is no microphone.")
+
+
+def test_what_is_said_while_the_button_is_down_is_understood_after_it_is_up():
+    heard = threading.Event()
+    told = []
+
+    def tell(event):
+        told.append(event)
+        if isinstance(event, State) and event.word == "ready" and len(states(told)) > 2:
+            heard.set()
+
+    service = Service(Grammar({"pause": ("pause",)}), FileEars([SPOKEN], gap=0.1), lambda grammar: Judge(), tell)
+    thread = threading.Thread(target=service.run)
+    thread.start()
+    service.listen(on=True)
+    service.listen(on=False)
+    assert heard.wait(5 + LINGERS)
+    service.stop()
+    thread.join(5)
+    assert [event.command for event in told if isinstance(event, Result)] == ["pause"]
+    assert states(told) == ["starting", "ready", "listening", "ready"]
+
+
+@pytest.mark.parametrize("times", [1, 3])
+def test_to_close_closed_ears_is_nothing(times):
+    told, _ = ran(*[lambda service: service.listen(on=False)] * times)
+    assert states(told) == ["starting", "ready"]

@@ -1,0 +1,135 @@
+"""A recogniser in a process of its own."""
+
+import queue
+import sys
+
+import pytest
+
+from app.voice.files import read
+from app.voice.lexicon import COMMANDS
+from app.voice.recognizer import Grammar, Level, Partial, Rejected, Result, State, VoiceTrouble
+from app.voice.wire import event_line, grammar_fields, read_event, read_grammar
+from app.voice.worker import AGAIN, OVER, InProcess, InThread, recognizer
+
+GRAMMAR = Grammar(COMMANDS)
+PROGRAM = """
+import json, sys
+grammar = json.loads(sys.stdin.readline())
+say = lambda word, sentence="": print(json.dumps({"event": "State", "word": word, "sentence": sentence}), flush=True)
+say("ready", grammar["language"])
+print("a foreign library prints something", flush=True)
+for line in sys.stdin:
+    order = json.loads(line)
+    if order.get("heed") == ["crash"]:
+        sys.exit(3)
+    say(json.dumps(order))
+"""
+
+
+@pytest.fixture
+def voice():
+    made = InProcess("phonemes", command=[sys.executable, "-c", PROGRAM])
+    made.missing = lambda: ""
+    yield made
+    made.stop()
+
+
+@pytest.fixture
+def told():
+    return queue.Queue()
+
+
+def words(told, count):
+    return [told.get(timeout=10) for _ in range(count)]
+
+
+def test_orders_go_in_and_events_come_out(voice, told):
+    voice.start(GRAMMAR, told.put)
+    voice.listen(on=True)
+    voice.heed({"yes", "no"})
+    assert [event.word for event in words(told, 3)] == ["ready", '{"listen": true}', '{"heed": ["no", "yes"]}']
+
+
+def test_a_crash_is_said_and_it_is_started_again_once_with_what_it_was_told(voice, told):
+    voice.start(GRAMMAR, told.put)
+    voice.heed({"crash"})
+    events = words(told, 4)
+    assert [event.word for event in events] == ["ready", "starting", "ready", "failed"]
+    assert (events[1].sentence, events[3].sentence) == (AGAIN, OVER)
+
+
+def test_to_stop_is_no_crash_and_ends_the_process(voice, told):
+    voice.start(GRAMMAR, told.put)
+    words(told, 1)
+    process = voice._process
+    voice.stop()
+    voice.stop()
+    assert process.returncode is not None
+    assert told.empty()
+
+
+def test_orders_to_one_that_was_not_started_are_nothing(voice):
+    voice.listen(on=True)
+    voice.heed(None)
+
+
+def test_a_language_that_it_has_not_is_said(voice, told):
+    with pytest.raises(VoiceTrouble, match="has no 'de'; it understands en"):
+        voice.start(Grammar({"stop": ("halt",)}, "de"), told.put)
+
+
+def test_a_package_that_is_missing_is_said(monkeypatch):
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    assert "needs the package hama" in InProcess("phonemes").missing()
+    with pytest.raises(VoiceTrouble, match="needs the package pocketsphinx"):
+        InThread("sphinx").start(GRAMMAR, print)
+
+
+def test_a_phone_has_no_processes_to_start():
+    assert isinstance(recognizer(alone=False), InThread)
+    assert isinstance(recognizer(alone=True), InProcess)
+    with pytest.raises(VoiceTrouble, match="no recogniser 'ears'; there are phonemes, sphinx"):
+        recognizer("ears")
+
+
+def test_a_fault_in_the_thread_is_said_and_it_is_started_again_once(monkeypatch, told):
+    monkeypatch.setattr("app.voice.worker.judge_of", lambda name, grammar: 1 / 0)
+    monkeypatch.setattr("app.voice.worker._missing", lambda name: "")
+    voice = InThread("phonemes")
+    voice.start(GRAMMAR, told.put)
+    events = words(told, 4)
+    voice.stop()
+    assert [event.sentence for event in events] == ["", AGAIN, "", OVER]
+
+
+@pytest.mark.parametrize(
+    "event",
+    [
+        Partial("sto", 0.3),
+        Result("stop", "stop", 0.9, 1.0, 2.0, (("start", 0.2),), 21.0, True, True, {"fit": -0.1}),
+        Rejected("That was no command.", "pause", 0.3, 2.0),
+        Level(-30.0, -60.0, 30.0, True, False),
+        State("ready", "“stop”"),
+    ],
+    ids=lambda event: type(event).__name__,
+)
+def test_what_is_told_survives_the_way(event):
+    assert read_event(event_line(event)) == event
+
+
+def test_a_grammar_survives_the_way():
+    assert read_grammar(grammar_fields(GRAMMAR)) == GRAMMAR
+
+
+@pytest.mark.parametrize("line", ["", "null", "{}", '{"event": "Nothing"}', '{"event": "State"}'])
+def test_a_line_that_is_no_event_is_refused(line):
+    with pytest.raises(ValueError):
+        read_event(line)
+
+
+def test_a_recording_that_is_not_there_or_is_none_is_said(tmp_path):
+    with pytest.raises(VoiceTrouble, match="There is no recording"):
+        read(tmp_path / "none.wav")
+    (tmp_path / "text.wav").write_text("no sound")
+    with pytest.raises(VoiceTrouble, match="cannot be read as a recording"):
+        read(tmp_path / "text.wav")
