@@ -88,9 +88,9 @@ class Shaking:
             self.own, self.mistaken = {}, f"{problem} The lesson has to be done again."
 
     def _keep(self) -> None:
+        meaning = {str(axis): intent for axis, intent in self.meaning.items()}
         self._app.settings.set(
-            "shake",
-            {"on": self._on, "any": self._any, **self.meaning, "own": own_to(self.own)},
+            "shake", {"on": self._on, "any": self._any, **meaning, "own": own_to(self.own)}
         )
 
     @property
@@ -142,7 +142,7 @@ class Shaking:
             return "off"
         health = self._app.sensing.health("acceleration", least=NEEDED)
         words = {"": "listening", "slow": f"{health.rate:.0f} Hz: too slow", "absent": "no sensor"}
-        return words.get(health.fault, health.fault)
+        return str(words.get(health.fault, health.fault))
 
     # when it listens
 

@@ -90,7 +90,7 @@ class _Background:
 
 
 class _Best(NamedTuple):
-    count: int
+    halves: int
     evidence: float
     mean: float
 
@@ -299,4 +299,4 @@ class Recogniser:
         way, best = self._tuning.ways[i], burst.best[i]
         much = min(1.0, best.evidence / way.evidence / SURE_AT)
         confidence = math.sqrt(much * min(1.0, spread.straight) * scores[i] / (sum(scores) or 1.0))
-        return Shake(AXES[i], burst.began - AHEAD, t, ended, confidence, best.mean, best.count)
+        return Shake(AXES[i], burst.began - AHEAD, t, ended, confidence, best.mean, best.halves)

@@ -6,18 +6,19 @@ import math
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from app import shaking as module
 from app.device.motion import NoMotion, SimulatedMotion
 from app.intents import Heard, Verdict
 from app.sensing import Sensing
-from app.shake import AXES, Own, own_to
+from app.shake import AXES, Axis, Own, own_to
 from app.shaking import CHOICES, Shaking
 from bench.support import motion
 from bench.support.motion import Recording
 
-OWN = {"lr": Own((1.0, 0.0, 0.0), 8.0, 0.4)}
+OWN: dict[Axis, Own] = {"lr": Own((1.0, 0.0, 0.0), 8.0, 0.4)}
 
 
 class Hand:
@@ -123,7 +124,7 @@ def test_left_and_right_are_those_of_the_screen(hand: Hand) -> None:
     hand.shaking.look(hand.t)
     trial = motion.trials([motion.made("lr", 0, 0)], 1)[0].take
     x, y, z = trial.samples.T
-    hand.does(Recording("", "", trial.rate, motion.np.stack([y, -x, z], axis=1)))
+    hand.does(Recording("", "", trial.rate, np.stack([y, -x, z], axis=1)))
     assert hand.intents == ["stop"]
 
 
@@ -174,8 +175,8 @@ def test_the_lesson_is_kept_and_nothing_is_understood_meanwhile(hand: Hand) -> N
     assert hand.source.running, "for the lesson, though it is off"
     for axis in AXES:
         take = motion.made(axis, 1, 0)
-        still = motion.np.tile(take.samples.mean(axis=0), (74, 1))
-        hand.does(Recording("", "", 60.0, motion.np.concatenate([still, take.samples[:180]])))
+        still = np.tile(take.samples.mean(axis=0), (74, 1))
+        hand.does(Recording("", "", 60.0, np.concatenate([still, take.samples[:180]])))
     assert hand.shaking.lesson is not None
     assert hand.shaking.lesson.over
     assert hand.felt == [module.FELT] * 3
