@@ -54,6 +54,10 @@ class SetupView(Column):
             self._rows[method], self.switches[method] = switch_row(icon, name, "", lambda _: self.tick())
             self.switches[method].active = method in USUAL
             self.add_widget(self._rows[method])
+        self._fill()
+
+    def _fill(self) -> None:
+        """Posture, how often, and the way in."""
         self.add_widget(SectionLabel(title="Posture"))
         self.posture = Segmented(
             options=[("standing", "Standing"), ("walking", "Walking"), ("both", "Both")], value="standing"
