@@ -30,6 +30,10 @@ KIT = {
     "TextField": "widgets.text_field",
     "Rows": "widgets.rows",
     "EventRow": "widgets.event_row",
+    "PromptCard": "widgets.prompt_card",
+    "ResponseChart": "widgets.response_chart",
+    "ScoreHistory": "widgets.score_history",
+    "SuccessBars": "widgets.success_bars",
 }
 """The kit's modules, shown after the robot widgets."""
 

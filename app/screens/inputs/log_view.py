@@ -22,8 +22,9 @@ from app.responses_stats import (
 )
 from app.screens.inputs import PANES
 from app.screens.inputs.setting_row import switch_row
-from widgets import ResponseChart, SuccessBars
 from widgets.kit import Column, QuietButton, Remark, Segmented, Toggle
+from widgets.response_chart import ResponseChart
+from widgets.success_bars import SuccessBars
 
 __all__ = ["BESIDE", "LogView", "facts", "look_of"]
 

@@ -10,8 +10,8 @@ from app.intents import INTENTS, Heard
 from app.origin import origins
 from app.screens.inputs.log_view import BESIDE, look_of
 from app.study import Trials
-from widgets import PromptCard
 from widgets.kit import Column, Grid, PrimaryButton, QuietButton, Remark
+from widgets.prompt_card import PromptCard
 
 __all__ = ["TrialView"]
 
