@@ -107,7 +107,7 @@ class PilothouseApp(App):
         now: Callable[[], float] = time.monotonic,
         **kwargs: Any,
     ) -> None:
-        """`url` is connected to at once; `screen` is `mission` or `drive`, shown once connected.
+        """`url` is connected to at once; `screen` is shown once connected, `inputs` without a robot too.
 
         `theme` overrides the remembered one, `layout` the one that is made for the robot; `simulator` is the command that starts the built-in simulator;
         `discover` listens to robots saying HELLO; `poll` looks for fingers once more a frame. Raises LayoutError for a layout that cannot be shown.
@@ -215,6 +215,8 @@ class PilothouseApp(App):
         self._list()
         if self._url:
             self.open(self._url)
+        elif self._first_screen == "inputs":
+            self.show_inputs()
 
     def on_stop(self) -> None:
         """Leave the robot at rest, end every thread and the simulator."""

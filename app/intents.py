@@ -209,9 +209,13 @@ class Intents:
         if verdict is None and heard.intent in ("yes", "no"):
             return self._told(heard, self._answered(heard, now))
         if verdict is None:
-            self._drop("Something else was asked for.")
-            risk = self._risk(intent, heard)
+            risk, waited = self._risk(intent, heard), self.pending
+            # STOP before anything is told of what it takes the place of
             verdict = self._act(heard, now) if risk == "at_once" else self._wait(heard, risk, now)
+            if self.pending is waited:
+                self.pending = None
+            if waited is not None:
+                self._told(waited.heard, Verdict("cancelled", "Something else was asked for."))
         return self._told(heard, verdict)
 
     def answer(self, yes: bool, method: str = "button") -> Verdict:
@@ -232,7 +236,9 @@ class Intents:
 
     def rest(self) -> None:
         """What waits is forgotten: the glass is taken away, or the robot is left."""
-        self._drop("Left.")
+        pending, self.pending = self.pending, None
+        if pending is not None:
+            self._told(pending.heard, Verdict("cancelled", "Left."))
 
     # how it is decided
 
@@ -282,11 +288,6 @@ class Intents:
             self._told(pending.heard, Verdict("cancelled", f"Cancelled: {words}."))
             return Verdict("acted", f"Cancelled: {words}.")
         return self._told(pending.heard, self._act(pending.heard, now))
-
-    def _drop(self, why: str) -> None:
-        pending, self.pending = self.pending, None
-        if pending is not None:
-            self._told(pending.heard, Verdict("cancelled", why))
 
     def _origin(self, heard: Heard, decided: float) -> Origin:
         return Origin(

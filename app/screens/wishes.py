@@ -72,9 +72,9 @@ class Wishes:
         """What is done or cancelled is said; what waits has its card."""
         if heard.method in FELT and verdict.what in ("acted", "waits", "asks"):
             vibrate(BUZZ)
-        if not verdict.done or not verdict.sentence:
-            return
-        done = verdict.what in ("acted", "cancelled")
+        if not verdict.done or not verdict.sentence or verdict.what == "cancelled":
+            return  # its card goes, and whoever said no is told so
+        done = verdict.what == "acted"
         if done and (heard.method in PRESSED or heard.intent in LOOKS):
             return  # whoever pressed it sees what it did
         if heard.intent == "stop" and done:

@@ -84,6 +84,15 @@ def test_stop_acts_at_once_whoever_says_it(stage: Stage, method: str) -> None:
     assert stage.acts.names == ["stop"]
 
 
+def test_stop_is_done_before_anybody_hears_of_what_it_takes_the_place_of(stage: Stage) -> None:
+    stage.say("go_home")
+    done: list[list[str]] = []
+    stage.intents.on_taken.append(lambda *_: done.append(stage.acts.names))
+    stage.say("stop")
+    assert done == [["stop"], ["stop"]]
+    assert stage.intents.pending is None
+
+
 def test_what_may_be_cancelled_acts_after_two_seconds_and_not_before(stage: Stage) -> None:
     assert stage.say("resume") == "waits"
     stage.wait(CANCEL_FOR - 0.01)
