@@ -193,11 +193,16 @@ WHO_INSTALLS = {
 }
 
 
+ALSO = {"app": "voice"}
+"""An extra that a folder makes use of where it is installed."""
+
+
 @pytest.mark.parametrize("folder", ["bridge", *WHO_INSTALLS])
 def test_every_import_is_installed_by_the_folders_own_extra(folder):
     names = PROJECT["project"]["dependencies"] + PROJECT["project"]["optional-dependencies"].get(
         WHO_INSTALLS.get(folder), []
     )
+    names = names + PROJECT["project"]["optional-dependencies"].get(ALSO.get(folder), [])
     installed = {canonical(re.split(r"[<>=!~]", name)[0]) for name in names}
     wanted = {
         module.split(".")[0]

@@ -44,4 +44,6 @@ def quiet(seconds: float, level: float = 1e-3) -> np.ndarray:
 def voice(seconds: float, level: float = 0.3) -> np.ndarray:
     """Something as loud as a voice."""
     at = np.arange(int(seconds * RATE)) / RATE
-    return (level * np.sin(2 * np.pi * 150 * at) * (0.7 + 0.3 * np.sin(2 * np.pi * 4 * at))).astype(np.float32)
+    return (level * np.sin(2 * np.pi * 150 * at) * (0.7 + 0.3 * np.sin(2 * np.pi * 4 * at))).astype(
+        np.float32
+    )

@@ -26,7 +26,9 @@ def test_each_phrase_that_is_heard_clearly_is_its_command(scorer, phrase):
         assert (found.accepted, phrase in COMMANDS[found.command]) == (True, True)
 
 
-@pytest.mark.parametrize("ipa", ["ʃ ɑ p", "h aʊ s", "p ɛ t ɹ ə l", "s ɛ v ə n", "w ɛ ð ɝ ɪ z n aɪ s", "d aʊ n", "n ɑ t"])
+@pytest.mark.parametrize(
+    "ipa", ["ʃ ɑ p", "h aʊ s", "p ɛ t ɹ ə l", "s ɛ v ə n", "w ɛ ð ɝ ɪ z n aɪ s", "d aʊ n", "n ɑ t"]
+)
 def test_other_words_are_no_command(scorer, ipa):
     assert not scorer.judge([opinion(ipa)], EVERY).accepted
 

@@ -15,7 +15,9 @@ def words(samples, points=None):
 
 def test_words_between_silences_are_found_where_they_are():
     found = words(np.concatenate((quiet(1.0), voice(0.6), quiet(1.0))))
-    assert [(s.began, s.ended) for s in found] == [(pytest.approx(1.0, abs=0.08), pytest.approx(1.6, abs=0.06))]
+    assert [(s.began, s.ended) for s in found] == [
+        (pytest.approx(1.0, abs=0.08), pytest.approx(1.6, abs=0.06))
+    ]
 
 
 def test_a_little_of_what_was_before_is_kept():
@@ -24,11 +26,15 @@ def test_a_little_of_what_was_before_is_kept():
 
 
 def test_the_gap_of_a_closed_mouth_does_not_end_a_word():
-    assert len(words(np.concatenate((quiet(1.0), voice(0.3), quiet(PAUSE - 0.15), voice(0.3), quiet(1.0))))) == 1
+    assert (
+        len(words(np.concatenate((quiet(1.0), voice(0.3), quiet(PAUSE - 0.15), voice(0.3), quiet(1.0))))) == 1
+    )
 
 
 def test_a_longer_one_does():
-    assert len(words(np.concatenate((quiet(1.0), voice(0.3), quiet(PAUSE + 0.2), voice(0.3), quiet(1.0))))) == 2
+    assert (
+        len(words(np.concatenate((quiet(1.0), voice(0.3), quiet(PAUSE + 0.2), voice(0.3), quiet(1.0))))) == 2
+    )
 
 
 def test_a_click_is_no_word():

@@ -25,7 +25,9 @@ class Judge:
         return self.found
 
     def spot(self, segment, now):
-        return Spotted(self.spots, self.spots, -0.1, now) if self.spots and now > segment.began + 0.3 else None
+        return (
+            Spotted(self.spots, self.spots, -0.1, now) if self.spots and now > segment.began + 0.3 else None
+        )
 
 
 def said(judge, *, samples=None, heed=False, finish=False):
@@ -34,7 +36,9 @@ def said(judge, *, samples=None, heed=False, finish=False):
     if heed is not False:
         hearing.heed(heed)
     at = 0.0
-    for part, at in chunks(np.concatenate((quiet(1.0), voice(0.6), quiet(1.0))) if samples is None else samples):
+    for part, at in chunks(
+        np.concatenate((quiet(1.0), voice(0.6), quiet(1.0))) if samples is None else samples
+    ):
         hearing.hear(part, at)
     if finish:
         hearing.finish(at)
@@ -78,7 +82,10 @@ def test_stop_is_told_before_its_end_and_once():
 
 def test_another_command_after_stop_is_heard_too():
     samples = np.concatenate((quiet(1.0), voice(0.6), quiet(1.0), voice(0.6), quiet(1.0)))
-    assert [event.command for event in words(said(Judge("stop", spots="stop"), samples=samples))] == ["stop", "stop"]
+    assert [event.command for event in words(said(Judge("stop", spots="stop"), samples=samples))] == [
+        "stop",
+        "stop",
+    ]
 
 
 def test_what_was_begun_when_the_ears_close_is_judged():
@@ -98,7 +105,11 @@ def test_the_level_is_told_ten_times_a_second():
 
 
 def test_where_it_is_too_loud_voice_goes_off_says_so_and_comes_back():
-    states = [e for e in said(Judge(), samples=np.concatenate((quiet(9.0, 0.2), quiet(9.0)))) if isinstance(e, State)]
+    states = [
+        e
+        for e in said(Judge(), samples=np.concatenate((quiet(9.0, 0.2), quiet(9.0))))
+        if isinstance(e, State)
+    ]
     assert [state.word for state in states] == ["too loud", "listening"]
     assert "dB over the noise" in states[0].sentence
 

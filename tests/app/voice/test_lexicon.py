@@ -45,7 +45,9 @@ def test_background_words_are_spelt_in_known_sounds_and_are_no_commands():
     words = dict(background())
     assert len(words) > 300
     assert all(sound in PHONES for sounds in words.values() for sound in sounds)
-    ours = {sounds for phrases in COMMANDS.values() for phrase in phrases for sounds in pronunciations(phrase)}
+    ours = {
+        sounds for phrases in COMMANDS.values() for phrase in phrases for sounds in pronunciations(phrase)
+    }
     assert not ours & set(words.values())
 
 

@@ -87,7 +87,9 @@ def test_miniaudios_own_silence_is_no_microphone():
 
 
 def test_one_that_is_refused_is_said():
-    with pytest.raises(VoiceTrouble, match=r"cannot be opened: failed to init device\. Another program may hold it"):
+    with pytest.raises(
+        VoiceTrouble, match=r"cannot be opened: failed to init device\. Another program may hold it"
+    ):
         Microphone(audio=audio(refuses=True)).start()
 
 

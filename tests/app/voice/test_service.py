@@ -79,7 +79,9 @@ def test_what_is_said_while_the_button_is_down_is_understood_after_it_is_up():
         if isinstance(event, State) and event.word == "ready" and len(states(told)) > 2:
             heard.set()
 
-    service = Service(Grammar({"pause": ("pause",)}), FileEars([SPOKEN], gap=0.1), lambda grammar: Judge(), tell)
+    service = Service(
+        Grammar({"pause": ("pause",)}), FileEars([SPOKEN], gap=0.1), lambda grammar: Judge(), tell
+    )
     thread = threading.Thread(target=service.run)
     thread.start()
     service.listen(on=True)

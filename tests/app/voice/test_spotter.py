@@ -16,7 +16,9 @@ def spotter(ipa, sure=0.9):
     return Spotter(GRAMMAR, model), model
 
 
-@pytest.mark.parametrize("ipa", ["s t ɑ p", "h eɪ j u s t ɑ p", "s t ɑ p ɪ t n aʊ", "ɪ m ɝ d͡ʒ ə n s i s t ɑ p"])
+@pytest.mark.parametrize(
+    "ipa", ["s t ɑ p", "h eɪ j u s t ɑ p", "s t ɑ p ɪ t n aʊ", "ɪ m ɝ d͡ʒ ə n s i s t ɑ p"]
+)
 def test_stop_is_found_whatever_is_said_before_and_after_it(ipa):
     found = spotter(ipa)[0].find(voice(1.0), 10.0)
     assert found.command == "stop"

@@ -47,7 +47,11 @@ def test_orders_go_in_and_events_come_out(voice, told):
     voice.start(GRAMMAR, told.put)
     voice.listen(on=True)
     voice.heed({"yes", "no"})
-    assert [event.word for event in words(told, 3)] == ["ready", '{"listen": true}', '{"heed": ["no", "yes"]}']
+    assert [event.word for event in words(told, 3)] == [
+        "ready",
+        '{"listen": true}',
+        '{"heed": ["no", "yes"]}',
+    ]
 
 
 def test_a_crash_is_said_and_it_is_started_again_once_with_what_it_was_told(voice, told):
