@@ -1,7 +1,7 @@
 """Presses and time for one of 16 actions by two switches, for a simulated user, against linear cycling as in the paper of the divers.
 
 The user wants actions as they were drawn from a log with the distribution in `ACTIONS` (assumed, as there is no log
-of users yet, so that the list has the 10.6 presses that were reckoned for such a page) and
+of users yet, so that the list has about the 10.6 presses that were reckoned for such a page) and
 works the very engine of the app: contacts, tree and mark. A press takes 0.35 s; one in twenty goes wrong (a step too many, or a press
 that does not reach the contact), is noticed, and is made good by going round or by a hold back. STOP is one of the actions and is
 both switches together, as everywhere. Runs of the same repeatable action come as such steps do. The other way is one list in the

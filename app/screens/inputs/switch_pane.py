@@ -23,7 +23,7 @@ NUMBERS: dict[str, tuple[str, str, str, float, str]] = {
     "interval": ("timer", "Each step stays", "The test below finds what fits the hand.", 0.1, "s"),
     "first": ("hourglass_empty", "The first one longer by", "Time to find the mark again.", 0.1, "s"),
     "loops": ("repeat", "Rounds, then rest", "Asleep, the next press wakes it.", 1, ""),
-    "ignore_repeat": ("block", "A second press is ignored for", "For a hand that trembles.", 0.05, "s"),
+    "ignore_repeat": ("block", "Repeats ignored for", "A second press of a hand that trembles.", 0.05, "s"),
     "acceptance": ("touch_app", "A press counts after", "For a hand that brushes over switches.", 0.05, "s"),
     "debounce": (
         "bolt",
