@@ -12,15 +12,14 @@ from app.device import rotation
 from app.device.motion import Axes, SimulatedMotion, motion_source
 from app.inputs import typing
 from app.origin import Origin, origins
+from app.press import Press
 from app.tilt import Level, Tilt, TiltSettings, turned
 from widgets.tilt_circle import TiltCircle
 
-__all__ = ["CLUTCH_KEY", "LEAST", "Tilting"]
+__all__ = ["LEAST", "Tilting"]
 
 LEAST = 10.0
 """Below this rate [Hz] a hand is ahead of what the sensor tells."""
-CLUTCH_KEY = "t"
-"""Holds the clutch as a thumb on the circle would."""
 LEANS = {"up": (0.0, 1.0), "down": (0.0, -1.0), "right": (1.0, 0.0), "left": (-1.0, 0.0)}
 """Keys that lean a simulated tablet, to the right and ahead."""
 LEAN = math.radians(20.0)
@@ -92,18 +91,20 @@ class Tilting:
         for fault in self.faults:
             self._say(fault)
         self.faults = []
-        presses = self._app.inputs.presses
-        if self not in presses.takers:
-            presses.takers.insert(0, self)
+        inputs = self._app.inputs
+        if self not in inputs.presses.takers:
+            inputs.presses.takers.insert(0, self)
+            inputs.meanings.held["tilt"].append(self._hold)
 
     def stop(self) -> None:
         """Zero at once, and no sensor."""
         self._lead(None)
         self._offer(on=False)
         self._fit()
-        presses = self._app.inputs.presses
-        if self in presses.takers:
-            presses.takers.remove(self)
+        inputs = self._app.inputs
+        if self in inputs.presses.takers:
+            inputs.presses.takers.remove(self)
+            inputs.meanings.held["tilt"].remove(self._hold)
 
     def close(self) -> None:
         """Nothing is left running."""
@@ -193,26 +194,19 @@ class Tilting:
         if self._simulated is not None:
             self._simulated.lean(right, ahead)
 
-    def pressed(self, press: Any) -> bool:
-        """A key went down: the clutch, or one that leans a simulated tablet while it is held."""
-        if not self.on or self._circle is None or press.source != "key" or typing():
+    def pressed(self, press: Press) -> bool:
+        """A key went down: an arrow leans a simulated tablet while the clutch is held."""
+        leans = press.source == "key" and press.name in LEANS and self.simulated and self.tilt.pressed
+        if not leans or typing():
             return False
-        if press.name == CLUTCH_KEY and not press.modifiers - {"shift"}:
-            self.clutch(down=True)
-        elif press.name in LEANS and self.simulated and self.tilt.pressed:
-            self._keys.add(press.name)
-            self._lean_by_keys()
-        else:
-            return False
+        self._keys.add(press.name)
+        self._lean_by_keys()
         return True
 
-    def released(self, press: Any) -> None:
+    def released(self, press: Press) -> None:
         """It went up, or was lost."""
-        if press.name == CLUTCH_KEY:
-            self.clutch(down=False)
-        else:
-            self._keys.discard(press.name)
-            self._lean_by_keys()
+        self._keys.discard(press.name)
+        self._lean_by_keys()
 
     def _lean_by_keys(self) -> None:
         right, ahead = (sum(LEANS[key][axis] for key in self._keys) for axis in (0, 1))
@@ -226,6 +220,10 @@ class Tilting:
         self._clutched = down and able
         if not down:
             self.let_go()
+
+    def _hold(self, down: bool) -> None:
+        """The key or the button that means it was pressed, or let go."""
+        self.clutch(down=down)
 
     def let_go(self) -> None:
         """Zero now; whoever holds it has to let go and press anew."""

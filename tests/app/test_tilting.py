@@ -31,7 +31,9 @@ class Handheld:
         self.settings = Kept({"tilt": kept} if kept is not None else {})
         self.source = SimulatedMotion(kinds, self.now)
         self.sensing = Sensing(self.source, self.now)
-        self.inputs = SimpleNamespace(presses=SimpleNamespace(takers=[]))
+        self.inputs = SimpleNamespace(
+            presses=SimpleNamespace(takers=[]), meanings=SimpleNamespace(held={"tilt": []})
+        )
         self.circle = TiltCircle(size=(200, 200))
         self.told: list[tuple[float, float]] = []
         self.circle.bind(on_command=self._tell)
@@ -127,14 +129,14 @@ def test_what_it_commands_comes_from_the_tilt(handheld: Handheld) -> None:
     assert set(handheld.methods_of) == {"tilt"}
 
 
-def test_a_key_is_a_clutch_too(handheld: Handheld) -> None:
+def test_what_means_it_is_a_clutch_too_a_key_or_a_trigger(handheld: Handheld) -> None:
+    (held,) = handheld.inputs.meanings.held["tilt"]
     handheld.run(0.5)
-    assert handheld.tilting.pressed(handheld.key("t"))
+    held(True)
     handheld.run(1.0, pitch=30)
     assert handheld.last[1] == pytest.approx(1.0)
-    handheld.tilting.released(handheld.key("t"))
+    held(False)
     assert handheld.last == (0.0, 0.0)
-    assert not handheld.tilting.pressed(handheld.key("x"))
 
 
 def test_whatever_puts_the_circle_to_rest_opens_the_clutch_until_it_is_pressed_anew(
@@ -211,7 +213,7 @@ def test_switched_off_in_mid_drive_it_is_zero_and_the_sensor_off(handheld: Handh
     handheld.tilting.stop()
     assert handheld.last == (0.0, 0.0)
     assert not handheld.source.running
-    assert handheld.inputs.presses.takers == []
+    assert handheld.inputs.presses.takers == handheld.inputs.meanings.held["tilt"] == []
 
 
 def test_a_robot_without_a_circle_is_offered_one_unless_the_operator_does_not_want_that(
@@ -251,7 +253,7 @@ def test_a_desktop_says_that_it_has_no_sensor_and_leans_by_arrow_keys(handheld: 
     handheld.tilting.simulate(on=True)
     handheld.run(0.5)
     assert not handheld.tilting.pressed(handheld.key("up")), "arrows are the keyboard's without the clutch"
-    handheld.tilting.pressed(handheld.key("t"))
+    handheld.tilting.clutch(down=True)
     handheld.run(0.1)
     assert handheld.tilting.pressed(handheld.key("up"))
     handheld.run(1.0)

@@ -11,7 +11,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from app.tilt import RANGES
-from app.tilting import CLUTCH_KEY, LEAST, Tilting
+from app.tilting import LEAST, Tilting
 from widgets import TiltCircle
 from widgets.kit import Card, Column, ListRow, Remark, Roll, Stepper, Text, Toggle
 
@@ -195,12 +195,14 @@ class TiltPane(BoxLayout):
         if not tilting.on:
             self.says.text = "Switch tilting on to try it here."
         else:
-            key = CLUTCH_KEY.upper()
-            self.says.text = (
-                tilting.tilt.why or f"Hold the circle, or the key {key}, and tilt. This one drives nothing."
-            )
+            self.says.text = tilting.tilt.why or self._how()
         self.says.role = "warn" if tilting.tilt.why else "muted"
         self.sensor.text, self.sensor.role = self._sensor(tilting)
+
+    def _how(self) -> str:
+        keys = self.app.inputs.mapped.keys.keys_of("hold.tilt")
+        key = f", or the key {keys[0].upper()}," if keys else ""
+        return f"Hold the circle{key} and tilt. This one drives nothing."
 
     def _sensor(self, tilting: Tilting) -> tuple[str, str]:
         """What the sensor delivers, and the role of that."""
