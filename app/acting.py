@@ -213,7 +213,7 @@ class Acting:
             return why
         if not (session.knows(order.task) and session.offers("/task/start")):
             return f"This robot knows no such task: {TASKS[order.task].name}."
-        if self._runs():
+        if self._runs() and self._status is not None:
             return f"{title(TaskOrder(task=self._status.task))} runs; end it first."
         if order.task == "patrol" and not order.places and session.mission.state == "empty":
             return "There are no points on the map to patrol."

@@ -105,7 +105,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     """Waiting to be cancelled, nearly done, asking, on a phone."""
 
     def make(width: str = "420dp", left: float = 1.4, **kwargs: Any) -> Callable[[], Widget]:
-        told = {
+        told: dict[str, Any] = {
             "words": "Resume",
             "who": "mobile_vibrate",
             "heard": "Shake, up and down: 91 % sure.",
@@ -121,7 +121,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
 
         return build
 
-    asks = {
+    asks: dict[str, Any] = {
         "words": "Start patrol",
         "who": "mic",
         "heard": "Voice, “start patrol”: 82 % sure. Yes or no, by any method.",

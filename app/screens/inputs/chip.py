@@ -66,4 +66,4 @@ class InputsChip(Pressable, BoxLayout):
     def collide_point(self, x: float, y: float) -> bool:
         """It is hit within a whole target round it."""
         up, across = max(0.0, theme.target - self.height) / 2, max(0.0, theme.target - self.width) / 2
-        return self.x - across <= x <= self.right + across and self.y - up <= y <= self.top + up
+        return bool(self.x - across <= x <= self.right + across and self.y - up <= y <= self.top + up)

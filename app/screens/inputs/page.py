@@ -49,7 +49,7 @@ class InputsPage(FloatLayout):
         super().__init__(**kwargs)
         self._screen: InputsScreen | None = None
         self.leave_button = IconButton(icon="arrow_back", role="muted", bare=True, size_hint=(None, None))
-        self.leave_button.bind(on_release=lambda _: self.back() or self._leave())
+        self.leave_button.bind(on_release=lambda _: self.back())
         self._title = Text(text="Inputs", bold=True, size_hint=(None, None))
         self.add_widget(self.leave_button)
         self.add_widget(self._title)

@@ -55,7 +55,7 @@ class InputsScreen(FloatLayout):
         self._entered: Any = None
         """The pane that is on the glass and has been told so."""
         self._active = False
-        self._form, self._dp = "", 1.0
+        self._form, self._dp, self._titled = "", 1.0, True
         self._places: dict[str, Rect] = {}
         self.notice = Rect(0, 0, 1, 1)
         self.head = PaneHead(title="Inputs", sentence="Tap one to set it up.")
@@ -83,15 +83,15 @@ class InputsScreen(FloatLayout):
 
     def arrange(self, body: Body, form: str, dp: float) -> Rect:
         """Put everything into its place; returns where STOP goes."""
-        self._form, self._dp = form, dp
+        self._form, self._dp, self._titled = form, dp, form != "short"
         places = self._places = arrange.inputs(body, form, dp)
         self.notice = places["notice"]
         self._lay()
         return places["stop"]
 
     def spread(self, body: Rect, form: str, dp: float) -> None:
-        """The same where there is no STOP."""
-        self._form, self._dp = form, dp
+        """The same where there is no STOP, and the title is in the bar above."""
+        self._form, self._dp, self._titled = form, dp, False
         self._places = arrange.inputs_alone(body, form, dp)
         self._lay()
 
@@ -163,6 +163,11 @@ class InputsScreen(FloatLayout):
             return
         shown, tall = self._shown(), self._form == "tall"
         listed, detail = self.ids.listed, self.ids.detail
+        if self._titled != (self.head.parent is listed):
+            if self._titled:
+                listed.add_widget(self.head, index=len(listed.children))
+            else:
+                listed.remove_widget(self.head)
         put(listed, self._places["list"])
         put(detail, self._places["detail"])
         here = [detail] if tall and shown else [listed] if tall or not shown else [listed, detail]
@@ -176,7 +181,8 @@ class InputsScreen(FloatLayout):
     def _place_pane(self, pane: Widget, title: str, *, tall: bool) -> None:
         detail = self.ids.detail
         self.back_head.title, self.back_head.closable = title, tall
-        wanted = [self.back_head, pane]
+        # on a phone's side the list says which one it is, and the pane needs the room
+        wanted = [pane] if self._form == "short" else [self.back_head, pane]
         if list(reversed(detail.children)) != wanted:
             detail.clear_widgets()
             for widget in wanted:
