@@ -13,7 +13,7 @@ COLUMNS = 6
 LETTERS = " etaoinshrldcumwfgypbvkjxqz"
 """By how often they are in English text, the space first."""
 DIGITS = "0192345678"
-SIGNS = ".-:/,'"
+SIGNS = ".-:/,"
 """What names and addresses need besides."""
 ADDRESS = "1.029:345678-/" + LETTERS.strip()
 """For addresses: digits and what stands between them first."""

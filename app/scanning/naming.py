@@ -55,6 +55,21 @@ INTENTS = {
     "take control": "take_control",
 }
 """Words of a button to the intent that it is the button of."""
+KINDS = {
+    "StopButton": "Release STOP",
+    "GridMap": "Map",
+    "GeoMap": "Map",
+    "Joystick": "Stick",
+    "RudderThrottle": "Throttle and rudder",
+    "LiftLever": "Lift",
+    "TiltCircle": "Tilt circle",
+    "GoalPad": "Goal",
+    "CourseDial": "Course",
+    "HeadingDial": "Heading",
+    "ArmPanel": "Arm",
+    "SheetGrip": "Sheet",
+}
+"""Class of what says nothing that would name it."""
 OWNERS = ("RobotCard",)
 """Containers whose title says whose button it is."""
 LONGEST = 60
@@ -63,6 +78,8 @@ LONGEST = 60
 
 def words_of(widget: Widget) -> str:
     """What a press on it would do, in words; its kind where it says nothing of itself."""
+    if known := KINDS.get(type(widget).__name__):
+        return known
     for name in SAYS:
         said = getattr(widget, name, "")
         if isinstance(said, str) and said.strip():

@@ -38,8 +38,8 @@ LEANS = {"ahead": (1.0, 0.0), "back": (-1.0, 0.0), "left": (0.0, 1.0), "right": 
 class Openings:
     """One pad at a time, over the page; `pad` is the one that is open, or None."""
 
-    def __init__(self, app: Any, words: Callable[[], Iterable[str]]) -> None:
-        """`words` are those that are likely to be typed: names and addresses that the app knows."""
+    def __init__(self, app: Any, words: Callable[[str], Iterable[str]]) -> None:
+        """`words` are those that are likely to be typed: for a kind of field, as `url`."""
         self._app, self._words = app, words
         self.pad: ScanPad | None = None
         self.kind = ""
@@ -59,7 +59,6 @@ class Openings:
         elif kind in ("map", "area"):
             self._area = Area(self._app.root, widget, moves=kind == "map")
             self._show(ScanPad(title=words, rows=self._area.rows()), self._area.press)
-            self._area.beside(self.pad)
         else:
             rows, press = self._steps(kind, widget)
             self._show(ScanPad(title=words, rows=rows), press)
@@ -109,9 +108,11 @@ class Openings:
         root, pad = self._app.root, self.pad
         if pad is None or self._of is None:
             return
-        keep = [in_window(self._of)] if self._area is None or not self._area.moves else []
+        keep = [in_window(self._of)]
         pad.width = min(max(pad.least, 360.0), root.width - 16)
         pad.pos = beside((pad.width, pad.height), (0, 0, root.width, root.height), [*self.stops(), *keep])
+        if self._area is not None:
+            self._area.beside(pad)
 
     def stops(self) -> list[Box]:
         """Where STOP and STOP ALL are [px]."""
@@ -125,7 +126,7 @@ class Openings:
         if field.input_filter in ("int", "float"):
             kind = "number"
         title = str(getattr(field, "label", "") or field.hint_text or words)
-        board = ScanKeyboard(title=title, kind=kind, text=field.text, words=list(self._words()))
+        board = ScanKeyboard(title=title, kind=kind, text=field.text, words=list(self._words(kind)))
         board.room = self._app.root.height * 0.62
         board.bind(on_type=lambda _, text: setattr(field, "text", text))
         board.bind(on_done=lambda _: self.close(), on_enter=lambda _: self._enter(field))

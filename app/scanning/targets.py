@@ -26,7 +26,7 @@ OPENS = ("field", "map", "area", "stick", "fader", "handle", "slide")
 """Kinds that take more than a press."""
 MOVING = ("start", "patrol", "resume", "go_home", "take_off", "land", "surface", "faster", "take_control")
 """Intents that set something in motion."""
-BARE = ("step", "handle", "fader", "stick")
+BARE = ("step", "handle", "fader")
 """Kinds that say nothing of themselves, but beside them something may be said."""
 PAGE = 0.8
 """Of what is in sight is scrolled on by one step."""
@@ -95,17 +95,21 @@ class OnGlass:
         """The question that is over everything; None without one."""
         return next((one for one in self._app.root.children if isinstance(one, Question)), None)
 
-    def _likely_words(self) -> Iterable[str]:
-        """Names and addresses that the app knows."""
+    def _likely_words(self, kind: str) -> Iterable[str]:
+        """Names that the app knows; for `url` addresses, and what those of the local networks begin with."""
+        entries = self._app.robots.entries()
+        if kind == "url":
+            yield from (entry.address for entry in entries)
+            for told_to in broadcast_addresses():
+                if not told_to.startswith("127."):
+                    yield told_to.rpartition(".")[0] + "."
+            return
         session = self._app.session
         if session is not None:
             told: PlaceArray | None = session.feeds.latest("/places")
             yield from (place.name for place in (told.places if told is not None else [])[:MOST_WORDS])
             yield from (mission.name for mission in session.missions.kept[:MOST_WORDS])
-        for entry in self._app.robots.entries():
-            yield from (entry.address, entry.name)
-        for told_to in broadcast_addresses():
-            yield told_to.rpartition(".")[0] + "."
+        yield from (entry.name for entry in entries)
 
     # what they do
 

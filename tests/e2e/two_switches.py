@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from kivy.base import EventLoop
 from kivy.core.window import Window
 
 from app.scanning import Mark, Target
@@ -16,8 +17,8 @@ A, B = 9, 13
 """Key codes of Tab and Enter."""
 UP = 0.75
 """A held so long leads up a level [s]."""
-PAUSE = 0.02
-"""From one press to the next, as a fast hand [s]."""
+FRAMES = 2
+"""From one press to the next, as a fast hand."""
 MOST = 120
 """Presses after which something is not to be found."""
 
@@ -42,7 +43,12 @@ class TwoSwitches:
         if seconds:
             self.glass.run(seconds)
         Window.dispatch("on_key_up", key, 0)
-        self.glass.run(PAUSE)
+        for _ in range(FRAMES):
+            EventLoop.idle()
+
+    def look(self) -> None:
+        """Look what became of it: a button that has just changed its meaning takes no press for half a second."""
+        self.glass.run(0.8)
 
     def both(self) -> None:
         """Both keys at once."""

@@ -31,7 +31,7 @@ def app(stage: Stage) -> Any:
 
 @pytest.fixture
 def openings(app: Any) -> Iterator[Openings]:
-    openings = Openings(app, lambda: ["Office 12", "Lab"])
+    openings = Openings(app, lambda _: ["Office 12", "Lab"])
     yield openings
     openings.close()
 
@@ -103,7 +103,10 @@ def test_no_pad_lies_over_stop_or_over_the_stick_that_it_works(
     stage.frames(3)
     assert openings.pad is not None
     left, low, right, top = in_window(openings.pad)
-    assert left >= 0 and low >= 0 and right <= SIZE[0] and top <= SIZE[1]
+    assert left >= 0
+    assert low >= 0
+    assert right <= SIZE[0]
+    assert top <= SIZE[1]
     assert not openings.pad.collide_widget(app.shell.stop)
     assert not openings.pad.collide_widget(stick)
 
@@ -139,7 +142,8 @@ def test_the_cross_sets_a_point_carries_it_and_goes_on_beyond_the_edge(
     press(openings, stage, "carry", "fine", "right", "right", "right", "fine", "up", "carry")
     ((index, x, y),) = moved
     assert index == 0
-    assert x > first[0] and y > first[1]
+    assert x > first[0]
+    assert y > first[1]
     seen = area.view
     press(openings, stage, *["left"] * 30)
     assert area.view != seen, "at the edge it is the map that moves"
