@@ -55,7 +55,7 @@ def _figures() -> Iterator[Figure]:
     yield Figure("neighbours", "", "a sound away from a command, or none, accepted", against=PEER)
     yield Figure("formant", "", "espeak-ng's voices: right commands accepted", better=more, against=PEER)
     for noise in NOISES:
-        yield Figure(f"{noise}_10", "", f"natural voices in {noise} noise at 10 dB", 0.8, more, PEER)
+        yield Figure(f"{noise}_10", "", f"natural voices in {noise} noise at 10 dB", 0.8, more)
         yield Figure(f"{noise}_10_outside", "", f"phrases outside the grammar accepted in {noise} at 10 dB")
     yield Figure("real", "", "real people: right words accepted (--data)", 0.95, more, PEER)
     yield Figure("real_stop", "", "real people: `stop` accepted (--data)", 1.0, more, PEER)

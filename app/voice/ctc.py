@@ -81,7 +81,8 @@ def frames_of(log_probs: Array, tokens: Sequence[str]) -> Array:
     columns += [
         relative[:, [index[sign] for sign in signs if sign in index]].sum(axis=1) for signs in PHONES.values()
     ]
-    return np.maximum(np.stack(columns, axis=1), FLOOR)
+    frames: Array = np.maximum(np.stack(columns, axis=1), FLOOR)
+    return frames
 
 
 class Sequences:

@@ -44,10 +44,11 @@ def resampled(samples: Samples, rate: float) -> Samples:
     if rate > RATE:
         spectrum = np.fft.rfft(samples)
         spectrum[np.fft.rfftfreq(len(samples), 1 / rate) > 7600] = 0
-        samples = np.fft.irfft(spectrum, len(samples))
+        samples = np.fft.irfft(spectrum, len(samples)).astype(np.float32)
     count = round(len(samples) * RATE / rate)
     at = np.arange(count) * (rate / RATE)
-    return np.interp(at, np.arange(len(samples)), samples).astype(np.float32)
+    drawn: Samples = np.interp(at, np.arange(len(samples)), samples).astype(np.float32)
+    return drawn
 
 
 def _wave(path: Path) -> Samples:

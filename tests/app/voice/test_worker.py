@@ -127,7 +127,7 @@ def test_a_grammar_survives_the_way():
 
 @pytest.mark.parametrize("line", ["", "null", "{}", '{"event": "Nothing"}', '{"event": "State"}'])
 def test_a_line_that_is_no_event_is_refused(line):
-    with pytest.raises(ValueError):
+    with pytest.raises(ValueError, match="No event|Expecting"):
         read_event(line)
 
 
