@@ -105,10 +105,21 @@ def test_rhythmic_exercises_of_the_arm_are_none() -> None:
     assert sum(len(of(take)) for take in chosen) == 0
 
 
-def test_what_goes_on_and_on_is_no_command() -> None:
-    for axis in ("ud", "fb"):
-        take = motion.made(axis, 0, 0)
-        assert of(take) == [], "longer than any shake"
+def test_a_circle_on_the_wall_is_no_shake_however_short() -> None:
+    for cycles in (2, 3):
+        phase = math.tau * np.arange(int(cycles * 50)) / 50.0
+        swing = [(7.0 * math.cos(at), GRAVITY + 7.0 * math.sin(at), 0.0) for at in phase]
+        still = [(0.0, GRAVITY, 0.0)] * 240
+        assert heard([*still, *swing, *still]) == []
+
+
+@pytest.mark.parametrize("axis", ["ud", "fb"])
+def test_what_goes_on_for_longer_than_a_shake_is_no_command(axis: Axis) -> None:
+    take = motion.made(axis, 0, 0)
+    still = np.tile(take.samples.mean(axis=0), (300, 1))
+    for seconds, said in ((2.5, [axis]), (4.2, []), (7.0, [])):
+        samples = np.concatenate([still, take.samples[: int(seconds * 60)], still])
+        assert [shake.axis for shake in heard(map(tuple, samples.tolist()))] == said
 
 
 def test_a_knock_and_a_fall_are_nothing() -> None:
@@ -157,5 +168,8 @@ def test_after_a_gap_it_begins_anew() -> None:
     cut = int(trial.began * 60) - 6
     for index, axes in enumerate(samples[:cut]):
         recogniser.feed(index / 60.0, axes)
-    said = [recogniser.feed(10.0 + index / 60.0, axes) for index, axes in enumerate(samples[cut:])]
+    begun = cut / 60.0 + 1.0
+    said = [
+        recogniser.feed(begun + index / 60.0, axes) for index, axes in enumerate(samples[cut : cut + 120])
+    ]
     assert not any(said), "nothing is known of the background"
