@@ -85,7 +85,11 @@ class Inputs:
         self.is_switch: Callable[[Press], bool] = lambda _: False
         """A key or button is one of somebody's switches: Space is then no STOP."""
         self._pushing = Pushing(app, self.gamepads, self.keys, self._source, devices, turned, now)
-        self._bound = {
+        self._bound = self._bindings()
+
+    def _bindings(self) -> dict[str, Callable[..., object]]:
+        """What the window tells, to who takes it."""
+        return {
             "on_key_down": self._key_down,
             "on_key_up": self._key_up,
             "on_keyboard": self._keyboard,

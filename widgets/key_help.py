@@ -125,7 +125,7 @@ class KeyHelp(Control, BoxLayout):
             for caps, words in rows:
                 column.add_widget(HelpRow(caps, words=words, grave=words == "STOP"))
         self.ids.columns.clear_widgets()
-        for column in columns:
+        for column in columns if self.groups else ():
             self.ids.columns.add_widget(column)
         if not self.groups:
             self.ids.columns.add_widget(Text(text="No keys mean anything.", role="muted", font_size="15sp"))

@@ -15,6 +15,7 @@ from kivy.metrics import dp, sp
 from kivy.properties import ListProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
+from widgets.base import Control
 from widgets.ink import Drawing, Ink, Word, Words, tint
 from widgets.shapes import Shapes
 from widgets.theme import theme
@@ -37,7 +38,7 @@ BAR, THICK = 9.0, 5.4
 LETTERS = {"a": "A", "b": "B", "x": "X", "y": "Y"}
 
 
-class PadPicture(Drawing):
+class PadPicture(Control, Drawing):
     """Shows and asks for nothing. A stick is as it is before its dead zone, up and left positive."""
 
     drawn_from: ClassVar[tuple[str, ...]] = (
@@ -67,7 +68,7 @@ class PadPicture(Drawing):
 
     def __init__(self, **kwargs: Any) -> None:
         self._ink, self._words = Ink(), Words()
-        super().__init__(**kwargs)
+        super().__init__(**{"state": "never", **kwargs})
         self.canvas.add(self._ink)
         self.canvas.add(self._words.canvas)
 
