@@ -86,6 +86,25 @@ def test_five_a_second_are_too_slow_for_a_shake_and_named(phone: Phone) -> None:
     assert phone.fault(least=4.0) == ""
 
 
+def test_the_rate_is_that_of_the_last_second(phone: Phone) -> None:
+    phone.listen().run(5.0)
+    phone.run(1.2, rate=5.0)
+    assert phone.fault() == "slow"
+
+
+def test_who_stops_listening_while_being_told_takes_nothing_from_the_next(phone: Phone) -> None:
+    got: list[str] = []
+
+    def once(*_: object) -> None:
+        got.append("once")
+        forget()
+
+    forget = phone.sensing.listen("acceleration", once)
+    phone.sensing.listen("acceleration", lambda *_: got.append("always"))
+    phone.run(0.04)
+    assert got == ["once", "always", "always"]
+
+
 def test_silence_is_told_after_a_third_of_a_second(phone: Phone) -> None:
     phone.listen().run(1.0)
     phone.now += 0.29

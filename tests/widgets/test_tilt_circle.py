@@ -105,6 +105,8 @@ def test_steered_it_commands_what_its_giver_made_of_the_tilt_dead_zone_and_all(c
     assert circle.steer((0.3, 0.6), (0.01, 0.5))
     assert circle.orders == [("tilt", pytest.approx(0.01 * LIMIT), pytest.approx(0.5 * LIMIT))]
     assert (circle.aside, circle.ahead) == (pytest.approx(0.3), pytest.approx(0.6))
+    circle.steer((0.3, 0.0), (0.02, 0.0))
+    assert circle.orders[-1] == ("tilt", pytest.approx(0.02 * LIMIT), 0.0), "it has no zone of its own"
     with pytest.raises(ValueError, match="finite shares"):
         circle.steer((0.0, math.nan), (0.0, 0.0))
 

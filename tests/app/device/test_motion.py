@@ -28,16 +28,19 @@ class Service:
     """Android's SensorManager, with the types of sensors that it has."""
 
     def __init__(self, *types: int) -> None:
-        self.types, self.listeners, self.willing = types, [], True
+        self.types, self.listeners, self.unwilling = types, [], 0
+        """Type of the one that is not handed out; 0 for none."""
         self.rates: list[int] = []
 
     def getDefaultSensor(self, kind: int) -> Any:
         return SimpleNamespace(getType=lambda: kind) if kind in self.types else None
 
     def registerListener(self, listener: Any, sensor: Any, rate: int) -> bool:
+        if sensor.getType() == self.unwilling:
+            return False
         self.listeners.append(listener)
         self.rates.append(rate)
-        return self.willing
+        return True
 
     def unregisterListener(self, listener: Any) -> None:
         self.listeners.remove(listener)
@@ -113,9 +116,10 @@ def test_a_phone_without_any_says_so(phone: Any) -> None:
 
 def test_a_refusal_takes_back_what_was_given(phone: Any) -> None:
     service = phone(1, 9)
-    service.willing = False
-    with pytest.raises(MotionError, match="does not hand out its acceleration sensor"):
-        AndroidMotion().start(("acceleration",), lambda *_: None)
+    service.unwilling = 9
+    with pytest.raises(MotionError, match="does not hand out its gravity sensor"):
+        AndroidMotion().start(("acceleration", "gravity"), lambda *_: None)
+    assert service.listeners == []
 
 
 def test_a_sample_that_is_not_understood_never_reaches_java(phone: Any) -> None:
