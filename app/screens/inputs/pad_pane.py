@@ -65,12 +65,12 @@ class PadPane(BoxLayout):
         column.add_widget(group_label("Sticks"))
         self._dead, self.dead = number_row(
             "tune", "Dead zone", "Round the middle, where a stick commands nothing.",
-            lambda value: self._change(dead_zone=value / 100),
+            lambda value: self._keep(replace(self._profile, dead_zone=value / 100)),
             minimum=round(DEAD_ZONES[0] * 100), maximum=round(DEAD_ZONES[1] * 100), step=2, unit="%",
         )  # fmt: skip
         self._curve, self.expo = number_row(
             "timeline", "Finer in the middle", "How much less a small push commands; the end is the same.",
-            lambda value: self._change(expo=value / 100),
+            lambda value: self._keep(replace(self._profile, expo=value / 100)),
             minimum=round(EXPOS[0] * 100), maximum=round(EXPOS[1] * 100), step=10, unit="%",
         )  # fmt: skip
         column.add_widget(self._dead)
@@ -198,9 +198,6 @@ class PadPane(BoxLayout):
         self._inputs.mapped.set_profile(self._name or ANY, profile)
         self._inputs.rest()  # nothing that is pushed means something else all at once
         self._write()
-
-    def _change(self, **what: float) -> None:
-        self._keep(replace(self._profile, **what))
 
     def _turn(self, way: str) -> None:
         self._keep(self._profile.turned(way))
