@@ -127,6 +127,8 @@ GENTLE = 0.85
 """A threshold below so much of the usual one is gentle."""
 UNHURRIED = 0.7
 """Half a cycle that takes longer is slow [s]."""
+BROAD = 0.35
+"""Who goes slowly goes far, and so no slower than this [m/s]; somebody who walks sways by less."""
 SWUNG = 1.4
 """Weight of up-down where the person's own directions are known."""
 LONGEST = 9.0
@@ -173,6 +175,7 @@ def _fitted(way: Way, own: Own | None) -> Way:
         share=max(way.share, 0.62),
         straight=max(way.straight, 0.84),
         above=way.above + 0.6,
+        speed=BROAD if own.gap > UNHURRIED else way.speed,
         outrun=way.outrun + 1.0,
     )
 
