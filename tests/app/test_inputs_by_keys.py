@@ -41,8 +41,12 @@ def drive_by_key(hands: Hands) -> None:
     assert hands.stick.gamepad == "keys"
 
 
+def let_go(hands: Hands) -> object:
+    return hands.stage.window.dispatch("on_key_up", *W)
+
+
 KEYS: dict[str, Callable[[Hands], object]] = {
-    "let go": lambda hands: hands.stage.window.dispatch("on_key_up", *W),
+    "let go": let_go,
     **{
         name: lambda hands, happens=happens: happens(hands, None)
         for name, happens in LOSSES.items()
