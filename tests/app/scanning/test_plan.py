@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
 from collections.abc import Iterator
 
 import pytest
@@ -114,3 +116,15 @@ def test_what_was_learned_on_one_screen_says_nothing_of_another() -> None:
     planner = Planner({"drive": {"t9": 100.0}})
     assert cost(planner.tree("drive", targets(16)))["t9"] == 1
     assert cost(planner.tree("tasks", targets(16)))["t9"] > 1
+
+
+def test_nothing_of_the_glass_is_kept_beyond_what_it_is_called() -> None:
+    class Widget:
+        """Something that must be able to go."""
+
+    planner, widget = Planner({}), Widget()
+    gone = weakref.ref(widget)
+    planner.tree("drive", [Target("a", "A", lambda: None, key=widget), target("b")])
+    del widget
+    gc.collect()
+    assert gone() is None
