@@ -12,6 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from app.commands import Outcome
 from app.feeds import Post
 from app.intents import INTENTS, METHODS, Heard, Verdict
 from app.link import OUTCOME
@@ -196,10 +197,16 @@ class Responding:
         if channel == OUTCOME:
             self.tracks.robot = session.name
             self.tracks.outcome(post.value, post.received)
+            self._stopped(post.value)
         elif channel in STATES:
             state = self._state(session)
             self._watch(state)
             self.tracks.see(state, post.received)
+
+    def _stopped(self, outcome: Outcome) -> None:
+        """STOP of a key, a gamepad or its own button goes to the robot at once: that answers a prompt as well."""
+        if self.trials is not None and outcome.name == "stop" and outcome.phase == "sent":
+            self.trials.heard("stop", outcome.origin.method)
 
     def _watch(self, state: State) -> None:
         """A task that is over leaves its workload to be filled in."""

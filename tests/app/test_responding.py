@@ -10,7 +10,10 @@ from types import SimpleNamespace
 
 import pytest
 
+from app.commands import Outcome
+from app.feeds import Post
 from app.intents import Heard, Intents
+from app.link import OUTCOME
 from app.origin import Origin
 from app.permits import Permits
 from app.responding import SAVE_EVERY, Responding
@@ -189,6 +192,23 @@ def test_stop_reaches_a_robot_whatever_is_practised(running):
     running.log.trials.begin()
     assert running.hear("stop").what == "acted"
     assert running.acts.done == ["stop"]
+
+
+def test_a_key_that_stops_at_once_answers_a_prompt_too(running):
+    running.app.session = SimpleNamespace(
+        listeners=[],
+        name="R2",
+        link=SimpleNamespace(driving=False, driven_by=Origin()),
+    )
+    running.log.lead(plan(methods=("keyboard",), commands={"keyboard": ("stop",)}))
+    running.log.trials.begin()
+    running.next()
+    origin = Origin("keyboard", began=running.time - 0.1, intent="stop")
+    outcome = Outcome("stop", "c", "sent", origin=origin, sent=running.time)
+    running.app.session.listeners[0](OUTCOME, Post(outcome, running.time, 1))
+    assert running.log.trials.stage == "tlx"
+    (line,) = running.kept()
+    assert (line.intended, line.recognised, line.method) == ("stop", "stop", "keyboard")
 
 
 def test_a_pause_of_the_study_lets_commands_act_again(running):

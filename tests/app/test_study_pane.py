@@ -153,6 +153,13 @@ def test_a_shake_is_asked_only_for_what_its_directions_mean(bench):
     assert commands_of("voice", bench.app) == COMMANDS
 
 
+def test_keys_are_asked_for_stop_only_where_there_is_a_robot(bench):
+    assert "stop" not in commands_of("keyboard", bench.app)
+    bench.app.session = SimpleNamespace()
+    assert commands_of("keyboard", bench.app) == COMMANDS
+    bench.app.session = None
+
+
 def test_a_study_without_a_method_cannot_begin(bench):
     setup = SetupView(bench.app)
     for switch in setup.switches.values():

@@ -19,7 +19,12 @@ EACH = 7.0
 
 
 def commands_of(method: str, app: Any) -> tuple[str, ...]:
-    """What a method can be asked for: of a shake only what its directions mean; STOP first."""
+    """What a method can be asked for: of a shake only what its directions mean; STOP first.
+
+    STOP of keys and gamepads is only there with a robot: without one Escape is Back.
+    """
+    if method in ("gamepad", "keyboard") and app.session is None:
+        return tuple(one for one in COMMANDS if one != "stop")
     shaking = app.methods.get("shake") if method == "shake" else None
     if method != "shake":
         return COMMANDS
