@@ -26,7 +26,7 @@ Builder.load_string("""
     height: dp(5)
     canvas:
         Color:
-            rgba: theme.line
+            rgba: theme.raised
         Rectangle:
             pos: self.pos
             size: self.size
