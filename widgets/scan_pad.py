@@ -92,7 +92,7 @@ class PadButton(QuietButton):
 class ScanPad(Outlined, BoxLayout):
     """Dispatches `on_key(name)` for the key that was pressed. Its keys are scanned row by row, as they stand."""
 
-    __events__ = ("on_key",)
+    __events__: tuple[str, ...] = ("on_key",)
 
     title = StringProperty("")
     """What it works."""

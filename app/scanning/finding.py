@@ -96,7 +96,8 @@ def find(roots: list[Any]) -> list[Found]:
     """All that takes a finger in these, of which the first lies on top of the others, in the order of their places."""
     found: list[Found] = []
     for root in roots:
-        here = list(_walk(root, _Where(window())))
+        known = {id(one.widget) for one in found}
+        here = [one for one in _walk(root, _Where(window())) if id(one.widget) not in known]
         found += _in_rows([one for one in here if one.scrolled or _free(one, [*found, *here])])
     return found
 

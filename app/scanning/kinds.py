@@ -29,7 +29,7 @@ def kind_of(widget: Widget) -> str:
     """How it is used, as in `Openings`; `press` for what one tap does, empty for what takes no finger."""
     for kinds, how in _TABLE:
         if isinstance(widget, kinds):
-            return how(widget) if callable(how) else how
+            return str(how(widget) if callable(how) else how)
     return "press" if _taps_in_other_ways(widget) else ""
 
 

@@ -28,6 +28,8 @@ MOVING = ("start", "patrol", "resume", "go_home", "take_off", "land", "surface",
 """Intents that set something in motion."""
 BARE = ("step", "handle", "fader")
 """Kinds that say nothing of themselves, but beside them something may be said."""
+URGENT = 8.0
+"""How much likelier than all else is what waits for an answer."""
 PAGE = 0.8
 """Of what is in sight is scrolled on by one step."""
 PADDING = 24
@@ -80,16 +82,14 @@ class OnGlass:
 
     def _roots(self) -> list[Any]:
         """What lies on top first; where it keeps a finger from the rest, nothing of the rest."""
-        above = [one for one in self._app.root.children if getattr(one, "asks_now", False)]
+        shell, dialog, layer = self._app.shell, self._dialog(), self._app.corner.layer
+        waits = [shell.wishes.card] if shell is not None and shell.wishes.card.parent is not None else []
         if self.openings.pad is not None:
-            return [*above, self.openings.pad]
-        dialog = self._dialog()
-        layer = self._app.corner.layer
+            return [*waits, self.openings.pad]
         if dialog is not None:
-            return [*above, dialog, layer]
-        ordered = [one for one in self._app.root.children if one not in (layer, *above)]
-        notices = [self._app.shell.notices] if self._app.shell is not None else []
-        return [*above, *_without(notices), layer, *ordered]
+            return [*waits, dialog, layer]
+        notices = [shell.notices] if shell is not None and shell.notices.children else []
+        return [*waits, *notices, layer, *(one for one in self._app.root.children if one is not layer)]
 
     def _dialog(self) -> Any:
         """The question that is over everything; None without one."""
@@ -133,6 +133,7 @@ class OnGlass:
             group=_pad_group(widget) if pad else one.group,
             fixed=pad,
             on_release=(pad and widget.moves) or intent in MOVING or isinstance(widget, PrimaryButton),
+            weight=URGENT if one.group[:1] in (("Asked",), ("Question",)) else 1.0,
             intent=intent,
             key=widget,
         )
@@ -221,11 +222,6 @@ def _pad_group(button: PadButton) -> tuple[str, ...]:
         pad = pad.parent
     lines = list(reversed(pad.ids.grid.children))
     return (pad.title or "Keys", f"Row {lines.index(button.parent) + 1}")
-
-
-def _without(roots: list[Any]) -> list[Any]:
-    """Those that say anything."""
-    return [one for one in roots if one.children]
 
 
 def _scroll_on(view: ScrollView) -> None:
