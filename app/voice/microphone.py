@@ -79,7 +79,9 @@ class Microphone:
             self._device.start(pump)
         except audio.MiniaudioError as problem:
             self.stop()
-            raise VoiceTrouble(NONE if _nothing_there(audio) else REFUSED.format(problem)) from problem
+            raise VoiceTrouble(
+                NONE if _nothing_there(audio) else REFUSED.format(problem.args[0])
+            ) from problem
 
     def read(self, timeout: float) -> tuple[NDArray[np.float32], float] | None:
         """The next block; `VoiceTrouble` where none came for 2 s: it was pulled out."""

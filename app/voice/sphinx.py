@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from app.voice.ctc import Found
 from app.voice.endpoint import Segment
-from app.voice.lexicon import background
+from app.voice.lexicon import background, pronunciations
 from app.voice.noise import RATE
 from app.voice.recognizer import Grammar, VoiceTrouble
 from app.voice.spotter import Spotted
@@ -23,8 +23,12 @@ __all__ = ["Sphinx"]
 
 SURE = 0.7
 """Confidence in whatever the grammar matched; it has no better measure of its own."""
-DECOYS = 40
+OPEN = {"ɑ", "ɔ", "æ"}
+"""Vowels of no decoy: it hears them in STOP."""
+DECOYS = 12
 """So many words beside the commands: each more costs time, and takes some commands along."""
+GAP = RATE // 3
+"""Quiet before and after the words: it levels its ears by that [samples]."""
 SPOTS = (0.12, 0.4)
 """STOP is looked for once when the voice has sunk for between so long [s]."""
 
@@ -47,7 +51,15 @@ class Sphinx:
             raise VoiceTrouble(f"The fallback recogniser does not know the word {unknown[0]!r}.")
         self._urgent = frozenset(grammar.urgent)
         self._looked = -1.0
-        decoys = [word for word, _ in background() if word not in words and self._decoder.lookup_word(word)]
+        starts = {sounds[:2] for said in self._phrases for sounds in pronunciations(said)}
+        decoys = [
+            word
+            for word, sounds in background()
+            if word not in words
+            and sounds[:2] not in starts
+            and not OPEN & set(sounds)
+            and self._decoder.lookup_word(word)
+        ]
         step = max(1, len(decoys) // DECOYS)
         choices = " | ".join([*self._phrases, *decoys[::step]])
         self._decoder.add_jsgf_string("said", f"#JSGF V1.0; grammar said; public <said> = {choices};")
@@ -55,7 +67,10 @@ class Sphinx:
 
     def judge(self, samples: NDArray[np.float32], heeded: Collection[str]) -> Found | None:
         """What the grammar makes of it."""
-        raw = (np.clip(samples, -1.0, 1.0) * 32767).astype("<i2").tobytes()
+        rng = np.random.default_rng(0)
+        about = [(1e-3 * rng.standard_normal(GAP)).astype(np.float32) for _ in range(2)]
+        heard = np.concatenate((about[0], samples, about[1]))
+        raw = (np.clip(heard, -1.0, 1.0) * 32767).astype("<i2").tobytes()
         self._decoder.start_utt()
         self._decoder.process_raw(raw, no_search=False, full_utt=True)
         self._decoder.end_utt()
@@ -64,9 +79,7 @@ class Sphinx:
             return None
         command = self._phrases.get(found.hypstr, "")
         accepted = command in heeded
-        return Found(
-            command or found.hypstr, found.hypstr, SURE if accepted else 0.2, False, (), float("nan"), ""
-        )
+        return Found(command, found.hypstr, SURE if accepted else 0.2, False, (), float("nan"), "")
 
     def spot(self, segment: Segment, now: float) -> Spotted | None:
         """Only where the words seem over: it cannot find one word amid others."""
