@@ -66,6 +66,9 @@ class Openings:
     def close(self) -> None:
         """Take the pad away; what it pushes comes to rest."""
         self.rest()
+        if self._lift is not None:
+            self._lift()
+            self._lift = None
         if self._area is not None:
             self._area.close()
         if self.pad is not None and self.pad.parent is not None:
@@ -82,16 +85,13 @@ class Openings:
             self.close()
 
     def rest(self) -> None:
-        """Whatever was pushed or held for a moment is let go."""
+        """What is pushed for a moment is let go; a hold that releases something goes on to its end."""
         if self._ending is not None:
             self._ending.cancel()
             self._ending = None
             stick: Any = self._of
             if stick is not None and stick.finger is None:
                 stick.rest()
-        if self._lift is not None:
-            self._lift()
-            self._lift = None
 
     # what they are
 

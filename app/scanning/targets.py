@@ -46,6 +46,8 @@ class OnGlass:
         self.openings = Openings(app, self._likely_words)
         self.ring = Ring(app, self.openings.stops)
         self._step = -1
+        self._names: tuple[str, ...] = ()
+        """Of the targets that are marked."""
         self.marked: Mark | None = None
         """What stands out now."""
 
@@ -190,12 +192,15 @@ class OnGlass:
         self.marked = mark
         if mark is None:
             self.openings.rest()
-            self._step = -1
+            self._step, self._names = -1, ()
             self.ring.show([], "")
             return
+        names = tuple(target.name for target in mark.targets)
+        if names != self._names:
+            self._names = names
+            self.openings.rest()
         if mark.step != self._step:
             self._step = mark.step
-            self.openings.rest()
             for target in mark.targets[:1]:
                 _into_view(target.key)
         boxes = [in_window(target.key) for target in mark.targets if _there(target.key)]

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from examples.demo.robot import RobotProcess
 from tests.e2e.handheld import handheld
 from tests.e2e.two_switches import TwoSwitches
+
+POINTS = ((-4.0, -7.4), (6.0, -6.6))
+"""On the southern aisle of the car park [m]."""
+NEAR = 0.6
+"""A fine step of the cross comes so near on a map that shows the whole car park [m]."""
 
 
 def test_a_patrol_is_planned_started_paused_stopped_and_released_by_two_keys(
@@ -27,16 +33,15 @@ def test_a_patrol_is_planned_started_paused_stopped_and_released_by_two_keys(
         glass.until(lambda: app.session.feeds.latest("/map") is not None, "a map")
         keys.choose("Points", within="Choice")
         keys.find(lambda target: target.key is app.screens["mission"].map, "the map")
-        keys.choose("Right", times=2)
-        keys.choose("Set or choose here")
-        glass.until(lambda: len(app.mission.draft.points) == 1, "a first point")
-        keys.choose("Up", times=2)
-        keys.choose("Set or choose here")
-        glass.until(lambda: len(app.mission.draft.points) == 2, "a second point")
+        for count, place in enumerate(POINTS, 1):
+            keys.point(*place)
+            glass.until(lambda count=count: len(app.mission.draft.points) == count, f"point {count}")
         keys.choose("Left")
         keys.choose("Set or choose here")
         keys.choose("Undo")
-        glass.until(lambda: len(app.mission.draft.points) == 2, "the third point taken back")
+        glass.until(lambda: len(app.mission.draft.points) == len(POINTS), "the third point taken back")
+        for set_, meant in zip(app.mission.draft.points, POINTS, strict=True):
+            assert math.dist(set_, meant) < NEAR
         keys.choose("Done")
 
         keys.look()

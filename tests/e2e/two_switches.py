@@ -9,6 +9,7 @@ from kivy.base import EventLoop
 from kivy.core.window import Window
 
 from app.scanning import Mark, Target
+from app.scanning.area import COARSE, FINE
 from tests.e2e.handheld import Handheld
 
 __all__ = ["TwoSwitches"]
@@ -66,6 +67,21 @@ class TwoSwitches:
             return target.words == words and (not within or within in target.group)
 
         return self.find(wanted, f"{words!r} {within}".strip(), times)
+
+    def point(self, x: float, y: float) -> None:
+        """Step the cross to that place on the map [m], first coarsely, then finely, and set it there."""
+        area = self.glass.app.screens["mission"].map
+        cross = self.switches.engine._glass.openings._area.cross
+        for step, change in ((COARSE, ""), (FINE, "Fine steps")):
+            if change:
+                self.choose(change)
+            for axis, ways in ((0, ("Left", "Right")), (1, ("Down", "Up"))):
+                seen = area.to_window(*area.view.to_screen(x, y))
+                off = round((seen[axis] - cross.at[axis]) / step)
+                if off:
+                    self.choose(ways[off > 0], times=abs(off))
+        self.choose("Coarse steps")
+        self.choose("Set or choose here")
 
     def find(self, wanted: Callable[[Target], bool], what: str, times: int = 1) -> Target:
         """Step to what is wanted and press it so many times."""

@@ -22,9 +22,7 @@ TASKS = ("patrol", "deliver", "guide", "go_to", "go_home", "hold", "follow_headi
 KINDS = {
     "Joystick",
     "RudderThrottle",
-    "LiftLever",
     "TiltCircle",
-    "CourseDial",
     "SlideToConfirm",
     "Fader",
     "GridMap",
@@ -36,7 +34,6 @@ KINDS = {
     "TopicRow",
     "TaskTile",
     "NavButton",
-    "Chip",
     "IconButton",
     "PrimaryButton",
 }

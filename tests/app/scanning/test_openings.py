@@ -168,6 +168,7 @@ def test_a_slide_and_a_latched_stop_ask_once_more(
     openings.open("hold", app.shell.stop, "Release STOP")
     press(openings, stage, "sure")
     stage.run_for(0.5)
+    openings.rest()  # the mark has gone back to its first place
     assert done == ["took off"], "it takes as long as with a finger"
     stage.run_for(1.0)
     assert done == ["took off", "released"]
@@ -183,6 +184,7 @@ def test_a_hold_that_is_left_before_its_end_releases_nothing(
     press(openings, stage, "sure")
     stage.run_for(0.5)
     openings.rest()
+    openings.close()
     stage.run_for(1.5)
     assert not released
 
