@@ -20,6 +20,8 @@ __all__ = ["METHODS", "Method", "Methods"]
 
 METHODS: dict[str, str] = {
     "log": "app.responding:Responding",
+    "talk": "app.talking:Talking",
+    "voice": "app.speaking:Speaking",
     "shake": "app.shaking:Shaking",
     "tilt": "app.tilting:Tilting",
     "switches": "app.scanning.switches:Switches",
@@ -53,6 +55,8 @@ class Method(Protocol):
 
     def close(self) -> None:
         """End whatever it owns."""
+
+    # `look(now)`, where there is one, is called with each heartbeat while it is on, or says that it is `busy`
 
 
 class Methods:
@@ -111,7 +115,7 @@ class Methods:
             self._app.shell.wishes.look(now)
         self.sensing.look(now)
         for method in self._looks:
-            if method.on:
+            if method.on or getattr(method, "busy", False):
                 method.look(now)
 
     def get(self, name: str) -> Any:

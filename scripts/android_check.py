@@ -34,8 +34,15 @@ DESKTOP_ONLY = (
     "skimage",
     "moderngl",
     "PIL",
+    "hama",
+    "hibari",
+    "miniaudio",
+    "pocketsphinx",
 )
 """What the phone does not have."""
+
+OPTIONAL = {"hama", "hibari", "miniaudio", "pocketsphinx"}
+"""What of that the handheld uses where it is there, and goes on without elsewhere."""
 
 NO_RECIPE = {
     "orjson",
@@ -188,7 +195,7 @@ def third_party(files: list[Path], root: Path) -> set[str]:
 def check_imports(files: list[Path], root: Path, requirements: list[str]) -> None:
     """Everything imported is asked for in the spec, comes with Kivy, or is Android's own."""
     asked = {name.partition("==")[0].split(".")[0] for name in requirements}
-    strangers = third_party(files, root) - asked - {"jnius", "android"}
+    strangers = third_party(files, root) - asked - {"jnius", "android"} - OPTIONAL
     if strangers:
         raise Failed(f"the handheld imports {', '.join(sorted(strangers))}, which the spec does not ask for.")
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from app.voice.noise import RATE
 from app.voice.recognizer import VoiceTrouble
 
-__all__ = ["Ears", "Microphone"]
+__all__ = ["Ears", "Microphone", "audio_library"]
 
 BLOCK_MS = 50
 QUEUED = 100
@@ -60,7 +60,7 @@ class Microphone:
         """Open it."""
         if self._device is not None:
             return
-        audio = self._audio or _miniaudio()
+        audio = self._audio or audio_library()
         self._heard = self._now()
         try:
             self._device = audio.CaptureDevice(
@@ -119,7 +119,8 @@ class Microphone:
                         self._blocks.get_nowait()
 
 
-def _miniaudio() -> Any:
+def audio_library() -> Any:
+    """The module miniaudio; `VoiceTrouble` where it cannot be had."""
     try:
         import miniaudio
     except (ImportError, OSError) as problem:
