@@ -178,6 +178,20 @@ def check_manifest(root: Path, spec: configparser.SectionProxy) -> None:
             raise Failed(f"{key} names {named}, which is not there.")
 
 
+def check_voice(root: Path, spec: configparser.SectionProxy) -> None:
+    """What hears and talks on the phone is asked for: the microphone, and to see the services behind it (Android 11)."""
+    if "android.permission.RECORD_AUDIO" not in words(spec, "android.permissions"):
+        raise Failed(
+            "android.permissions lacks android.permission.RECORD_AUDIO: no spoken command would be heard."
+        )
+    manifest = (root / spec["android.extra_manifest_xml"]).read_text()
+    for service in ("android.speech.RecognitionService", "android.intent.action.TTS_SERVICE"):
+        if service not in manifest:
+            raise Failed(
+                f"the manifest does not ask for {service} in <queries>: Android 11 and later hide it."
+            )
+
+
 def third_party(files: list[Path], root: Path) -> set[str]:
     """Top-level names that the shipped code imports and that neither it nor Python has."""
     found = set()
@@ -270,6 +284,7 @@ def main() -> int:
         files = check_files(ROOT, spec)
         requirements = check_requirements(spec)
         check_manifest(ROOT, spec)
+        check_voice(ROOT, spec)
         check_imports(files, ROOT, requirements)
         size = sum((ROOT / path).stat().st_size for path in files)
         print(f"spec: {len(files)} files, {size / 1e6:.1f} MB, only main.py, app, widgets and bridge")
