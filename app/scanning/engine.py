@@ -131,6 +131,10 @@ class Engine:
         self.contacts.lost()
         self._armed = None
 
+    def found(self, now: float) -> None:
+        """It will be told again; what was down all the while is no new press."""
+        self.contacts.found(now)
+
     # what the contacts tell
 
     def _hear(self, event: Event) -> None:
@@ -140,6 +144,9 @@ class Engine:
         elif event.what in ("stuck", "free"):
             self._armed = None
             self._desk.stuck(event.switch, event.what == "stuck")
+        elif event.what == "unsure":
+            self._armed = None
+            self._desk.stepped("none", self._shown)
         elif self.first(event):
             self._armed = None
         elif event.what == "down":

@@ -68,20 +68,31 @@ def drag(widget: Widget, way: Sequence[Place]) -> bool:
     return True
 
 
-def hold(widget: Widget, seconds: float, place: Place | None = None) -> Callable[[], None] | None:
-    """A finger that stays for so long [s]; the answer lifts it before that. None where the widget takes none."""
+def hold(
+    widget: Widget, seconds: float, place: Place | None = None, *, until: str = ""
+) -> Callable[[], None] | None:
+    """A finger that stays for so long [s], or `until` the widget says so by that event; the answer lifts it before that.
+
+    None where the widget takes none.
+    """
     finger = Finger(place or tuple(widget.center))
     if not widget.dispatch("on_touch_down", finger):
         return None
-    up = Clock.create_trigger(lambda _: _lift(widget, finger), seconds)
+    up = Clock.create_trigger(lambda _: end(), seconds)
     up()
+    staying = [True]
 
-    def lift() -> None:
-        if up.is_triggered:
+    def end(*_: object) -> None:
+        if staying:
+            staying.clear()
             up.cancel()
+            if until:
+                widget.unbind(**{until: end})
             _lift(widget, finger)
 
-    return lift
+    if until:
+        widget.bind(**{until: end})
+    return end
 
 
 def _takes_at_the_end(widget: Widget) -> bool:

@@ -25,8 +25,8 @@ __all__ = ["MOMENT", "Openings"]
 
 MOMENT = 1.0
 """One press drives for so long [s]; then the stick is at rest again."""
-LONGER = 0.25
-"""A hold by a switch lasts longer than it must, for slow frames [s]."""
+PATIENT = 6.0
+"""A hold by a switch may last so many times as long as it must: where frames are slow they count for less than they took."""
 SLOW = 0.4
 """Of the whole way, where a stick is pushed gently."""
 FADER_STEPS = 10
@@ -65,15 +65,19 @@ class Openings:
 
     def close(self) -> None:
         """Take the pad away; what it pushes comes to rest."""
-        self.rest()
-        if self._lift is not None:
-            self._lift()
-            self._lift = None
+        self.halt()
         if self._area is not None:
             self._area.close()
         if self.pad is not None and self.pad.parent is not None:
             self.pad.parent.remove_widget(self.pad)
         self.pad = self._of = self._area = None
+
+    def halt(self) -> None:
+        """STOP: nothing that was begun goes on, a release of STOP least of all."""
+        self.rest()
+        if self._lift is not None:
+            self._lift()
+            self._lift = None
 
     def look(self) -> None:
         """What the pad belongs to is gone, or may not be used any more: so is the pad."""
@@ -193,7 +197,7 @@ class Openings:
             finger.drag(widget, [(left + high / 2, middle), (left + wide + high, middle)])
             return
         latched = getattr(widget, "phase", "stopped") == "stopped"
-        self._lift = finger.hold(widget, (HOLD if latched else LONG_HOLD) + LONGER)
+        self._lift = finger.hold(widget, (HOLD if latched else LONG_HOLD) * PATIENT, until="on_held_long")
 
 
 def _held_words(widget: Any) -> str:

@@ -17,6 +17,13 @@ from typing import Literal, NamedTuple
 __all__ = ["Contacts", "Event", "Timing"]
 
 Switch = Literal["A", "B"]
+What = Literal["down", "up", "held", "stop", "stuck", "free", "unsure"]
+FRAME = 0.1
+"""A frame counts for no more of a hold [s]: a switch that came up while it was drawn is only heard of after it."""
+RESETS = 0.15
+"""A system that takes the focus away may tell that all keys came up so shortly before it [s]."""
+REPEATS = 1.0
+"""What was down when the focus went and comes down within so long of its return [s] is still held: the system repeats it."""
 BEYOND = 0.3
 """STOP and going back need a hold that is at least so much longer than what is accepted as a press at all [s]."""
 
@@ -52,9 +59,10 @@ class Timing:
 class Event(NamedTuple):
     """What a switch has done."""
 
-    what: Literal["down", "up", "held", "stop", "stuck", "free"]
+    what: What
     """`down`: pressed. `up`: that press is over. `held`: A long enough to go back, told again while it stays. `stop`: B long
-    enough, or both; nothing more of that press is told. `stuck`: down for too long, nothing is told of it until `free`."""
+    enough, or both; nothing more of that press is told. `stuck`: down for too long, nothing is told of it until `free`.
+    `unsure`: B came up while a frame was drawn that took so long that nobody knows whether it was held; nothing comes of it."""
     switch: Switch
     at: float
     """When [s, monotonic]; of `down` when the contact closed, of `up` when it opened."""
@@ -69,7 +77,9 @@ class _Contact:
     sources: set[Hashable] = field(default_factory=set)
     began: float = -math.inf
     opened: float = math.inf
-    """When the last of its sources came up; infinite while one is down."""
+    """When it was heard that the last of its sources came up; infinite while one is down."""
+    ended: float = math.inf
+    """When that was at the earliest [s]; the same but for slow frames."""
     taken: float = -math.inf
     """When the last press began that was told."""
     standing: Literal["up", "waits", "down", "void", "stuck"] = "up"
@@ -90,6 +100,13 @@ class Contacts:
         """`hear` is told each event, in order."""
         self.timing, self._hear = timing, hear
         self._contacts: dict[Switch, _Contact] = {"A": _Contact(), "B": _Contact()}
+        self._frames = (math.nan, math.nan)
+        """The two last looks [s]: what is heard now has happened since the first of them."""
+        self._seen: dict[Hashable, float] = {}
+        """When each source was last heard to come up [s]."""
+        self._held_over: set[Hashable] = set()
+        """Sources that were down when the focus went."""
+        self._repeats_until = -math.inf
 
     def is_down(self, switch: Switch) -> bool:
         """It is pressed now, and not stuck."""
@@ -103,48 +120,73 @@ class Contacts:
 
     def down(self, switch: Switch, source: Hashable, now: float) -> None:
         """A key or button of that switch closed; nothing where it was told so before."""
-        self.look(now)
+        self._judge(now)
         contact = self._contacts[switch]
         if source in contact.sources:
             return
         contact.sources.add(source)
-        contact.opened = math.inf
+        contact.opened = contact.ended = math.inf
         if contact.standing != "up":
             return
         contact.began, contact.told = now, 0
         other = self._contacts["A" if switch == "B" else "B"]
         if other.closed and other.sources:
             self._stop(switch, now)
-        elif now - contact.taken < self.timing.ignore_repeat:
+        elif now - contact.taken < self.timing.ignore_repeat or self._is_held_over(source, now):
             contact.standing = "void"
         else:
             contact.standing = "waits"
-            self.look(now)
+            self._judge(now)
 
     def up(self, switch: Switch, source: Hashable, now: float) -> None:
         """It opened; whether that is the end of the press is known after `debounce`."""
-        self.look(now)
         contact = self._contacts[switch]
         if source in contact.sources:
             contact.sources.discard(source)
+            self._seen[source] = now
+            self._held_over.discard(source)
             if not contact.sources:
-                contact.opened = now
-            self.look(now)
+                contact.opened, contact.ended = now, max(self._sure(now), contact.began)
+        self._judge(now)
 
     def lost(self) -> None:
-        """Nobody will tell how it goes on: both are up, and nothing comes of what was down."""
-        for switch in self._contacts:
-            self._contacts[switch] = _Contact(taken=self._contacts[switch].taken)
+        """Nobody will tell how it goes on: both are up, and nothing comes of what was down, nor of its going on."""
+        before = self._frames[1]
+        for switch, contact in self._contacts.items():
+            self._held_over |= contact.sources
+            self._contacts[switch] = _Contact(taken=contact.taken)
+        self._held_over |= {source for source, at in self._seen.items() if not at < before - RESETS}
+        self._seen.clear()
+        self._repeats_until = math.inf
+
+    def found(self, now: float) -> None:
+        """Keys are told again."""
+        if self._held_over:
+            self._repeats_until = now + REPEATS
 
     def look(self, now: float) -> None:
         """What only time tells: accepted, held, let go, stuck."""
+        self._frames = self._frames[1], now
+        self._judge(now)
+
+    def _sure(self, now: float) -> float:
+        """What is heard now has happened by then at the earliest, or shortly after [s]."""
+        before = self._frames[0]
+        return now if math.isnan(before) else min(now, before + FRAME)
+
+    def _is_held_over(self, source: Hashable, now: float) -> bool:
+        if now >= self._repeats_until:
+            self._held_over.clear()
+        return source in self._held_over
+
+    def _judge(self, now: float) -> None:
         for switch in self._contacts:
             self._look(switch, self._contacts[switch], now)
 
     def _look(self, switch: Switch, contact: _Contact, now: float) -> None:
         if contact.standing == "up":
             return
-        until = min(now, contact.opened)
+        until = max(min(self._sure(now), contact.ended), contact.began)
         if contact.standing == "waits" and until - contact.began >= self.timing.acceptance:
             contact.standing, contact.taken = "down", contact.began
             self._tell("down", switch, contact.began)
@@ -179,11 +221,10 @@ class Contacts:
     def _end(self, switch: Switch, contact: _Contact) -> None:
         before, contact.standing = contact.standing, "up"
         if before == "down":
-            self._tell("up", switch, contact.opened)
+            perhaps = switch == "B" and contact.opened - contact.began >= self.timing.hold_stop
+            self._tell("unsure" if perhaps else "up", switch, contact.ended)
         elif before == "stuck":
             self._tell("free", switch, contact.opened)
 
-    def _tell(
-        self, what: Literal["down", "up", "held", "stop", "stuck", "free"], switch: Switch, at: float
-    ) -> None:
+    def _tell(self, what: What, switch: Switch, at: float) -> None:
         self._hear(Event(what, switch, at, self._contacts[switch].began))

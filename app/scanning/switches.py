@@ -207,8 +207,8 @@ class Switches:
         return None
 
     def _focused(self, _: object, focus: bool) -> None:
-        if not focus and self._engine is not None:
-            self._engine.lost()
+        if self._engine is not None:
+            self._engine.found(self._app.now()) if focus else self._engine.lost()
 
     def _touched(self, *_: object) -> None:
         if self._engine is not None and not self._doing:
@@ -217,7 +217,9 @@ class Switches:
     # what the engine tells
 
     def halt(self, began: float) -> None:
-        """STOP by switches."""
+        """STOP by switches; what they have begun goes on no longer."""
+        if self._glass is not None:
+            self._glass.openings.halt()
         verdict = self._app.intents.take(Heard("stop", self.name, began=began, said="held"))
         if verdict.what != "acted":
             self._say(verdict.sentence)

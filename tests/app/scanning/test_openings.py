@@ -174,6 +174,29 @@ def test_a_slide_and_a_latched_stop_ask_once_more(
     assert done == ["took off", "released"]
 
 
+def test_a_hold_takes_as_many_slow_frames_as_it_needs(app: Any, openings: Openings, stage: Stage) -> None:
+    released: list[object] = []
+    app.shell.stop.phase = "stopped"
+    app.shell.stop.bind(on_release_stop=released.append)
+    openings.open("hold", app.shell.stop, "Release STOP")
+    press(openings, stage, "sure")
+    stage.run_for(4.0, 0.3)
+    assert released == [app.shell.stop]
+    assert not app.shell.stop.pressed
+
+
+def test_stop_ends_a_hold_that_would_release_it(app: Any, openings: Openings, stage: Stage) -> None:
+    released: list[object] = []
+    app.shell.stop.phase = "stopped"
+    app.shell.stop.bind(on_release_stop=released.append)
+    openings.open("hold", app.shell.stop, "Release STOP")
+    press(openings, stage, "sure")
+    stage.run_for(0.5)
+    openings.halt()
+    stage.run_for(1.5)
+    assert not released
+
+
 def test_a_hold_that_is_left_before_its_end_releases_nothing(
     app: Any, openings: Openings, stage: Stage
 ) -> None:

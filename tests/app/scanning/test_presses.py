@@ -180,6 +180,39 @@ def test_a_switch_is_down_while_one_of_its_keys_is() -> None:
     assert box.told == ["down B", "up B"]
 
 
+def test_a_press_that_ended_while_a_slow_frame_was_drawn_is_no_stop_and_nothing_at_all() -> None:
+    box = Box()
+    box.wait(0.1)
+    box.down("B")
+    box.wait(0.1)
+    box.now += 1.2  # one frame
+    box.contacts.look(box.now)  # its release waits in the queue behind the heartbeat
+    assert box.told == ["down B"]
+    box.up("B")
+    box.wait(0.2)
+    assert box.told == ["down B", "unsure B"]
+
+
+def test_one_that_is_still_down_after_a_slow_frame_is_stop_with_the_next() -> None:
+    box = Box()
+    box.wait(0.1)
+    box.down("B")
+    box.now += 1.2
+    box.contacts.look(box.now)
+    assert box.told == ["down B"]
+    box.wait(0.01)
+    assert box.told == ["down B", "stop B"]
+
+
+def test_where_every_frame_is_slow_b_is_stop_one_frame_later() -> None:
+    box = Box()
+    box.down("B")
+    while "stop B" not in box.told:
+        box.now += 0.3
+        box.contacts.look(box.now)
+    assert box.now == pytest.approx(1.2)
+
+
 def test_nothing_comes_of_what_was_down_when_the_window_lost_its_focus() -> None:
     box = Box()
     box.down("B")
@@ -187,5 +220,31 @@ def test_nothing_comes_of_what_was_down_when_the_window_lost_its_focus() -> None
     box.contacts.lost()
     box.wait(2.0)
     assert box.told == ["down B"]
+    box.contacts.found(box.now)
+    box.wait(1.2)
     box.press("B")
     assert box.told == ["down B", "down B", "up B"]
+
+
+@pytest.mark.parametrize("told_up_before", [False, True])
+def test_what_was_held_while_the_focus_was_away_is_no_new_press_when_the_system_repeats_it(
+    *, told_up_before: bool
+) -> None:
+    box = Box()
+    box.down("B")
+    box.wait(0.3)
+    if told_up_before:
+        box.up("B")
+    box.contacts.lost()
+    box.wait(2.0)
+    box.contacts.found(box.now)
+    box.wait(0.04)
+    box.down("B")
+    box.wait(0.2)
+    assert box.told == ["down B"]
+    box.wait(0.8)
+    assert box.told == ["down B", "stop B"], "to hold it on is STOP all the same"
+    box.up("B")
+    box.wait(0.5)
+    box.press("B")
+    assert box.told[2:] == ["down B", "up B"]
