@@ -45,6 +45,7 @@ CATALOGUE: dict[str, str] = {
     "MotionSelector": "widgets.motion_selector",
     "OptionList": "widgets.option_list",
     "NoticeCard": "widgets.notice_card",
+    "NoiseMeter": "widgets.noise_meter",
     "OrderForm": "widgets.order_form",
     "OrderQueue": "widgets.order_queue",
     "PadPicture": "widgets.pad_picture",
