@@ -29,6 +29,15 @@ EXPLAINS = -2.5
 """A command is rejected if it explains the sounds worse than this [log likelihood a sound, against the free decoding]."""
 WINS, EASES = 0.5, 1.5
 """By so much more than any background word a command of two sounds must explain, and so much less for each further sound [log likelihood]."""
+EASED = 8.5
+"""No command is eased by more [log likelihood]."""
+DOUBTS = 0.5
+"""That ease is given in full where the background word itself explains the sounds as badly as that, in noise or a mumble; where it is
+clear what was said, less [log likelihood a sound]."""
+CLEAR, CLEAR_URGENT = 0.4, 0.8
+"""So much of it is given however clear that is: to a command, and to STOP, whose end people swallow."""
+POOR, WEIGHS = -0.8, 0.5
+"""What a command explains worse than this [log likelihood a sound] is held against it, so much of it; not against STOP."""
 URGENT = 2.0
 """STOP may explain so much less than that [log likelihood]: a false one costs little, one not heard may cost everything."""
 PREFERRED = 1.0
@@ -181,7 +190,8 @@ class Scorer:
         self._urgent = np.array([command in grammar.urgent for command in self._commands])
         self._others = [(word, sounds) for word, sounds in background() if sounds not in ours]
         self._sequences = Sequences([*(way[2] for way in ways), *(sounds for _, sounds in self._others)])
-        self._needs = np.maximum(WINS - EASES * (self._lengths - 2), -8.0) - URGENT * self._urgent
+        self._eased = np.minimum(EASES * (self._lengths - 2), EASED)
+        self._least = np.where(self._urgent, CLEAR_URGENT, CLEAR)
 
     def judge(self, views: Sequence[Array], heeded: Collection[str]) -> Found | None:
         """The command of `heeded` that was most likely said; None where nothing was heard or nothing is heeded.
@@ -194,7 +204,8 @@ class Scorer:
         likely: Array = np.mean([self._sequences.whole(each) for each in frames], axis=0)
         ours, others = likely[: len(counts)], likely[len(counts) :]
         explains = ours / self._lengths
-        left = np.minimum(ours - others.max() - self._needs, (explains - EXPLAINS) * 4.0)
+        rival = int(others.argmax())
+        left = self._left(ours, float(others[rival]), len(self._others[rival][1]))
         order = np.argsort(-np.where(counts, explains + PREFERRED * self._urgent, -np.inf))
         best = int(order[0])
         sure: dict[str, float] = {}
@@ -209,8 +220,18 @@ class Scorer:
             bool(left[best] >= STRONG),
             tuple(list(sure.items())[:3]),
             float(explains[best]),
-            self._others[int(others.argmax())][0],
+            self._others[rival][0],
         )
+
+    def _left(self, ours: Array, rival: float, sounds: int) -> Array:
+        """By how much each command does better than is asked of it, against a background word of so many sounds [log likelihood]."""
+        explains = ours / self._lengths
+        ease = np.clip(-rival / sounds / DOUBTS, self._least, 1.0) * self._eased
+        poor = WEIGHS * np.minimum(0.0, explains - POOR) * ~self._urgent
+        left: Array = np.minimum(
+            ours - rival - WINS + ease + URGENT * self._urgent + poor, (explains - EXPLAINS) * 4.0
+        )
+        return left
 
 
 def _confidence(left: float) -> float:

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.voice.ctc import Acoustics, Found, Scorer
+from app.voice.denoise import denoised
 from app.voice.endpoint import Endpointer, Segment
-from app.voice.noise import RATE, NoiseMeter
+from app.voice.noise import NoiseMeter
 from app.voice.recognizer import Grammar, Hear, Level, Rejected, Result, State
 from app.voice.spotter import Spotted, Spotter
 
@@ -18,11 +19,8 @@ __all__ = ["Hearing", "Judge", "Phonemes"]
 
 METERED = 0.1
 """The meter is told so often [s]."""
-GAPS = (0, RATE // 4 + 80)
-"""Silence that the model is given before and after words, so that it knows their first and last sound, at first and when
-it is asked again: its frames then lie otherwise [samples]."""
 UNSURE = (0.02, 0.8)
-"""It is asked again between these confidences."""
+"""It is asked again, with less noise in the words, between these confidences."""
 SAME = 0.35
 """STOP that ends within this of one that was spotted is the same [s]."""
 
@@ -48,12 +46,12 @@ class Phonemes:
         self._scorer, self._spotter = Scorer(grammar, model.tokens), Spotter(grammar, model)
 
     def judge(self, samples: NDArray[np.float32], heeded: Collection[str]) -> Found | None:
-        """By the whole utterance; where that is close to call, by a second look at it with other silence about it."""
-        first = self._model.hear(_within(samples, GAPS[0]))
+        """By the whole utterance; where that is close to call, by a second look at it with the noise taken out."""
+        first = self._model.hear(samples)
         found = self._scorer.judge([first], heeded)
         if found is None or not UNSURE[0] < found.confidence < UNSURE[1] or self._urgent(found):
             return found
-        second = self._model.hear(_within(samples, GAPS[1]))
+        second = self._model.hear(denoised(samples))
         alone = self._scorer.judge([second], heeded)
         return alone if self._urgent(alone) else self._scorer.judge([first, second], heeded)
 
@@ -182,8 +180,3 @@ class Hearing:
                 detail=detail,
             )
         return Rejected(reason, found.command, found.confidence, segment.ended)
-
-
-def _within(samples: NDArray[np.float32], gap: int) -> NDArray[np.float32]:
-    silence = np.zeros(gap, np.float32)
-    return np.concatenate((silence, samples, silence))
