@@ -195,6 +195,15 @@ class Speaking:
             return "listening"
         return {"starting": "gets ready", "ready": "hold to talk"}.get(self._state.word, "does not work")
 
+    @property
+    def sign(self) -> str:
+        """The same for the button to talk: `ready`, `listening`, `loud` or `wrong`; empty while it is off."""
+        if not self._on:
+            return ""
+        if self.loud:
+            return "loud"
+        return "wrong" if self.problem else "listening" if self._listening else "ready"
+
     # a method's life
 
     def start(self) -> None:

@@ -102,7 +102,7 @@ class Shell(FloatLayout):
         self.bar, self.nav, self.notices = TopBar(), Rail(), Notices()
         self.bar.bind(on_back=lambda _: self.app.leave(), on_control=lambda _: self.toggle_control())
         self.bar.bind(on_mode=lambda _: self.cards.ask_mode(), on_inputs=lambda _: self.app.show_inputs())
-        self.nav.bind(on_press=lambda _, name: self._press(name))
+        self.nav.bind(on_press=lambda _, name: self._press(name), on_talk=lambda _, down: self._talk(down))
         self.stop = StopButton(size_hint=(None, None))
         self.stop.bind(on_command=self._stop, on_release_stop=self._release_stop)
         for widget in (self.bar, self.nav, self.stop, self.notices):
@@ -140,6 +140,11 @@ class Shell(FloatLayout):
         }
         acts.get(name, lambda: self.app.show(name))()
 
+    def _talk(self, down: bool) -> None:
+        voice = self.app.methods.get("voice")
+        if voice is not None:
+            (voice.press if down else voice.release)()
+
     def go(self, name: str) -> None:
         """Put a screen on the glass; every control of the last one rests. KeyError for an unknown one."""
         screen = self.screens[name]
@@ -174,6 +179,7 @@ class Shell(FloatLayout):
             recording=self.recording,
             control=standing.control_nav(self.session),
             waiting=self.session.logbook.open,
+            talk=getattr(self.app.methods.get("voice"), "sign", ""),
         )
 
     # places

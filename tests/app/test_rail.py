@@ -1,0 +1,58 @@
+"""The button to talk among those of the navigation: there while voice is on, held and let go, in everybody's room."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.arrange import Rect
+from app.screens.rail import Rail
+from tests.headless import Stage
+
+FORMS = {"tall": Rect(0, 0, 412, 60), "short": Rect(0, 0, 68, 344), "wide": Rect(0, 0, 76, 744)}
+
+
+def rail(stage: Stage, form: str, talk: str) -> Rail:
+    made = stage.show(Rail())
+    made.arrange(FORMS[form], form, 1.0)
+    made.show("drive", recording=False, control=("You", "person", ""), talk=talk)
+    stage.frames(2)
+    return made
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_it_is_there_only_while_voice_is_on(stage: Stage, form: str) -> None:
+    made = rail(stage, form, "")
+    assert made.ids.talk.parent is None
+    made.show("drive", recording=False, control=("You", "person", ""), talk="ready")
+    assert made.ids.talk.parent is made
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_no_button_lies_on_another(stage: Stage, form: str) -> None:
+    made = rail(stage, form, "ready")
+    places = [Rect(one.x + 0.5, one.y + 0.5, one.width - 1, one.height - 1) for one in made.children]
+    assert not any(a.overlaps(b) for n, a in enumerate(places) for b in places[:n])
+
+
+def test_on_a_wide_glass_it_is_larger_than_the_others(stage: Stage) -> None:
+    made = rail(stage, "wide", "ready")
+    assert made.ids.talk.height > 1.5 * made.ids.topics.height
+
+
+def test_it_tells_when_it_is_held_and_when_it_is_let_go(stage: Stage) -> None:
+    made, told = rail(stage, "wide", "ready"), []
+    made.bind(on_talk=lambda _, down: told.append(down), on_press=lambda _, name: told.append(name))
+    touch = stage.touch(*made.ids.talk.center)
+    touch.touch_down()
+    stage.frames(30)
+    assert told == [True]
+    touch.touch_up()
+    stage.frames(10)
+    assert told == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("talk", "words"), [("ready", "Talk"), ("listening", "Listens"), ("loud", "Too loud"), ("wrong", "Talk")]
+)
+def test_it_says_how_voice_stands(stage: Stage, talk: str, words: str) -> None:
+    assert rail(stage, "tall", talk).ids.talk.text == words
