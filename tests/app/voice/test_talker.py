@@ -12,9 +12,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from app.talking import aloud
 from app.voice import mouth as module
+from app.voice.ctc import HamaModel
+from app.voice.files import chunks, resampled
+from app.voice.hearing import Hearing, Phonemes
+from app.voice.lexicon import COMMANDS
 from app.voice.mouth import CRASHED, NO_ESPEAK, ChildMouth, mouth_of
-from app.voice.recognizer import VoiceTrouble
+from app.voice.recognizer import Grammar, Result, VoiceTrouble
 from app.voice.talker import NO_SPEAKER, play, serve
 
 SOUND = np.full(2400, 0.5, np.float32)
@@ -153,3 +158,24 @@ def test_the_real_voice_has_a_process_of_its_own_and_says_where_it_cannot_be_hea
         assert (word, sentence) == ("ended", "Go home?") or (word == "failed" and "loudspeaker" in sentence)
     finally:
         mouth.stop()
+
+
+def test_nothing_that_it_says_is_taken_for_stop_by_the_microphone() -> None:
+    hibari = pytest.importorskip("hibari")
+    pytest.importorskip("hama")
+    judge = Phonemes(Grammar(COMMANDS), HamaModel())
+    voice = hibari.Hibari()
+
+    def heard(words: str) -> list[str]:
+        told: list[Any] = []
+        hearing = Hearing(Grammar(COMMANDS), judge, told.append)
+        hearing.heed(frozenset())
+        rest = np.random.default_rng(1).normal(0.0, 1e-3, 12000).astype(np.float32)
+        sound = resampled(np.asarray(voice(words, seed=1), np.float32), 24000)
+        for part, at in chunks(np.concatenate((rest, sound, rest, rest))):
+            hearing.hear(part, at)
+        return [one.command for one in told if isinstance(one, Result)]
+
+    said = ("STOP is pressed.", "The robot is stopped.", "Emergency stop was released.")
+    assert [heard(aloud(words)) for words in said] == [[], [], []]
+    assert heard("stop") == ["stop"], "this microphone hears nothing at all"
