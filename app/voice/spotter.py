@@ -24,12 +24,13 @@ EVERY = 0.4
 """While the voice goes on without sinking it is looked at so often [s]."""
 EARLIEST = 0.24
 """Nobody says STOP faster [s]."""
-FITS = -0.85
+FITS = -1.0
 """Log likelihood a sound, against the free decoding."""
-OVER = -3.0
-"""A neighbour of STOP may explain the same sounds better by so much, and it is still STOP [log likelihood]."""
-NEAR = ("s t", "s p")
-"""How the neighbours of STOP begin that are compared, beside the other commands."""
+OVER, OVER_END = 3.0, 2.0
+"""Another command or a word that begins like STOP may explain the same sounds better by so much, and it is still STOP; one that
+only ends like it, by less: nobody swallows the beginning [log likelihood]."""
+NEAR, END = ("s t", "s p"), "ɑ p"
+"""How the neighbours of STOP begin, or else end, that are compared, beside the other commands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +63,9 @@ class Spotter:
             sounds for phrases in grammar.phrases.values() for p in phrases for sounds in pronunciations(p)
         }
         neighbours |= {sounds for _, sounds in background() if " ".join(sounds).startswith(NEAR)}
-        rivals = [sounds for sounds in sorted(neighbours) if sounds not in mine]
+        ends = {sounds for _, sounds in background() if " ".join(sounds).endswith(END)} - neighbours
+        rivals = [sounds for sounds in sorted(neighbours | ends) if sounds not in mine]
+        self._over = np.array([OVER_END if sounds in ends else OVER for sounds in rivals])
         self._sequences = Sequences([*(sounds for _, _, sounds in ways), *rivals]) if ways else None
         self._looked = -math.inf
         self._begun = math.nan
@@ -86,7 +89,7 @@ class Spotter:
         lengths = np.array([len(sounds) for _, _, sounds in self._ways])
         best = int(np.argmax(ours / lengths))
         fit = float(ours[best] / lengths[best])
-        if fit < FITS or (len(rivals) and ours[best] < rivals.max() + OVER):
+        if fit < FITS or (len(rivals) and ours[best] < (rivals - self._over).max()):
             return None
         command, phrase, _ = self._ways[best]
         return Spotted(command, phrase, fit, now - (len(frames) - 1 - int(when[best])) * FRAME)

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 
+from app.voice import ctc
 from app.voice.ctc import Scorer, Sequences, frames_of
 from app.voice.lexicon import COMMANDS, PHONES, pronunciations
 from app.voice.recognizer import Grammar
@@ -52,6 +53,31 @@ def test_only_what_is_heeded_is_found(scorer):
 def test_a_background_word_beats_a_command_of_two_sounds_that_is_a_little_like_it(scorer):
     assert scorer.judge([opinion("ɡ oʊ")], EVERY).accepted
     assert not scorer.judge([opinion("ɡ oʊ l")], EVERY).accepted
+
+
+@pytest.mark.parametrize("ipa", ["s t ɑ ɹ", "f æ s t", "k æ s ə l", "s t ɑ m p", "s t æ b"])
+def test_a_neighbour_that_is_clearly_heard_is_no_command_however_long_that_is(scorer, ipa):
+    assert not scorer.judge([opinion(ipa)], EVERY).accepted
+
+
+def test_stop_counts_with_its_end_swallowed(scorer):
+    found = scorer.judge([opinion("s t ɑ")], EVERY)
+    assert (found.command, found.accepted) == ("stop", True)
+
+
+def test_a_neighbour_that_explains_little_itself_weighs_less(scorer):
+    clear, blurred = (
+        scorer.judge([opinion(ipa, sure=0.6, frames_each=1)], EVERY) for ipa in ("k æ s ə l", "k æ s ə l ʒ")
+    )
+    assert clear.rival == blurred.rival == "castle"
+    assert clear.confidence < 0.3 < 0.5 < blurred.confidence
+
+
+def test_a_command_that_explains_little_must_stand_out_more(scorer, monkeypatch):
+    blurred = [opinion("k æ s ə l ʒ", frames_each=1)]
+    asked = scorer.judge(blurred, EVERY).confidence
+    monkeypatch.setattr(ctc, "WEIGHS", 0.0)
+    assert asked < scorer.judge(blurred, EVERY).confidence - 0.05
 
 
 def test_stop_is_taken_where_another_command_would_be_asked_again(scorer):

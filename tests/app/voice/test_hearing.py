@@ -7,6 +7,7 @@ from app.voice.ctc import Found
 from app.voice.files import chunks
 from app.voice.hearing import Hearing, Phonemes
 from app.voice.lexicon import COMMANDS
+from app.voice.noise import decibels
 from app.voice.recognizer import Grammar, Level, Rejected, Result, State
 from app.voice.spotter import Spotted
 from tests.app.voice.sounds import Written, quiet, voice
@@ -126,3 +127,19 @@ def test_a_close_call_is_looked_at_twice_and_a_clear_one_once():
     found = Phonemes(GRAMMAR, close).judge(voice(0.6), frozenset(COMMANDS))
     assert clear.asked == 1
     assert close.asked == (2 if 0.02 < found.confidence < 0.8 else 1)
+
+
+def test_the_second_look_is_at_words_with_less_noise_in_them():
+    heard = []
+
+    class Noting(Written):
+        def hear(self, samples):
+            heard.append(samples)
+            return super().hear(samples)
+
+    samples = quiet(1.2, 0.02)
+    samples[5000:14000] += voice(0.5625)
+    Phonemes(GRAMMAR, Noting("k æ s ə l")).judge(samples, frozenset(COMMANDS))
+    first, second = heard
+    assert first is samples
+    assert decibels(second[:4000]) < decibels(first[:4000]) - 10.0

@@ -29,6 +29,18 @@ def test_what_is_like_stop_is_not_stop(ipa):
     assert spotter(ipa)[0].find(voice(1.0), 10.0) is None
 
 
+@pytest.mark.parametrize(
+    "ipa", ["s t ɑ m p", "s t æ b", "ɑ n t ɑ p ə v ɪ t", "ɪ n ð ʌ ʃ ɑ p", "s t ɛ p oʊ v ɝ"]
+)
+def test_neighbours_of_stop_amid_other_words_are_not_stop(ipa):
+    assert not any(spotter(ipa, sure)[0].find(voice(1.0), 10.0) for sure in (0.9, 0.5))
+
+
+def test_stop_may_be_less_clear_at_its_end_than_at_its_beginning():
+    assert spotter("s t ɑ", sure=0.6)[0].find(voice(1.0), 10.0) is not None
+    assert spotter("t ɑ p", sure=0.6)[0].find(voice(1.0), 10.0) is None
+
+
 def test_nothing_is_spotted_in_less_than_anybody_says_stop_in():
     assert spotter("s t ɑ p")[0].find(voice(0.1), 10.0) is None
 
