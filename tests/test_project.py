@@ -180,6 +180,7 @@ def test_the_widgets_of_the_documentation_are_a_program_of_the_examples():
 
 
 NAMED_OTHERWISE = {
+    "hibari": "hibari-tts",
     "PIL": "pillow",
     "kivy_garden": "kivy-garden.mapview",
     "pybullet_data": "pybullet",

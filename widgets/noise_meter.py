@@ -141,7 +141,7 @@ class NoiseMeter(Drawing):
     def _below(self) -> list[Word]:
         y, size = self.y + dp(15), sp(15)
         if not self.heard:
-            return []
+            return [Word("Nothing heard yet", self.x + dp(34), y, size, theme.muted, anchor=(0.0, 0.5))]
         sure = f" · {self.confidence * 100:.0f} % sure" if math.isfinite(self.confidence) else ""
         texts = [f"{self.heard}{sure}", self.heard]
         room = self.width - dp(44)

@@ -284,16 +284,32 @@ def _scores(bundle: Any) -> list[float]:
     return [float(score) for score in found] if found is not None else []
 
 
-def _listener(to: AndroidRecognizer) -> Any:
-    """An `android.speech.RecognitionListener`; the class is made here because its base is only on a phone."""
+def _heedless() -> Any:
+    """What a listener is told and does nothing about."""
     from jnius import PythonJavaClass, java_method
 
-    class Listener(PythonJavaClass):  # type: ignore[misc]
-        __javainterfaces__ = ("android/speech/RecognitionListener",)
-
+    class Heedless(PythonJavaClass):  # type: ignore[misc]
         @java_method("(Landroid/os/Bundle;)V")  # type: ignore[untyped-decorator]
         def onReadyForSpeech(self, bundle: Any) -> None:  # noqa: N802 - Android's name
             return
+
+        @java_method("([B)V")  # type: ignore[untyped-decorator]
+        def onBufferReceived(self, buffer: Any) -> None:  # noqa: N802 - Android's name
+            return
+
+        @java_method("(ILandroid/os/Bundle;)V")  # type: ignore[untyped-decorator]
+        def onEvent(self, kind: int, bundle: Any) -> None:  # noqa: N802 - Android's name
+            return
+
+    return Heedless
+
+
+def _listener(to: AndroidRecognizer) -> Any:
+    """An `android.speech.RecognitionListener`; the class is made here because its base is only on a phone."""
+    from jnius import java_method
+
+    class Listener(_heedless()):  # type: ignore[misc]
+        __javainterfaces__ = ("android/speech/RecognitionListener",)
 
         @java_method("()V")  # type: ignore[untyped-decorator]
         def onBeginningOfSpeech(self) -> None:  # noqa: N802 - Android's name
@@ -302,10 +318,6 @@ def _listener(to: AndroidRecognizer) -> Any:
         @java_method("(F)V")  # type: ignore[untyped-decorator]
         def onRmsChanged(self, rms: float) -> None:  # noqa: N802 - Android's name
             _guarded(to.loud, rms)
-
-        @java_method("([B)V")  # type: ignore[untyped-decorator]
-        def onBufferReceived(self, buffer: Any) -> None:  # noqa: N802 - Android's name
-            return
 
         @java_method("()V")  # type: ignore[untyped-decorator]
         def onEndOfSpeech(self) -> None:  # noqa: N802 - Android's name
@@ -322,10 +334,6 @@ def _listener(to: AndroidRecognizer) -> Any:
         @java_method("(Landroid/os/Bundle;)V")  # type: ignore[untyped-decorator]
         def onPartialResults(self, bundle: Any) -> None:  # noqa: N802 - Android's name
             _guarded(lambda: to.partial(_texts(bundle)))
-
-        @java_method("(ILandroid/os/Bundle;)V")  # type: ignore[untyped-decorator]
-        def onEvent(self, kind: int, bundle: Any) -> None:  # noqa: N802 - Android's name
-            return
 
     return Listener()
 

@@ -63,6 +63,15 @@ class VoicePane(BoxLayout):
         add(self.kind)
         add(self.how)
         self._fill_languages()
+        self._fill_answers()
+        add(group_label("What may be said"))
+        for intent in PHRASES["en"]:
+            known = INTENTS[intent]
+            self.words[intent] = ListRow(icon=known.icon, title=known.words, whole=True)
+            add(self.words[intent])
+
+    def _fill_answers(self) -> None:
+        add = self._column.add_widget
         add(group_label("What it answers"))
         row, self.talks = switch_row(
             "volume_up", "Talk back", "Answers, alarms, what the robot confirmed.", self._talk
@@ -87,11 +96,6 @@ class VoicePane(BoxLayout):
         add(self.example)
         self.trouble = Remark(font_size="14sp", role="warn")
         add(self.trouble)
-        add(group_label("What may be said"))
-        for intent in PHRASES["en"]:
-            known = INTENTS[intent]
-            self.words[intent] = ListRow(icon=known.icon, title=known.words, whole=True)
-            add(self.words[intent])
 
     def _fill_languages(self) -> None:
         """Only where what understands here knows more than one."""
