@@ -111,12 +111,11 @@ class Speaking:
         if not isinstance(kept, dict):
             kept, self.mistaken = {}, "The settings of voice could not be read; the usual ones are taken."
         self._on, self._hands_free = kept.get("on") is True, kept.get("hands_free") is True
-        self._language = kept.get("language", "en")
-        if self._language not in PHRASES:
-            self.mistaken = (
-                f"There are no commands in the language {str(self._language)[:20]!r}; they are English."
-            )
-            self._language = "en"
+        language = kept.get("language", "en")
+        known = isinstance(language, str) and language in PHRASES
+        self._language: str = language if known else "en"
+        if not known:
+            self.mistaken = f"There are no commands in the language {str(language)[:20]!r}; they are English."
 
     def _keep(self) -> None:
         fields = {"on": self._on, "hands_free": self._hands_free, "language": self._language}

@@ -12,6 +12,7 @@ from app.intents import Heard, Intents
 from app.permits import Permits
 from app.speaking import DEAF, EARLIER, LONGEST, TAP_LASTS, Speaking
 from app.voice.recognizer import Grammar, Level, Rejected, Result, State, VoiceTrouble
+from tests.headless import Stage
 
 
 class Recogniser:
@@ -192,6 +193,13 @@ def test_stop_that_was_spotted_acts_and_has_no_end_yet(desk: Desk) -> None:
     desk.says("stop", early=True, strong=True)
     assert desk.acts.done == ["stop"]
     assert math.isnan(desk.taken[0].ended)
+
+
+def test_stop_does_not_wait_for_the_heartbeat(stage: Stage) -> None:
+    desk = Desk()
+    desk.recogniser.hear(Result("stop", "stop", 0.9, early=True))
+    stage.frames(1)
+    assert desk.acts.done == ["stop"]
 
 
 def test_what_waits_is_answered_by_yes_no_and_pause_alone(desk: Desk) -> None:

@@ -39,7 +39,7 @@ BY_ITSELF = ("interval", "first", "loops")
 FELT: dict[str, tuple[str, str, str]] = {
     "tones": ("volume_up", "Each step is heard", "A short tone; another one for what is done."),
     "vibrates": ("mobile_vibrate", "Each step is felt", "On a handheld that vibrates."),
-    "spoken": ("text_fields", "The mark is spoken", "Where the app has a voice."),
+    "spoken": ("text_fields", "The mark is spoken", "By the voice chosen in Voice."),
 }
 KEYS = {
     "a": ("skip_next", "Next", "Held 0.6 s: back, or out of the group."),
