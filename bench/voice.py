@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -34,7 +35,7 @@ PEER = "pocketsphinx, same phrases"
 REPEATS = 1
 SNR = 10.0
 """[dB]"""
-REAL = {word: (word,) for word in ("stop", "go", "yes", "no")}
+REAL: dict[str, tuple[str, ...]] = {word: (word,) for word in ("stop", "go", "yes", "no")}
 SPOKEN = {phrase: command for command, phrases in COMMANDS.items() for phrase in phrases}
 OUTSIDE = (
     "what time is it", "the weather is nice today", "he stepped off the bus", "petrol station", "shop", "where is the robot",
@@ -55,7 +56,7 @@ DRAWS = 3
 
 
 def _figures() -> Iterator[Figure]:
-    more = "more"
+    more: Literal["more"] = "more"
     yield Figure("natural", "", "natural voices: right commands accepted", 0.93, more, PEER)
     yield Figure("natural_wrong", "", "natural voices: taken for another command", against=PEER)
     yield Figure("outside", "", "phrases outside the grammar accepted", 0.01, against=PEER)
