@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 __all__ = ["Halves"]
 
 JUST = 0.3
@@ -36,6 +38,11 @@ class Halves:
     def mean(self) -> float:
         """Of the peaks of this run [m/s²]; 0 where there is none."""
         return self.sum / self.count if self.count else 0.0
+
+    @property
+    def pace(self) -> float:
+        """Mean time between two of them [s]; infinite where there is but one."""
+        return (self.last - self.since) / (self.count - 1) if self.count > 1 else math.inf
 
     def feed(self, t: float, value: float) -> None:
         """What was measured along the direction at `t` [s, m/s²]."""

@@ -3,7 +3,7 @@
     recogniser = Recogniser()
     shake = recogniser.feed(t, (x, y, z))      # of the accelerometer, gravity included; None, or what was understood
 
-Half cycles along each direction are counted; the velocity of the burst says which direction it was, since an arc and
+Half cycles along each direction, and between them, are counted; the velocity of the burst says which direction it was, since an arc and
 the lean of a swinging hand are in the acceleration more than in it. Left-right, which is STOP, is told inside the gesture; the
 others when the burst is over, so that the first steps of a run are no command. Nothing is trained and nothing is learned.
 """
@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 from app.shake.ground import Ground, Motion
 from app.shake.halves import Halves
+from app.shake.lines import lines
 from app.shake.spread import Spread
 from app.shake.tuning import AXES, USUAL, Axis, Tuning
 
@@ -44,6 +45,8 @@ AHEAD = 0.16
 """A burst began so long before it was seen to [s]."""
 SURE_AT = 2.0
 """Half cycles and evidence of so many times what is needed are as sure as can be."""
+STEP = 8.0
+"""From here on what goes up and down may be somebody who begins to run [m/s², mean of the peaks]."""
 STRONG = 12.0
 """Mean peak of a strong shake [m/s²]: nobody carries a phone about like that."""
 
@@ -67,12 +70,16 @@ class Shake:
     """Half cycles."""
 
 
+Products = tuple[float, float, float, float, float, float]
+"""xx, yy, zz, xy, xz, yz."""
+
+
 class _Block(NamedTuple):
     at: float
     loud: float
     """Root of the mean square [m/s²]."""
-    sums: tuple[float, float, float, float, float, float]
-    """Products of the velocity [m²/s²·s]: xx, yy, zz, xy, xz, yz."""
+    sums: Products
+    """Of the velocity [m²/s²·s]."""
     seconds: float
 
 
@@ -100,10 +107,12 @@ class _Burst:
 
     def __init__(self, began: float, loud: float) -> None:
         self.began, self.peak = began, loud
-        self.calm: float | None = None
+        self.calm = math.nan
         self.told = False
         self.best: dict[int, _Best] = {}
         """Of each direction whose half cycles suffice: the most so far."""
+        self.soft = True
+        """No step or bound is in it."""
 
 
 class Recogniser:
@@ -118,7 +127,8 @@ class Recogniser:
     def _anew(self) -> None:
         tuning = self._tuning
         self._ground = Ground(tuning.settling)
-        self._halves = [Halves(way.threshold, way.gap, tuning.cap) for way in tuning.ways]
+        self._lines = lines(tuning)
+        self._halves = [Halves(line.threshold, line.gap, tuning.cap) for line in self._lines]
         self._blocks: deque[_Block] = deque(maxlen=int(KEPT / BLOCK))
         self._velocity = [0.0, 0.0, 0.0]
         self._sums = [0.0] * 7
@@ -146,8 +156,8 @@ class Recogniser:
         motion = self._ground.motion(dt, *axes)
         self._add(dt, *motion)
         x, y, z = motion
-        for way, halves in zip(self._tuning.ways, self._halves, strict=True):
-            a, b, c = way.way
+        for line, halves in zip(self._lines, self._halves, strict=True):
+            a, b, c = line.way
             halves.feed(t, a * x + b * y + c * z)
         return self._judge(t) if t - self._block_since >= BLOCK else None
 
@@ -170,8 +180,8 @@ class Recogniser:
     def _judge(self, t: float) -> Shake | None:
         count, sums, seconds = self._count, self._sums, t - self._block_since
         share = seconds / count
-        loud = math.sqrt(sums[6] / count)
         xx, yy, zz, xy, xz, yz = (value * share for value in sums[:6])
+        loud = math.sqrt(sums[6] / count)
         self._blocks.append(_Block(t, loud, (xx, yy, zz, xy, xz, yz), seconds))
         self._sums, self._count, self._block_since = [0.0] * 7, 0, t
         self._look_back(t)
@@ -193,13 +203,14 @@ class Recogniser:
         louds = sorted(block.loud for block in blocks)
         speeds = sorted(sum(block.sums[:3]) / block.seconds for block in blocks)
         seconds = sum(block.seconds for block in blocks)
-        mean = tuple(sum(block.sums[i] for block in blocks) / seconds for i in range(6))
+        mean = tuple(sum(column) / seconds for column in zip(*(block.sums for block in blocks), strict=True))
         middle = len(blocks) // 2
+        level = louds[middle]
         self._background = _Background(
-            louds[middle], louds[int(len(louds) * tuning.loud)], math.sqrt(speeds[middle]), mean
+            level, louds[int(len(louds) * tuning.loud)], math.sqrt(speeds[middle]), mean
         )
-        for way, halves in zip(tuning.ways, self._halves, strict=True):
-            halves.threshold = max(way.threshold, tuning.raised * louds[middle])
+        for line, halves in zip(self._lines, self._halves, strict=True):
+            halves.threshold = max(line.threshold, tuning.raised * level)
 
     # what it comes to
 
@@ -216,51 +227,54 @@ class Recogniser:
         shake = None
         if not burst.told and t - burst.began <= tuning.stop_within:
             shake = self._inside(t, burst, background)
-        return shake or self._after(t, loud, burst, background)
+        return shake or self._after(t, burst, background)
 
     def _note(self, burst: _Burst, background: _Background) -> None:
-        for i, (way, halves) in enumerate(zip(self._tuning.ways, self._halves, strict=True)):
-            if halves.count < way.halves or halves.evidence < way.evidence:
-                continue
-            if halves.mean >= max(way.above * background.level, way.beyond * background.loud):
-                best = burst.best.get(i)
-                if best is None or halves.evidence > best.evidence:
-                    burst.best[i] = _Best(halves.count, halves.evidence, halves.mean)
+        burst.soft = self._halves[1].mean < STEP
+        for line, halves in zip(self._lines, self._halves, strict=True):
+            for i in line.counts_for:
+                way = self._tuning.ways[i]
+                if halves.count < way.halves or halves.evidence < way.evidence:
+                    continue
+                if halves.mean >= max(way.above * background.level, way.beyond * background.loud):
+                    best = burst.best.get(i)
+                    if best is None or halves.evidence > best.evidence:
+                        mean = max(halves.mean, best.mean if best else 0.0)
+                        burst.best[i] = _Best(halves.count, halves.evidence, mean)
 
     def _inside(self, t: float, burst: _Burst, background: _Background) -> Shake | None:
         """STOP does not wait for the end."""
         tuning = self._tuning
         if 0 in burst.best and self._halves[0].count:
             spread = self._spread(max(burst.began - AHEAD, self._halves[0].since - 0.25), t, background)
-            scores = self._scores(spread)
+            scores = self._scores(spread, burst.soft)
             if self._fits(0, spread, scores, background) and scores[0] >= tuning.ahead * max(scores[1:]):
                 return self._told(0, t, burst, spread, scores)
         if self.any_shake:
             strong = [i for i, best in burst.best.items() if best.mean >= STRONG]
             if strong:
                 spread = self._spread(burst.began - AHEAD, t, background)
-                return self._told(
-                    max(strong, key=self._scores(spread).__getitem__), t, burst, spread, self._scores(spread)
-                )
+                scores = self._scores(spread, burst.soft)
+                return self._told(max(strong, key=scores.__getitem__), t, burst, spread, scores)
         return None
 
-    def _after(self, t: float, loud: float, burst: _Burst, background: _Background) -> Shake | None:
+    def _after(self, t: float, burst: _Burst, background: _Background) -> Shake | None:
         tuning = self._tuning
         limit = max(tuning.ends * min(burst.peak, PEAK), tuning.ends_above * background.level, FAINT)
-        if loud >= limit:
-            burst.calm = None
+        if t - burst.began < tuning.quiet:
             return None
-        if burst.calm is None:
-            burst.calm = t - BLOCK
-        if t - burst.calm < tuning.quiet:
+        lately = [block.loud for block in self._blocks if block.at > t - tuning.quiet]
+        mean = math.sqrt(sum(loud * loud for loud in lately) / len(lately))
+        if max(lately) >= limit and mean >= tuning.as_before * background.level:
             return None
+        burst.calm = t - tuning.quiet
         self._burst = None
         for halves in self._halves:
             halves.forget()
         if burst.told or burst.calm - burst.began > tuning.longest:
             return None
         spread = self._spread(burst.began - AHEAD, burst.calm, background)
-        scores = self._scores(spread)
+        scores = self._scores(spread, burst.soft)
         i = max(range(3), key=scores.__getitem__)
         if i not in burst.best or not self._fits(i, spread, scores, background):
             return None
@@ -281,9 +295,12 @@ class Recogniser:
         left[:3] = (max(value, 1e-4) for value in left[:3])
         return Spread(left, seconds)
 
-    def _scores(self, spread: Spread) -> list[float]:
+    def _scores(self, spread: Spread, soft: bool) -> list[float]:
         """How much of it each direction has."""
-        return [(way.weight * spread.along(way.way)) ** 2 for way in self._tuning.ways]
+        scores = [(way.weight * spread.along(way.way)) ** 2 for way in self._tuning.ways]
+        if soft:
+            scores[1] *= self._tuning.softly
+        return scores
 
     def _fits(self, i: int, spread: Spread, scores: list[float], background: _Background) -> bool:
         """It is straight enough, fast enough, and enough of it lies along that direction."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from app.shake.ground import Motion
 
-__all__ = ["Spread", "principal"]
+__all__ = ["Spread", "along", "principal"]
 
 STEPS = 6
 """Of the power iteration: enough for what is four times as long as wide."""
@@ -25,6 +25,13 @@ def principal(xx: float, yy: float, zz: float, xy: float, xz: float, yz: float) 
     return length, way
 
 
+def along(products: Sequence[float], way: Motion) -> float:
+    """That of a direction of length 1, in their unit, from sums of products xx, yy, zz, xy, xz, yz."""
+    xx, yy, zz, xy, xz, yz = products
+    x, y, z = way
+    return x * x * xx + y * y * yy + z * z * zz + 2.0 * (x * y * xy + x * z * xz + y * z * yz)
+
+
 class Spread:
     """Of the velocity over some time, as sums of its products [m²/s²·s]."""
 
@@ -39,7 +46,4 @@ class Spread:
 
     def along(self, way: Motion) -> float:
         """Speed along a direction of length 1 [m/s], root of the mean square; 0 where nothing was measured."""
-        xx, yy, zz, xy, xz, yz = self._sums
-        x, y, z = way
-        product = x * x * xx + y * y * yy + z * z * zz + 2.0 * (x * y * xy + x * z * xz + y * z * yz)
-        return math.sqrt(max(0.0, product) / self._seconds) if self._seconds > 0.0 else 0.0
+        return math.sqrt(max(0.0, along(self._sums, way)) / self._seconds) if self._seconds > 0.0 else 0.0

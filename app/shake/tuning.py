@@ -60,11 +60,13 @@ class Way:
     """At least so much of the movement, 0 to 1."""
     straight: float
     """Least share of the direction with most of it, 1/3 to 1: a circle has a half."""
+    own: bool = False
+    """It is where one person's hand goes, and not where anybody's may."""
 
 
 @dataclass(frozen=True, slots=True)
 class Tuning:
-    """What all three share, and the three. Found by search on the recordings of five people, each of them left out in turn (`python -m bench shake`)."""
+    """What all three share, and the three. Found on the recordings of five people and on others made of them (`python -m bench shake`)."""
 
     ways: tuple[Way, ...]
     """Left-right, up-down, forward-back."""
@@ -82,6 +84,10 @@ class Tuning:
     """Share of the background's velocity that is taken off, 0 to 1."""
     ahead: float = 1.3
     """For STOP left-right is so many times either other direction, squared."""
+    softly: float = 0.85
+    """Of up-down so much is counted where nothing in it is as hard as a step: the benefit of the doubt is STOP's."""
+    aslant: float = 1.25
+    """Half cycles along a line between two directions count from so many times the threshold on."""
     begins: float = 2.0
     """A burst begins above this [m/s², root of the mean square over a block]."""
     begins_above: float = 2.3
@@ -90,11 +96,13 @@ class Tuning:
     """It ends below this share of its loudest block, which counts for 12 m/s² at most."""
     ends_above: float = 1.6
     """Or below so many times the background."""
+    as_before: float = 1.4
+    """Or where the mean is below so many times the background: who walked walks on."""
     quiet: float = 0.35
     """For so long [s]."""
-    longest: float = 3.8
+    longest: float = 3.25
     """A burst that took longer is a jog, a drive or a dance [s]."""
-    stop_within: float = 3.5
+    stop_within: float = 2.6
     """Nor is STOP meant so long after it began [s]."""
     rough: float = 6.0
     """Above this background nothing but STOP is understood [m/s²]."""
@@ -113,9 +121,9 @@ class Own:
 
 
 # the evidence of one half cycle is its peak over the threshold, so that four gentle ones count like three strong ones
-_LEFT_RIGHT = Way((1.0, 0.0, 0.0), 2.8, 0.75, 3, 4.2, 2.6, 1.2, 0.2, 2.3, 1.0, 0.42, 0.62)
-_UP_DOWN = Way((0.0, 1.0, 0.0), 2.8, 0.75, 4, 4.2, 2.2, 1.2, 0.2, 2.0, 1.4, 0.5, 0.77)
-_FORWARD_BACK = Way((0.0, 0.0, 1.0), 3.2, 0.8, 3, 4.0, 2.2, 1.2, 0.2, 2.0, 1.0, 0.5, 0.75)
+_LEFT_RIGHT = Way((1.0, 0.0, 0.0), 2.3, 0.75, 3, 4.2, 2.6, 1.2, 0.2, 2.3, 1.0, 0.42, 0.62)
+_UP_DOWN = Way((0.0, 1.0, 0.0), 2.5, 0.75, 3, 4.2, 2.2, 1.2, 0.2, 2.0, 1.4, 0.5, 0.77)
+_FORWARD_BACK = Way((0.0, 0.0, 1.0), 2.7, 0.8, 3, 4.0, 2.2, 1.2, 0.2, 2.0, 1.0, 0.5, 0.75)
 USUAL = Tuning((_LEFT_RIGHT, _UP_DOWN, _FORWARD_BACK))
 """For anybody."""
 
@@ -123,7 +131,7 @@ LEAST_PEAK, MOST_PEAK = 2.5, 60.0
 """What a lesson may have measured [m/s²]."""
 LEAST_GAP, MOST_GAP = 0.1, 1.2
 """[s]"""
-GENTLE = 0.85
+GENTLE = 1.0
 """A threshold below so much of the usual one is gentle."""
 UNHURRIED = 0.7
 """Half a cycle that takes longer is slow [s]."""
@@ -156,7 +164,7 @@ def fitted(tuning: Tuning, own: Mapping[Axis, Own]) -> Tuning:
 def _fitted(way: Way, own: Own | None) -> Way:
     if own is None:
         return way
-    threshold = min(max(0.5 * own.peak, 1.6), 1.3 * way.threshold)
+    threshold = min(max(0.5 * own.peak, 1.6), 1.5 * way.threshold)
     found = replace(
         way,
         way=own.way,
@@ -164,6 +172,7 @@ def _fitted(way: Way, own: Own | None) -> Way:
         gap=min(max(1.75 * own.gap, 0.6), 1.7),
         weight=SWUNG if way.weight > 1.0 else 1.0,
         outrun=way.outrun + 0.2,
+        own=True,
     )
     if threshold >= GENTLE * way.threshold and own.gap <= UNHURRIED:
         return found

@@ -19,10 +19,12 @@ __all__ = [
     "car",
     "drawn",
     "folder",
+    "in_frame",
     "made",
     "packaged",
     "starts",
     "trials",
+    "underfoot",
     "walking",
 ]
 
@@ -146,13 +148,18 @@ def _trial(take: Recording, cut: Samples, walks: list[Recording] | None, rng: np
     samples += held
     if walks:
         walk = walks[int(rng.integers(len(walks)))].again(take.rate)
-        start = int(rng.integers(0, len(walk.samples) - len(samples)))
-        stepped = walk.samples[start : start + len(samples)] - walk.samples.mean(axis=0)
-        samples += stepped @ _axes(walk.samples.mean(axis=0)).T @ _axes(held)
+        samples += underfoot(walk, held, len(samples), rng)
     else:
         samples += rng.normal(0.0, TREMBLE, samples.shape)
     began, ended = before / take.rate, (before + len(cut)) / take.rate
     return Trial(SHAKES.get(take.label, take.label), replace(take, samples=samples), began, ended)
+
+
+def underfoot(walk: Recording, held: Samples, count: int, rng: np.random.Generator) -> Samples:
+    """So many samples out of a walk, without gravity, as a phone feels them that is held so that it measures `held` at rest."""
+    start = int(rng.integers(0, len(walk.samples) - count))
+    mean = walk.samples.mean(axis=0)
+    return (walk.samples[start : start + count] - mean) @ in_frame(mean).T @ in_frame(held)
 
 
 def _ramps(count: int, over: float) -> Samples:
@@ -160,7 +167,7 @@ def _ramps(count: int, over: float) -> Samples:
     return np.minimum(1.0, np.minimum(index, index[::-1]) / over)
 
 
-def _axes(gravity: Samples) -> Samples:
+def in_frame(gravity: Samples) -> Samples:
     """Rows: right, up and forward of a device that measures that gravity."""
     up = gravity / np.linalg.norm(gravity)
     side = np.array([1.0, 0.0, 0.0]) if abs(up[0]) < 0.85 else np.array([0.0, 1.0, 0.0])
@@ -207,7 +214,7 @@ def car(hours: float, seed: int = 5, rate: float = 50.0) -> list[Recording]:
             samples[start : start + len(second), 2] += rng.uniform(2.0, 8.0) * spring
         lean = rng.uniform(-0.5, 0.5)
         held = GRAVITY * np.array([0.1, math.cos(lean), math.sin(lean)])
-        right, up, forward = _axes(held)
+        right, up, forward = in_frame(held)
         found.append(Recording("car", "made", rate, samples @ np.stack([right, forward, up]) + held))
     return found
 
@@ -230,7 +237,7 @@ def made(axis: str, person: int, seed: int, rate: float = 60.0, seconds: float =
     upright = rng.uniform(0.2, 1.2)
     held = GRAVITY * np.array([0.05, math.sin(upright), math.cos(upright)])
     label = next(name for name, short in SHAKES.items() if short == axis)
-    return Recording(label, f"made {person}", rate, motion @ _axes(held) + held)
+    return Recording(label, f"made {person}", rate, motion @ in_frame(held) + held)
 
 
 PEOPLE = (
@@ -257,7 +264,7 @@ def walking(seconds: float, seed: int, rate: float = 60.0) -> Recording:
     motion = np.stack([side, up, ahead], axis=1) * rng.normal(1.0, 0.06, (len(at), 1))
     motion += rng.normal(0.0, 0.3, motion.shape)
     held = GRAVITY * np.array([0.0, 0.5, 0.866])
-    return Recording("walk_inhand", "made", rate, motion @ _axes(held) + held)
+    return Recording("walk_inhand", "made", rate, motion @ in_frame(held) + held)
 
 
 def drawn(seconds: float, seed: int, rate: float = 60.0) -> Recording:
@@ -272,7 +279,7 @@ def drawn(seconds: float, seed: int, rate: float = 60.0) -> Recording:
     )
     motion += rng.normal(0.0, TREMBLE, motion.shape)
     held = GRAVITY * np.array([0.0, 0.5, 0.866])
-    return Recording("circle", "made", rate, motion @ _axes(held) + held)
+    return Recording("circle", "made", rate, motion @ in_frame(held) + held)
 
 
 def packaged() -> list[Recording]:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from app.shake import AXES, Axis, Recogniser, Shake
-from bench.support import motion
+from bench.support import motion, people
 from bench.support.motion import Recording, Trial
 
 GRAVITY = 9.80665
@@ -81,6 +81,34 @@ def test_however_it_is_held_up_is_up() -> None:
             [[1, 0, 0], [0, math.cos(lean), -math.sin(lean)], [0, math.sin(lean), math.cos(lean)]]
         )
         assert [shake.axis for shake in heard(map(tuple, (take.samples @ turn.T).tolist()))] == ["ud"]
+
+
+@pytest.mark.parametrize("turn", ["yaw", "roll", "pitch"])
+@pytest.mark.parametrize("by", [-25.0, 25.0])
+def test_a_line_aslant_is_taken_for_the_direction_it_is_nearest_to(turn: str, by: float) -> None:
+    rng = np.random.default_rng(4)
+    body = people.Body(**{turn: math.radians(by)})
+    for axis in AXES:
+        trials = [people.trial(body, motion.made(axis, 0, seed), 0.3, rng) for seed in range(3)]
+        assert [[shake.axis for shake in of(trial.take)] for trial in trials].count([axis]) >= 2
+
+
+def test_a_swing_about_the_elbow_a_weak_beginning_and_a_slow_hand_are_stop() -> None:
+    rng = np.random.default_rng(4)
+    for body in (people.Body(arm=0.35), people.Body(first=0.4, ramp=0.3), people.Body(strong=0.7, quick=0.9)):
+        for seed in range(3):
+            trial = people.trial(body, motion.made("lr", 0, seed), 0.3, rng)
+            assert [shake.axis for shake in of(trial.take)] == ["lr"], body
+
+
+def test_samples_that_come_unevenly_and_get_lost_are_enough() -> None:
+    rng = np.random.default_rng(4)
+    sensor = people.Sensor(rate=30.0, jitter=0.3, lost=0.05, downward=True)
+    for axis in AXES:
+        for trial in shaken(axis):
+            recogniser = Recogniser()
+            said = [recogniser.feed(t, axes) for t, axes in people.measured(sensor, trial.take, rng)]
+            assert [shake.axis for shake in said if shake] == [axis]
 
 
 # what is no shake
