@@ -21,6 +21,8 @@ QUEUED = 100
 """Blocks kept for a recogniser that does not keep up: 5 s; older ones are dropped."""
 SILENT = 2.0
 """A microphone that gives nothing for so long was pulled out [s]."""
+SILENCE = ("Discard all samples", "NULL Capture")
+"""How devices that make nothing but silence begin to be called."""
 NONE = "There is no microphone. Plug one in, or command by touch, switches or keys."
 REFUSED = "The microphone cannot be opened: {}. Another program may hold it, or the system forbids it."
 GONE = "The microphone gives nothing any more. Plug it in again and switch voice on."
@@ -131,7 +133,8 @@ def audio_library() -> Any:
 
 
 def _nothing_there(audio: Any) -> bool:
+    """No device but those that only make silence: ALSA names one where it has no other."""
     try:
-        return not audio.Devices().get_captures()
+        return all(str(one.get("name", "")).startswith(SILENCE) for one in audio.Devices().get_captures())
     except audio.MiniaudioError:
         return True

@@ -29,7 +29,7 @@ class Device:
         self.closed = True
 
 
-def audio(*, captures=("mic",), **kind):
+def audio(*, captures=({"name": "mic"},), **kind):
     made = []
 
     class Made(Device):
@@ -112,3 +112,10 @@ def test_what_nobody_has_time_for_is_dropped_the_oldest_first():
         sound.made[0].pump.send(bytes((number, 0)))
     assert microphone.dropped == 3
     assert microphone.read(0.0)[0][0] == pytest.approx(3 / 32768)
+
+
+def test_where_the_system_has_only_a_device_of_silence_there_is_no_microphone():
+    silence = {"name": "Discard all samples (playback) or generate zero samples (capture)"}
+    ears = Microphone(audio=audio(captures=(silence,), refuses=True))
+    with pytest.raises(VoiceTrouble, match="There is no microphone"):
+        ears.start()
