@@ -1,8 +1,8 @@
 """Talk-back: says aloud what was asked for by voice or shake, what the robot made of it, and alarms; and whatever `say` is given.
 
-app.talk.say("Go home?")                       # an answer: one after the other
-app.talk.say("Battery low.", "alarm")          # an alarm: at once, the newest first
-app.talk.say("Map layers", "label")            # what is marked: the newest only
+app.talk.say("Map layers")                     # what is marked: the newest only
+app.talk.say("Go home?", "answer")             # one after the other
+app.talk.say("Battery low.", "alarm")          # at once, the newest first
 
 Off until it is switched on, since everything stands on the glass as well and others would listen along; a label
 is spoken wherever whoever sets the labels wants it. Of what a robot is asked for only what it confirmed is told as done.
@@ -187,7 +187,7 @@ class Talking:
         """It says something just now."""
         return self._now_said is not None
 
-    def say(self, words: str, kind: Kind = "answer") -> None:
+    def say(self, words: str, kind: Kind = "label") -> None:
         """Say it; nothing for no words."""
         spoken = aloud(words)
         if not spoken or self.problem:
@@ -302,7 +302,7 @@ class Talking:
             return
         label = outcome.label[:1].upper() + outcome.label[1:]
         if outcome.phase == "accepted":
-            self.say(f"{label}: the robot has accepted it.")
+            self.say(f"{label}: the robot has accepted it.", "answer")
         else:
             why = "refused" if outcome.phase == "refused" else "no reply"
             self.say(f"{label}: {why}. {outcome.reason}", "alarm")
@@ -318,4 +318,4 @@ class Talking:
             return
         if verdict.what == "acted" and heard.intent not in LOCAL:
             return  # told when the robot has confirmed it
-        self.say(verdict.sentence)
+        self.say(verdict.sentence, "answer")

@@ -92,7 +92,7 @@ def test_off_at_first_it_tells_nothing_but_what_is_marked() -> None:
     desk = Desk(on=False)
     desk.taken(SPOKEN, "asks")
     assert desk.mouth.said == []
-    desk.app.talk.say("Map layers", "label")
+    desk.app.talk.say("Map layers")
     assert desk.mouth.said == ["Map layers"]
     assert desk.talking.busy, "somebody has to tell it the time until it is over"
 
@@ -142,8 +142,8 @@ def test_stop_is_told_once_when_the_robot_confirms_it(desk: Desk) -> None:
 
 
 def test_an_alarm_breaks_off_what_is_said_and_the_newest_goes_first(desk: Desk) -> None:
-    desk.talking.say("One.")
-    desk.talking.say("Two.")
+    desk.talking.say("One.", "answer")
+    desk.talking.say("Two.", "answer")
     for text, news in (("Old.", False), ("Battery low.", True), ("Link weak.", True)):
         desk.told(EVENT, SimpleNamespace(level="alarm", text=text, news=news))
     desk.told(EVENT, SimpleNamespace(level="info", text="Nothing.", news=True))
@@ -156,15 +156,15 @@ def test_an_alarm_breaks_off_what_is_said_and_the_newest_goes_first(desk: Desk) 
 
 def test_of_what_is_marked_the_newest_alone_is_said(desk: Desk) -> None:
     for words in ("Map", "Layers", "Undo"):
-        desk.talking.say(words, "label")
+        desk.talking.say(words)
     assert desk.mouth.said == ["Map", "Layers", "Undo"]
-    desk.talking.say("An answer.")
+    desk.talking.say("An answer.", "answer")
     assert desk.mouth.said[-1] == "An answer."
 
 
 def test_no_more_wait_than_can_be_listened_to(desk: Desk) -> None:
     for number in range(20):
-        desk.talking.say(f"Number {number}.")
+        desk.talking.say(f"Number {number}.", "answer")
     for _ in range(20):
         desk.mouth.ends()
         desk.wait(0.1)
@@ -173,7 +173,7 @@ def test_no_more_wait_than_can_be_listened_to(desk: Desk) -> None:
 
 def test_what_has_waited_too_long_is_not_said_any_more_but_an_alarm(desk: Desk) -> None:
     desk.talking.say("One.", "alarm")
-    desk.talking.say("Two.")
+    desk.talking.say("Two.", "answer")
     desk.talking.say("Three.", "alarm")
     desk.wait(STALE + 0.1)
     desk.mouth.ends()
@@ -184,8 +184,8 @@ def test_what_has_waited_too_long_is_not_said_any_more_but_an_alarm(desk: Desk) 
 
 
 def test_what_was_broken_off_does_not_end_what_came_after_it(desk: Desk) -> None:
-    desk.talking.say("Map", "label")
-    desk.talking.say("Layers", "label")
+    desk.talking.say("Map")
+    desk.talking.say("Layers")
     desk.mouth.tell("ended", "Map")
     desk.wait(0.1)
     assert desk.talking.speaking
@@ -196,7 +196,7 @@ def test_what_was_broken_off_does_not_end_what_came_after_it(desk: Desk) -> None
 
 
 def test_a_voice_that_loses_a_sentence_does_not_leave_the_microphone_deaf(desk: Desk) -> None:
-    desk.talking.say("One.")
+    desk.talking.say("One.", "answer")
     desk.wait(LOST + 0.1)
     assert not desk.talking.speaking
 
@@ -206,7 +206,7 @@ def test_it_never_says_stop() -> None:
 
 
 def test_a_minute_of_silence_puts_the_voice_away(desk: Desk) -> None:
-    desk.talking.say("One.")
+    desk.talking.say("One.", "answer")
     desk.mouth.ends()
     desk.wait(0.1)
     desk.wait(SLEEPS + 0.1)
@@ -216,19 +216,19 @@ def test_a_minute_of_silence_puts_the_voice_away(desk: Desk) -> None:
 
 def test_where_nothing_can_talk_it_is_said_once_and_everything_goes_on() -> None:
     desk = Desk(Mouth("There is no hibari."))
-    desk.talking.say("One.")
-    desk.talking.say("Two.")
+    desk.talking.say("One.", "answer")
+    desk.talking.say("Two.", "answer")
     assert desk.warned == ["Talk-back: There is no hibari."]
     assert desk.talking.standing == "silent"
 
 
 def test_a_voice_that_crashes_is_said_and_silent_until_it_is_chosen_again(desk: Desk) -> None:
-    desk.talking.say("One.")
+    desk.talking.say("One.", "answer")
     desk.mouth.tell("failed", "It crashed.")
     desk.wait(0.1)
     assert (desk.talking.problem, desk.talking.speaking) == ("It crashed.", False)
     desk.talking.voice = "clear"
-    desk.talking.say("Two.")
+    desk.talking.say("Two.", "answer")
     assert desk.mouth.said[-1] == "Two."
 
 

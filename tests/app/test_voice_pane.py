@@ -32,7 +32,7 @@ class Talking:
         self.on, self.voice, self.rate, self.problem = False, "natural", 1.0, ""
         self.spoken: list[str] = []
 
-    def say(self, words: str) -> None:
+    def say(self, words: str, kind: str) -> None:
         self.spoken.append(words)
 
 

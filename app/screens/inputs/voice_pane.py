@@ -136,7 +136,7 @@ class VoicePane(BoxLayout):
 
     def _say_something(self) -> None:
         self.talking.voice = self.talking.voice  # one that failed is tried again
-        self.talking.say(EXAMPLE)
+        self.talking.say(EXAMPLE, "answer")
         self.tick()
 
     # what the screen calls
