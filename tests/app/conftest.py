@@ -11,8 +11,6 @@ import pytest
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 from tests.headless import Stage
-from tests.thrown import automatic
-from widgets.theme import theme
 
 
 @pytest.fixture
@@ -25,6 +23,8 @@ def robot() -> Iterator[FakeRobot]:
 @pytest.fixture
 def collecting() -> Iterator[None]:
     """Before the app starts Python collects by itself, and again after the app's end."""
+    from tests.thrown import automatic
+
     with automatic():
         yield
         assert gc.isenabled()
@@ -32,8 +32,9 @@ def collecting() -> Iterator[None]:
 
 @pytest.fixture
 def glass(stage: Stage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Glass]:
-    from app import garbage
+    from app import garbage  # Kivy: where this folder is named, this file is read before tests/conftest.py prepares it
     from app.application import PilothouseApp
+    from widgets.theme import theme
 
     monkeypatch.setattr(
         garbage, "OLD", 10**9
