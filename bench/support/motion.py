@@ -159,7 +159,8 @@ def underfoot(walk: Recording, held: Samples, count: int, rng: np.random.Generat
     """So many samples out of a walk, without gravity, as a phone feels them that is held so that it measures `held` at rest."""
     start = int(rng.integers(0, len(walk.samples) - count))
     mean = walk.samples.mean(axis=0)
-    return (walk.samples[start : start + count] - mean) @ in_frame(mean).T @ in_frame(held)
+    felt: Samples = (walk.samples[start : start + count] - mean) @ in_frame(mean).T @ in_frame(held)
+    return felt
 
 
 def _ramps(count: int, over: float) -> Samples:

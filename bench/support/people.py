@@ -71,11 +71,20 @@ def bodies(count: int, seed: int, much: float = 1.0) -> list[Body]:
     rng = np.random.default_rng(seed)
     found = []
     for _ in range(count):
-        turns = np.radians(rng.uniform(-1.0, 1.0, 3) * (25.0, 18.0, 18.0)) * much
+        yaw, roll, pitch = np.radians(rng.uniform(-1.0, 1.0, 3) * (25.0, 18.0, 18.0)) * much
         arm = rng.choice([0.0, 0.25, 0.35, 0.5, -0.5, -0.7])
         strong, quick = rng.uniform(0.6, 1.4), rng.uniform(0.75, 1.35)
         found.append(
-            Body(*turns.tolist(), float(arm), strong, quick, rng.uniform(0.1, 0.4), rng.uniform(0.4, 1.0))
+            Body(
+                float(yaw),
+                float(roll),
+                float(pitch),
+                float(arm),
+                strong,
+                quick,
+                rng.uniform(0.1, 0.4),
+                rng.uniform(0.4, 1.0),
+            )
         )
     return found
 
