@@ -335,7 +335,7 @@ class Speaking:
     def _heed(self) -> None:
         """What counts: nothing but STOP while the app speaks, yes and no only while something asks."""
         wanted: frozenset[str] | None = None
-        if self._app.talk.speaking:
+        if self._talked()[0]:
             wanted = frozenset()
         elif self._app.intents.pending is not None:
             wanted = WHILE_ASKED
@@ -412,10 +412,15 @@ class Speaking:
             self._until = math.nan
             self._fit()
 
+    def _talked(self) -> tuple[bool, float]:
+        """Whether the app itself speaks, and when it did last [s]; one that cannot talk never did."""
+        talk = getattr(self._app, "talk", None)
+        return (talk.speaking, talk.spoke) if talk is not None else (False, -math.inf)
+
     def _deaf(self, result: Result) -> str:
         """Why it does not count; empty where it does."""
-        talk = self._app.talk
-        if talk.speaking or result.began < talk.spoke + ECHO:
+        speaks, spoke = self._talked()
+        if speaks or result.began < spoke + ECHO:
             return DEAF
         if result.command in ("yes", "no") and result.began < self._asked_since:
             return EARLIER

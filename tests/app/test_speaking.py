@@ -248,6 +248,13 @@ def test_nor_what_is_left_of_it_in_the_room(desk: Desk) -> None:
     assert desk.acts.done == ["pause"]
 
 
+def test_an_app_that_cannot_talk_hears_all_the_same(desk: Desk) -> None:
+    del desk.app.talk
+    desk.wait(0.1)
+    desk.says("pause")
+    assert desk.acts.done == ["pause"]
+
+
 def test_tried_out_nothing_is_done_about_it(desk: Desk) -> None:
     desk.speaking.try_out(on=True)
     assert desk.recogniser.open
