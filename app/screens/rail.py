@@ -130,7 +130,7 @@ class Rail(FloatLayout):
             self.arrange(self._rect, self.form, self._dp)
         self.voice = talk
         button = self.ids.talk
-        button.tint, button.active = TALKS.get(talk, ""), True
+        button.tint, button.active = TALKS.get(talk, ""), talk == "listening"
         button.text = {"listening": "Listens", "loud": "Too loud"}.get(talk, "Talk")
         tasks = self.ids.tasks
         tasks.count = len(waiting)
