@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from kivy.base import EventLoop
@@ -16,10 +17,10 @@ __all__ = ["TwoSwitches"]
 
 A, B = 9, 13
 """Key codes of Tab and Enter."""
-UP = 0.75
-"""A held so long leads up a level [s]."""
+UP = 0.25
+"""A held so long leads up a level [s]: less than a hand would, for a test that need not wait."""
 FRAMES = 2
-"""From one press to the next, as a fast hand."""
+"""After what may change the screen; a step of the mark is seen at once."""
 MOST = 120
 """Presses after which something is not to be found."""
 
@@ -31,6 +32,8 @@ class TwoSwitches:
         self.glass, self.presses = glass, 0
         self.switches: Any = glass.app.methods.get("switches")
         self.switches.change(ignore_repeat=0.0, debounce=0.0, tones=False)
+        options = self.switches.options
+        self.switches.engine.setup(replace(options.timing, back=UP - 0.05), options.pace)
 
     @property
     def mark(self) -> Mark | None:
@@ -44,7 +47,7 @@ class TwoSwitches:
         if seconds:
             self.glass.run(seconds)
         Window.dispatch("on_key_up", key, 0)
-        for _ in range(FRAMES):
+        for _ in range(FRAMES if key == B else 0):
             EventLoop.idle()
 
     def look(self) -> None:
@@ -86,7 +89,6 @@ class TwoSwitches:
     def find(self, wanted: Callable[[Target], bool], what: str, times: int = 1) -> Target:
         """Step to what is wanted and press it so many times."""
         stepped: list[str] = []
-        steps = 0
         for _ in range(MOST):
             mark = self.mark
             here = mark is not None and any(wanted(target) for target in mark.targets)
@@ -97,10 +99,9 @@ class TwoSwitches:
                     self.press(B)
                 return target
             inside = mark is not None and mark.kind == "group" and here
-            steps = 0 if inside else steps + 1
-            if mark is not None and steps > mark.count:
-                self.press(A, UP)  # it is not on this level: up
-                steps = 0
+            scan = self.switches.engine.scan
+            if scan.depth and not any(wanted(target) for target in scan.inside):
+                self.press(A, UP)  # it is not in this group: up
             else:
                 self.press(B if inside else A)
         raise AssertionError(
