@@ -177,9 +177,17 @@ class ActionToast(Toast):
 
     action = StringProperty("Undo")
     action_icon = StringProperty("undo")
+    kept = BooleanProperty(False)
+    """Somebody may be on the way to it who needs longer than it stays; once nobody is, it stays as long again."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**{"closable": False, **kwargs})
+
+    def on_kept(self, *_: object) -> None:
+        """Stay, or leave later."""
+        self._leaving.cancel()
+        if not self.kept and self.parent is not None:
+            self._leaving()
 
     def act(self) -> None:
         """Do it as a finger would."""

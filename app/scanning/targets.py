@@ -18,6 +18,7 @@ from app.screens.dialogs import Question
 from bridge.beacon import broadcast_addresses
 from bridge.msgs.pilothouse_msgs import PlaceArray
 from widgets.buttons import PrimaryButton
+from widgets.cards import ActionToast
 from widgets.scan_pad import PadButton, ScanPad
 
 __all__ = ["OnGlass"]
@@ -48,6 +49,8 @@ class OnGlass:
         self._step = -1
         self._names: tuple[str, ...] = ()
         """Of the targets that are marked."""
+        self._met: set[Any] = set()
+        """Offers that the mark has been on."""
         self.marked: Mark | None = None
         """What stands out now."""
 
@@ -190,6 +193,7 @@ class OnGlass:
     def mark(self, mark: Mark | None) -> None:
         """Show it, scrolled into view; what drives for a moment rests when another one is marked."""
         self.marked = mark
+        self._keep_offers(mark)
         if mark is None:
             self.openings.rest()
             self._step, self._names = -1, ()
@@ -205,6 +209,22 @@ class OnGlass:
                 _into_view(target.key)
         boxes = [in_window(target.key) for target in mark.targets if _there(target.key)]
         self.ring.show(boxes, mark.kind, mark.words, mark.until)
+
+    def _keep_offers(self, mark: Mark | None) -> None:
+        """What can be undone for a while can be until the mark has been there and gone on."""
+        shell = self._app.shell
+        offers = (
+            [] if shell is None else [one for one in shell.notices.children if isinstance(one, ActionToast)]
+        )
+        keys = [] if mark is None else [target.key for target in mark.targets]
+        met = {one for one in offers if any(_holds(one, key) for key in keys)}
+        self._met = {one for one in self._met if one in offers} | met
+        for one in offers:
+            one.kept = mark is not None and (one in met or one not in self._met)
+
+
+def _holds(card: Any, widget: Any) -> bool:
+    return any(one is widget for one in card.walk(restrict=True))
 
 
 def _press(widget: Any) -> None:
