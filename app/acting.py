@@ -18,6 +18,7 @@ STEP = 0.2
 TO_TASK = {"hold": "hold", "surface": "surface", "take_off": "take_off", "land": "land"}
 """Intents that start a task of their own, instead of the one that runs."""
 NO_ROBOT = "No robot is connected."
+HELD = "STOP is pressed; release it first."
 ALONE = ("stop", "theme", "help", "back", "screen.inputs", "yes", "no")
 """What needs no robot."""
 
@@ -44,7 +45,7 @@ class Acting:
             "snapshot": lambda: "" if self._app.records.frame is not None else "There is no picture to keep.",
             "camera": self._why_not_camera,
             "take_control": self._why_not_control,
-            "yes": self._why_not_answer,
+            "yes": self._why_not_yes,
             "no": self._why_not_answer,
             "help": lambda: "" if self.on_help is not None else "There is no help here.",
             **{intent: partial(self._why_not_task, task) for intent, task in TO_TASK.items()},
@@ -145,7 +146,7 @@ class Acting:
         return "" if session.may_ask else "It is not known yet who has control."
 
     def _latched(self) -> str:
-        return "STOP is pressed; release it first." if self._session.stop_latched else ""
+        return HELD if self._session.stop_latched else ""
 
     # STOP
 
@@ -294,6 +295,14 @@ class Acting:
     def _why_not_answer(self) -> str:
         return "" if self._asked() is not None else "Nothing is asked just now."
 
+    def _why_not_yes(self) -> str:
+        """A task that was cut short is not resumed while STOP is pressed; that it be ended can be said."""
+        if self._asked() == self._answer_question:
+            card = self._app.shell.question
+            if card.cut and card.held:
+                return f"{card.question} Not yet: {HELD}"
+        return self._why_not_answer()
+
     def _answer_reset(self, yes: bool) -> str:
         card = self._app.shell.reset.card
         (card.press if yes else card.close)()
@@ -307,8 +316,6 @@ class Acting:
         card = self._app.shell.question
         asked = card.question
         if card.cut:
-            if yes and card.held:
-                return ""
             card.ask("resume" if yes else "cancel")
         elif yes:
             card.ask("confirm")

@@ -7,7 +7,6 @@ else they mean. What pushes a control is looked at in `app.pushing`.
 from __future__ import annotations
 
 import logging
-import math
 import time
 from collections.abc import Callable
 from typing import Any
@@ -17,10 +16,11 @@ from kivy.uix.behaviors import FocusBehavior
 
 from app.device import input_devices, rotation, sdl_library
 from app.gamepad import Gamepads, Told
+from app.intents import Heard
 from app.key_drive import KeyDrive
 from app.mapped import Mapped
 from app.meaning import Meanings
-from app.origin import Origin, origins
+from app.origin import origins
 from app.pad_news import PadNews
 from app.press import Press, Presses
 from app.pushing import Pushing
@@ -168,9 +168,11 @@ class Inputs:
             self.keys.shifted(down=True)
         self.keys.repeated(name)
         modifiers = frozenset(held or ())
-        return self.presses.press(
-            Press("key", key, name, self._now(), scancode=scancode, modifiers=modifiers, text=text or "")
-        )
+        press = Press("key", key, name, self._now(), scancode=scancode, modifiers=modifiers, text=text or "")
+        taken = self.presses.press(press)
+        if not taken:
+            origins.typed(press.at)
+        return taken
 
     def _key_up(self, _: object, key: int, *__: object) -> None:
         name = KEYS.get(key, f"key {key}")
@@ -179,10 +181,11 @@ class Inputs:
         self.presses.release("key", 0, name)
 
     def _is_stop(self, press: Press) -> bool:
-        """Escape everywhere, Space where nothing is being typed and it is no switch, where there is a robot to stop; a gamepad's B."""
+        """Escape everywhere, Space where nothing is being typed and it is no switch, where there is a robot to stop or a study asks; a gamepad's B."""
         if press.source == "pad":
             return self.gamepads.is_stop(press.number, press.name)
-        if self._app.session is None and not self._app.corner.button.robots:
+        known = self._app.session is not None or self._app.corner.button.robots
+        if not (known or self._app.intents.practise(Heard("stop", "keyboard"))):
             return False
         if press.code == BACK:
             return press.scancode == ESCAPE
@@ -191,10 +194,9 @@ class Inputs:
         return not self.is_switch(press)
 
     def _stop_by(self, press: Press) -> None:
+        """As all that is wanted, and at once: what waits to be confirmed is forgotten, and a study hears of it."""
         method = "gamepad" if press.source == "pad" else "keyboard"
-        origin = Origin(method, 1.0, press.at, math.nan, self._now(), said=press.name, intent="stop")
-        with origins.during(origin):
-            self.stop()
+        self._app.intents.take(Heard("stop", method, began=press.at, said=press.name))
 
     def _keyboard(self, _: object, key: int, *__: object) -> bool:
         return bool(self._app.back()) if key == BACK else False

@@ -7,8 +7,10 @@ if verdict.sentence: talk.say(verdict.sentence)
                                                   ├ cancel: a bar for 2 s ────── acts, unless cancelled
                                                   └ confirm: a card for 5 s ──── acts after a yes, by whichever method
 
-Fingers on the glass do not come this way: they press buttons, which do the same through the same session. Everything in
-the UI thread.
+Fingers on the glass do not come this way: they press buttons, which do the same through the same session. Switches press
+those buttons as well, because what they choose stands on the glass in words and is done there and then: they come by the
+second entry, `choose`, which asks the study and the operator's permits as `take` does (`barred`, for both) and tells the
+same listeners; whether it can be done now the button knows, and nothing waits. Everything in the UI thread.
 """
 
 from __future__ import annotations
@@ -182,8 +184,6 @@ class Intents:
         """What waits to be cancelled or confirmed; None for nothing. One at a time: the newest wish counts."""
         self.on_taken: list[Callable[[Heard, Verdict], object]] = []
         """Called with each verdict, where something waits twice: when it begins to wait and when that ends."""
-        self.prompt: Callable[[], str] = lambda: ""
-        """The number of the study's prompt that is shown; empty for none."""
         self.practise: Callable[[Heard], str] = lambda _: ""
         """Where the study takes what was heard as an answer and nothing shall be done: a sentence; empty where it acts."""
 
@@ -198,14 +198,16 @@ class Intents:
     @property
     def asking(self) -> bool:
         """A yes or a no would be understood now."""
-        return self.pending is not None or not self._acts.why_not("yes")
+        return self.pending is not None or not (self._acts.why_not("yes") and self._acts.why_not("no"))
+
+    def possible(self, intent: str) -> bool:
+        """It could be done now, whoever asks for it."""
+        return not self._acts.why_not(intent)
 
     def take(self, heard: Heard) -> Verdict:
         """Take what was understood; KeyError for an intent that there is not."""
         intent, now = INTENTS[heard.intent], self._now()
-        if practised := self.practise(heard):
-            return self._told(heard, Verdict("practised", practised))
-        verdict = self._refusal(heard)
+        verdict = self.barred(heard) or self._refusal(heard)
         if verdict is None and heard.intent in ("yes", "no"):
             return self._told(heard, self._answered(heard, now))
         if verdict is None:
@@ -217,6 +219,26 @@ class Intents:
             if waited is not None:
                 self._told(waited.heard, Verdict("cancelled", "Something else was asked for."))
         return self._told(heard, verdict)
+
+    def choose(self, heard: Heard, act: Callable[[], object]) -> Verdict:
+        """Do what was chosen on the glass, by `act`, unless it is barred; an empty intent is of a control that has none."""
+        verdict = self.barred(heard) if heard.intent else None
+        if verdict is None:
+            with origins.during(self._origin(heard, self._now())):
+                act()
+            verdict = Verdict("acted", f"{heard.said}.")
+        # a yes or a no that is chosen presses what takes it, and is told there
+        told = heard.intent and (verdict.what != "acted" or heard.intent not in ("yes", "no"))
+        return self._told(heard, verdict) if told else verdict
+
+    def barred(self, heard: Heard) -> Verdict | None:
+        """For both entries: the study takes it as an answer, or the operator does not let that method do that; None for neither."""
+        if practised := self.practise(heard):
+            return Verdict("practised", practised)
+        if self.allowed(heard.method, heard.intent):
+            return None
+        name, words = heard.method.capitalize(), INTENTS[heard.intent].words
+        return Verdict("not allowed", f"{name} may not do that: {words}. It can be allowed in Inputs.")
 
     def answer(self, yes: bool, method: str = "button") -> Verdict:
         """Yes or no to what waits, or to what the robot asks: a yes does it, a no cancels it."""
@@ -243,11 +265,7 @@ class Intents:
     # how it is decided
 
     def _refusal(self, heard: Heard) -> Verdict | None:
-        """Why nothing comes of it; None where something may."""
-        words = INTENTS[heard.intent].words
-        if not self.allowed(heard.method, heard.intent):
-            name = heard.method.capitalize()
-            return Verdict("not allowed", f"{name} may not do that: {words}. It can be allowed in Inputs.")
+        """Why it cannot be done now; None where it can."""
         if heard.intent in ("yes", "no") and self.pending is not None:
             return None
         why = self._acts.why_not(heard.intent)
@@ -298,7 +316,6 @@ class Intents:
             decided,
             heard.said,
             heard.noise,
-            self.prompt(),
             heard.intent,
         )
 

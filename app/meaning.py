@@ -14,7 +14,7 @@ from app.press import Press
 
 __all__ = ["HOLDS", "MEANINGS", "Meanings", "meaning_icon", "meaning_words"]
 
-METHODS = {"key": "keyboard", "pad": "gamepad"}
+METHOD_OF = {"key": "keyboard", "pad": "gamepad"}
 HOLDS = {"talk": ("Talk while held", "mic"), "tilt": ("Tilt drives while held", "screen_rotation_alt")}
 """What is on for as long as a key or a button is held, with its words and its icon."""
 TURNS = "pause_resume"
@@ -56,7 +56,7 @@ class Meanings:
         if intent not in INTENTS or intents is None or (intent in ("yes", "no") and not intents.asking):
             return False
         words = f"{press.name} of {press.device}" if press.device else press.name
-        method = METHODS[press.source]
+        method = METHOD_OF[press.source]
         intents.take(Heard(intent, method, began=press.at, ended=self._now(), said=words))
         return True
 

@@ -1,24 +1,27 @@
 """The ways in beside fingers: one object for each, made when the app starts, at rest while the glass is away, ended with it.
 
-Whoever brings a method adds a line to `METHODS` and touches the application no more. One that is off costs nothing.
+Whoever brings a method adds a line to `MADE_BY` and touches the application no more. One that is off costs nothing.
 """
 
 from __future__ import annotations
 
+import logging
+from contextlib import suppress
 from importlib import import_module
 from typing import Any, Protocol
 
 from kivy.core.window import Window
 
 from app.device.motion import motion_source
-from app.intents import METHODS as WAYS
-from app.intents import Heard, Verdict
+from app.intents import METHODS, Heard, Verdict
 from app.origin import origins
 from app.sensing import Sensing
 
-__all__ = ["METHODS", "Method", "Methods"]
+__all__ = ["MADE_BY", "Method", "Methods"]
 
-METHODS: dict[str, str] = {
+log = logging.getLogger(__name__)
+
+MADE_BY: dict[str, str] = {
     "log": "app.responding:Responding",
     "talk": "app.talking:Talking",
     "voice": "app.speaking:Speaking",
@@ -35,7 +38,7 @@ class Method(Protocol):
     """One way in."""
 
     name: str
-    """As in `METHODS`."""
+    """As in `MADE_BY`."""
     on: bool
     """The operator wants it; kept in the settings by the method itself when it is assigned."""
 
@@ -67,20 +70,38 @@ class Methods:
         self._all: dict[str, Any] = {}
         self._looks: list[Any] = []
         self._paused = False
+        self.faults: dict[str, str] = {}
+        """Name of each that could not be made to one sentence why; everything else goes on without it."""
         app.sensing = self.sensing = Sensing(motion_source(app.now), app.now)
         """The motion sensors of all of them."""
 
     def open(self) -> None:
-        """Make each, and begin with those that are on."""
+        """Make each, and begin with those that are on; what cannot be made is said, and there is none of it."""
         Window.bind(on_touch_down=self._touched, on_touch_up=self._lifted)
         self._app.intents.on_taken.append(self._told)
-        for name, where in METHODS.items():
-            module, _, made = where.partition(":")
-            self._all[name] = method = getattr(import_module(module), made)(self._app)
-            if hasattr(method, "look"):
-                self._looks.append(method)
-            if method.on:
-                method.start()
+        for name, where in MADE_BY.items():
+            try:
+                self._make(name, where)
+            except Exception as problem:
+                log.exception("%s cannot be used", name)
+                self._leave_out(name, problem)
+        if self.faults:
+            self._app.connect.say(" ".join(self.faults.values()), "warn")
+
+    def _make(self, name: str, where: str) -> None:
+        module, _, made = where.partition(":")
+        self._all[name] = method = getattr(import_module(module), made)(self._app)
+        if method.on:
+            method.start()
+        if hasattr(method, "look"):
+            self._looks.append(method)
+
+    def _leave_out(self, name: str, problem: Exception) -> None:
+        method = self._all.pop(name, None)
+        if method is not None:
+            with suppress(Exception):  # what failed to begin may fail to end as well
+                method.close()
+        self.faults[name] = f"{name.capitalize()} cannot be used: {problem or type(problem).__name__}."
 
     def close(self) -> None:
         """End each."""
@@ -88,6 +109,7 @@ class Methods:
         for method in self._all.values():
             method.stop()
             method.close()
+        origins.forget()
         self.sensing.close()
         self._all.clear()
         self._looks.clear()
@@ -96,6 +118,7 @@ class Methods:
         """The glass is taken away: nothing listens."""
         self._paused = True
         self._app.intents.rest()
+        origins.forget()
         self.sensing.pause()
         for method in self._all.values():
             method.stop()
@@ -110,6 +133,7 @@ class Methods:
 
     def look(self, now: float) -> None:
         """With each heartbeat of the user interface, every 30 ms; `now` is our clock [s]."""
+        origins.look(now)
         self._app.intents.look(now)
         if self._app.shell is not None:
             self._app.shell.wishes.look(now)
@@ -136,7 +160,7 @@ class Methods:
     @property
     def armed(self) -> list[str]:
         """Names of those that are on, and are a way to give commands."""
-        return [name for name, method in self._all.items() if method.on and name in WAYS]
+        return [name for name, method in self._all.items() if method.on and name in METHODS]
 
     def standing(self) -> list[tuple[str, bool]]:
         """Name of each that is on, and whether it is well."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 import contextlib
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 __all__ = ["ITSELF", "NOBODY", "Origin", "Origins", "origins"]
 
@@ -37,26 +37,29 @@ class Origin:
     """What was understood, in words; empty for a button."""
     noise: float = math.nan
     """How loud it was round about then [dB]."""
-    prompt: str = ""
-    """Number of the prompt of the study that it answers; empty outside of it."""
     intent: str = ""
     """Key in `app.intents.INTENTS`; empty where a control was used that has none."""
 
 
+LASTS = 1.0
+"""What is done so long after a finger or a key was lifted is not its doing any more [s]."""
 NOBODY = Origin(ITSELF)
 """The app by itself."""
 
 
 class Origins:
-    """Which origin whatever is done now has. Without a word about it that is a finger on a button."""
+    """Which origin whatever is done now has. Without a word about it that is who touched the glass just now, else nobody."""
 
     def __init__(self) -> None:
         self._during: list[Origin] = []
-        self._began = self._ended = math.nan
+        self._touch: Origin | None = None
+        """Of the newest finger, or the key that was typed; None where all were lifted long ago."""
+        self._down = 0
+        """Fingers on the glass."""
 
     def current(self) -> Origin:
         """The origin of what is done now."""
-        return self._during[-1] if self._during else Origin(began=self._began, ended=self._ended)
+        return self._during[-1] if self._during else self._touch or NOBODY
 
     @contextlib.contextmanager
     def during(self, origin: Origin) -> Iterator[None]:
@@ -68,12 +71,28 @@ class Origins:
             self._during.pop()
 
     def touched(self, now: float) -> None:
-        """A finger came down at `now` [s]: what is pressed next began then."""
-        self._began, self._ended = now, math.nan
+        """A finger came down at `now` [s]: what is done next began then."""
+        self._down += 1
+        self._touch = Origin(began=now)
 
     def lifted(self, now: float) -> None:
         """A finger was lifted."""
-        self._ended = now
+        self._down = max(0, self._down - 1)
+        if self._touch is not None:
+            self._touch = replace(self._touch, ended=now)
+
+    def typed(self, now: float) -> None:
+        """A key was pressed that means something only to a field or a button on the glass."""
+        self._touch = Origin("keyboard", began=now, ended=now)
+
+    def look(self, now: float) -> None:
+        """With each heartbeat: who touched the glass long ago does nothing any more."""
+        if self._touch is not None and not self._down and now - self._touch.ended > LASTS:
+            self._touch = None
+
+    def forget(self) -> None:
+        """The glass is taken away: no finger is on it."""
+        self._touch, self._down = None, 0
 
 
 origins = Origins()

@@ -125,7 +125,6 @@ class Responding:
             self._running, self._looked = True, self._app.now()
             self._app.intents.on_taken.append(self._taken)
             self._app.intents.practise = self._practise
-            self._app.intents.prompt = lambda: self._asked().prompt_id
 
     def stop(self) -> None:
         """Rest: put down what is known, and wait in the study."""
@@ -134,7 +133,6 @@ class Responding:
         self._running = False
         self._app.intents.on_taken.remove(self._taken)
         self._app.intents.practise = lambda _: ""
-        self._app.intents.prompt = lambda: ""
         if self.trials is not None:
             self.trials.pause()
         self._end_drive()
@@ -237,10 +235,10 @@ class Responding:
             self.trials.heard(heard.intent, heard.method)
 
     def _practise(self, heard: Heard) -> str:
-        """While prompts are shown nothing is done but STOP, which reaches a robot whatever is practised."""
+        """While prompts are shown nothing is done but STOP, which reaches whatever can be stopped."""
         if self.trials is None or not self.trials.running or heard.intent in ("yes", "no"):
             return ""
-        if heard.intent == "stop" and self._app.session is not None:
+        if heard.intent == "stop" and self._app.intents.possible("stop"):
             return ""
         return f"{INTENTS[heard.intent].words}."
 

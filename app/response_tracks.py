@@ -292,8 +292,6 @@ class Tracks:
         )
         response.t_decided = self._at(self._now())
         response.snippet = heard.snippet if self.consent else None
-        presses = heard.snippet.get("presses") if isinstance(heard.snippet, dict) else None
-        response.presses = presses if isinstance(presses, int) else None
 
     def _close(self, key: str) -> None:
         self._put(self._tracks.pop(key).response)

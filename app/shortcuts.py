@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.key_table import KeyTable
+from app.key_table import FIXED, KeyTable
 from app.meaning import Meanings
 from app.pad_map import Profile
 from app.press import Press
@@ -38,7 +38,9 @@ class Shortcuts:
         if press.source == "pad":
             return self._profile(press.device).meaning(press.name) if self._pads_on() else ""
         table = self._keys()
-        if not table.on or press.modifiers & WITH:
+        if (
+            not table.on or press.modifiers & WITH or press.name in FIXED
+        ):  # Android's Back is called escape, too
             return ""
         if self._typing() and not (press.name.startswith("f") and press.name[1:].isdigit()):
             return ""

@@ -233,16 +233,20 @@ def plan_of(kept: Any, methods: Sequence[str], intents: Sequence[str]) -> tuple[
             triggers=int(kept["triggers"]),
             commands=commands,
         )
-        block, trial = int(kept["block"]), int(kept["trial"])
-    except (KeyError, TypeError, ValueError):
+        sound = _sound(plan, methods, intents)
+        return (plan, int(kept["block"]), int(kept["trial"])) if sound else None
+    except (KeyError, TypeError, ValueError, OverflowError):
         return None
-    sound = (
+
+
+def _sound(plan: Plan, methods: Sequence[str], intents: Sequence[str]) -> bool:
+    """It can be led; TypeError where there are lists or tables in place of names."""
+    return bool(
         plan.row >= 1
         and 1 <= plan.triggers <= MOST_TRIGGERS
         and plan.methods
         and set(plan.methods) <= set(methods)
         and plan.postures
         and set(plan.postures) <= set(POSTURES)
-        and all(many and set(many) <= set(intents) for many in commands.values())
+        and all(many and set(many) <= set(intents) for many in plan.commands.values())
     )
-    return (plan, block, trial) if sound else None

@@ -17,7 +17,6 @@ from kivy.core.window import Window
 from app.device import vibrate
 from app.inputs import typing
 from app.intents import Heard
-from app.origin import Origin, origins
 from app.press import Press
 from app.scanning import Mark
 from app.scanning.engine import Engine, Selection
@@ -225,30 +224,18 @@ class Switches:
             self._say(verdict.sentence)
 
     def do(self, chosen: Selection) -> None:
-        """Do it, where the operator lets switches do it and no study only wants to see it chosen."""
-        intents, target, now = self._app.intents, chosen.target, self._app.now()
+        """Do it, by the entry for what is chosen on the glass: `app.intents` says what is barred."""
+        target, now = chosen.target, self._app.now()
         self._count(chosen)
         ended = chosen.ended if math.isfinite(chosen.ended) else now
         heard = Heard(target.intent, self.name, began=chosen.began, ended=ended, said=target.words)
-        if target.intent and (intents.practise(heard) or not intents.allowed(self.name, target.intent)):
-            self._say(intents.take(heard).sentence)
-            return
-        origin = Origin(
-            self.name,
-            1.0,
-            chosen.began,
-            ended,
-            now,
-            target.words,
-            prompt=intents.prompt(),
-            intent=target.intent,
-        )
         self._doing = True
         try:
-            with origins.during(origin):
-                target.act()
+            verdict = self._app.intents.choose(heard, target.act)
         finally:
             self._doing = False
+        if verdict.what != "acted":
+            self._say(verdict.sentence)
 
     def stepped(self, sound: str, mark: Mark | None) -> None:
         """Let it be heard, felt and spoken."""

@@ -206,6 +206,17 @@ def test_yes_answers_the_card_that_asks(robot: Robot) -> None:
     assert said == ["confirm"]
 
 
+def test_a_yes_that_cannot_be_given_says_why_and_a_no_can_be_given(robot: Robot) -> None:
+    said: list[str] = []
+    robot.shell.question = SimpleNamespace(
+        parent=True, open=True, blocked=False, cut=True, held=True, question="Go on?", ask=said.append
+    )
+    assert robot.acting.why_not("yes") == "Go on? Not yet: STOP is pressed; release it first."
+    assert robot.acting.why_not("no") == ""
+    assert robot.acting.answer(False) == "Go on? No."
+    assert said == ["cancel"]
+
+
 def test_every_intent_can_be_done_or_answered(robot: Robot) -> None:
     doable = {*robot.acting._alone(), *robot.acting._asked_for(), "yes", "no"}
     assert doable == set(INTENTS)

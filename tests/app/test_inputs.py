@@ -9,6 +9,8 @@ from typing import Any
 import pytest
 
 from app.drive_slot import DriveSlot
+from app.intents import Intents
+from app.permits import Permits
 from app.sdl import PadState
 from bridge.msgs.geometry_msgs import Twist
 from tests.headless import Stage
@@ -87,6 +89,33 @@ class Corner:
         self.presses += 1
 
 
+class Settings(dict[str, Any]):
+    def set(self, name: str, value: Any) -> None:
+        self[name] = value
+
+
+class Stops:
+    """What the app does of what is wanted: Back, and STOP where there is somebody to be stopped."""
+
+    def __init__(self, hands: Any) -> None:
+        self._hands = hands
+
+    def why_not(self, intent: str) -> str:
+        if intent != "stop":
+            return ""
+        known = self._hands.shell is not None or self._hands.session is not None
+        return "" if known or self._hands.corner.button.robots else "No robot is known that could be stopped."
+
+    def words(self, intent: str) -> str:
+        return intent
+
+    def do(self, intent: str) -> None:
+        (self._hands.inputs.stop if intent == "stop" else self._hands.back)()
+
+    def answer(self, yes: bool) -> str:
+        return ""
+
+
 class Hands:
     """A stick on the glass, its way to the sender, and everything that can happen to either."""
 
@@ -115,6 +144,7 @@ class Hands:
         self.stick.bind(on_command=lambda _, twist: self.slot.want(twist))
         self.sent: list[tuple[float, Twist]] = []
         self.corner = Corner()
+        self.intents = Intents(Stops(self), Permits(Settings()), stage.time)
         self.frozen = False
         self._beaten = 0.0
         self.back_pressed = 0

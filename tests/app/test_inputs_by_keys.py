@@ -127,6 +127,27 @@ def test_the_origin_of_stop_is_the_key_or_the_button(hands: Hands) -> None:
     assert said == [("keyboard", "stop"), ("gamepad", "stop")]
 
 
+def test_where_nothing_can_be_stopped_a_study_hears_of_stop_all_the_same(hands: Hands) -> None:
+    told: list[tuple[str, str, str]] = []
+    hands.intents.practise = lambda heard: "" if hands.intents.possible("stop") else "STOP."
+    hands.intents.on_taken.append(lambda heard, done: told.append((heard.intent, heard.method, done.what)))
+    hands.shell = hands.session = None
+    hands.source.there = {1: PAD}
+    hands.pass_time(0.1)
+    hands.stage.window.dispatch("on_joy_button_down", 1, 1)
+    press(hands, ESCAPE)
+    assert told == [("stop", "gamepad", "practised"), ("stop", "keyboard", "practised")]
+
+
+def test_a_key_that_a_field_takes_is_the_origin_of_what_follows(hands: Hands) -> None:
+    from app.origin import origins
+
+    hands.shell.screen = "mission"
+    hands.stage.window.dispatch("on_key_down", 13, 40, None, [])
+    assert origins.current().method == "keyboard"
+    origins.forget()
+
+
 def test_stop_of_a_gamepad_that_is_switched_off_is_stop_all_the_same(hands: Hands) -> None:
     hands.inputs.mapped.pads_on = False
     hands.source.there = {1: PAD}

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
 from app.intents import CANCEL_FOR, CONFIRM_FOR, INTENTS, METHODS, Heard, Intents, Verdict
-from app.origin import Origin, origins
+from app.origin import NOBODY, Origin, origins
 from app.permits import SAYS, Permits
 
 
@@ -250,17 +251,75 @@ def test_tilt_says_nothing_and_a_finger_is_always_allowed(stage: Stage) -> None:
 # origins
 
 
-def test_without_a_word_about_it_a_command_comes_from_the_finger_that_came_down_last() -> None:
+@pytest.fixture
+def untouched() -> Iterator[None]:
+    origins.forget()
+    yield
+    origins.forget()
+
+
+def test_without_a_word_about_it_a_command_comes_from_the_finger_that_came_down_last(untouched: None) -> None:
     origins.touched(7.0)
     origins.lifted(7.2)
-    assert (origins.current().method, origins.current().began, origins.current().ended) == (
-        "button",
-        7.0,
-        7.2,
-    )
+    assert origins.current() == Origin("button", began=7.0, ended=7.2)
     with origins.during(Origin("shake")):
         assert origins.current().method == "shake"
     assert origins.current().method == "button"
+
+
+def test_what_is_done_long_after_a_touch_was_asked_for_by_nobody(untouched: None) -> None:
+    assert origins.current() is NOBODY
+    origins.touched(7.0)
+    origins.look(30.0)
+    assert origins.current().began == 7.0, "the finger is still down"
+    origins.lifted(30.0)
+    origins.look(30.9)
+    assert origins.current().method == "button"
+    origins.look(31.1)
+    assert origins.current() is NOBODY
+
+
+def test_a_finger_that_holds_a_stick_goes_on_when_another_one_is_lifted(untouched: None) -> None:
+    origins.touched(7.0)
+    origins.touched(8.0)
+    origins.lifted(8.1)
+    origins.look(20.0)
+    assert origins.current().method == "button"
+
+
+def test_a_key_that_is_typed_into_a_field_is_no_finger(untouched: None) -> None:
+    origins.typed(9.0)
+    assert origins.current() == Origin("keyboard", began=9.0, ended=9.0)
+
+
+# what is chosen on the glass
+
+
+def test_a_choice_on_the_glass_is_barred_by_the_study_and_the_operator_as_everything_else(
+    stage: Stage,
+) -> None:
+    done: list[str] = []
+    heard = Heard("pause", "switches", began=1.0, said="Pause")
+    assert stage.intents.choose(heard, lambda: done.append(origins.current().intent)).what == "acted"
+    stage.permits.allow("switches", "pause", False)
+    assert stage.intents.choose(heard, lambda: done.append("forbidden")).what == "not allowed"
+    stage.intents.practise = lambda _: "Pause."
+    assert stage.intents.choose(heard, lambda: done.append("practised")).what == "practised"
+    assert done == ["pause"]
+    assert [verdict.what for _, verdict in stage.told] == ["acted", "not allowed", "practised"]
+
+
+def test_a_choice_without_an_intent_is_done_and_nobody_is_told(stage: Stage) -> None:
+    done: list[Origin] = []
+    stage.intents.choose(Heard("", "switches", said="Zoom in"), lambda: done.append(origins.current()))
+    assert (done[0].method, done[0].said, stage.told) == ("switches", "Zoom in", [])
+
+
+def test_a_question_that_takes_only_a_no_is_a_question(stage: Stage) -> None:
+    stage.acts.reasons["yes"] = "Not yet: STOP is pressed."
+    del stage.acts.reasons["no"]
+    assert stage.intents.asking
+    assert stage.intents.answer(yes=True, method="voice").sentence == "Not yet: STOP is pressed."
 
 
 def test_an_unknown_confidence_stays_unknown(stage: Stage) -> None:

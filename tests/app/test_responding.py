@@ -29,9 +29,11 @@ TLX = dict.fromkeys(("mental", "physical", "temporal", "performance", "effort", 
 
 class Acts:
     def __init__(self) -> None:
-        self.done = []
+        self.done, self.robots = [], 0
 
     def why_not(self, intent):
+        if intent == "stop" and not self.robots:
+            return "No robot is known that could be stopped."
         return "Nothing is asked just now." if intent in ("yes", "no") else ""
 
     def words(self, intent):
@@ -184,10 +186,8 @@ def test_a_prompt_without_an_answer_is_kept_as_missed(running):
     assert [(one.intended, one.recognised) for one in running.kept()] == [(prompt.intent, "")]
 
 
-def test_stop_reaches_a_robot_whatever_is_practised(running):
-    running.app.session = SimpleNamespace(
-        listeners=[], name="R2", link=SimpleNamespace(driving=False, driven_by=Origin())
-    )
+def test_stop_reaches_whatever_can_be_stopped_whatever_is_practised(running):
+    running.acts.robots = 1  # known, and none is connected
     running.log.lead(plan())
     running.log.trials.begin()
     assert running.hear("stop").what == "acted"

@@ -177,12 +177,12 @@ def test_what_is_done_on_the_handheld_has_its_effect_at_once(followed):
     assert line.t_effect == line.t_decided
 
 
-def test_snippets_are_kept_only_with_consent_and_presses_always(followed):
-    followed.hear(method="switches", snippet={"presses": 3, "path": [1, 2]})
+def test_snippets_are_kept_only_with_consent(followed):
+    followed.hear(method="voice", snippet={"path": [1, 2]})
     followed.tracks.consent = True
     followed.hear(method="shake", snippet=[0.5], began=49.9)
     first, second = followed.end()
-    assert (first.presses, first.snippet) == (3, None)
+    assert first.snippet is None
     assert second.snippet == [0.5]
 
 

@@ -183,6 +183,10 @@ def test_a_form_that_was_open_when_the_app_ended_is_asked_for_again():
     [
         {"row": 0},
         {"row": "x"},
+        {"row": float("inf")},
+        {"methods": [["voice"]]},
+        {"postures": [{}]},
+        {"commands": {"voice": [["stop"]]}},
         {"methods": []},
         {"methods": ["telepathy"]},
         {"postures": ["swimming"]},

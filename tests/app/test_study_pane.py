@@ -23,7 +23,7 @@ from app.study import COMMANDS
 
 class Acts:
     def why_not(self, intent):
-        return ""
+        return "No robot is known that could be stopped." if intent == "stop" else ""
 
     def words(self, intent):
         return intent

@@ -20,11 +20,13 @@ class MethodRow(ListRow):
         self.switch.bind(on_change=lambda _, on: self.dispatch("on_turn", on))
         self.whole = True
 
-    def look(self, method: Any) -> None:
-        """Say how `method` stands; None for what is none."""
+    def look(self, method: Any, fault: str = "") -> None:
+        """Say how `method` stands, None for what is none; or why it cannot be used, as one sentence."""
         if (method is not None) != (self.switch.parent is self):
             (self.add_widget if method is not None else self.remove_widget)(self.switch)
-        if method is None:
+        if fault:
+            self.detail, self.role = fault, "warn"
+        if method is None or fault:
             return
         self.switch.active = method.on
         self.detail = method.problem or method.standing

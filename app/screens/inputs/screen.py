@@ -18,7 +18,7 @@ from app.screens.inputs import panes
 from app.screens.inputs.method_row import MethodRow
 from app.screens.pane_head import PaneHead
 from app.screens.placing import put
-from widgets.kit import Column, Roll
+from widgets.kit import Column, Remark, Roll
 
 __all__ = ["InputsScreen"]
 
@@ -35,6 +35,27 @@ Builder.load_string("""
         size_hint: None, None
         spacing: dp(8)
 """)
+
+
+NEEDS = {"study": "log", "voice": "talk"}
+"""Pane to what else it sets up beside what it is called after."""
+
+
+class FaultPane(Column):
+    """In place of a pane: why what it sets up cannot be used."""
+
+    def __init__(self, sentence: str) -> None:
+        super().__init__()
+        self.add_widget(Remark(text=sentence, role="warn"))
+
+    def enter(self) -> None:
+        """Come onto the glass."""
+
+    def leave(self) -> None:
+        """Leave the glass."""
+
+    def tick(self) -> None:
+        """Nothing changes."""
 
 
 class InputsScreen(FloatLayout):
@@ -122,7 +143,7 @@ class InputsScreen(FloatLayout):
     def tick(self) -> None:
         """Bring up to date how each stands."""
         for name, row in self.rows.items():
-            row.look(self.app.methods.get(name))
+            row.look(self.app.methods.get(name), self._fault(name))
             row.chosen = name == self._shown()
         if self._entered is not None:
             self._entered.tick()
@@ -148,10 +169,17 @@ class InputsScreen(FloatLayout):
 
     def pane(self, name: str) -> Any:
         """The pane of that name, made when it is first asked for; KeyError where there is none."""
-        if name not in self._made:
+        if name not in self._made and self._fault(name):
+            self._made[name] = FaultPane(self._fault(name))
+        elif name not in self._made:
             module, _, made = self.panes[name][2].partition(":")
             self._made[name] = getattr(import_module(module), made)(app=self.app)
         return self._made[name]
+
+    def _fault(self, name: str) -> str:
+        """Why what that pane sets up cannot be used; empty where it can."""
+        faults: dict[str, str] = self.app.methods.faults
+        return next((faults[one] for one in (name, NEEDS.get(name)) if one in faults), "")
 
     def _shown(self) -> str:
         if self._form == "tall" or self.chosen:

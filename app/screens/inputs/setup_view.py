@@ -9,9 +9,9 @@ from app.screens.inputs.setting_row import number_row, switch_row
 from app.study import COMMANDS, POSTURES, TRIGGERS, Plan
 from widgets.kit import Column, PrimaryButton, Remark, SectionLabel, Segmented, Toggle
 
-__all__ = ["METHODS", "SetupView", "commands_of"]
+__all__ = ["PROMPTED", "SetupView", "commands_of"]
 
-METHODS = ("button", "voice", "shake", "switches", "gamepad", "keyboard")
+PROMPTED = ("button", "voice", "shake", "switches", "gamepad", "keyboard")
 """Those that can be prompted; a tilt drives and gives no commands."""
 USUAL = ("button", "voice", "shake")
 EACH = 7.0
@@ -54,7 +54,7 @@ class SetupView(Column):
         self.add_widget(SectionLabel(title="Methods"))
         self.switches: dict[str, Toggle] = {}
         self._rows: dict[str, Any] = {}
-        for method in METHODS:
+        for method in PROMPTED:
             icon, name = look_of(method)
             self._rows[method], self.switches[method] = switch_row(icon, name, "", lambda _: self.tick())
             self.switches[method].active = method in USUAL
@@ -88,7 +88,7 @@ class SetupView(Column):
     @property
     def plan(self) -> Plan:
         """What is chosen."""
-        methods = tuple(method for method in METHODS if self.switches[method].active)
+        methods = tuple(method for method in PROMPTED if self.switches[method].active)
         postures = POSTURES if self.posture.value == "both" else (self.posture.value,)
         commands = {method: commands_of(method, self._app) for method in methods}
         return Plan(f"P{self.person}", self.person, methods, postures, self.triggers, commands)

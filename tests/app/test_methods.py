@@ -1,0 +1,147 @@
+"""The ways in as a whole: one that cannot be made stops no other, and nothing listens or waits while the glass is away."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from types import ModuleType, SimpleNamespace
+from typing import Any
+
+import pytest
+
+import app.methods as methods_of
+from app.intents import Heard, Intents
+from app.methods import Methods
+from app.origin import NOBODY, origins
+from app.permits import Permits
+from tests.app.test_inputs import Settings
+from tests.headless import Stage
+
+
+class Made:
+    """A method that works."""
+
+    on, standing, problem = True, "listening", ""
+
+    def __init__(self, app: Any) -> None:
+        self.life: list[str] = []
+
+    def start(self) -> None:
+        self.life.append("start")
+
+    def stop(self) -> None:
+        self.life.append("stop")
+
+    def close(self) -> None:
+        self.life.append("close")
+
+
+class Unmakeable(Made):
+    def __init__(self, app: Any) -> None:
+        raise TypeError("no plan can be read from 3")
+
+
+class Unstartable(Made):
+    ends: list[str] = []
+
+    def start(self) -> None:
+        raise OSError("no such device")
+
+    def close(self) -> None:
+        self.ends.append("close")
+        raise OSError("never began")
+
+
+class Acts:
+    """A task can be begun, and nothing is asked."""
+
+    def __init__(self) -> None:
+        self.done: list[str] = []
+
+    def why_not(self, intent: str) -> str:
+        return "Nothing is asked just now." if intent in ("yes", "no") else ""
+
+    def words(self, intent: str) -> str:
+        return intent
+
+    def do(self, intent: str) -> None:
+        self.done.append(intent)
+
+    def answer(self, yes: bool) -> str:
+        return ""
+
+
+class App:
+    """As much of the app as they ask for."""
+
+    def __init__(self, made: dict[str, type], monkeypatch: pytest.MonkeyPatch) -> None:
+        module: Any = ModuleType("made_here")
+        for name, kind in made.items():
+            setattr(module, name, kind)
+        monkeypatch.setitem(sys.modules, "made_here", module)
+        monkeypatch.setattr(methods_of, "MADE_BY", {name: f"made_here:{name}" for name in made})
+        self.time, self.said, self.acts = 100.0, [], Acts()
+        self.shell = None
+        self.connect = SimpleNamespace(say=lambda text, level: self.said.append(text))
+        self.intents = Intents(self.acts, Permits(Settings()), self.now)
+        self.methods = Methods(self)
+
+    def now(self) -> float:
+        return self.time
+
+
+@pytest.fixture
+def make(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+    opened: list[Methods] = []
+
+    def make(**made: type) -> App:
+        app = App(made, monkeypatch)
+        app.methods.open()
+        opened.append(app.methods)
+        return app
+
+    yield make
+    for methods in opened:
+        methods.close()
+
+
+def test_one_that_cannot_be_made_or_begun_is_said_and_the_others_go_on(make: Any) -> None:
+    app = make(log=Unmakeable, shake=Unstartable, voice=Made)
+    assert app.methods.get("voice").life == ["start"]
+    assert (app.methods.get("log"), app.methods.get("shake")) == (None, None)
+    assert Unstartable.ends == ["close"]
+    assert app.said == [
+        "Log cannot be used: no plan can be read from 3. Shake cannot be used: no such device."
+    ]
+    assert set(app.methods.faults) == {"log", "shake"}
+    app.methods.look(100.0)
+    app.methods.turn("log", on=True)
+
+
+def test_while_the_glass_is_away_nothing_listens_and_no_question_waits(make: Any) -> None:
+    app = make(voice=Made)
+    assert app.intents.take(Heard("patrol", "voice")).what == "asks"
+    app.methods.pause()
+    assert app.methods.get("voice").life == ["start", "stop"]
+    assert app.intents.pending is None
+    app.methods.resume()
+    app.intents.answer(yes=True, method="voice")
+    assert app.acts.done == []
+    assert app.methods.get("voice").life == ["start", "stop", "start"]
+
+
+def test_a_finger_that_was_on_the_glass_when_it_was_taken_away_does_nothing_later(make: Any) -> None:
+    app = make(voice=Made)
+    origins.touched(99.0)
+    app.methods.pause()
+    assert origins.current() is NOBODY
+
+
+def test_what_was_touched_is_forgotten_by_the_heartbeat(make: Any) -> None:
+    app = make(voice=Made)
+    origins.touched(99.0)
+    origins.lifted(99.1)
+    app.methods.look(99.5)
+    assert origins.current().method == "button"
+    app.methods.look(105.0)
+    assert origins.current() is NOBODY
