@@ -18,6 +18,7 @@ import pytest
 
 from app.garbage import Collector
 from tests import headless
+from tests.apart import Apart
 
 HERE = Path(__file__).parent
 DRAWING = ("pixels", "e2e")
@@ -41,6 +42,8 @@ def pytest_configure(config: pytest.Config) -> None:
     """Prepare Kivy before any test module imports it."""
     config.stash[MODE] = _mode(config)
     headless.prepare(config.stash[MODE])
+    if config.stash[MODE] == "logic":
+        config.pluginmanager.register(Apart())
 
 
 MODE = pytest.StashKey[str]()
