@@ -86,6 +86,8 @@ class Engine:
         """Marked when B came down, and done when B comes up."""
         self._woke = False
         """The press that is down only woke the scan."""
+        self._only_stop: set[str] = set()
+        """Switches whose last press is somebody else's, but for STOP."""
         self._presses, self._since = 0, math.nan
 
     @property
@@ -98,10 +100,14 @@ class Engine:
         self.contacts.timing, self.scan.pace = timing, pace
         self._show()
 
-    def press(self, switch: Literal["A", "B"], source: Hashable, now: float) -> None:
-        """A key or button of `switch` came down; again where the system repeats it."""
+    def press(
+        self, switch: Literal["A", "B"], source: Hashable, now: float, *, only_stop: bool = False
+    ) -> None:
+        """A key or button of `switch` came down; again where the system repeats it. With `only_stop` it can mean nothing else."""
         self._now = now
-        self.contacts.down("B" if self.scan.pace.by_itself else switch, source, now)
+        means: Literal["A", "B"] = "B" if self.scan.pace.by_itself else switch
+        (self._only_stop.add if only_stop else self._only_stop.discard)(means)
+        self.contacts.down(means, source, now)
 
     def release(self, switch: Literal["A", "B"], source: Hashable, now: float) -> None:
         """It came up."""
@@ -119,6 +125,13 @@ class Engine:
             self._refresh()
         if self.scan.look(now, wait=self.contacts.is_down("B")):
             self._step("step" if self.awake else "none")
+
+    def wake(self, now: float) -> None:
+        """Begin at the first, as a press would."""
+        self._now = now
+        self.scan.wake(now)
+        self._refresh()
+        self._step("step")
 
     def sleep(self) -> None:
         """Nothing is marked any more; the next press wakes it."""
@@ -144,6 +157,8 @@ class Engine:
         elif event.what in ("stuck", "free"):
             self._armed = None
             self._desk.stuck(event.switch, event.what == "stuck")
+        elif event.switch in self._only_stop:
+            self._armed = None
         elif event.what == "unsure":
             self._armed = None
             self._desk.stepped("none", self._shown)

@@ -1,7 +1,8 @@
 """Switches as a way in: which keys and buttons they are, what a press of them comes to, and what is said of it.
 
 Asleep they cost one look at each key that is pressed. The first press of one of them makes the engine and marks where the
-scan begins; a finger on the glass takes the mark away again.
+scan begins; a finger on the glass takes the mark away again, and so does typing. For as long as somebody types into a field a
+switch on a keyboard types as well; but B held, or A and B together, is STOP all the same.
 """
 
 from __future__ import annotations
@@ -29,6 +30,12 @@ __all__ = ["Switches"]
 
 OTHERS = frozenset({"ctrl", "alt", "meta"})
 """With one of these held a key is a shortcut and no switch."""
+SHIFTS = frozenset(
+    ("shift", "rshift", "lctrl", "rctrl", "alt", "alt-gr", "super", "capslock", "numlock", "escape")
+)
+"""Keys that type nothing."""
+TYPES = 10.0
+"""Who typed, or touched the glass, so shortly ago [s] still types: longer, and nobody could wake the scan beside a field."""
 FELT = 0.02
 """How long a step is felt [s]."""
 KEPT, USED = "switches", "switches_used"
@@ -57,6 +64,10 @@ class Switches:
         self._stuck: list[str] = []
         self._doing = False
         """What is marked is being done: touches made for that are no fingers."""
+        self._typed = -math.inf
+        """When somebody typed or touched the glass last [s]."""
+        self._typed_with: dict[tuple[str, int, str], Press] = {}
+        """Switches that are down and type: only STOP comes of them."""
         self._asked: Callable[[Key], object] | None = None
         """Takes the next key or button, instead of the scan."""
         self.on_selected: list[Callable[[Selection], object]] = []
@@ -110,7 +121,7 @@ class Switches:
         if self not in inputs.presses.takers:
             inputs.presses.takers.insert(0, self)
             inputs.is_switch = self.is_switch
-            Window.bind(focus=self._focused, on_touch_down=self._touched)
+            Window.bind(focus=self._focused, on_touch_down=self._touched, on_textinput=self._wrote)
 
     def stop(self) -> None:
         """Nothing is marked and nothing listened to."""
@@ -118,8 +129,9 @@ class Switches:
         if self in inputs.presses.takers:
             inputs.presses.takers.remove(self)
             inputs.is_switch = lambda _: False
-            Window.unbind(focus=self._focused, on_touch_down=self._touched)
+            Window.unbind(focus=self._focused, on_touch_down=self._touched, on_textinput=self._wrote)
         self._asked = None
+        self._typed_with.clear()
         if self._engine is not None:
             self._engine.lost()
             self._engine.sleep()
@@ -136,8 +148,14 @@ class Switches:
 
     def look(self, now: float) -> None:
         """With each heartbeat."""
-        if self._engine is not None:
-            self._engine.look(now)
+        engine = self._engine
+        if engine is None:
+            return
+        self._lift(now)
+        awake = engine.awake
+        engine.look(now)
+        if awake and not engine.awake and typing():
+            engine.wake(now)  # a field with the focus waits for an answer: there the mark goes round on
 
     # how it is set up
 
@@ -179,24 +197,52 @@ class Switches:
         return self.on and self._which(press) is not None
 
     def pressed(self, press: Press) -> bool:
-        """Take it, where it is a switch and nobody is typing with the keyboard that it is on."""
+        """Take it, where it is a switch and nobody types with the keyboard that it is on."""
         if self._asked is not None:
             take, self._asked = self._asked, None
             take(Key(press.source, press.name, press.device if press.source == "pad" else ""))
             return True
         which = self._which(press)
-        if which is None or press.modifiers & OTHERS:
+        if which is None:
+            if press.source == "key" and press.name not in SHIFTS and typing():
+                self._types()
             return False
-        if press.source == "key" and typing() and not self.awake:
+        if press.modifiers & OTHERS:
             return False
-        self.engine.press(which, press.same, press.at)
-        return True
+        self._lift(press.at)
+        types = press.source == "key" and not self.awake and press.at - self._typed < TYPES and typing()
+        if types:
+            self._typed_with[press.same] = press
+        self.engine.press(which, press.same, press.at, only_stop=types)
+        return not types
 
     def released(self, press: Press) -> None:
         """It is up."""
         which = self._which(press)
         if which is not None and self._engine is not None:
             self._engine.release(which, press.same, self._app.now())
+
+    def _lift(self, now: float) -> None:
+        """Switches that typed and are up: who takes no press is not told of its end."""
+        if not self._typed_with:
+            return
+        down = {press.same for press in self._app.inputs.presses.down}
+        for same, press in list(self._typed_with.items()):
+            if same not in down:
+                del self._typed_with[same]
+                self.engine.release(self._which(press) or "B", same, now)
+
+    def _types(self) -> None:
+        """Somebody types, or has a finger on the glass: nothing is marked."""
+        self._typed = self._app.now()
+        if self._engine is not None and self._engine.awake:
+            self._engine.sleep()
+
+    def _wrote(self, _: object, text: str) -> None:
+        """Letters came, which a keyboard on the glass tells without keys; those of a switch are no typing."""
+        down = self._app.inputs.presses.down
+        if text.strip() and not any(self._which(press) for press in down) and typing():
+            self._types()
 
     def _which(self, press: Press) -> Literal["A", "B"] | None:
         if any(key.fits(press.source, press.name, press.device) for key in self.options.b):
@@ -210,8 +256,8 @@ class Switches:
             self._engine.found(self._app.now()) if focus else self._engine.lost()
 
     def _touched(self, *_: object) -> None:
-        if self._engine is not None and not self._doing:
-            self._engine.sleep()
+        if not self._doing:
+            self._types()
 
     # what the engine tells
 

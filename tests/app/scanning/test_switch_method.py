@@ -8,14 +8,15 @@ from typing import Any
 import pytest
 
 import app.scanning.switches as switching
-from app.intents import Heard, Verdict
+from app.intents import Intents
 from app.origin import origins
+from app.permits import Permits
 from app.press import Press, Presses
 from app.scanning import Mark, Target
 from app.scanning.engine import Engine, Selection
 from app.scanning.plan import Planner
 from app.scanning.settings import Key
-from app.scanning.switches import Switches
+from app.scanning.switches import TYPES, Switches
 
 
 class Settings(dict[str, Any]):
@@ -23,26 +24,23 @@ class Settings(dict[str, Any]):
         self[name] = value
 
 
-class Intents:
-    """Of an operator who forbids some."""
+class Acts:
+    """What the app does, beside what is marked."""
 
     def __init__(self) -> None:
-        self.taken: list[Heard] = []
-        self.forbidden: set[str] = set()
-        self.practised = ""
+        self.done: list[str] = []
 
-    def allowed(self, method: str, intent: str) -> bool:
-        return intent not in self.forbidden
-
-    def practise(self, heard: Heard) -> str:
-        return self.practised
-
-    def prompt(self) -> str:
+    def why_not(self, intent: str) -> str:
         return ""
 
-    def take(self, heard: Heard) -> Verdict:
-        self.taken.append(heard)
-        return Verdict("acted") if heard.intent == "stop" else Verdict("not allowed", "Not by switches.")
+    def words(self, intent: str) -> str:
+        return intent
+
+    def do(self, intent: str) -> None:
+        self.done.append(intent)
+
+    def answer(self, yes: bool) -> str:
+        return ""
 
 
 class Hand:
@@ -55,7 +53,10 @@ class Hand:
         stops: list[Press] = []
         shell = SimpleNamespace(say=lambda text, level, about: self.said.append(text))
         self.presses = Presses(lambda press: False, stops.append)
-        self.intents = Intents()
+        self.acts, self.told = Acts(), []
+        self.permits = Permits(Settings())
+        self.intents = Intents(self.acts, self.permits, lambda: self.now)
+        self.intents.on_taken.append(lambda heard, verdict: self.told.append((heard, verdict.what)))
         self.app = SimpleNamespace(
             settings=Settings(),
             inputs=SimpleNamespace(presses=self.presses, is_switch=lambda _: False),
@@ -118,33 +119,132 @@ def test_what_is_done_says_that_switches_did_it_and_when(hand: Hand) -> None:
 def test_both_together_are_stop_by_switches(hand: Hand) -> None:
     hand.down("tab")
     hand.down("enter")
-    (heard,) = hand.intents.taken
-    assert (heard.intent, heard.method) == ("stop", "switches")
+    ((heard, what),) = hand.told
+    assert (heard.intent, heard.method, what) == ("stop", "switches", "acted")
+    assert hand.acts.done == ["stop"]
 
 
 def test_what_the_operator_forbids_is_not_done_and_said(hand: Hand) -> None:
-    hand.intents.forbidden = {"pause"}
-    hand.press("tab")
-    hand.press("enter")
-    assert (hand.did, hand.said) == ([], ["Not by switches."])
-
-
-def test_a_study_only_sees_what_was_chosen(hand: Hand) -> None:
-    hand.intents.practised = "Pause: noted."
+    hand.permits.allow("switches", "pause", False)
     hand.press("tab")
     hand.press("enter")
     assert hand.did == []
-    assert [heard.intent for heard in hand.intents.taken] == ["pause"]
+    assert hand.said == ["Switches may not do that: Pause. It can be allowed in Inputs."]
+    assert [(heard.intent, what) for heard, what in hand.told] == [("pause", "not allowed")]
 
 
-def test_who_types_types_unless_something_is_marked(hand: Hand) -> None:
-    hand.typing = True
-    assert not hand.press("enter")
-    hand.typing = False
+def test_what_was_chosen_is_told_to_whoever_hears_of_other_ways_in(hand: Hand) -> None:
     hand.press("tab")
+    hand.press("enter")
+    assert [(heard.intent, heard.method, what) for heard, what in hand.told] == [
+        ("pause", "switches", "acted")
+    ]
+
+
+def test_a_study_only_sees_what_was_chosen(hand: Hand) -> None:
+    hand.intents.practise = lambda heard: "Pause: noted."
+    hand.press("tab")
+    hand.press("enter")
+    assert hand.did == []
+    assert [(heard.intent, what) for heard, what in hand.told] == [("pause", "practised")]
+
+
+def test_after_a_choice_a_finger_takes_the_mark_away_again(hand: Hand) -> None:
+    hand.press("tab")
+    hand.press("enter")
+    hand.press("tab")
+    assert hand.marked is not None
+    hand.switches._touched()
+    assert hand.marked is None
+
+
+def test_who_types_types_with_the_keys_that_are_switches_too(hand: Hand) -> None:
+    hand.typing = True
+    hand.press("w")
+    assert not hand.press("tab")
+    assert not hand.press("enter")
+    assert not hand.switches.awake
+
+
+def test_beside_a_field_in_which_nobody_types_the_scan_can_be_woken(hand: Hand) -> None:
     hand.typing = True
     assert hand.press("enter")
+    assert hand.switches.awake
+    hand.press("enter")
     assert len(hand.did) == 1
+
+
+def test_who_typed_or_touched_the_glass_some_time_ago_keeps_nobody_from_waking_the_scan(hand: Hand) -> None:
+    hand.typing = True
+    hand.press("w")
+    hand.switches._touched()
+    hand.wait(TYPES + 0.1)
+    assert hand.press("tab")
+    assert hand.switches.awake
+
+
+@pytest.mark.parametrize("keys", [["enter"], ["tab", "enter"]])
+def test_held_or_both_together_they_are_stop_though_somebody_types(hand: Hand, keys: list[str]) -> None:
+    hand.typing = True
+    hand.press("w")
+    taken = [hand.down(key) for key in keys]
+    assert not any(taken)
+    hand.wait(0.9 if keys == ["enter"] else 0.1)
+    assert [heard.intent for heard, _ in hand.told] == ["stop"]
+    assert not hand.switches.awake
+
+
+def test_what_is_typed_with_a_switch_ends_when_its_key_is_up(hand: Hand) -> None:
+    hand.typing = True
+    hand.press("w")
+    for _ in range(5):
+        hand.press("enter", 0.3)
+    hand.wait(6.0)
+    assert (hand.told, hand.said) == ([], [])
+
+
+def test_typing_puts_the_mark_away_as_a_finger_does(hand: Hand) -> None:
+    for away in (
+        lambda: hand.press("w"),
+        hand.switches._touched,
+        lambda: hand.switches._wrote(None, "w"),
+    ):
+        hand.typing = False
+        hand.press("tab")
+        assert hand.switches.awake
+        hand.typing = True
+        away()
+        assert not hand.switches.awake
+        assert not hand.press("enter")
+
+
+def test_letters_of_a_switch_are_no_typing(hand: Hand) -> None:
+    hand.switches.change(a=(Key("key", "1"),))
+    hand.typing = True
+    hand.down("1")
+    hand.switches._wrote(None, "1")
+    hand.presses.release("key", 0, "1")
+    hand.wait(0.4)
+    assert hand.press("enter")
+
+
+def test_by_itself_the_mark_goes_round_a_dialog_with_a_field_until_it_is_answered(hand: Hand) -> None:
+    hand.switches.change(one=True, loops=1)
+    hand.press("enter")
+    hand.typing = True
+    hand.wait(30.0)
+    assert hand.switches.awake
+    hand.typing = False
+    hand.wait(30.0)
+    assert not hand.switches.awake
+
+
+def test_a_finger_puts_the_mark_away_after_a_selection_too(hand: Hand) -> None:
+    hand.press("tab")
+    hand.press("enter")
+    assert hand.switches.awake
+    hand.switches._touched()
+    assert not hand.switches.awake
 
 
 def test_other_keys_and_those_with_another_one_held_are_not_taken(hand: Hand) -> None:
