@@ -63,7 +63,6 @@ class Responding:
         self._looked = self._saved = app.now()
         self._running = False
         self.tracks.consent = self._setting("snippets", False)
-        self.on = self._setting("log", True)
         found = plan_of(self._values().get("plan"), METHODS, tuple(INTENTS))
         if found is not None:
             self._lead(Trials(found[0], now=app.now, block=found[1], trial=found[2]))
@@ -101,10 +100,18 @@ class Responding:
         """Say so from now on, or no more."""
         self.keep("remind", on)
 
+    @property
+    def on(self) -> bool:
+        """The operator wants a log."""
+        return self._setting("log", True)
+
+    @on.setter
+    def on(self, on: bool) -> None:
+        self.keep("log", on)
+
     def turn(self, on: bool) -> None:
         """Keep a log or keep none, from now on."""
         self.on = on
-        self.keep("log", on)
         (self.start if on else self.stop)()
 
     # a method's life
@@ -116,8 +123,10 @@ class Responding:
 
     @property
     def problem(self) -> str:
-        """Why lines are lost; empty when none are."""
-        return self.log.problem or self.workloads.problem
+        """Why lines are lost, or how many were; empty when none are."""
+        lost = self.log.dropped
+        said = f"{lost} line{'s' * (lost != 1)} of the log could not be written and are lost." if lost else ""
+        return self.log.problem or self.workloads.problem or said
 
     def start(self) -> None:
         """Listen."""
@@ -320,12 +329,25 @@ class Responding:
         settings = {name: self._app.settings.get(name) for name in SETTINGS}
         return export(self.folder, self.exports, settings, self._wall())
 
-    def erase(self) -> None:
-        """Delete all lines and forms."""
-        self.log.erase()
-        self.workloads.erase()
+    def forget(self) -> None:
+        """What is followed and counted just now is no part of the log any more, nor what is yet to be written of it."""
+        self.tracks.forget()
+        self._listening.clear()
         self._given.clear()
         self._count = 0
+
+    def erase(self) -> str:
+        """Delete all lines and forms; one sentence of what remains. OSError when that fails.
+
+        After `forget`. Takes a while, for a thread of its own.
+        """
+        self.log.erase()
+        self.workloads.erase()
+        if self.workloads.problem:
+            raise OSError(self.workloads.problem)
+        left = len(list(self.exports.glob("*.zip")))
+        remain = "1 zip that was exported remains" if left == 1 else f"{left} zips that were exported remain"
+        return f"Everything was erased. {remain} in {self.exports}." if left else "Everything was erased."
 
 
 def _of(prompt: Prompt) -> Asked:

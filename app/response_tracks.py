@@ -245,6 +245,10 @@ class Tracks:
         for key in list(self._tracks):
             self._close(key)
 
+    def forget(self) -> None:
+        """Put none of them."""
+        self._tracks.clear()
+
     # lines
 
     def _at(self, instant: float) -> float | None:

@@ -16,6 +16,7 @@ import queue
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -106,6 +107,7 @@ class ResponseLog:
         """One sentence while the disk fails; empty when all is well."""
         self.dropped = 0
         """Lines that did not get into the file."""
+        self._counting = threading.Lock()
         self._queue: queue.Queue[bytes | Callable[[], object] | None] = queue.Queue(WAITING)
         self._thread: threading.Thread | None = None
         self._closed = False
@@ -117,16 +119,47 @@ class ResponseLog:
             line = msgspec.json.encode(msgspec.structs.replace(response, snippet=None))
         self._give(line)
 
-    def erase(self) -> None:
-        """Delete every line there is."""
-        self._give(self._erase)
+    def erase(self, timeout: float = 5.0) -> None:
+        """Delete every line there is, those that wait included; OSError where that fails or takes longer than `timeout` [s]."""
+        self._drop_waiting()
+        if self._thread is None or self._closed:
+            self._erase()
+            return
+        done, failed = threading.Event(), []
+
+        def job() -> None:
+            try:
+                self._erase()
+            except OSError as error:
+                failed.append(error)
+            done.set()
+
+        with suppress(queue.Full):
+            self._queue.put(job, timeout=timeout)
+            done.wait(timeout)
+        if failed:
+            raise failed[0]
+        if not done.is_set():
+            raise TimeoutError("the disk does not answer")
+
+    def _drop_waiting(self) -> None:
+        kept: list[Callable[[], object] | None] = []
+        with suppress(queue.Empty):
+            while True:
+                item = self._queue.get_nowait()
+                kept += [] if isinstance(item, bytes) else [item]
+        for one in kept:
+            self._queue.put(one)
 
     def flush(self, timeout: float = 2.0) -> bool:
         """Wait until everything put so far is on the disk; False where that takes longer than `timeout` [s]."""
+        if self._thread is None or self._closed:
+            return self._thread is None or not self._thread.is_alive()
         done = threading.Event()
-        if self._thread is None:
-            return True
-        self._give(done.set)
+        try:
+            self._queue.put(done.set, timeout=timeout)
+        except queue.Full:
+            return False
         return done.wait(timeout)
 
     def close(self) -> None:
@@ -139,7 +172,11 @@ class ResponseLog:
                 log.warning("the response log was left with lines that the disk did not take")
             self._thread.join(5.0)
 
-    def _give(self, item: bytes | Callable[[], object]) -> None:
+    def _lose(self) -> None:
+        with self._counting:
+            self.dropped += 1
+
+    def _give(self, item: bytes) -> None:
         if self._closed:
             return
         if self._thread is None:
@@ -148,7 +185,7 @@ class ResponseLog:
         try:
             self._queue.put_nowait(item)
         except queue.Full:
-            self.dropped += 1
+            self._lose()
 
     def _run(self) -> None:
         while (item := self._queue.get()) is not None:
@@ -159,7 +196,8 @@ class ResponseLog:
                 else:
                     item()
             except OSError as error:
-                self.dropped += isinstance(item, bytes)
+                if isinstance(item, bytes):
+                    self._lose()
                 self.problem = f"The response log could not be written: {error.strerror or error}."
                 log.warning("%s", self.problem)
 

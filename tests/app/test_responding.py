@@ -295,13 +295,48 @@ def test_the_table_has_every_field_and_no_formula():
     assert (rows[0]["confidence"], rows[0]["t_ack"]) == ("0.5", "")
 
 
-def test_all_can_be_erased(running):
+def test_all_can_be_erased_and_what_is_under_way_is_no_line_later(running):
     running.hear("pause")
     running.log.fill("tlx", TLX, [], {})
     running.wait(12)
-    running.log.erase()
-    assert running.log.read() == []
+    running.hear("resume")
+    running.log.forget()
+    assert running.log.erase() == "Everything was erased."
     assert running.log.workloads.kept == []
+    assert running.log.usage() == {}
+    running.wait(12)
+    assert running.log.read() == []
+
+
+def test_of_what_was_exported_it_is_said_that_it_remains(running):
+    running.log.export()
+    assert running.log.erase() == (
+        f"Everything was erased. 1 zip that was exported remains in {running.log.exports}."
+    )
+
+
+def test_forms_that_cannot_be_erased_are_said(running, monkeypatch):
+    monkeypatch.setattr(
+        running.log.workloads,
+        "_write",
+        lambda: setattr(running.log.workloads, "problem", "The disk is full."),
+    )
+    with pytest.raises(OSError, match="The disk is full"):
+        running.log.erase()
+
+
+def test_lines_that_are_lost_are_said(running):
+    assert running.log.problem == ""
+    running.log.log.dropped = 52
+    assert running.log.problem == "52 lines of the log could not be written and are lost."
+
+
+def test_switched_off_as_any_other_method_it_stays_off(running):
+    running.log.on = False
+    running.log.stop()
+    running.close()
+    running.open()
+    assert not running.log.on
 
 
 def test_commands_of_this_run_are_counted_for_whoever_learns_from_them(running):

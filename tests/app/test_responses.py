@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import threading
+import time
 
 import msgspec
+import pytest
 
 from app.responses import FILE, Response, ResponseLog, files, read
 
@@ -105,6 +107,58 @@ def test_all_can_be_erased(tmp_path):
     log.put(Response(id="after"))
     log.close()
     assert [one.id for one in read(tmp_path)[0]] == ["after"]
+
+
+def held(monkeypatch, log):
+    """A disk that hangs until it is let go."""
+    gate, hangs, write = threading.Event(), threading.Event(), log._write
+    monkeypatch.setattr(log, "_write", lambda line: (hangs.set(), gate.wait(5), write(line)))
+    return gate, hangs
+
+
+def test_all_can_be_erased_though_more_lines_wait_than_may(tmp_path, monkeypatch):
+    monkeypatch.setattr("app.responses.WAITING", 3)
+    log = ResponseLog(tmp_path)
+    gate, _ = held(monkeypatch, log)
+    for number in range(20):
+        log.put(Response(id=str(number)))
+    threading.Timer(0.05, gate.set).start()
+    log.erase()
+    assert read(tmp_path) == ([], 0)
+    log.close()
+
+
+def test_what_cannot_be_erased_is_said(tmp_path, monkeypatch):
+    log = ResponseLog(tmp_path)
+    log.put(Response(id="1"))
+    log.flush()
+    gate, hangs = held(monkeypatch, log)
+    log.put(Response(id="2"))
+    hangs.wait(5)
+    with pytest.raises(TimeoutError, match="does not answer"):
+        log.erase(timeout=0.05)
+    gate.set()
+
+    def fail() -> None:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(log, "_erase", fail)
+    with pytest.raises(PermissionError):
+        log.erase()
+    log.close()
+
+
+def test_all_can_be_erased_after_the_end(tmp_path):
+    log = kept(tmp_path, [Response(id="1")])
+    log.erase()
+    assert read(tmp_path) == ([], 0)
+
+
+def test_after_the_end_nobody_waits_for_what_is_written(tmp_path):
+    log = kept(tmp_path, [Response(id="1")])
+    began = time.monotonic()
+    assert log.flush(timeout=30.0)
+    assert time.monotonic() - began < 10
 
 
 def test_what_comes_after_the_end_is_ignored(tmp_path):

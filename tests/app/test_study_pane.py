@@ -137,7 +137,22 @@ def test_everything_is_erased_only_by_a_second_press_soon_after_the_first(bench)
     view.erase.dispatch("on_release")
     assert len(bench.log.read()) == 3
     view.erase.dispatch("on_release")
+    assert view.said.text == "Erasing …"
+    bench.settle()
     assert bench.log.read() == []
+    assert view.said.text == "Everything was erased."
+
+
+def test_it_is_said_when_nothing_could_be_erased(bench, monkeypatch):
+    def fail() -> str:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(bench.log, "erase", fail)
+    bench.settle()
+    for _ in range(2):
+        bench.pane.view.erase.dispatch("on_release")
+    bench.settle()
+    assert bench.pane.view.said.text == "It is not erased: Permission denied."
 
 
 def test_a_zip_is_written_and_told_where(bench):

@@ -78,7 +78,7 @@ class LogView(Column):
         super().__init__(spacing="10dp", padding=BESIDE, **kwargs)
         self._log, self._ask, self._now = log, ask, now
         self._responses: list[Response] = []
-        self._sure = -math.inf
+        self._sure, self._erasing, self._problem = -math.inf, False, ""
         self.choice = Segmented(options=[("use", "In use"), ("study", "In the study")], value=self.source)
         self.choice.bind(on_choose=lambda _, value: setattr(self, "source", value))
         self.success = SuccessBars(state="live")
@@ -120,6 +120,7 @@ class LogView(Column):
 
     def enter(self) -> None:
         """Come onto the glass: what is kept is read."""
+        self._erasing = False
         self._ask(self._log.read, self._read)
         self.tick()
 
@@ -131,8 +132,10 @@ class LogView(Column):
         self.keeps.active, self.agrees.active = self._log.on, self._log.snippets
         sure = self._now() - self._sure < SURE
         self.erase.text = "Press again: erase" if sure else "Erase all"
-        if self._log.problem:
-            self.said.text, self.said.role = self._log.problem, "warn"
+        problem, before = self._log.problem, self._problem
+        if problem and problem != before:  # once: it would hide what is said of an export
+            self.said.text, self.said.role = problem, "warn"
+        self._problem = problem
 
     def _read(self, result: Any) -> None:
         if isinstance(result, list):
@@ -170,6 +173,8 @@ class LogView(Column):
         self.facts.text = facts(shown)
 
     def _export(self) -> None:
+        if self._erasing:
+            return  # of what is asked for elsewhere only the newest is done
         self.said.text, self.said.role = "Writing …", "muted"
         self._ask(self._log.export, self._exported)
 
@@ -183,10 +188,19 @@ class LogView(Column):
         """The first press asks, the second one erases."""
         if self._now() - self._sure >= SURE:
             self._sure = self._now()
-        else:
-            self._sure = -math.inf
-            self._log.erase()
-            self._responses = []
-            self._show()
-            self.said.text, self.said.role = "Everything was erased.", "text"
+        elif not self._erasing:
+            self._sure, self._erasing = -math.inf, True
+            self._log.forget()
+            self.said.text, self.said.role = "Erasing …", "muted"
+            self._ask(self._log.erase, self._erased)
         self.tick()
+
+    def _erased(self, result: Any) -> None:
+        self._erasing = False
+        if isinstance(result, OSError):
+            said = f"It is not erased: {result.strerror or result}."
+            self.said.text, self.said.role = said, "warn"
+            return
+        self._responses = []
+        self._show()
+        self.said.text, self.said.role = result, "text"
