@@ -60,10 +60,9 @@ class KeyboardMethod:
     name = "keyboard"
 
     def __init__(self, app: Any) -> None:
-        """`app` is asked for its `inputs`; its `acting` is told how help is shown, and its `methods` have the tilt."""
+        """`app` is asked for its `inputs`; its `acting` is told how help is shown."""
         self._inputs = app.inputs
         app.acting.on_help = partial(_help, app)
-        app.inputs.meanings.held["tilt"].append(partial(_clutch, app))
 
     @property
     def on(self) -> bool:
@@ -102,10 +101,3 @@ def _help(app: Any) -> None:
     from app.screens.helping import toggle_help
 
     toggle_help(app)
-
-
-def _clutch(app: Any, on: bool) -> None:
-    """A key or a trigger holds the clutch of the tablet's tilt."""
-    tilt = app.methods.get("tilt")
-    if tilt is not None and tilt.on:
-        tilt.clutch(down=on)

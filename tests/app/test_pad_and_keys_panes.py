@@ -212,15 +212,9 @@ def test_both_are_ways_in_that_say_how_they_stand(desk: Desk) -> None:
     assert not Mapped(desk.settings).keys.on
 
 
-def test_a_held_key_or_trigger_holds_the_clutch_of_the_tilt_where_that_is_on(desk: Desk) -> None:
+def test_the_clutch_of_the_tilt_is_left_to_the_tilt(desk: Desk) -> None:
     KeyboardMethod(desk)
-    (clutch,) = desk.meanings.held["tilt"]
-    clutch(True)
-    assert desk.tilt.clutched
-    clutch(False)
-    desk.tilt.on = False
-    clutch(True)
-    assert not desk.tilt.clutched
+    assert desk.meanings.held["tilt"] == []
 
 
 def test_the_help_lists_what_the_keys_and_the_gamepads_that_are_there_do(desk: Desk, stage: Stage) -> None:
