@@ -155,7 +155,8 @@ class Sensing:
         self._kinds = {kind: _Kind(Judge(kind, now())) for kind in KINDS}
         self._queue: deque[tuple[Kind, float, Axes]] = deque(maxlen=QUEUE)
         self._running: frozenset[Kind] = frozenset()
-        self._refused = ""
+        self._refused: dict[Kind, str] = {}
+        """What the system does not hand out, and why."""
         self._paused = self._closed = False
 
     @property
@@ -210,8 +211,8 @@ class Sensing:
         """How samples of that kind come, for one who needs `least` in a second [Hz]; without a fault where nobody asked for them."""
         if kind not in self._source.kinds:
             return Health("absent", self._source.sentence or f"This device has no {kind} sensor.")
-        if self._refused:
-            return Health("refused", self._refused)
+        if kind in self._refused:
+            return Health("refused", self._refused[kind])
         if self._paused:
             return Health("paused", "The sensors rest while the app is in the background.")
         if kind not in self._running:
@@ -234,29 +235,53 @@ class Sensing:
         self._fit()
 
     def _fit(self) -> None:
-        """Exactly what is listened to is on."""
+        """Exactly what is listened to is on, but for what the system refuses: that takes nothing else with it."""
         wanted = frozenset(kind for kind, one in self._kinds.items() if one.feeds and self._source.possible)
         wanted = frozenset() if self._paused or self._closed else wanted & self._source.kinds
-        if wanted == self._running:
+        refused = {kind: why for kind, why in self._refused.items() if kind in wanted}
+        if wanted == self._running | refused.keys():
+            self._refused = refused
             return
         fresh = wanted - self._running
         self._stop()
         if not wanted:
             return
+        self._running = self._granted(wanted)
+        for kind in fresh & self._running:
+            self._kinds[kind].judge = Judge(kind, self._now())
+
+    def _granted(self, wanted: frozenset[Kind]) -> frozenset[Kind]:
+        """Start those; where that is refused, as many of them as the system hands out."""
+        if self._starts(wanted) is None:
+            return wanted
+        granted: frozenset[Kind] = frozenset()
+        for kind in wanted:
+            problem = self._starts(frozenset({kind}))
+            if problem is None:
+                granted |= {kind}
+            else:
+                self._refused[kind] = problem
+        problem = self._starts(granted) if granted else None
+        if problem is None:
+            return granted
+        self._refused.update(dict.fromkeys(granted, problem))
+        return frozenset()
+
+    def _starts(self, kinds: frozenset[Kind]) -> str | None:
+        """None where they tell from now on, else why not: then nothing does."""
         try:
-            self._source.start(wanted, self._hear)
+            self._source.start(kinds, self._hear)
         except MotionError as problem:
             log.warning("%s", problem)
-            self._refused = str(problem)
-            return
-        self._running = wanted
-        for kind in fresh:
-            self._kinds[kind].judge = Judge(kind, self._now())
+            self._source.stop()
+            return str(problem)
+        return None
 
     def _stop(self) -> None:
         self._source.stop()
         self._queue.clear()
-        self._running, self._refused = frozenset(), ""
+        self._running = frozenset()
+        self._refused.clear()
 
     def _hear(self, kind: Kind, t: float, axes: Axes) -> None:
         """In any thread; a deque's own append needs no lock."""

@@ -210,6 +210,31 @@ def test_a_system_that_refuses_is_quoted_and_nothing_breaks(phone: Phone) -> Non
     assert phone.sensing.health("acceleration").sentence == "The system keeps its sensors."
 
 
+class WithoutGravity(SimulatedMotion):
+    """A system that hands out one of its sensors."""
+
+    def start(self, kinds: Collection[Kind], hear: Hear) -> None:
+        self.stop()
+        if "gravity" in kinds:
+            raise MotionError("The system keeps its gravity.")
+        super().start(kinds, hear)
+
+
+def test_what_is_refused_takes_nothing_else_with_it(phone: Phone) -> None:
+    phone.source = WithoutGravity(now=lambda: phone.now)
+    phone.sensing.use(phone.source)
+    phone.listen()
+    forget = phone.sensing.listen("gravity", lambda *_: None)
+    phone.run(1.0)
+    assert phone.sensing.running == {"acceleration"}
+    assert phone.got
+    assert (phone.fault(), phone.fault("gravity")) == ("", "refused")
+    forget()
+    phone.run(1.0)
+    assert phone.fault() == ""
+    assert phone.sensing.health("gravity").fault == ""
+
+
 def test_another_source_takes_over_from_the_one_before(phone: Phone) -> None:
     phone.listen()
     other = SimulatedMotion(now=lambda: phone.now)
