@@ -321,6 +321,13 @@ class Tilting:
         self._forgets = [sensing.listen("acceleration", self._feel)] if sensing.has("acceleration") else []
         if fused:
             self._forgets.append(sensing.listen("gravity", self._feed))
+            self._do_without_fusion()
+
+    def _do_without_fusion(self) -> None:
+        """Gravity that the system refuses is made of the acceleration, where there is that."""
+        if self._app.sensing.health("gravity").fault == "refused" and len(self._forgets) > 1:
+            self._forgets.pop()()
+            self._level = Level()
 
     def _unlisten(self) -> None:
         for forget in self._forgets:

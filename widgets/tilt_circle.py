@@ -169,7 +169,7 @@ class TiltCircle(Stick, Gauge):
         """Show that the tablet is tilted by `roll` and `pitch` [rad] from level, and command the same, no farther than the rim.
 
         False, and nothing is commanded, while it is disabled, while a finger leads it, and, where it `needs_hold`, while none
-        holds it. ValueError for what is not finite.
+        holds it; nor is anything shown while a gamepad or a key pushes it. ValueError for what is not finite.
         """
         if not math.isfinite(roll + pitch):
             raise ValueError(f"A tilt is a finite number of radians, not {roll}, {pitch}.")
@@ -186,12 +186,14 @@ class TiltCircle(Stick, Gauge):
             raise ValueError(f"A circle is steered by finite shares, not by {at}, {command}.")
         if self.disabled or (self.finger is not None and not self.needs_hold):
             return False
-        self._at(at[1], -at[0])
+        holds = not self.needs_hold or self.clutched or self.finger is not None
         self._wanted = command
-        if self.needs_hold and not (self.clutched or self.finger is not None):
-            return False
-        self._command()
-        return True
+        if not holds and (self.forward or self.left):
+            return False  # somebody else commands, and what is commanded is what is shown
+        self._at(at[1], -at[0])
+        if holds:
+            self._command()
+        return holds
 
     def _command(self) -> None:
         """What the tablet's tilt comes to, as it is."""
@@ -251,7 +253,7 @@ class TiltCircle(Stick, Gauge):
         cross = np.array([[x - radius, y], [x, y - radius]]), np.array([[x + radius, y], [x, y + radius]])
         shapes.segments(*cross, dp(1), tint(theme.muted, 0.35))
         level = not (self.roll or self.pitch)
-        idle = self.needs_hold and (not self.held or bool(self.opened))
+        idle = self.needs_hold and (not self.held or bool(self.opened)) and not (self.forward or self.left)
         knob = self.knob_pos
         if idle:
             shapes.ring(*knob, self.knob_radius - dp(1.5), dp(3), theme.danger)

@@ -13,6 +13,7 @@ from app.origin import origins
 from app.press import Press
 from app.sensing import Sensing
 from app.tilting import Tilting
+from tests.app.test_sensing import WithoutGravity
 from widgets import TiltCircle
 
 
@@ -244,6 +245,27 @@ def test_without_a_gyroscope_the_accelerometer_does() -> None:
     handheld.tilting.clutch(down=True)
     handheld.run(6.0, pitch=30)
     assert handheld.last[1] > 0.9
+
+
+def test_gravity_that_the_system_refuses_is_made_of_the_acceleration() -> None:
+    handheld = Handheld()
+    handheld.source = WithoutGravity(now=handheld.now)
+    handheld.sensing.use(handheld.source)
+    handheld.on().run(1.0)
+    assert handheld.tilting.problem == ""
+    handheld.tilting.clutch(down=True)
+    handheld.run(6.0, pitch=30)
+    assert handheld.last[1] > 0.9
+
+
+def test_what_a_gamepad_commands_is_shown_while_the_clutch_is_open(handheld: Handheld) -> None:
+    handheld.run(0.5, pitch=-10)
+    handheld.circle.lean(1.0, 0.0)
+    handheld.run(0.1, pitch=-10)
+    assert (handheld.circle.forward, handheld.circle.ahead) == (1.0, 1.0)
+    handheld.circle.lean(0.0, 0.0)
+    handheld.run(0.1, pitch=-10)
+    assert handheld.circle.ahead == 0.0, "then the tablet's again"
 
 
 def test_a_desktop_says_that_it_has_no_sensor_and_leans_by_arrow_keys(handheld: Handheld) -> None:
