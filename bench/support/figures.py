@@ -10,7 +10,7 @@ from typing import Literal
 
 __all__ = ["Figure", "Outcome", "Samples", "Stated", "percentile"]
 
-Verdict = Literal["reached", "MISSED", ""]
+Verdict = Literal["reached", "MISSED", "not measured", ""]
 
 
 def percentile(values: Iterable[float], share: float) -> float:
@@ -51,6 +51,8 @@ class Figure:
     """What the peer's value is of; empty where there is no peer."""
     stated: Stated | None = None
     """A value for comparison that is not of this run; None where there is none."""
+    needs_data: bool = False
+    """Measured on recordings alone: a run without them has missed nothing."""
 
     def verdict(self, value: float) -> Verdict:
         """Whether `value` reaches the target; empty without a target. NaN reaches nothing."""
@@ -97,7 +99,9 @@ class Outcome:
 
     @property
     def verdict(self) -> Verdict:
-        """Of the median."""
+        """Of the median; `not measured` where the recordings that it needs were not there."""
+        if self.figure.needs_data and self.figure.target is not None and not self.ours.values:
+            return "not measured"
         return self.figure.verdict(self.ours.median)
 
     @property

@@ -44,6 +44,15 @@ def test_no_samples_say_nan():
     assert all(math.isnan(value) for value in (none.median, none.low, none.high, none.spread))
 
 
+def test_what_needs_recordings_is_not_missed_without_them():
+    walkers = Figure("walkers", "", "", target=0.02, needs_data=True)
+    assert Outcome(walkers, Samples(())).verdict == "not measured"
+    assert Outcome(walkers, Samples((0.03,))).verdict == "MISSED"
+    assert Outcome(walkers, Samples((math.nan,))).verdict == "MISSED"
+    assert Outcome(Figure("all", "", "", target=0.02), Samples(())).verdict == "MISSED"
+    assert Outcome(Figure("told", "", "", needs_data=True), Samples(())).verdict == ""
+
+
 @pytest.mark.parametrize(
     ("better", "value", "verdict"),
     [
