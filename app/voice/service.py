@@ -63,6 +63,7 @@ class Service:
         self._grammar, self._ears, self._make, self._tell, self._now = grammar, ears, make, tell, now
         self._orders: queue.SimpleQueue[_Order] = queue.SimpleQueue()
         self._until = -1.0
+        self._heeded: frozenset[str] | None = None
 
     def listen(self, *, on: bool) -> None:
         """Open or close the ears."""
@@ -77,15 +78,19 @@ class Service:
         self._orders.put(_Order("stop"))
 
     def run(self) -> None:
-        """Until `stop`."""
+        """Until `stop`. After a fault it may be run again, and goes on as it was told before."""
+        listens, self._until = self._until == float("inf"), -1.0
         self._tell(State("starting"))
         try:
             hearing = Hearing(self._grammar, self._make(self._grammar), self._tell)
         except VoiceTrouble as trouble:
             self._tell(State("failed", str(trouble)))
             return
+        hearing.heed(self._heeded)
         self._tell(State("ready"))
         try:
+            if listens:
+                self._listen(hearing, on=True)
             while self._turn(hearing):
                 pass
         finally:
@@ -99,6 +104,7 @@ class Service:
         except queue.Empty:
             return self._hear(hearing)
         if order.do == "heed":
+            self._heeded = order.value
             hearing.heed(order.value)
         elif order.do == "listen":
             self._listen(hearing, on=order.value)

@@ -194,17 +194,18 @@ class InProcess:
             )
         except OSError as problem:
             raise VoiceTrouble(f"The voice process cannot be started: {problem}.") from problem
-        with self._lock:
+        with self._lock:  # nobody's order may overtake the grammar, nor what it was told before
+            self._send(process, grammar_fields(grammar))
+            for order in self._said.values():
+                self._send(process, order)
             self._process = process
-        self._send(process, grammar_fields(grammar))
         return process
 
     def _order(self, key: str, value: Any) -> None:
         with self._lock:
             self._said[key] = {key: value}
-            process = self._process
-        if process is not None:
-            self._send(process, {key: value})
+            if self._process is not None:
+                self._send(self._process, {key: value})
 
     def _send(self, process: subprocess.Popen[str], fields: dict[str, Any]) -> None:
         try:
@@ -227,8 +228,6 @@ class InProcess:
                 except VoiceTrouble as trouble:
                     hear(State("failed", str(trouble)))
                     return
-                for order in list(self._said.values()):
-                    self._send(process, order)
 
     def _events(self, process: subprocess.Popen[str], hear: Hear) -> bool:
         """Until the process ends; whether it had said that it fails."""

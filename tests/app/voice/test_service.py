@@ -97,3 +97,26 @@ def test_what_is_said_while_the_button_is_down_is_understood_after_it_is_up():
 def test_to_close_closed_ears_is_nothing(times):
     told, _ = ran(*[lambda service: service.listen(on=False)] * times)
     assert states(told) == ["starting", "ready"]
+
+
+def test_run_again_after_a_fault_it_listens_and_heeds_as_it_was_told():
+    class Fault(FileEars):
+        faults = 1
+
+        def read(self, seconds):
+            if self.faults:
+                self.faults = 0
+                raise ZeroDivisionError
+            service.stop()
+            return super().read(seconds)
+
+    told, ears = [], Fault([SPOKEN])
+    service = Service(GRAMMAR, ears, lambda grammar: Judge(), told.append, Clock())
+    service.heed(frozenset({"stop"}))
+    service.listen(on=True)
+    with pytest.raises(ZeroDivisionError):
+        service.run()
+    assert not ears.open
+    service.run()
+    assert states(told) == ["starting", "ready", "listening"] * 2
+    assert service._heeded == {"stop"}

@@ -2,6 +2,8 @@
 
 import queue
 import sys
+import threading
+import time
 
 import pytest
 
@@ -60,6 +62,39 @@ def test_a_crash_is_said_and_it_is_started_again_once_with_what_it_was_told(voic
     events = words(told, 4)
     assert [event.word for event in events] == ["ready", "starting", "ready", "failed"]
     assert (events[1].sentence, events[3].sentence) == (AGAIN, OVER)
+
+
+def test_no_order_overtakes_the_grammar_when_it_is_started_again(voice, told, monkeypatch):
+    spawned, send = [], voice._send
+
+    def late(process, fields):
+        if "heed" not in fields and "listen" not in fields:
+            spawned.append(process)
+            if len(spawned) == 2:
+                # somebody presses the button to talk just now
+                threading.Thread(target=voice.listen, kwargs={"on": True}, name="button").start()
+                time.sleep(0.1)
+        send(process, fields)
+
+    monkeypatch.setattr(voice, "_send", late)
+    voice.start(GRAMMAR, told.put)
+    words(told, 1)
+    voice._process.kill()
+    assert [event.word for event in words(told, 3)] == ["starting", "ready", '{"listen": true}']
+
+
+def test_one_that_said_why_it_failed_has_not_crashed(told):
+    failing = """
+import json
+print(json.dumps({"event": "State", "word": "failed", "sentence": "There is no hama."}), flush=True)
+"""
+    voice = InProcess("phonemes", command=[sys.executable, "-c", failing])
+    voice.missing = lambda: ""
+    voice.start(GRAMMAR, told.put)
+    voice._reader.join(10)
+    assert [event.sentence for event in words(told, 1)] == ["There is no hama."]
+    assert told.empty()
+    voice.stop()
 
 
 def test_to_stop_is_no_crash_and_ends_the_process(voice, told):
