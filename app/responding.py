@@ -9,6 +9,7 @@ import time
 import uuid
 from collections import Counter, defaultdict
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from app.commands import Outcome
 from app.feeds import Post
 from app.intents import INTENTS, METHODS, Heard, Verdict
 from app.link import OUTCOME
+from app.origin import origins
 from app.response_tracks import Asked, State, Tracks
 from app.responses import Response, ResponseLog, read
 from app.responses_stats import counts
@@ -58,6 +60,8 @@ class Responding:
         """The study that is led just now, or was left in the middle; None for none."""
         self.due = ""
         """The task that is over and whose workload was not filled in; empty for none."""
+        self._all: Outcome | None = None
+        """STOP ALL that is under way; None for none."""
         self._task = ""
         self._listening: defaultdict[str, float] = defaultdict(float)
         self._looked = self._saved = app.now()
@@ -134,6 +138,7 @@ class Responding:
             self._running, self._looked = True, self._app.now()
             self._app.intents.on_taken.append(self._taken)
             self._app.intents.practise = self._practise
+            self._app.corner.on_pressed.append(self._stop_all)
 
     def stop(self) -> None:
         """Rest: put down what is known, and wait in the study."""
@@ -142,9 +147,11 @@ class Responding:
         self._running = False
         self._app.intents.on_taken.remove(self._taken)
         self._app.intents.practise = lambda _: ""
+        self._app.corner.on_pressed.remove(self._stop_all)
         if self.trials is not None:
             self.trials.pause()
         self._end_drive()
+        self._all = None
         self._follow(None)
         self.tracks.close()
         self._save_listening()
@@ -166,9 +173,36 @@ class Responding:
             self._saved = now
             self._save_listening()
         self._watch_drive(now)
+        self._watch_stop_all(now)
         self.tracks.look(now)
         if self.trials is not None:
             self.trials.look(now)
+
+    def _stop_all(self) -> None:
+        """STOP to all without one that is connected, whose link tells of its own; put down with the next heartbeat."""
+        if self._app.session is None:
+            origin = origins.current()
+            self._all = Outcome(
+                "stop", self.tracks.new_id(), "", sent=self._app.now(),
+                origin=replace(origin, said=origin.said or "STOP ALL"),
+            )  # fmt: skip
+
+    def _watch_stop_all(self, now: float) -> None:
+        """It is sent, and it is done when every robot says that it rests."""
+        outcome = self._all
+        if outcome is None:
+            return
+        fleet = self._app.fleet
+        if not outcome.phase:
+            self._all = outcome = replace(outcome, phase="sent")
+            self.tracks.outcome(outcome, outcome.sent)
+            self._stopped(outcome)
+        if fleet.active and fleet.total and fleet.stopped == fleet.total:
+            self.tracks.outcome(replace(outcome, phase="accepted"), now)
+            self.tracks.done(outcome.command_id, now)
+            self._all = None
+        elif not fleet.active:
+            self._all = None
 
     def _watch_drive(self, now: float) -> None:
         """Driving has a begin and an end; a stick that goes through its middle ends nothing."""

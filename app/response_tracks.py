@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from app.commands import Outcome
@@ -104,6 +104,8 @@ class _Track:
     waits: bool = False
     """It waits to be cancelled or confirmed."""
     effect: bool = False
+    sent: dict[str, str] = field(default_factory=dict)
+    """Id of each command that it was sent as, to its name: a task may take its points along."""
 
 
 def _known(value: float) -> float | None:
@@ -122,7 +124,7 @@ class Tracks:
         new_id: Callable[[], str],
     ) -> None:
         """`now` is our clock that nobody sets [s], `wall` the time of day [s since 1970]."""
-        self._put, self._now, self._new_id = put, now, new_id
+        self._put, self._now, self.new_id = put, now, new_id
         self._offset, self.session = wall() - now(), new_id()
         self.robot = ""
         """Name of the robot; empty without one."""
@@ -161,16 +163,9 @@ class Tracks:
         origin = outcome.origin
         if origin.method == ITSELF or outcome.name in UNASKED:
             return
-        intent = origin.intent or _intent(outcome)
-        key = _key(origin.method, intent, origin.began)
-        track = self._tracks.get(key)
+        key, track = self._sent_as(outcome, received)
         if track is None:
-            if outcome.phase != "sent":
-                return
-            track = self._open(key, intent, origin.method)
-            self._describe(track.response, origin)
-            track.response.verdict = "acted"
-            track.response.t_decided = self._at(origin.decided if math.isfinite(origin.decided) else received)
+            return
         response = track.response
         if outcome.phase == "sent":
             response.t_sent = response.t_sent or self._at(
@@ -184,6 +179,30 @@ class Tracks:
         else:
             response.rejected = outcome.reason or outcome.phase
             self._close(key)
+
+    def _sent_as(self, outcome: Outcome, received: float) -> tuple[str, _Track | None]:
+        """The line of a command, begun where it was not heard before; None for one that was put already."""
+        number, origin = outcome.command_id, outcome.origin
+        if outcome.phase != "sent":
+            return next(((key, one) for key, one in self._tracks.items() if number in one.sent), ("", None))
+        intent = origin.intent or _intent(outcome)
+        key = _key(origin.method, intent, origin.began)
+        track = self._tracks.get(key)
+        if track is not None and number not in track.sent and outcome.name in track.sent.values():
+            key, track = f"{key} {number}", None  # one more of the same touch
+        if track is None:
+            track = self._open(key, intent, origin.method)
+            self._describe(track.response, origin)
+            track.response.verdict = "acted"
+            track.response.t_decided = self._at(origin.decided if math.isfinite(origin.decided) else received)
+        track.sent[number] = outcome.name
+        return key, track
+
+    def done(self, command_id: str, at: float) -> None:
+        """What was asked for is seen to be done, at `at` [s]."""
+        for track in self._tracks.values():
+            if command_id in track.sent and not track.effect:
+                track.response.t_effect, track.effect = self._at(at), True
 
     def see(self, state: State, received: float) -> None:
         """The robot's state is that now: the effect of what changed it."""
@@ -256,7 +275,7 @@ class Tracks:
         return round(instant + self._offset, 4) if math.isfinite(instant) else None
 
     def _new(self, method: str, kind: str = "command") -> Response:
-        return Response(kind=kind, id=self._new_id(), session=self.session, robot=self.robot, method=method)
+        return Response(kind=kind, id=self.new_id(), session=self.session, robot=self.robot, method=method)
 
     def _open(self, key: str, intent: str, method: str) -> _Track:
         now = self._now()

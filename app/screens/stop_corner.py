@@ -31,6 +31,8 @@ class StopCorner:
     def __init__(self, app: Any, fleet: Fleet, say: Callable[[str, str], object]) -> None:
         """`app` is asked for its `robots`, `session`, `shell` and `connect`; `say(text, level)` says one sentence."""
         self._app, self._fleet, self._say = app, fleet, say
+        self.on_pressed: list[Callable[[], object]] = []
+        """Called when STOP ALL was pressed and is on its way."""
         self.layer = FloatLayout()
         """To be put over the whole glass."""
         self.button = StopAll(size_hint=(None, None))
@@ -52,6 +54,8 @@ class StopCorner:
         if self._app.shell is not None:
             self._app.shell.rest()
         self._fleet.press(self._entries(), self._app.session)
+        for hear in list(self.on_pressed):
+            hear()
         self._show(self.list, shown=True)
         self.tick()
 

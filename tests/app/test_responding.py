@@ -14,7 +14,7 @@ from app.commands import Outcome
 from app.feeds import Post
 from app.intents import Heard, Intents
 from app.link import OUTCOME
-from app.origin import Origin
+from app.origin import Origin, origins
 from app.permits import Permits
 from app.responding import SAVE_EVERY, Responding
 from app.responses import Response, read
@@ -60,6 +60,8 @@ class Running:
             now=lambda: self.time,
             session=None,
             methods=SimpleNamespace(armed=["voice"]),
+            corner=SimpleNamespace(on_pressed=[]),
+            fleet=SimpleNamespace(active=False, total=0, stopped=0),
             intents=Intents(self.acts, Permits(self.settings), lambda: self.time),
         )
         self.log = Responding(self.app, wall=lambda: 1_700_000_000.0 + self.time)
@@ -209,6 +211,44 @@ def test_a_key_that_stops_at_once_answers_a_prompt_too(running):
     assert running.log.trials.stage == "tlx"
     (line,) = running.kept()
     assert (line.intended, line.recognised, line.method) == ("stop", "stop", "keyboard")
+
+
+def stop_all(running, total=2):
+    running.app.fleet = SimpleNamespace(active=True, total=total, stopped=0)
+    for hear in running.app.corner.on_pressed:
+        hear()
+
+
+def test_stop_to_robots_of_which_none_is_connected_is_a_line_with_its_method(running):
+    with origins.during(Origin("keyboard", began=99.9, intent="stop")):
+        stop_all(running)
+    running.wait(1)
+    running.app.fleet.stopped = 2
+    running.wait(1)
+    (line,) = running.kept()
+    assert (line.method, line.recognised, line.outcome) == ("keyboard", "stop", "accepted")
+    assert line.t_sent - line.t_input_start == pytest.approx(0.1)
+    assert line.t_effect - line.t_sent == pytest.approx(1.5)
+
+
+def test_stop_all_by_a_shake_is_the_line_of_that_shake(running):
+    running.acts.robots = 2
+    running.acts.do = lambda intent: stop_all(running)
+    running.hear("stop", "shake")
+    running.wait(1)
+    (line,) = running.kept()
+    assert (line.method, line.said, line.verdict) == ("shake", "stop", "acted")
+    assert line.t_sent is not None
+
+
+def test_stop_all_beside_a_robot_that_is_connected_is_told_by_its_link(running):
+    running.app.session = SimpleNamespace(
+        listeners=[], name="R2", link=SimpleNamespace(driving=False, driven_by=Origin())
+    )
+    with origins.during(Origin("keyboard", began=99.9, intent="stop")):
+        stop_all(running)
+    running.wait(1)
+    assert running.kept() == []
 
 
 def test_a_pause_of_the_study_lets_commands_act_again(running):

@@ -34,10 +34,10 @@ class Followed:
         self.tracks.taken(heard, Verdict(what, sentence))
         return heard
 
-    def answer(self, name="pause", *, origin=None, phases=("sent", "accepted"), reason="", **fields):
+    def answer(self, name="pause", *, origin=None, phases=("sent", "accepted"), reason="", id="c", **fields):
         origin = origin or Origin("voice", 0.9, 49.2, 49.7, 50.0, "pause", intent="pause")
         for phase in phases:
-            outcome = Outcome(name, "c", phase, reason, fields=fields, origin=origin, sent=self.now)
+            outcome = Outcome(name, id, phase, reason, fields=fields, origin=origin, sent=self.now)
             self.tracks.outcome(outcome, self.now)
             self.now += 0.1
 
@@ -81,6 +81,23 @@ def test_a_finger_on_a_button_is_followed_from_its_touch(followed):
     )
     assert line.t_sent - line.t_input_start == pytest.approx(0.1)
     assert line.confidence is None
+
+
+def test_three_commands_of_one_touch_are_three_lines(followed):
+    touch = Origin(began=49.9)
+    for id in ("1", "2", "3"):
+        followed.answer("option", origin=touch, phases=("sent",), id=id)
+    followed.answer("option", origin=touch, phases=("refused",), reason="Not now.", id="2")
+    lines = {line.t_sent: line.outcome for line in followed.end()}
+    assert [lines[at] for at in sorted(lines)] == ["", "refused", ""]
+
+
+def test_a_task_that_takes_its_points_along_is_one_line(followed):
+    wish = Origin("voice", 0.9, 49.2, intent="patrol")
+    followed.answer("mission", origin=wish, id="1")
+    followed.answer("start", origin=wish, id="2", order=SimpleNamespace(task="patrol"))
+    (line,) = followed.end()
+    assert (line.recognised, line.outcome) == ("patrol", "accepted")
 
 
 @pytest.mark.parametrize(

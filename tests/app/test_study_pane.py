@@ -54,7 +54,11 @@ class Bench:
         self.stage, self.time = stage, 100.0
         self.settings = Settings(folder)
         self.app = SimpleNamespace(
-            settings=self.settings, now=lambda: self.time, session=None, methods=Ways()
+            settings=self.settings,
+            now=lambda: self.time,
+            session=None,
+            methods=Ways(),
+            corner=SimpleNamespace(on_pressed=[]),
         )
         self.app.intents = Intents(Acts(), Permits(self.settings), self.app.now)
         self.log = self.app.methods.all["log"] = Responding(self.app, wall=lambda: 1.7e9)
