@@ -122,10 +122,10 @@ class Pushing:
     # gamepads and keys
 
     def _lead(self, open_: Controls, all_: Controls) -> None:
-        """A gamepad or the keys push what no finger has; where something else brought it to rest, they must be let go first."""
+        """A gamepad or the keys push what nobody holds; where something else brought it to rest, they must be let go first."""
         led = [(stick, pad) for stick, pad in all_ if pad]
-        free = [(stick, pad) for stick, pad in open_ if pad and stick.finger is None]
-        # a finger on one of them takes them all: two hands on one robot would be two drivers
+        free = [(stick, pad) for stick, pad in open_ if pad and not _held(stick)]
+        # whoever holds one of them takes them all: two hands on one robot would be two drivers
         rested = self._felt and not any(stick.forward or stick.left for stick, _ in led)
         if len(free) < len(led) or rested:
             self._end_lead(led)
@@ -163,7 +163,7 @@ class Pushing:
         self._leader, self._felt = "", False
         with origins.during(self._origin):
             for stick, _ in led:
-                if stick.finger is None:
+                if not _held(stick):
                     stick.rest()
 
     def forbid(self) -> None:
@@ -197,3 +197,8 @@ class Pushing:
             self._gamepads.lose()
             return True
         return before[1] != now[1]
+
+
+def _held(stick: Any) -> bool:
+    """A finger has it, or the clutch of the tablet's tilt, which a key or a trigger can hold as well."""
+    return stick.finger is not None or getattr(stick, "clutched", False)

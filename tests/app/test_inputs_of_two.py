@@ -109,6 +109,22 @@ def test_a_finger_on_one_of_them_takes_both_from_the_gamepad(hands: Thumbs) -> N
     hands.rests_in_time(hands.stage.time.now)
 
 
+def test_the_tablet_whose_clutch_is_held_takes_both_from_the_gamepad(hands: Thumbs) -> None:
+    both(hands)
+    pushed: list[float] = []
+    hands.circle.needs_hold = hands.circle.clutched = True
+    hands.circle.bind(on_command=lambda circle, _: pushed.append(circle.forward))
+    for _ in range(10):
+        hands.circle.steer((0.0, 0.3), (0.0, 0.3))
+        hands.pass_time(0.05)
+    assert pushed == [0.3]
+    assert hands.stick.forward == 0.0
+    assert hands.circle.clutched, "taking it from the gamepad opens no clutch"
+    hands.circle.clutched = False
+    hands.circle.rest()
+    hands.rests_in_time(hands.stage.time.now)
+
+
 def test_what_lies_over_one_of_them_takes_both_from_the_gamepad(hands: Thumbs) -> None:
     from widgets.kit import Card
 
