@@ -70,15 +70,23 @@ def _figures() -> Iterator[Figure]:
             f"phrases outside the grammar accepted in {noise} at 10 dB",
             against=PEER,
         )
-    yield Figure("real", "", "real people: right words accepted (--data)", 0.95, more, PEER)
-    yield Figure("real_stop", "", "real people: `stop` accepted (--data)", 1.0, more, PEER)
-    yield Figure("real_outside", "", "real people: other words accepted (--data)", 0.01, against=PEER)
+    yield Figure("real", "", "real people: right words accepted (--data)", 0.95, more, PEER, needs_data=True)
+    yield Figure("real_stop", "", "real people: `stop` accepted (--data)", 1.0, more, PEER, needs_data=True)
+    yield Figure(
+        "real_outside", "", "real people: other words accepted (--data)", 0.01, against=PEER, needs_data=True
+    )
     yield Figure(
         "real_streamed", "", "real people, by end points from a stream (--data)", better=more, against=PEER
     )
     for noise in NOISES:
         yield Figure(
-            f"real_{noise}_10", "", f"real people in {noise} noise at 10 dB (--data)", 0.8, more, PEER
+            f"real_{noise}_10",
+            "",
+            f"real people in {noise} noise at 10 dB (--data)",
+            0.8,
+            more,
+            PEER,
+            needs_data=True,
         )
     yield Figure("stop_p50", "ms", "STOP after the end of its word, median", against=PEER)
     yield Figure("stop_p90", "ms", "STOP after the end of its word, 90 of 100", 300, against=PEER)
