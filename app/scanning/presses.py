@@ -113,11 +113,6 @@ class Contacts:
         contact = self._contacts[switch]
         return contact.closed and bool(contact.sources)
 
-    @property
-    def stuck(self) -> list[Switch]:
-        """Those that are down for too long."""
-        return [switch for switch, contact in self._contacts.items() if contact.standing == "stuck"]
-
     def down(self, switch: Switch, source: Hashable, now: float) -> None:
         """A key or button of that switch closed; nothing where it was told so before."""
         self._judge(now)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 import queue
 import time
 from collections.abc import Callable, Generator
@@ -15,6 +16,8 @@ from app.voice.noise import RATE
 from app.voice.recognizer import VoiceTrouble
 
 __all__ = ["Ears", "Microphone", "audio_library"]
+
+log = logging.getLogger(__name__)
 
 BLOCK_MS = 50
 QUEUED = 100
@@ -102,6 +105,9 @@ class Microphone:
         device, self._device = self._device, None
         if device is not None:
             device.close()
+        if self.dropped:
+            log.warning("%d blocks of sound were lost: the recogniser did not keep up", self.dropped)
+            self.dropped = 0
         with contextlib.suppress(queue.Empty):
             while True:
                 self._blocks.get_nowait()

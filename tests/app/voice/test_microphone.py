@@ -104,7 +104,7 @@ def test_one_that_is_pulled_out_is_said_and_closed():
     assert sound.made[0].closed
 
 
-def test_what_nobody_has_time_for_is_dropped_the_oldest_first():
+def test_what_nobody_has_time_for_is_dropped_the_oldest_first_and_told(caplog):
     sound = audio()
     microphone = Microphone(audio=sound)
     microphone.start()
@@ -112,6 +112,8 @@ def test_what_nobody_has_time_for_is_dropped_the_oldest_first():
         sound.made[0].pump.send(bytes((number, 0)))
     assert microphone.dropped == 3
     assert microphone.read(0.0)[0][0] == pytest.approx(3 / 32768)
+    microphone.stop()
+    assert "3 blocks of sound were lost" in caplog.text
 
 
 def test_where_the_system_has_only_a_device_of_silence_there_is_no_microphone():
