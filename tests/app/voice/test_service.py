@@ -99,24 +99,21 @@ def test_to_close_closed_ears_is_nothing(times):
     assert states(told) == ["starting", "ready"]
 
 
-def test_run_again_after_a_fault_it_listens_and_heeds_as_it_was_told():
-    class Fault(FileEars):
-        faults = 1
-
+def test_run_again_after_a_fault_it_listens_and_heeds_as_it_was_told(monkeypatch):
+    class Faulty(FileEars):
         def read(self, seconds):
-            if self.faults:
-                self.faults = 0
-                raise ZeroDivisionError
-            service.stop()
-            return super().read(seconds)
+            raise ZeroDivisionError
 
-    told, ears = [], Fault([SPOKEN])
+    told, heeded = [], []
+    monkeypatch.setattr("app.voice.service.Hearing.heed", lambda _, commands: heeded.append(commands))
+    ears = Faulty([SPOKEN])
     service = Service(GRAMMAR, ears, lambda grammar: Judge(), told.append, Clock())
     service.heed(frozenset({"stop"}))
     service.listen(on=True)
     with pytest.raises(ZeroDivisionError):
         service.run()
     assert not ears.open
+    service.stop()
     service.run()
     assert states(told) == ["starting", "ready", "listening"] * 2
-    assert service._heeded == {"stop"}
+    assert heeded == [None, {"stop"}, {"stop"}]
