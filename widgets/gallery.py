@@ -34,6 +34,12 @@ KIT = {
     "ResponseChart": "widgets.response_chart",
     "ScoreHistory": "widgets.score_history",
     "SuccessBars": "widgets.success_bars",
+    "Crosshair": "widgets.crosshair",
+    "NoiseMeter": "widgets.noise_meter",
+    "ReactionTest": "widgets.reaction_test",
+    "ScanKeyboard": "widgets.scan_keyboard",
+    "ScanPad": "widgets.scan_pad",
+    "ShakeLesson": "widgets.shake_lesson",
 }
 """The kit's modules, shown after the robot widgets."""
 

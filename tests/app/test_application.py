@@ -201,14 +201,14 @@ def test_nothing_can_be_asked_for_before_it_is_known_who_has_control(driving: Gl
     app = driving.app
     feed = app.feeds["/control/status"]
     told, feed.message = feed.message, None
-    app.session.listeners[0]("/robot/info", Post(app.session.info, app._now(), 1))
+    app.session.deliver("/robot/info", Post(app.session.info, app._now(), 1))
     app.shell.tick()
     drive, mission = app.screens["drive"], app.screens["mission"]
     mission.tick()
     assert (drive.ids.home.disabled, mission.panel.tasks.state) == (True, "disabled")
     assert not app.screens["tasks"].mine
     feed.message = told
-    app.session.listeners[0]("/control/status", Post(told, app._now(), 1))
+    app.session.deliver("/control/status", Post(told, app._now(), 1))
     assert app.shell.bar.control_text == "you have control", "in the same frame, not at the next tick"
     assert not drive.ids.home.disabled
 

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from tests.headless import Stage
-from widgets import NoiseMeter
+from widgets.noise_meter import NoiseMeter
 
 QUIET = {"level": -48.0, "noise": -54.0, "snr": 28.0}
 

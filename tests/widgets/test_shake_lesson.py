@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.headless import Stage
-from widgets import ShakeLesson
+from widgets.shake_lesson import ShakeLesson
 
 
 @pytest.mark.parametrize(

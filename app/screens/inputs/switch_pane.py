@@ -13,8 +13,8 @@ from app.scanning.reaction import Reaction
 from app.scanning.settings import DEFAULTS, MOST_KEYS, RANGES, Key, Options
 from app.scanning.switches import Switches
 from app.screens.inputs.setting_row import number_row, switch_row
-from widgets import ReactionTest
 from widgets.kit import Column, IconButton, ListRow, PrimaryButton, QuietButton, Remark, Roll, Segmented
+from widgets.reaction_test import ReactionTest
 from widgets.rows import group_label
 
 __all__ = ["SwitchPane"]

@@ -16,9 +16,9 @@ from app.voice.mouth import VOICES
 from app.voice.noise import TOO_LOUD
 from app.voice.phrases import LANGUAGES, PHRASES
 from app.voice.recognizer import Level, Result
-from widgets import NoiseMeter
 from widgets.kit import Column, ListRow, PrimaryButton, QuietButton, Roll, Segmented
 from widgets.labels import Remark
+from widgets.noise_meter import NoiseMeter
 from widgets.rows import group_label
 
 __all__ = ["VoicePane"]
