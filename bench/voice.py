@@ -70,6 +70,12 @@ def _figures() -> Iterator[Figure]:
             f"phrases outside the grammar accepted in {noise} at 10 dB",
             against=PEER,
         )
+    yield from _real_people()
+    yield from _stop_and_cost()
+
+
+def _real_people() -> Iterator[Figure]:
+    more: Literal["more"] = "more"
     yield Figure("real", "", "real people: right words accepted (--data)", 0.95, more, PEER, needs_data=True)
     yield Figure("real_stop", "", "real people: `stop` accepted (--data)", 1.0, more, PEER, needs_data=True)
     yield Figure(
@@ -88,6 +94,10 @@ def _figures() -> Iterator[Figure]:
             PEER,
             needs_data=True,
         )
+
+
+def _stop_and_cost() -> Iterator[Figure]:
+    more: Literal["more"] = "more"
     yield Figure("stop_p50", "ms", "STOP after the end of its word, median", against=PEER)
     yield Figure("stop_p90", "ms", "STOP after the end of its word, 90 of 100", 300, against=PEER)
     yield Figure("stop_heard", "", "STOP in the stream heard", 1.0, more, PEER)
