@@ -85,6 +85,10 @@ class Gamepads:
         known = self._known.get(number)
         return self._now() - known.alive if known is not None else 0.0
 
+    def silent(self, number: int) -> bool:
+        """What it says to hold is held by nobody who is known to be there: it measures nothing new, and hangs on no cable."""
+        return self.age(number) > SILENT and self.name(number) not in self.wired
+
     def hear(self, states: Iterable[PadState]) -> None:
         """Take in what is plugged in now and what it measures; news are told from here."""
         there = {state.number: state for state in states}
@@ -158,7 +162,7 @@ class Gamepads:
         drives, pushed = self._driver == number, self._pushed(known)
         if not pushed:
             known.centred, known.told_silent = True, False
-        silent = pushed and self._now() - known.alive > SILENT and known.state.name not in self.wired
+        silent = pushed and self.silent(number)
         if silent and known.centred and not known.told_silent:
             known.told_silent = True
             self._on_news(News("silent", known.state.name))

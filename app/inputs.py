@@ -15,7 +15,7 @@ from kivy.core.window import Keyboard, Window
 from kivy.uix.behaviors import FocusBehavior
 
 from app.device import input_devices, rotation, sdl_library
-from app.gamepad import Gamepads, Told
+from app.gamepad import Gamepads, News, Told
 from app.intents import Heard
 from app.key_drive import KeyDrive
 from app.mapped import Mapped
@@ -75,7 +75,9 @@ class Inputs:
         )
         self.keys = KeyDrive(now, lambda: self.mapped.keys, is_down=self._source.key, on_lost=self._say)
         self.keys.wanted = lambda: bool(self.sticks) and not typing()
-        self.meanings = Meanings(app, now)
+        self.meanings = Meanings(
+            app, now, is_down=self._source.key, silent=self.gamepads.silent, on_lost=self._lost
+        )
         self.presses = Presses(self._is_stop, self._stop_by)
         """Every key and every button of a gamepad; whoever wants them before all others puts himself first in `takers`."""
         shortcuts = Shortcuts(
@@ -84,6 +86,9 @@ class Inputs:
         self.presses.takers.extend((self.keys, shortcuts))
         self.is_switch: Callable[[Press], bool] = lambda _: False
         """A key or button is one of somebody's switches: Space is then no STOP."""
+        self._devices = devices
+        self._there: frozenset[int] | None = None
+        """What was plugged in at the last look, while a button of a gamepad holds something."""
         self._pushing = Pushing(app, self.gamepads, self.keys, self._source, devices, turned, now)
         self._bound = self._bindings()
 
@@ -136,9 +141,17 @@ class Inputs:
             self.presses.buttons(state.number, state.name, state.buttons, self._now())
         for number in gone:
             self.presses.forget("pad", number)
+        self._look_for_pads()
+        self.meanings.look()
         self._pushing.look()
         for problem in self._news.problems(self.mapped):
             self._say(problem)
+
+    def _look_for_pads(self) -> None:
+        """Where an input device is taken away and the system does not say which, no button of a gamepad is held any more."""
+        before, self._there = self._there, self._devices() if self.meanings.holds("pad") else None
+        if before is not None and self._there is not None and not before <= self._there:
+            self.presses.forget("pad")
 
     def rest(self, *_: object) -> None:
         """Every control lets go, and gamepad and keys must be let go before they drive again."""
@@ -167,6 +180,7 @@ class Inputs:
         if name in SHIFTS:
             self.keys.shifted(down=True)
         self.keys.repeated(name)
+        self.meanings.repeated(name)
         modifiers = frozenset(held or ())
         press = Press("key", key, name, self._now(), scancode=scancode, modifiers=modifiers, text=text or "")
         taken = self.presses.press(press)
@@ -217,6 +231,13 @@ class Inputs:
     def _axis(self, _: object, number: int, axis: int, value: int) -> None:
         if isinstance(self._source, Told):
             self._source.axis(number, axis, value)
+
+    def _lost(self, why: str, press: Press) -> None:
+        """What a key or a button held has ended; of a silent gamepad with the way out that its sticks have."""
+        if press.source == "pad" and self.gamepads.silent(press.number):
+            self._news.tell(News("silent", self.gamepads.name(press.number)))
+        else:
+            self._say(why)
 
     def _say(self, text: str) -> None:
         if self._app.shell is not None:

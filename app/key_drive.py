@@ -3,21 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
 
+from app.holding import GAP, LONGEST, Held
 from app.key_table import ARROWS, DRIVING, KeyTable
 from app.press import Press
 
 __all__ = ["GAP", "LONGEST", "KeyDrive"]
 
-GAP = 0.3
-"""A key whose repeats have come and stay away for longer was let go, though nobody told [s]."""
-REPEATS = 2
-"""So many of them first: a system may repeat nothing."""
 LEAST = 0.15
 """It begins with so much of the whole way: less is nothing to some controls."""
-LONGEST = 30.0
-"""No key drives for longer: something may lie on it [s]."""
 PLACES = {**DRIVING, **ARROWS}
 PUSHES = {
     "w": (1, 0),
@@ -31,22 +25,6 @@ PUSHES = {
 }
 """Ahead and left."""
 RIGHT = frozenset(ARROWS.values())
-
-
-@dataclass(slots=True)
-class _Held:
-    """A key that is down."""
-
-    press: Press
-    since: float
-    """[s]"""
-    heard: float
-    """Its last repeat [s]."""
-    repeats: int = 0
-    stale: bool = False
-    """It must be let go before it drives again."""
-    seen: bool = False
-    """The system itself was seen to have it down."""
 
 
 class KeyDrive:
@@ -66,7 +44,7 @@ class KeyDrive:
         """What is pushed now, of `left` and `right`."""
         self.wanted: Callable[[], bool] = lambda: True
         """Driving keys mean something now: there is a control on the glass, and nothing is being typed."""
-        self._held: dict[str, _Held] = {}
+        self._held: dict[str, Held] = {}
         self._newest = ""
         self._slow = False
         self._began: float | None = None
@@ -87,7 +65,7 @@ class KeyDrive:
         self._newest = name if name in PUSHES and self.wanted() else ""
         if not self._newest:
             return False
-        self._held[name] = _Held(press, press.at, press.at)
+        self._held[name] = Held(press, press.at, press.at)
         return True
 
     def released(self, press: Press) -> None:
@@ -99,7 +77,7 @@ class KeyDrive:
         """The system says again that the key of this name is down."""
         held = next((held for held in self._held.values() if held.press.name == key), None)
         if held is not None:
-            held.repeats, held.heard = held.repeats + 1, self._now()
+            held.repeated(self._now())
 
     def shifted(self, *, down: bool) -> None:
         """Shift is held, and the controls are pushed less far."""
@@ -148,17 +126,15 @@ class KeyDrive:
         left = sum(PUSHES[name][1] for name in mine)
         return share * max(-1, min(1, ahead)), share * max(-1, min(1, left))
 
-    def _silent(self, name: str, held: _Held) -> bool:
+    def _silent(self, name: str, held: Held) -> bool:
         """Its repeats stay away, which only the key that went down last can be judged by."""
-        return name == self._newest and held.repeats >= REPEATS and self._now() - held.heard > GAP
+        return name == self._newest and held.silent(self._now())
 
-    def _judge(self, name: str, held: _Held) -> None:
+    def _judge(self, name: str, held: Held) -> None:
         """It is stale when the system has it down no longer, or when it was held for too long."""
         if held.stale:
             return
-        if self._is_down is not None and held.press.scancode:
-            down = self._is_down(held.press.scancode)
-            held.stale, held.seen = held.seen and not down, held.seen or down
-        if not held.stale and self._now() - held.since > LONGEST:
+        held.stale = held.up(self._is_down)
+        if not held.stale and held.too_long(self._now()):
             held.stale = True
             self._on_lost(f"{name.upper()} is held for {LONGEST:.0f} s: the robot was told to rest.")

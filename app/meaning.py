@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from app.holding import LONGEST, Held
 from app.intents import INTENTS, Heard
 from app.press import Press
 
@@ -37,14 +38,33 @@ def meaning_icon(meaning: str) -> str:
 
 
 class Meanings:
-    """Does what a press means. Everything in the UI thread."""
+    """Does what a press means; `look` belongs to the heartbeat. Everything in the UI thread.
 
-    def __init__(self, app: Any, now: Callable[[], float]) -> None:
-        """`app` is asked for its `intents` and its `session`."""
+    What is held ends with its key or button, and where that is never told as keys that drive end (`app.holding`), or with
+    the gamepad that says nothing any more; then it must be let go before it holds again.
+    """
+
+    def __init__(
+        self,
+        app: Any,
+        now: Callable[[], float],
+        *,
+        is_down: Callable[[int], bool] | None = None,
+        silent: Callable[[int], bool] = lambda _: False,
+        on_lost: Callable[[str, Press], object] = lambda *_: None,
+    ) -> None:
+        """`app` is asked for its `intents` and its `session`.
+
+        `is_down` tells whether the key at a place of the keyboard is down, where somebody knows; `silent`, whether the gamepad
+        of that number says nothing any more; `on_lost` hears why what was held ended.
+        """
         self._app, self._now = app, now
+        self._is_down, self._silent, self._on_lost = is_down, silent, on_lost
         self.held: dict[str, list[Callable[[bool], object]]] = {name: [] for name in HOLDS}
         """Who is told when one of `HOLDS` begins and ends."""
-        self._holding: dict[str, set[tuple[str, int, str]]] = {name: set() for name in HOLDS}
+        self._holding: dict[str, dict[tuple[str, int, str], Held]] = {name: {} for name in HOLDS}
+        self._newest = ""
+        """The key that went down last, which alone is repeated."""
 
     def press(self, meaning: str, press: Press) -> bool:
         """What means `meaning` went down; False where nobody does anything with it."""
@@ -63,18 +83,55 @@ class Meanings:
     def release(self, meaning: str, press: Press) -> None:
         """It went up."""
         kind, _, name = meaning.partition(".")
-        if kind == "hold" and press.same in self._holding.get(name, ()):
-            self._holding[name].discard(press.same)
-            if not self._holding[name]:
-                self._tell(name, on=False)
+        if kind == "hold":
+            self._let_go(name, press)
+
+    def repeated(self, key: str) -> None:
+        """The system says, first or again, that the key of this name is down."""
+        self._newest = key
+        for holding in self._holding.values():
+            for held in holding.values():
+                if held.press.source == "key" and held.press.name == key:
+                    held.repeated(self._now())
+
+    def holds(self, source: str) -> bool:
+        """Something of `key` or `pad` holds something."""
+        return any(
+            held.press.source == source for holding in self._holding.values() for held in holding.values()
+        )
+
+    def look(self) -> None:
+        """With each heartbeat: whatever is held is looked at, whether a hand still holds it."""
+        for name, holding in self._holding.items():
+            for held in list(holding.values()):
+                why = self._ended(held)
+                if why is not None:
+                    self._let_go(name, held.press)
+                if why:
+                    self._on_lost(f"{why}: let it go, and press it again for: {HOLDS[name][0]}.", held.press)
+
+    def _ended(self, held: Held) -> str | None:
+        """Why nobody holds it any more; empty where it was simply let go, None where it is held."""
+        press, now = held.press, self._now()
+        if held.too_long(now):
+            return f"{press.name.upper()} is held for {LONGEST:.0f} s"
+        if press.source == "pad":
+            return f"{press.device or 'The gamepad'} is silent" if self._silent(press.number) else None
+        away = press.name == self._newest and held.silent(now)
+        return "" if held.up(self._is_down) or away else None
 
     def _hold(self, name: str, press: Press) -> bool:
         if not self.held[name]:
             return False
-        self._holding[name].add(press.same)
+        self._holding[name][press.same] = Held(press, press.at, press.at)
         if len(self._holding[name]) == 1:
             self._tell(name, on=True)
         return True
+
+    def _let_go(self, name: str, press: Press) -> None:
+        holding = self._holding.get(name, {})
+        if holding.pop(press.same, None) is not None and not holding:
+            self._tell(name, on=False)
 
     def _tell(self, name: str, *, on: bool) -> None:
         for listener in list(self.held[name]):

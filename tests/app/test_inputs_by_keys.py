@@ -165,3 +165,28 @@ def test_what_a_hand_holds_on_a_gamepad_ends_when_it_is_pulled_out(hands: Hands)
     hands.source.there.clear()
     hands.pass_time(0.1)
     assert told == [True, False]
+
+
+def clutch(hands: Hands) -> list[bool]:
+    told: list[bool] = []
+    hands.inputs.meanings.held["tilt"].append(told.append)
+    return told
+
+
+def test_a_key_that_holds_the_clutch_is_lost_as_one_that_drives(hands: Hands) -> None:
+    told = clutch(hands)
+    hold(hands, (116, 23), 1.0)
+    assert told == [True]
+    hands.pass_time(0.5)
+    assert told == [True, False], "its repeats stay away"
+
+
+def test_a_gamepad_out_of_reach_holds_no_clutch_and_that_is_said(hands: Hands) -> None:
+    told = clutch(hands)
+    hands.source.there = {1: replace(PAD, buttons=frozenset({"righttrigger"}))}
+    hands.pass_time(1.0)
+    assert told == [True]
+    hands.source.trembles = False
+    hands.pass_time(0.2)
+    assert told == [True, False]
+    assert hands.shell.offers[-1][0].startswith("The gamepad is silent")

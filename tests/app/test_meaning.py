@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from app.holding import LONGEST
 from app.intents import INTENTS, Heard
 from app.key_table import KeyTable
 from app.meaning import MEANINGS, Meanings, meaning_icon, meaning_words
@@ -35,7 +36,16 @@ class Desk:
         app: Any = SimpleNamespace(
             intents=self.intents, session=SimpleNamespace(feeds=SimpleNamespace(latest=status))
         )
-        self.meanings = Meanings(app, lambda: 12.5)
+        self.time, self.said = 12.5, []
+        self.system: set[int] = set()
+        self.silent: set[int] = set()
+        self.meanings = Meanings(
+            app,
+            lambda: self.time,
+            is_down=self.system.__contains__,
+            silent=self.silent.__contains__,
+            on_lost=lambda why, _: self.said.append(why),
+        )
         self.shortcuts = Shortcuts(
             self.meanings,
             lambda: self.table,
@@ -55,6 +65,23 @@ class Desk:
         press = Press("pad", 1, name, 12.0, device="Pad", number=4)
         self.shortcuts.pressed(press)
         return press
+
+    def holds(self, name: str = "t", scancode: int = 23) -> tuple[Press, list[bool]]:
+        """That key goes down and holds the clutch, and what is told of that."""
+        told: list[bool] = []
+        self.meanings.held["tilt"].append(told.append)
+        press = Press("key", ord(name), name, self.time, scancode=scancode)
+        self.meanings.repeated(name)
+        assert self.shortcuts.pressed(press)
+        return press, told
+
+    def pass_time(self, seconds: float, repeats: str = "") -> None:
+        end = self.time + seconds
+        while self.time < end - 1e-9:
+            self.time += 0.03
+            if repeats:
+                self.meanings.repeated(repeats)
+            self.meanings.look()
 
     @property
     def wanted(self) -> list[str]:
@@ -130,6 +157,59 @@ def test_what_is_held_is_told_when_it_begins_and_when_the_last_of_its_keys_ends(
     assert told == [True]
     desk.shortcuts.released(second)
     assert told == [True, False]
+
+
+def test_a_key_that_the_system_has_down_no_longer_holds_nothing_though_its_end_was_not_told(
+    desk: Desk,
+) -> None:
+    press, told = desk.holds()
+    desk.system.add(press.scancode)
+    desk.pass_time(5.0)
+    assert told == [True]
+    desk.system.clear()
+    desk.pass_time(0.03)
+    assert told == [True, False]
+    desk.shortcuts.released(press)
+    assert told == [True, False]
+
+
+def test_a_key_whose_repeats_stay_away_holds_nothing(desk: Desk) -> None:
+    _, told = desk.holds()
+    desk.pass_time(2.0, repeats="t")
+    assert told == [True]
+    desk.pass_time(0.36)
+    assert told == [True, False]
+    desk.pass_time(1.0, repeats="t")
+    assert told == [True, False], "it must be let go first"
+
+
+def test_a_key_pressed_after_it_is_repeated_in_its_place(desk: Desk) -> None:
+    _, told = desk.holds()
+    desk.pass_time(1.0, repeats="t")
+    desk.pass_time(2.0, repeats="w")
+    assert told == [True]
+
+
+def test_nothing_is_held_for_longer_than_a_hand_would_and_that_is_said(desk: Desk) -> None:
+    _, told = desk.holds()
+    desk.pass_time(LONGEST - 0.1)
+    assert told == [True]
+    desk.pass_time(0.2)
+    assert told == [True, False]
+    (said,) = desk.said
+    assert said.startswith("T is held for 30 s: let it go")
+
+
+def test_a_gamepad_that_fell_silent_holds_nothing(desk: Desk) -> None:
+    told: list[bool] = []
+    desk.meanings.held["tilt"].append(told.append)
+    desk.button("righttrigger")
+    desk.pass_time(1.0)
+    assert told == [True]
+    desk.silent.add(4)
+    desk.pass_time(0.03)
+    assert told == [True, False]
+    assert desk.said[0].startswith("Pad is silent")
 
 
 def test_what_is_held_for_nobody_is_left_to_others(desk: Desk) -> None:
