@@ -115,8 +115,6 @@ class Heard:
     """How loud it was round about [dB]."""
     snippet: Any = None
     """What goes into the log beside it, JSON-able, and only with the operator's consent; None for nothing."""
-    strong: bool = False
-    """So sure that what would wait to be cancelled may act at once."""
 
 
 What = Literal["acted", "waits", "asks", "not allowed", "not now", "cancelled", "lapsed", "practised"]
@@ -272,8 +270,7 @@ class Intents:
         return Verdict("not now", why) if why else None
 
     def _risk(self, intent: Intent, heard: Heard) -> Risk:
-        sure = heard.method in PRESSED or heard.strong
-        if heard.method in SEEN or (intent.risk == "cancel" and sure):
+        if heard.method in SEEN or (intent.risk == "cancel" and heard.method in PRESSED):
             return "at_once"
         return intent.risk
 

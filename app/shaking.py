@@ -34,8 +34,6 @@ SNIPPET = 6.0
 """So much of what was measured goes into the log with the operator's consent [s]."""
 NEEDED = LEAST_RATE - 0.4
 """A sensor of 25 Hz is never quite that by its own times [Hz]."""
-SURE = 0.85
-"""From this confidence on what could be cancelled need not wait."""
 
 
 class Shaking:
@@ -235,7 +233,6 @@ class Shaking:
                 ended,
                 said=WORDS[shake.axis].lower() if not stops or shake.axis == "lr" else "strong shake",
                 snippet=self._snippet(shake),
-                strong=shake.confidence >= SURE,
             )
         )
         self.said = verdict.sentence

@@ -405,7 +405,6 @@ class Speaking:
             said=result.said,
             noise=self.level.noise,
             snippet=snippet | dict(result.detail),
-            strong=result.strong,
         )
         self.said = self._app.intents.take(heard).sentence
         if not self._held:

@@ -40,8 +40,6 @@ AGAIN_MS, BUSY_MS = 80, 400
 TRIES = 5
 """So many errors in a row, and it is given up."""
 N_BEST = 20
-STRONG = 0.98
-"""Words that sound so much like a command are sure enough for one whose risk is small."""
 LOUDNESS = (-50.0, 4.0)
 """Android tells loudness on a scale of its own, from about -2 to 10; so it becomes one of dB over full scale, roughly."""
 POLL_MS = 150
@@ -225,7 +223,7 @@ class AndroidRecognizer:
             phrase = next(filter(None, (said_within(text, grammar, command) for text in texts)), "")
             if phrase and not self._spotted:
                 self._spotted = command
-                self._hear(Result(command, phrase, 0.8, self._began, self._now(), strong=True, early=True))
+                self._hear(Result(command, phrase, 0.8, self._began, self._now(), early=True))
 
     def result(self, texts: list[str], scores: list[float]) -> None:
         """The utterance is over: `texts` may have been said, with `scores`, -1 for unknown, the best first."""
@@ -252,9 +250,8 @@ class AndroidRecognizer:
             self._hear(Rejected(f"“{best.phrase}” {why}.", best.command, confidence, ended))
             return
         others = tuple((one.command, round(one.alike, 2)) for one in found[1:4])
-        strong = best.alike >= STRONG and best.heard.casefold() == best.phrase
         self._hear(
-            Result(best.command, best.phrase, confidence, self._began, ended, others, strong=strong,
+            Result(best.command, best.phrase, confidence, self._began, ended, others,
                    detail={"heard": best.heard})
         )  # fmt: skip
 

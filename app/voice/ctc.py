@@ -42,8 +42,6 @@ URGENT = 2.0
 """STOP may explain so much less than that [log likelihood]: a false one costs little, one not heard may cost everything."""
 PREFERRED = 1.0
 """Where STOP and another command are nearly alike, STOP is meant [log likelihood a sound]."""
-STRONG = 4.0
-"""So much more than is asked, and nothing need be asked again [log likelihood]."""
 STEEP = 2.0
 """How confidence grows with what is left over [log likelihood]."""
 FLOOR = 1e-12
@@ -157,7 +155,6 @@ class Found:
     phrase: str
     confidence: float
     """0 to 1; accepted from 0.5 on."""
-    strong: bool
     alternatives: tuple[tuple[str, float], ...]
     """Other commands with their confidence, best first."""
     explains: float
@@ -217,7 +214,6 @@ class Scorer:
             command,
             self._phrases[best],
             confidence,
-            bool(left[best] >= STRONG),
             tuple(list(sure.items())[:3]),
             float(explains[best]),
             self._others[rival][0],

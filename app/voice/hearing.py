@@ -132,7 +132,6 @@ class Hearing:
                 began=segment.began,
                 ended=spotted.ended,
                 snr=self._meter.snr,
-                strong=True,
                 early=True,
                 detail={"fit": round(spotted.fit, 2)},
             )
@@ -176,7 +175,6 @@ class Hearing:
                 ended=segment.ended,
                 alternatives=found.alternatives,
                 snr=snr,
-                strong=found.strong,
                 detail=detail,
             )
         return Rejected(reason, found.command, found.confidence, segment.ended)

@@ -79,8 +79,6 @@ class Result:
     """Other intents, with their confidence, best first."""
     snr: float = math.nan
     """Speech over noise [dB]; NaN unknown."""
-    strong: bool = False
-    """So sure that a command whose risk is small need not be asked for."""
     early: bool = False
     """Found before its end was heard (`Grammar.urgent`); the same words give no second result."""
     detail: Mapping[str, Any] = field(default_factory=dict[str, Any])

@@ -1,7 +1,7 @@
 """The fallback: pocketsphinx, whose model is in its wheel, with a grammar of our phrases and of words that are none of them.
 
-It is quick and right about clean speech, and takes much for a command that is none (docs/voice.md): so nothing that it hears
-is `strong`, and its confidence never says more than that the grammar's words came before the others.
+It is quick and right about clean speech, and takes much for a command that is none (docs/voice.md): so its
+confidence never says more than that the grammar's words came before the others.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ class Sphinx:
             return None
         command = self._phrases.get(found.hypstr, "")
         accepted = command in heeded
-        return Found(command, found.hypstr, SURE if accepted else 0.2, False, (), float("nan"), "")
+        return Found(command, found.hypstr, SURE if accepted else 0.2, (), float("nan"), "")
 
     def spot(self, segment: Segment, now: float) -> Spotted | None:
         """Only where the words seem over: it cannot find one word amid others."""

@@ -103,9 +103,16 @@ def test_what_may_be_cancelled_acts_after_two_seconds_and_not_before(stage: Stag
     assert [verdict.what for _, verdict in stage.told] == ["waits", "acted"]
 
 
-@pytest.mark.parametrize("how", [{"method": "keyboard"}, {"method": "gamepad"}, {"strong": True}])
-def test_what_was_pressed_or_is_quite_sure_waits_for_nothing(stage: Stage, how: dict[str, Any]) -> None:
-    assert stage.say("resume", **how) == "acted"
+@pytest.mark.parametrize("how", ["keyboard", "gamepad"])
+def test_what_was_pressed_waits_for_nothing(stage: Stage, how: str) -> None:
+    assert stage.say("resume", how) == "acted"
+
+
+@pytest.mark.parametrize("method", ["voice", "shake"])
+@pytest.mark.parametrize("intent", [name for name, intent in INTENTS.items() if intent.risk == "cancel"])
+def test_what_was_guessed_can_be_cancelled_however_sure_it_is(stage: Stage, method: str, intent: str) -> None:
+    assert stage.say(intent, method, confidence=1.0) in ("waits", "not allowed")
+    assert stage.acts.names == []
 
 
 def test_what_sets_something_in_motion_is_done_after_a_yes_by_whichever_method(stage: Stage) -> None:
@@ -118,7 +125,7 @@ def test_what_sets_something_in_motion_is_done_after_a_yes_by_whichever_method(s
 
 
 def test_being_quite_sure_does_not_set_anything_in_motion_unasked(stage: Stage) -> None:
-    assert stage.say("go_home", strong=True) == "asks"
+    assert stage.say("go_home", confidence=1.0) == "asks"
     assert stage.acts.names == []
 
 

@@ -190,7 +190,7 @@ def test_what_was_understood_is_a_wish_with_its_confidence_and_times(desk: Desk)
 
 
 def test_stop_that_was_spotted_acts_and_has_no_end_yet(desk: Desk) -> None:
-    desk.says("stop", early=True, strong=True)
+    desk.says("stop", early=True)
     assert desk.acts.done == ["stop"]
     assert math.isnan(desk.taken[0].ended)
 

@@ -19,7 +19,7 @@ class Judge:
     """Understands what it was told to."""
 
     def __init__(self, command="pause", confidence=0.9, spots=""):
-        self.found = Found(command, command, confidence, False, (("hold", 0.2),), -0.1, "paws")
+        self.found = Found(command, command, confidence, (("hold", 0.2),), -0.1, "paws")
         self.spots = spots
 
     def judge(self, samples, heeded):
@@ -77,7 +77,7 @@ def test_while_a_question_is_open_nothing_else_counts_but_stop():
 
 def test_stop_is_told_before_its_end_and_once():
     (result,) = words(said(Judge("stop", spots="stop")))
-    assert (result.command, result.early, result.strong) == ("stop", True, True)
+    assert (result.command, result.early) == ("stop", True)
     assert result.ended < 1.5
 
 

@@ -26,7 +26,7 @@ def judge():
 @pytest.mark.parametrize(("phrase", "command"), [("stop", "stop"), ("go home", "go_home")])
 def test_it_understands_a_clear_voice(judge, said, phrase, command):
     found = judge.judge(said(phrase), frozenset(COMMANDS))
-    assert (found.command, found.accepted, found.strong) == (command, True, False)
+    assert (found.command, found.accepted) == (command, True)
 
 
 def test_a_word_that_it_does_not_know_is_said():

@@ -145,7 +145,7 @@ def test_a_fault_in_the_thread_is_said_and_it_is_started_again_once(monkeypatch,
     "event",
     [
         Partial("sto", 0.3),
-        Result("stop", "stop", 0.9, 1.0, 2.0, (("start", 0.2),), 21.0, True, True, {"fit": -0.1}),
+        Result("stop", "stop", 0.9, 1.0, 2.0, (("start", 0.2),), 21.0, True, {"fit": -0.1}),
         Rejected("That was no command.", "pause", 0.3, 2.0),
         Level(-30.0, -60.0, 30.0, True, False),
         State("ready", "“stop”"),
