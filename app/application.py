@@ -28,6 +28,7 @@ from app.fleet import Fleet
 from app.garbage import Collector
 from app.inputs import Inputs
 from app.intents import Intents
+from app.kept import known
 from app.layout import Layout, choose, load, load_all
 from app.link import Link
 from app.logbook import marks
@@ -182,7 +183,7 @@ class PilothouseApp(App):
 
     def _remembered_theme(self) -> str:
         name = self.settings.get("theme")
-        return name if name in THEMES else "dark"
+        return name if known(name, THEMES) else "dark"
 
     def _identity(self) -> str:
         if not isinstance(self.settings.get("client_id"), str):

@@ -97,7 +97,7 @@ class Robots:
         self._heard: dict[str, tuple[Hello, float]] = {}
         self._latency: dict[str, float] = {}
         self._saved: dict[str, dict[str, str]] = {}
-        for entry in saved:
+        for entry in saved if isinstance(saved, list | tuple) else ():
             if isinstance(entry, dict) and isinstance(entry.get("url"), str):
                 self._saved[entry["url"]] = {key: str(entry.get(key, "")) for key in _KEPT}
 

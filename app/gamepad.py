@@ -5,7 +5,7 @@ What they measure comes from SDL (`app.sdl`) or, where that cannot be asked, fro
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Container, Iterable
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 
 from app.pad_map import Profile
@@ -50,7 +50,7 @@ class Gamepads:
         now: Callable[[], float],
         *,
         on_news: Callable[[News], object],
-        wired: Container[str] = (),
+        wired: Collection[str] = (),
         profile: Callable[[str], Profile] = lambda _: Profile(),
     ) -> None:
         """`wired` names those that hang on a cable: they may be silent, since one that is pulled out is gone at once.

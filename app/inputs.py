@@ -70,7 +70,7 @@ class Inputs:
         self.gamepads = Gamepads(
             now,
             on_news=self._news.tell,
-            wired=app.settings.get("wired_gamepads") or (),
+            wired=self.mapped.wired,
             profile=self.mapped.profile,
         )
         self.keys = KeyDrive(now, lambda: self.mapped.keys, is_down=self._source.key, on_lost=self._say)

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
+from app.kept import number, shown
+
 __all__ = ["ARROWS", "DRIVING", "FIXED", "MEANT", "RISES", "SLOWS", "KeyTable", "key_words", "read"]
 
 MEANT = {
@@ -129,7 +131,7 @@ def read(kept: object, meanings: Mapping[str, object] | None = None) -> tuple[Ke
     `meanings` are those that there are; None for any.
     """
     if not isinstance(kept, Mapping):
-        return KeyTable(), [] if kept is None else [f"The keys are not a table but {kept!r}."]
+        return KeyTable(), [] if kept is None else [f"The keys are not a table but {shown(kept)}."]
     wrong: list[str] = []
     flags = {name: _flag(kept, name, wrong) for name in ("on", "drives", "space_stops")}
     usual = KeyTable()
@@ -144,7 +146,7 @@ def read(kept: object, meanings: Mapping[str, object] | None = None) -> tuple[Ke
 def _flag(kept: Mapping[Any, Any], name: str, wrong: list[str]) -> bool:
     value = kept.get(name, True)
     if not isinstance(value, bool):
-        wrong.append(f"The keys' {name} is true or false, not {value!r}: true is used.")
+        wrong.append(f"The keys' {name} is true or false, not {shown(value)}: true is used.")
         return True
     return value
 
@@ -153,21 +155,21 @@ def _number(
     kept: Mapping[Any, Any], name: str, ends: tuple[float, float], usual: float, wrong: list[str]
 ) -> float:
     value = kept.get(name, usual)
-    if isinstance(value, int | float) and not isinstance(value, bool) and ends[0] <= value <= ends[1]:
-        return float(value)
-    wrong.append(f"The keys' {name} is from {ends[0]} to {ends[1]}, not {value!r}: {usual} is used.")
+    if (found := number(value, *ends)) is not None:
+        return found
+    wrong.append(f"The keys' {name} is from {ends[0]} to {ends[1]}, not {shown(value)}: {usual} is used.")
     return usual
 
 
 def _keys(table: object, meanings: Mapping[str, object] | None, wrong: list[str]) -> dict[str, str]:
     if not isinstance(table, Mapping):
-        wrong.append(f"The meanings of the keys are not a table but {table!r}.")
+        wrong.append(f"The meanings of the keys are not a table but {shown(table)}.")
         return dict(MEANT)
     found = {}
     for key, meaning in table.items():
-        known = meanings is None or meaning in meanings or meaning == ""
-        if isinstance(key, str) and isinstance(meaning, str) and known and key not in FIXED:
+        meant = isinstance(meaning, str) and (not meaning or meanings is None or meaning in meanings)
+        if isinstance(key, str) and meant and key not in FIXED:
             found[key] = meaning
         else:
-            wrong.append(f"No key {key!r} can mean {meaning!r}.")
+            wrong.append(f"No key {shown(key)} can mean {shown(meaning)}.")
     return found

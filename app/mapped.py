@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from app import key_table, pad_map
+from app.kept import Kept, shown
 from app.key_table import KeyTable
 from app.meaning import MEANINGS
 from app.pad_map import Profile
@@ -28,16 +29,20 @@ class Mapped:
         self.problems: list[str] = []
         self.keys, wrong = key_table.read(settings.get("keys"), MEANINGS)
         self.problems += wrong
-        kept = settings.get("gamepads")
-        if kept is not None and not isinstance(kept, Mapping):
-            self.problems.append(f"What is kept of gamepads is not a table but {kept!r}.")
-        table: Mapping[str, Any] = kept if isinstance(kept, Mapping) else {}
-        self.pads_on = table.get("on", True) is not False
+        kept = Kept(settings.get("gamepads"), "gamepads")
+        self.pads_on = kept.flag("on", usual=True)
         """Gamepads drive and their buttons mean something; STOP does all the same."""
-        self._kept: dict[str, Any] = (
-            dict(found) if isinstance(found := table.get("profiles"), Mapping) else {}
-        )
+        found = kept.values.get("profiles", {})
+        self._kept: dict[str, Any] = dict(found) if isinstance(found, Mapping) else {}
+        if not isinstance(found, Mapping):
+            kept.mistaken("profiles", "a table")
+        self.problems += [kept.sentence] if kept.sentence else []
         self._profiles: dict[str, Profile] = {}
+        wired = settings.get("wired_gamepads")
+        self.wired = [name for name in wired if isinstance(name, str)] if isinstance(wired, list) else []
+        """Names of gamepads that hang on a cable and may be held still."""
+        if wired is not None and self.wired != wired:
+            self.problems.append(f"Gamepads on a cable are a list of names, not {shown(wired)}.")
 
     def profile(self, name: str) -> Profile:
         """That of the gamepads of that name; one that nobody has changed is as they all are at first."""

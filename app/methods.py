@@ -85,8 +85,10 @@ class Methods:
             except Exception as problem:
                 log.exception("%s cannot be used", name)
                 self._leave_out(name, problem)
-        if self.faults:
-            self._app.connect.say(" ".join(self.faults.values()), "warn")
+        mistaken = [getattr(method, "mistaken", "") for method in self._all.values()]
+        said = [*self.faults.values(), self._app.intents.table.problem, *mistaken]
+        if any(said):
+            self._app.connect.say(" ".join(filter(None, said)), "warn")
 
     def _make(self, name: str, where: str) -> None:
         module, _, made = where.partition(":")

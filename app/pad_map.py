@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
+from app.kept import known, number, shown
 from app.sdl import PadState
 
 __all__ = [
@@ -201,7 +202,7 @@ def read(kept: object, meanings: Mapping[str, object] | None = None) -> tuple[Pr
     `meanings` are those that there are; None for any.
     """
     if not isinstance(kept, Mapping):
-        return Profile(), [] if kept is None else [f"The gamepad's profile is not a table but {kept!r}."]
+        return Profile(), [] if kept is None else [f"The gamepad's profile is not a table but {shown(kept)}."]
     wrong: list[str] = []
     profile = Profile(
         dead_zone=_number(kept, "dead_zone", DEAD_ZONES, Profile().dead_zone, wrong),
@@ -220,9 +221,9 @@ def _number(
     kept: Mapping[Any, Any], name: str, ends: tuple[float, float], usual: float, wrong: list[str]
 ) -> float:
     value = kept.get(name, usual)
-    if isinstance(value, int | float) and not isinstance(value, bool) and ends[0] <= value <= ends[1]:
-        return float(value)
-    wrong.append(f"The gamepad's {name} is from {ends[0]} to {ends[1]}, not {value!r}: {usual} is used.")
+    if (found := number(value, *ends)) is not None:
+        return found
+    wrong.append(f"The gamepad's {name} is from {ends[0]} to {ends[1]}, not {shown(value)}: {usual} is used.")
     return usual
 
 
@@ -236,21 +237,21 @@ def _chosen(
     """A table of words, without those that are not allowed."""
     table = kept.get(name, {})
     if not isinstance(table, Mapping):
-        wrong.append(f"The gamepad's {name} are not a table but {table!r}.")
+        wrong.append(f"The gamepad's {name} are not a table but {shown(table)}.")
         return {}
     found = {}
     for key, value in table.items():
-        known = value == "" or allowed is None or (isinstance(value, str) and value in allowed)
-        if isinstance(key, str) and isinstance(value, str) and known and (keys is None or key in keys):
+        meant = value == "" or (isinstance(value, str) and (allowed is None or value in allowed))
+        if isinstance(key, str) and meant and (keys is None or key in keys):
             found[key] = value
         else:
-            wrong.append(f"The gamepad's {name} know no {key!r}: {value!r}.")
+            wrong.append(f"The gamepad's {name} know no {shown(key)}: {shown(value)}.")
     return found
 
 
 def _ways(value: object, wrong: list[str]) -> list[str]:
     given = value if isinstance(value, list | tuple) else [value]
-    unknown = [way for way in given if way not in WAYS]
+    unknown = [way for way in given if not known(way, WAYS)]
     if unknown:
-        wrong.append(f"The gamepad's inverted are some of {', '.join(WAYS)}, not {unknown[0]!r}.")
-    return [way for way in given if way in WAYS]
+        wrong.append(f"The gamepad's inverted are some of {', '.join(WAYS)}, not {shown(unknown[0])}.")
+    return [way for way in given if known(way, WAYS)]

@@ -56,7 +56,6 @@ class PadNews:
 
     def _trust(self, name: str) -> None:
         """The operator says that it hangs on a cable: it may be held still from now on."""
-        settings = self._app.settings
-        wired = [*(settings.get("wired_gamepads") or ()), name]
-        settings.set("wired_gamepads", wired)
+        wired = [*self._gamepads().wired, name]
+        self._app.settings.set("wired_gamepads", wired)
         self._gamepads().wired = wired

@@ -16,6 +16,7 @@ from typing import Any
 from app.commands import Outcome
 from app.feeds import Post
 from app.intents import INTENTS, METHODS, Heard, Verdict
+from app.kept import Kept
 from app.link import OUTCOME
 from app.origin import origins
 from app.response_tracks import Asked, State, Tracks
@@ -67,7 +68,14 @@ class Responding:
         self._looked = self._saved = app.now()
         self._running = False
         self.tracks.consent = self._setting("snippets", False)
-        found = plan_of(self._values().get("plan"), METHODS, tuple(INTENTS))
+        kept = Kept(app.settings.get("study"), "the study")
+        for name, usual in (("log", True), ("snippets", False), ("remind", False)):
+            kept.flag(name, usual=usual)
+        found = plan_of(kept.values.get("plan"), METHODS, tuple(INTENTS))
+        if found is None and kept.values.get("plan") is not None:
+            kept.mistaken("plan", "what was saved of a study")
+        self.mistaken = kept.sentence
+        """One sentence about settings that mean nothing; empty when all is well."""
         if found is not None:
             self._lead(Trials(found[0], now=app.now, block=found[1], trial=found[2]))
 

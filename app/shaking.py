@@ -13,6 +13,7 @@ from typing import Any
 
 from app.device import rotation, vibrate
 from app.intents import Heard
+from app.kept import Kept, known, shown
 from app.shake import LEAST_RATE, USUAL, WORDS, Axis, Lesson, Own, Recogniser, Shake, fitted, own_from, own_to
 from app.shake.ground import Motion
 from app.tilt import turned
@@ -65,21 +66,17 @@ class Shaking:
     # what is kept
 
     def _read(self) -> None:
-        kept = self._app.settings.get("shake", {})
-        if not isinstance(kept, dict):
-            kept, self.mistaken = {}, "The settings of shaking could not be read; the usual ones are taken."
-        self._on = kept.get("on") is True
-        self._any = kept.get("any") is True
+        read = Kept(self._app.settings.get("shake"), "shaking")
+        kept, self._on, self._any = read.values, read.flag("on", usual=False), read.flag("any", usual=False)
+        self.mistaken = read.sentence
         self.meaning: dict[Axis, str] = dict(USUAL_MEANING)
         """What up-down and forward-back mean: an intent, or nothing."""
         for axis, allowed in CHOICES.items():
             intent = kept.get(axis, USUAL_MEANING[axis])
-            if isinstance(intent, str) and intent in allowed:
+            if known(intent, allowed):
                 self.meaning[axis] = intent
             else:
-                self.mistaken = (
-                    f"{WORDS[axis]} cannot mean {str(intent)[:40]!r}; it means {USUAL_MEANING[axis]}."
-                )
+                self.mistaken = f"{WORDS[axis]} cannot mean {shown(intent)}; it means {USUAL_MEANING[axis]}."
         try:
             self.own: dict[Axis, Own] = own_from(kept.get("own", {}))
         except ValueError as problem:

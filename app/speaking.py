@@ -15,6 +15,7 @@ from kivy.clock import Clock
 
 from app.device import is_android
 from app.intents import Heard
+from app.kept import Kept, known, shown
 from app.voice.phrases import PHRASES
 from app.voice.recognizer import (
     Event,
@@ -107,15 +108,13 @@ class Speaking:
     # what is kept
 
     def _read(self) -> None:
-        kept = self._app.settings.get("voice", {})
-        if not isinstance(kept, dict):
-            kept, self.mistaken = {}, "The settings of voice could not be read; the usual ones are taken."
-        self._on, self._hands_free = kept.get("on") is True, kept.get("hands_free") is True
-        language = kept.get("language", "en")
-        known = isinstance(language, str) and language in PHRASES
-        self._language: str = language if known else "en"
-        if not known:
-            self.mistaken = f"There are no commands in the language {str(language)[:20]!r}; they are English."
+        kept = Kept(self._app.settings.get("voice"), "voice")
+        self._on, self._hands_free = kept.flag("on", usual=False), kept.flag("hands_free", usual=False)
+        self.mistaken = kept.sentence
+        language = kept.values.get("language", "en")
+        self._language: str = language if known(language, PHRASES) else "en"
+        if language != self._language:
+            self.mistaken = f"There are no commands in the language {shown(language)}; they are English."
 
     def _keep(self) -> None:
         fields = {"on": self._on, "hands_free": self._hands_free, "language": self._language}

@@ -22,6 +22,7 @@ from app.commands import Outcome
 from app.device import is_android
 from app.feeds import Post
 from app.intents import Heard, Verdict
+from app.kept import Kept
 from app.link import EVENT, OUTCOME
 from app.response_tracks import LOCAL
 from app.voice.mouth import VOICES, Mouth, mouth_of
@@ -97,12 +98,11 @@ class Talking:
     # what is kept
 
     def _read(self) -> None:
-        kept = self._app.settings.get("talk", {})
-        kept = kept if isinstance(kept, dict) else {}
-        self._on, voice, rate = kept.get("on") is True, kept.get("voice"), kept.get("rate")
-        self._voice = voice if isinstance(voice, str) and voice in VOICES else next(iter(VOICES))
-        fits = isinstance(rate, int | float) and not isinstance(rate, bool) and RATES[0] <= rate <= RATES[1]
-        self._rate = float(rate) if fits and rate is not None else 1.0
+        kept = Kept(self._app.settings.get("talk"), "talking")
+        self._on, self._rate = kept.flag("on", usual=False), kept.number("rate", *RATES, usual=1.0)
+        self._voice = kept.word("voice", VOICES, next(iter(VOICES)))
+        self.mistaken = kept.sentence
+        """One sentence about settings that mean nothing; empty when all is well."""
 
     def _keep(self) -> None:
         self._app.settings.set("talk", {"on": self._on, "voice": self._voice, "rate": self._rate})

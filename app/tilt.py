@@ -17,6 +17,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, Self
 
 from app.device.motion import GRAVITY, Axes
+from app.kept import number, shown
 
 __all__ = ["Level", "OneEuro", "Tilt", "TiltSettings", "between", "shaped", "turned"]
 
@@ -86,12 +87,12 @@ class TiltSettings:
                 allowed = "true or false"
             else:
                 low, high = RANGES[name]
-                good = isinstance(value, int | float) and not isinstance(value, bool) and low <= value <= high
+                good = number(value, low, high) is not None
                 allowed = f"{low:g} to {high:g}"
             if good:
                 known[name] = value
             else:
-                faults.append(f"Tilt: {name} is {value!r} and must be {allowed}; it is {usual} now.")
+                faults.append(f"Tilt: {name} is {shown(value)} and must be {allowed}; it is {usual} now.")
         return cls(**known), faults
 
     def save(self) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from typing import Any
 from app.device import rotation
 from app.device.motion import Axes, SimulatedMotion, motion_source
 from app.inputs import typing
+from app.kept import Kept, number
 from app.origin import Origin, origins
 from app.press import Press
 from app.tilt import Level, Tilt, TiltSettings, turned
@@ -35,15 +36,18 @@ class Tilting:
     def __init__(self, app: Any, quarters: Callable[[], int] = rotation) -> None:
         """`quarters` tells how the screen is turned."""
         self._app, self._quarters = app, quarters
-        kept = app.settings.get("tilt")
-        kept = kept if isinstance(kept, dict) else {}
-        self._on = kept.get("on") is True
-        self.others = kept.get("others") is not False
+        read = Kept(app.settings.get("tilt"), "the tilt")
+        kept = read.values
+        self._on = read.flag("on", usual=False)
+        self.others = read.flag("others", usual=True)
         """Robots that are driven by sticks alone can be driven by it as well."""
         settings, self.faults = TiltSettings.of({name: kept[name] for name in kept if name in NAMES})
         """What was kept and is no good, as sentences."""
         self.tilt = Tilt(settings)
         self.tilt.neutral = _axes(kept.get("neutral"))
+        if kept.get("neutral") is not None and self.tilt.neutral is None:
+            read.mistaken("neutral", "three numbers")
+        self.faults += [read.sentence] if read.sentence else []
         self._level: Level | None = None
         """Makes gravity of the acceleration, where the device does not tell it."""
         self._forgets: list[Callable[[], None]] = []
@@ -358,5 +362,7 @@ def _axes(kept: object) -> Axes | None:
     """Three finite numbers that are no zeros, or None."""
     if not isinstance(kept, list) or len(kept) != 3:
         return None
-    numbers = [float(one) for one in kept if isinstance(one, int | float) and math.isfinite(one)]
-    return (numbers[0], numbers[1], numbers[2]) if len(numbers) == 3 and any(numbers) else None
+    x, y, z = (number(one, -1e3, 1e3) for one in kept)
+    if x is None or y is None or z is None:
+        return None
+    return (x, y, z) if any((x, y, z)) else None

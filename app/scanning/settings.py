@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from typing import Any
 
+from app.kept import number, shown
 from app.scanning.presses import Timing
 from app.scanning.scan import Pace
 
@@ -103,14 +103,14 @@ def read(kept: object) -> tuple[Options, str]:
     if kept is None:
         return DEFAULTS, ""
     if not isinstance(kept, Mapping):
-        return DEFAULTS, f"The settings of the switches are no table but {kept!r:.40}: as delivered."
+        return DEFAULTS, f"The settings of the switches are no table but {shown(kept)}: as delivered."
     options, wrong = DEFAULTS, []
     for one in fields(Options):
         if one.name not in kept:
             continue
         value = _checked(one.name, kept[one.name])
         if value is None:
-            wrong.append(f"{one.name} {kept[one.name]!r:.40} ({_allowed(one.name)})")
+            wrong.append(f"{one.name} {shown(kept[one.name])} ({_allowed(one.name)})")
         else:
             options = replace(options, **{one.name: value})
     if set(options.a) & set(options.b):
@@ -124,12 +124,8 @@ def _checked(name: str, value: object) -> Any:
         return _keys(value)
     if name not in RANGES:
         return value if isinstance(value, bool) else None
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        return None
-    low, high = RANGES[name]
-    if not low <= value <= high:
-        return None
-    return int(value) if name == "loops" else float(value)
+    found = number(value, *RANGES[name])
+    return int(found) if found is not None and name == "loops" else found
 
 
 def _keys(value: object) -> tuple[Key, ...] | None:

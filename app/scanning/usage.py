@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
+
+from app.kept import number
 
 __all__ = ["Usage"]
 
@@ -11,6 +12,8 @@ FADES = 0.9
 """Each start everything counts so much less than before: what is not used any more makes room."""
 LEAST = 0.5
 """What counts less is forgotten."""
+MOST = 1e9
+"""Nobody has done anything more often."""
 PLACES, NAMES = 40, 80
 """So many places are remembered, and names in each; the most used ones stay."""
 
@@ -50,6 +53,6 @@ def _counts(names: object) -> dict[str, float]:
         return {}
     return {
         str(name): times * FADES
-        for name, times in list(names.items())[:NAMES]
-        if isinstance(times, int | float) and math.isfinite(times) and times * FADES >= LEAST
+        for name, counted in list(names.items())[:NAMES]
+        if (times := number(counted, LEAST / FADES, MOST)) is not None
     }

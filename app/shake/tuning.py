@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
+from app.kept import number
 from app.shake.ground import Motion
 
 __all__ = [
@@ -218,4 +219,5 @@ def _own(axis: Axis, kept: object) -> Own:
 
 
 def _number(value: object) -> float:
-    return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else math.nan
+    found = number(value, -1e6, 1e6)
+    return math.nan if found is None else found

@@ -53,5 +53,5 @@ def test_what_is_wrong_is_said_once_it_is_looked_at() -> None:
 
 def test_what_is_no_table_at_all_is_as_at_first() -> None:
     mapped = Mapped(Settings(gamepads="all"))
-    assert mapped.problems == ["What is kept of gamepads is not a table but 'all'."]
+    assert mapped.problems == ["In the settings of gamepads what is kept is no table but 'all': as usual again."]
     assert mapped.pads_on

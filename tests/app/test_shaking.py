@@ -212,7 +212,7 @@ def test_a_pause_ends_the_lesson(hand: Hand) -> None:
     ("kept", "sentence"),
     [
         ({"ud": "stop"}, "Up-down cannot mean 'stop'; it means pause."),
-        ({"fb": 3}, "Forward-back cannot mean '3'; it means resume."),
+        ({"fb": 3}, "Forward-back cannot mean 3; it means resume."),
         ({"own": [1]}, "What the lesson of shaking measured is a table"),
         ({"own": {"lr": {"way": [0, 0, 0], "peak": 9, "gap": 0.4}}}, "The lesson has to be done again."),
     ],

@@ -1,0 +1,82 @@
+"""The one way to look at what was kept: whatever a settings file holds is either what it should be, or said and as usual again.
+
+    kept = Kept(settings.get("talk"), "talking")
+    on, rate = kept.flag("on", usual=False), kept.number("rate", 0.5, 2.0, usual=1.0)
+    kept.sentence       # "In the settings of talking rate is from 0.5 to 2, not 'fast': as usual again."
+
+JSON may hold anything in any place: lists where names are looked up, whole numbers that no float can hold, NaN.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container, Mapping
+from typing import Any, TypeGuard
+
+__all__ = ["Kept", "known", "number", "shown"]
+
+LETTERS = 40
+"""So much of a value is shown."""
+
+
+def number(value: object, low: float, high: float) -> float | None:
+    """It as a float where it is a number from `low` to `high`, else None: for true and false, NaN, and everything else."""
+    fits = isinstance(value, int | float) and not isinstance(value, bool) and low <= value <= high
+    return float(value) if fits else None  # type: ignore[arg-type]
+
+
+def known(value: object, allowed: Container[str]) -> TypeGuard[str]:
+    """It is a text, and one of those."""
+    return isinstance(value, str) and value in allowed
+
+
+def shown(value: object) -> str:
+    """As it is shown in a sentence: not at any length."""
+    text = repr(value)
+    return text if len(text) <= LETTERS else f"{text[: LETTERS - 1]}…"
+
+
+class Kept:
+    """A table of settings that is read value by value; what is not there is as usual, and no mistake."""
+
+    def __init__(self, value: object, about: str) -> None:
+        """`value` is what was kept, None for nothing; `about` what the settings are of, in words."""
+        self._about = about
+        self._wrong: list[str] = []
+        self.values: Mapping[str, Any] = value if isinstance(value, Mapping) else {}
+        """What was kept, unchecked."""
+        if value is not None and not isinstance(value, Mapping):
+            self._wrong.append(f"what is kept is no table but {shown(value)}")
+
+    @property
+    def sentence(self) -> str:
+        """What was no good, in one sentence; empty when all is well."""
+        if not self._wrong:
+            return ""
+        return f"In the settings of {self._about} {', '.join(self._wrong)}: as usual again."
+
+    def flag(self, name: str, *, usual: bool) -> bool:
+        """True or false."""
+        value = self.values.get(name, usual)
+        if isinstance(value, bool):
+            return value
+        self.mistaken(name, "true or false")
+        return usual
+
+    def number(self, name: str, low: float, high: float, usual: float) -> float:
+        """A number from `low` to `high`."""
+        found = number(self.values.get(name, usual), low, high)
+        if found is None:
+            self.mistaken(name, f"from {low:g} to {high:g}")
+        return usual if found is None else found
+
+    def word(self, name: str, allowed: Container[str], usual: str) -> str:
+        """One of those texts."""
+        value = self.values.get(name, usual)
+        if known(value, allowed):
+            return value
+        self.mistaken(name, "one of the known")
+        return usual
+
+    def mistaken(self, name: str, allowed: str) -> None:
+        """Note that the value of that name is not what is `allowed`."""
+        self._wrong.append(f"{name} is {allowed}, not {shown(self.values.get(name))}")
