@@ -25,7 +25,9 @@ from widgets.theme import theme
 
 def push(glass: Glass, robot: FakeRobot) -> Any:
     stick = glass.app.screens["drive"].stick
+    glass.until(lambda: stick.state == "live", "no stick")
     touch = glass.hold(stick)
+    assert stick.finger is not None, f"{stick.state}, {glass.app.session.control}"
     touch.touch_move(stick.center_x, stick.top - 10)
     glass.until(lambda: any(twist.linear.x > 0.1 for twist in robot.twists()), "the robot heard no push")
     return touch
