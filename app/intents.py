@@ -47,6 +47,8 @@ CANCEL_FOR = 2.0
 """What was understood acts after this unless it is cancelled [s]."""
 CONFIRM_FOR = 5.0
 """What asks waits so long for a yes [s]."""
+FRAME = 0.1
+"""Of what may be cancelled no frame takes more: while the glass stands still nobody sees it, and no finger cancels it [s]."""
 
 Risk = Literal["at_once", "cancel", "confirm"]
 
@@ -136,7 +138,7 @@ class Verdict:
         return self.what not in ("waits", "asks")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Pending:
     """What waits on the glass."""
 
@@ -146,7 +148,7 @@ class Pending:
     began: float
     """Since when it waits [s]."""
     until: float
-    """Until when [s]."""
+    """Until when [s]; later, where frames were slow."""
     decided: float
     """When it was known what was meant [s]."""
 
@@ -180,6 +182,8 @@ class Intents:
         self._acts, self.table, self._now = acts, permits, now
         self.pending: Pending | None = None
         """What waits to be cancelled or confirmed; None for nothing. One at a time: the newest wish counts."""
+        self._looked = -math.inf
+        """When time was last told [s]."""
         self.on_taken: list[Callable[[Heard, Verdict], object]] = []
         """Called with each verdict, where something waits twice: when it begins to wait and when that ends."""
         self.practise: Callable[[Heard], str] = lambda _: ""
@@ -243,8 +247,10 @@ class Intents:
         return self.take(Heard("yes" if yes else "no", method, began=self._now(), ended=self._now()))
 
     def look(self, now: float) -> None:
-        """What has waited long enough acts, or lapses where nobody said yes."""
-        pending = self.pending
+        """With each frame: what has waited long enough acts, or lapses where nobody said yes."""
+        pending, looked, self._looked = self.pending, self._looked, now
+        if pending is not None and not pending.question:
+            pending.until += max(0.0, now - max(looked, pending.began) - FRAME)
         if pending is None or now < pending.until:
             return
         self.pending = None

@@ -56,6 +56,11 @@ class Stage:
         return self.intents.take(Heard(intent, method, **kwargs)).what
 
     def wait(self, seconds: float) -> None:
+        end = self.time + seconds
+        while self.time < end:
+            self.frame(min(0.03, end - self.time))
+
+    def frame(self, seconds: float) -> None:
         self.time += seconds
         self.intents.look(self.time)
 
@@ -112,6 +117,19 @@ def test_what_was_pressed_waits_for_nothing(stage: Stage, how: str) -> None:
 @pytest.mark.parametrize("intent", [name for name, intent in INTENTS.items() if intent.risk == "cancel"])
 def test_what_was_guessed_can_be_cancelled_however_sure_it_is(stage: Stage, method: str, intent: str) -> None:
     assert stage.say(intent, method, confidence=1.0) in ("waits", "not allowed")
+    assert stage.acts.names == []
+
+
+def test_what_may_be_cancelled_does_not_act_out_of_a_frame_in_which_nobody_could(stage: Stage) -> None:
+    stage.wait(1.0)
+    stage.say("resume")
+    stage.wait(0.5)
+    stage.frame(2.2)
+    assert stage.acts.names == [], "the glass stood still: nobody saw it"
+    stage.wait(CANCEL_FOR - 0.7)
+    assert stage.acts.names == []
+    stage.say("no")
+    stage.wait(10.0)
     assert stage.acts.names == []
 
 
