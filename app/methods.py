@@ -15,6 +15,7 @@ from kivy.core.window import Window
 from app.device.motion import motion_source
 from app.intents import METHODS, Heard, Verdict
 from app.origin import origins
+from app.problems import Problems
 from app.sensing import Sensing
 
 __all__ = ["MADE_BY", "Method", "Methods"]
@@ -72,6 +73,7 @@ class Methods:
         self._paused = False
         self.faults: dict[str, str] = {}
         """Name of each that could not be made to one sentence why; everything else goes on without it."""
+        self._problems = Problems(app)
         app.sensing = self.sensing = Sensing(motion_source(app.now), app.now)
         """The motion sensors of all of them."""
 
@@ -143,6 +145,8 @@ class Methods:
         for method in self._looks:
             if method.on or getattr(method, "busy", False):
                 method.look(now)
+        if not self._paused:
+            self._problems.look(now)
 
     def get(self, name: str) -> Any:
         """The method of that name; None where there is none."""

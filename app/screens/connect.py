@@ -370,6 +370,11 @@ class ConnectScreen(FloatLayout):
         self._banner.unbind(on_close=self._tapped)
         self._banner.bind(on_close=self._tapped)
 
+    def unsay(self, text: str) -> None:
+        """Take that sentence away, where it is still the one that is shown: it is no longer true."""
+        if self._banner is not None and self._banner.text == text:
+            self.say("")
+
     def _tapped(self, *_: object) -> None:
         if self._tap is not None:
             self._tap()

@@ -145,3 +145,13 @@ def test_what_was_touched_is_forgotten_by_the_heartbeat(make: Any) -> None:
     assert origins.current().method == "button"
     app.methods.look(105.0)
     assert origins.current() is NOBODY
+
+
+class Deaf(Made):
+    problem = "There is no microphone."
+
+
+def test_what_is_on_and_does_not_work_is_said_with_the_next_heartbeat(make: Any) -> None:
+    app = make(voice=Deaf)
+    app.methods.look(100.0)
+    assert app.said == ["Voice: There is no microphone."]
