@@ -237,8 +237,8 @@ class PilothouseApp(App):
 
     def on_pause(self) -> bool:
         """The glass is taken away: rest, and let go of the robot; the patrol goes on without us."""
-        self.methods.pause()
         self.inputs.rest()
+        self.methods.pause()
         self.fleet.look(None)
         if self.session is not None:
             self.session.link.close(0.3)

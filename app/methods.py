@@ -17,6 +17,7 @@ from app.intents import METHODS, Heard, Verdict
 from app.origin import origins
 from app.problems import Problems
 from app.sensing import Sensing
+from app.voice.ending import wait_for_ends
 
 __all__ = ["MADE_BY", "Method", "Methods"]
 
@@ -113,6 +114,7 @@ class Methods:
         for method in self._all.values():
             method.stop()
             method.close()
+        wait_for_ends()
         origins.forget()
         self.sensing.close()
         self._all.clear()

@@ -18,7 +18,7 @@ from collections import deque
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import msgspec
 
@@ -206,8 +206,8 @@ class ResponseLog:
         self.folder.mkdir(parents=True, exist_ok=True)
         if path.exists() and path.stat().st_size + len(line) + 1 > self._size:
             self._rotate(path)
-        with path.open("ab") as file:
-            file.write(line + b"\n")
+        with path.open("ab+") as file:
+            file.write((b"\n" if _is_half(file) else b"") + line + b"\n")
 
     def _rotate(self, path: Path) -> None:
         """The oldest file goes, each other becomes one older."""
@@ -220,6 +220,14 @@ class ResponseLog:
     def _erase(self) -> None:
         for path in files(self.folder):
             path.unlink(missing_ok=True)
+
+
+def _is_half(file: BinaryIO) -> bool:
+    """Its last line has no end: power or room ran out in it, and what follows is a line of its own."""
+    if file.seek(0, 2) == 0:
+        return False
+    file.seek(-1, 2)
+    return file.read(1) != b"\n"
 
 
 def _numbered(folder: Path, number: int) -> Path:

@@ -38,6 +38,8 @@ LONG = 2.0
 """How long a fault is told after it was last seen [s]."""
 OLD = 1.0
 """What was measured so long ago is no news [s]: a phone that slept hands it out in one go."""
+AHEAD = 0.5
+"""Nothing was measured so far in the future [s]; taken, it would make all that follows old."""
 BEYOND = 200.0
 """No phone measures more [m/s²]; most end at 78 or 157."""
 LEAP = {"acceleration": 120.0, "gravity": 10.0}
@@ -77,7 +79,7 @@ class Judge:
         if not all(math.isfinite(value) for value in (t, *axes)):
             self._seen["broken"] = now
             return False
-        if now - t > OLD or (self._last is not None and t <= self._last[0]):
+        if now - t > OLD or t - now > AHEAD or (self._last is not None and t <= self._last[0]):
             return False
         if self._jumped(axes):
             self._seen["jumps"] = now

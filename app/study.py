@@ -112,7 +112,9 @@ class Trials:
     """
 
     def __init__(self, plan: Plan, *, now: Callable[[], float], block: int = 0, trial: int = 0) -> None:
-        """Begins before a block, at a trial of it, as `saved` told; what lies beyond the plan is its end."""
+        """Begins before a block, at a trial of it, as `saved` told: behind the last one the form is asked for, and
+
+        what lies beyond that is the end."""
         self.plan, self._now = plan, now
         self.blocks = plan.blocks()
         self.block, self.trial = max(0, min(block, len(self.blocks))), max(0, trial)
@@ -127,7 +129,7 @@ class Trials:
         """Called when it has come farther: time to save."""
         self._next, self._tries, self._lot = math.inf, 0, random.Random()
         if self.block >= len(self.blocks):
-            self.stage = "done"
+            self.stage = "sus" if block == len(self.blocks) else "done"
         elif self.trial >= len(self.now_block.prompts):
             self.stage = "tlx"
 
@@ -214,7 +216,7 @@ def saved(trials: Trials) -> dict[str, Any]:
         "postures": list(plan.postures),
         "triggers": plan.triggers,
         "commands": {method: list(commands) for method, commands in plan.commands.items()},
-        "block": trials.block,
+        "block": trials.block + (trials.stage == "done"),
         "trial": trials.trial,
     }
 

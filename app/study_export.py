@@ -24,6 +24,9 @@ COLUMNS = tuple(name for name in Response.__struct_fields__ if name != "snippet"
 SETTINGS = ("theme", "shake", "voice", "tilt", "switches", "gamepads", "keys", "intents", "study")
 """Settings that go along; names of robots, addresses and keys do not."""
 
+FIRST_YEAR, LAST_YEAR = 1980, 2107
+"""That a zip can say."""
+
 README = """Pilothouse: what a study gathered, {when}
 
 responses*.jsonl   one line of JSON for each command, the oldest file has the highest number
@@ -100,10 +103,10 @@ def export(folder: Path, to: Path, settings: Mapping[str, Any], wall: float) -> 
     path = _free(to, time.strftime("study_%Y-%m-%d_%H-%M-%S", time.localtime(wall)))
     fresh = path.with_suffix(".new")
     try:
-        with zipfile.ZipFile(fresh, "w", zipfile.ZIP_DEFLATED) as archive:
+        with zipfile.ZipFile(fresh, "w", zipfile.ZIP_DEFLATED, strict_timestamps=False) as archive:
             _fill(archive, folder, settings, wall)
         fresh.replace(path)
-    except OSError:
+    except BaseException:
         fresh.unlink(missing_ok=True)
         raise
     return path
@@ -116,14 +119,27 @@ def _free(folder: Path, name: str) -> Path:
     return path
 
 
+def _dated(wall: float) -> tuple[int, int, int, int, int, int]:
+    """As a zip writes it: a clock that was lost stands before 1980, where its years begin."""
+    there = time.localtime(wall)
+    if not FIRST_YEAR <= there.tm_year <= LAST_YEAR:
+        return (FIRST_YEAR, 1, 1, 0, 0, 0)
+    return (there.tm_year, there.tm_mon, there.tm_mday, there.tm_hour, there.tm_min, there.tm_sec)
+
+
 def _fill(archive: zipfile.ZipFile, folder: Path, settings: Mapping[str, Any], wall: float) -> None:
     from app.workload import BASELINE
 
+    def put(name: str, data: str | bytes) -> None:
+        info = zipfile.ZipInfo(name, _dated(wall))
+        info.external_attr = 0o600 << 16
+        archive.writestr(info, data, zipfile.ZIP_DEFLATED)
+
     for path in files(folder):
         archive.write(path, path.name)
-    archive.writestr("responses.csv", table(read(folder)[0]))
+    put("responses.csv", table(read(folder)[0]))
     forms = Workloads(folder).kept
-    archive.writestr(FORMS, b"".join(msgspec.json.encode(one) + b"\n" for one in forms))
+    put(FORMS, b"".join(msgspec.json.encode(one) + b"\n" for one in forms))
     rows = [["at", "form", "score", "user", "method", "posture", "task"]]
     rows += [
         [str(one.at), one.form, f"{one.score:.2f}", one.user, one.method, one.posture, one.task]
@@ -131,8 +147,8 @@ def _fill(archive: zipfile.ZipFile, folder: Path, settings: Mapping[str, Any], w
     ]
     scores = io.StringIO()
     csv.writer(scores, lineterminator="\n").writerows(rows)
-    archive.writestr("scores.csv", scores.getvalue())
-    archive.writestr("settings.json", json.dumps(dict(settings), indent=1))
+    put("scores.csv", scores.getvalue())
+    put("settings.json", json.dumps(dict(settings), indent=1))
     when = time.strftime("%Y-%m-%d %H:%M", time.localtime(wall))
     fields = "\n".join(f"{name:14} {meaning}" for name, meaning in MEANINGS.items())
-    archive.writestr("README.txt", README.format(when=when, fields=fields, baseline=BASELINE))
+    put("README.txt", README.format(when=when, fields=fields, baseline=BASELINE))

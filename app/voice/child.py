@@ -13,7 +13,7 @@ from typing import TextIO
 
 from app.voice.files import FileEars, read
 from app.voice.microphone import Ears, Microphone
-from app.voice.recognizer import Event
+from app.voice.recognizer import Event, State, VoiceTrouble
 from app.voice.service import Service, judge_of
 from app.voice.wire import event_line, read_grammar
 
@@ -26,12 +26,16 @@ def main(arguments: list[str], orders: TextIO, events: TextIO) -> int:
     first = orders.readline()
     if not first:
         return 0
-    ears: Ears = FileEars([read(Path(recording)) for recording in recordings]) if recordings else Microphone()
 
     def tell(event: Event) -> None:
         events.write(event_line(event) + "\n")
         events.flush()
 
+    try:
+        ears: Ears = FileEars([read(Path(one)) for one in recordings]) if recordings else Microphone()
+    except VoiceTrouble as trouble:
+        tell(State("failed", str(trouble)))
+        return 0
     service = Service(read_grammar(json.loads(first)), ears, lambda grammar: judge_of(name, grammar), tell)
     threading.Thread(target=_obey, args=(service, orders), name="voice orders", daemon=True).start()
     service.run()

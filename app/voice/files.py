@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 import wave
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -18,6 +19,8 @@ Samples = NDArray[np.float32]
 
 CHUNK = 800
 """Samples that a microphone gives at a time: 50 ms."""
+RATES = (1000, 768000)
+"""What recordings are made at [Hz]."""
 
 
 def read(path: Path) -> Samples:
@@ -26,7 +29,7 @@ def read(path: Path) -> Samples:
         return _wave(path) if path.suffix.lower() == ".wav" else _packed(path)
     except FileNotFoundError as problem:
         raise VoiceTrouble(f"There is no recording {path}.") from problem
-    except (OSError, ValueError, EOFError, wave.Error) as problem:
+    except (OSError, ValueError, EOFError, wave.Error, struct.error, ArithmeticError) as problem:
         raise VoiceTrouble(f"{path} cannot be read as a recording: {problem}.") from problem
 
 
@@ -55,6 +58,8 @@ def _wave(path: Path) -> Samples:
     with wave.open(str(path), "rb") as file:
         width, rate, channels = file.getsampwidth(), file.getframerate(), file.getnchannels()
         raw = file.readframes(file.getnframes())
+    if not RATES[0] <= rate <= RATES[1]:
+        raise ValueError(f"{rate} samples a second, where {RATES[0]} to {RATES[1]} are read")
     if width != 2:
         raise ValueError(f"samples of {8 * width} bits, where 16 are read")
     samples = np.frombuffer(raw, "<i2").astype(np.float32) / 32768.0

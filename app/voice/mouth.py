@@ -17,14 +17,14 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Protocol
 
+from app.voice.ending import end_aside
+
 __all__ = ["VOICES", "ChildMouth", "Mouth", "Tell", "mouth_of"]
 
 Tell = Callable[[str, str], object]
 """`began` or `ended` with the words that were said, or `failed` with a sentence; in any thread."""
 VOICES: dict[str, str] = {"natural": "Natural", "clear": "Clear, like a machine"}
 """Voices of a desktop, with their names for the operator."""
-ENDS = 2.0
-"""A process that does not end by itself in so long is ended [s]."""
 ROOT = Path(__file__).parents[2]
 NO_HIBARI = "Talking needs the packages hibari-tts and miniaudio: pip install pilothouse[voice]."
 NO_ESPEAK = "This voice needs the program espeak-ng, which is not installed."
@@ -70,7 +70,7 @@ class ChildMouth:
         self._command = list(command) or [sys.executable, "-m", "app.voice.talker", voice]
         self._process: subprocess.Popen[str] | None = None
         self._reader: threading.Thread | None = None
-        self._stopping = False
+        self._over = threading.Event()
 
     def missing(self) -> str:
         """Why it cannot speak here."""
@@ -82,7 +82,7 @@ class ChildMouth:
     def start(self, tell: Tell) -> None:
         """Start the process."""
         self.stop()
-        self._stopping = False
+        self._over = over = threading.Event()
         paths = [str(ROOT), os.environ.get("PYTHONPATH", "")]
         environment = os.environ | {
             "PYTHONPATH": os.pathsep.join(filter(None, paths)),
@@ -98,7 +98,9 @@ class ChildMouth:
             encoding="utf-8",
             env=environment,
         )
-        self._reader = threading.Thread(target=self._read, args=(process, tell), name="talk", daemon=True)
+        self._reader = threading.Thread(
+            target=self._read, args=(process, tell, over), name="talk", daemon=True
+        )
         self._reader.start()
 
     def say(self, words: str, rate: float) -> None:
@@ -111,13 +113,10 @@ class ChildMouth:
 
     def stop(self) -> None:
         """End the process."""
-        self._stopping = True
+        self._over.set()
         process, self._process = self._process, None
         reader, self._reader = self._reader, None
-        if process is not None:
-            _end(process)
-        if reader is not None and reader is not threading.current_thread():
-            reader.join(ENDS)
+        end_aside(process, reader)
 
     def _send(self, fields: dict[str, object]) -> None:
         process = self._process
@@ -127,7 +126,7 @@ class ChildMouth:
             process.stdin.write(json.dumps(fields) + "\n")
             process.stdin.flush()
 
-    def _read(self, process: subprocess.Popen[str], tell: Tell) -> None:
+    def _read(self, process: subprocess.Popen[str], tell: Tell, over: threading.Event) -> None:
         failed = False
         for line in process.stdout or ():
             try:
@@ -135,19 +134,8 @@ class ChildMouth:
             except (ValueError, TypeError):
                 continue  # a foreign library printed something
             failed = failed or word == "failed"
+            if over.is_set():
+                return
             tell(str(word), str(sentence))
-        if not failed and not self._stopping:
+        if not failed and not over.is_set():
             tell("failed", CRASHED)
-
-
-def _end(process: subprocess.Popen[str]) -> None:
-    if process.stdin is not None:
-        with contextlib.suppress(OSError):
-            process.stdin.close()
-    try:
-        process.wait(ENDS)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()
-    if process.stdout is not None:
-        process.stdout.close()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict
+from dataclasses import fields as dataclass_fields
 from typing import Any
 
 from app.voice.recognizer import Event, Grammar, Level, Partial, Rejected, Result, State
@@ -25,9 +26,22 @@ def read_event(line: str) -> Event:
         kind = KINDS[fields.pop("event")]
         if kind is Result:
             fields["alternatives"] = tuple((str(name), float(sure)) for name, sure in fields["alternatives"])
+        if not all(_fits(one.type, fields[one.name]) for one in dataclass_fields(kind) if one.name in fields):
+            raise TypeError("a value of another kind")
         return kind(**fields)
-    except (AttributeError, KeyError, TypeError) as problem:
+    except (AttributeError, KeyError, TypeError, OverflowError) as problem:
         raise ValueError(f"No event: {line[:80]!r}.") from problem
+
+
+def _fits(kind: Any, value: object) -> bool:
+    """The value is of the kind that the field says: a broken process may write anything."""
+    if kind == "float":
+        return isinstance(value, int | float) and not isinstance(value, bool)
+    if kind == "bool":
+        return isinstance(value, bool)
+    if kind == "str":
+        return isinstance(value, str)
+    return isinstance(value, tuple | dict)
 
 
 def grammar_fields(grammar: Grammar) -> dict[str, Any]:

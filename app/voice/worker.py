@@ -9,7 +9,6 @@ started again once.
 
 from __future__ import annotations
 
-import contextlib
 import importlib.util
 import json
 import os
@@ -20,8 +19,9 @@ from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 from typing import Any
 
+from app.voice.ending import end, end_aside
 from app.voice.microphone import Ears, Microphone
-from app.voice.recognizer import Grammar, Hear, State, VoiceRecognizer, VoiceTrouble
+from app.voice.recognizer import Grammar, Hear, Result, State, VoiceRecognizer, VoiceTrouble
 from app.voice.service import Service, judge_of
 from app.voice.wire import grammar_fields, read_event
 
@@ -31,8 +31,6 @@ PACKAGES = {"phonemes": "hama", "sphinx": "pocketsphinx"}
 """What each judge needs."""
 AGAIN = "Voice recognition crashed and is started again."
 OVER = "Voice recognition crashed twice and is off. Switch it on again, or command by touch."
-ENDS = 2.0
-"""A process that does not end by itself in so long is ended [s]."""
 ROOT = Path(__file__).parents[2]
 
 
@@ -65,6 +63,11 @@ def _checked(name: str, grammar: Grammar, languages: Collection[str]) -> None:
         )
 
 
+def _until(over: threading.Event, hear: Hear) -> Hear:
+    """Tell what comes until it is over: what ends beside the glass is heard no more."""
+    return lambda event: None if over.is_set() else hear(event)
+
+
 class InThread:
     """In a thread of the app: on a phone, which has no processes to start."""
 
@@ -75,6 +78,7 @@ class InThread:
         self.name, self._ears = name, ears
         self._service: Service | None = None
         self._thread: threading.Thread | None = None
+        self._over = threading.Event()
 
     def missing(self) -> str:
         """Why it cannot work here."""
@@ -84,6 +88,8 @@ class InThread:
         """Load in the thread."""
         self.stop()
         _checked(self.name, grammar, self.languages)
+        self._over = threading.Event()
+        hear = _until(self._over, hear)
         self._service = Service(grammar, self._ears(), lambda wanted: judge_of(self.name, wanted), hear)
         self._thread = threading.Thread(
             target=self._run, args=(self._service, hear), name="voice", daemon=True
@@ -102,12 +108,12 @@ class InThread:
 
     def stop(self) -> None:
         """End the thread."""
+        self._over.set()
         service, self._service = self._service, None
         if service is not None:
             service.stop()
         thread, self._thread = self._thread, None
-        if thread is not None and thread is not threading.current_thread():
-            thread.join(ENDS)
+        end_aside(None, thread)
 
     def _run(self, service: Service, hear: Hear) -> None:
         for sentence in (AGAIN, OVER):
@@ -138,7 +144,7 @@ class InProcess:
         self._process: subprocess.Popen[str] | None = None
         self._reader: threading.Thread | None = None
         self._said: dict[str, dict[str, Any]] = {}
-        self._stopping = False
+        self._over = threading.Event()
 
     def missing(self) -> str:
         """Why it cannot work here."""
@@ -148,10 +154,13 @@ class InProcess:
         """Start the process."""
         self.stop()
         _checked(self.name, grammar, self.languages)
-        self._stopping, self._said = False, {}
-        process = self._spawn(grammar)
+        self._over, self._said = threading.Event(), {}
+        process = self._spawn(grammar, self._over)
         self._reader = threading.Thread(
-            target=self._read, args=(process, grammar, hear), name="voice", daemon=True
+            target=self._read,
+            args=(process, grammar, _until(self._over, hear), self._over),
+            name="voice",
+            daemon=True,
         )
         self._reader.start()
 
@@ -166,16 +175,12 @@ class InProcess:
     def stop(self) -> None:
         """End the process."""
         with self._lock:
-            self._stopping = True
+            self._over.set()
             process, self._process = self._process, None
         reader, self._reader = self._reader, None
-        if process is None:
-            return
-        _end(process)
-        if reader is not None and reader is not threading.current_thread():
-            reader.join(ENDS)
+        end_aside(process, reader)
 
-    def _spawn(self, grammar: Grammar) -> subprocess.Popen[str]:
+    def _spawn(self, grammar: Grammar, over: threading.Event) -> subprocess.Popen[str]:
         paths = [str(ROOT), os.environ.get("PYTHONPATH", "")]
         environment = os.environ | {
             "PYTHONPATH": os.pathsep.join(filter(None, paths)),
@@ -198,7 +203,8 @@ class InProcess:
             self._send(process, grammar_fields(grammar))
             for order in self._said.values():
                 self._send(process, order)
-            self._process = process
+            if not over.is_set():
+                self._process = process
         return process
 
     def _order(self, key: str, value: Any) -> None:
@@ -215,44 +221,36 @@ class InProcess:
         except (OSError, ValueError):
             pass  # it has just ended, which the reader says
 
-    def _read(self, process: subprocess.Popen[str], grammar: Grammar, hear: Hear) -> None:
+    def _read(
+        self, process: subprocess.Popen[str], grammar: Grammar, hear: Hear, over: threading.Event
+    ) -> None:
         for sentence in (AGAIN, OVER):
-            failed = self._events(process, hear)
-            _end(process)
-            if failed or self._stopping:
+            failed = self._events(process, grammar, hear, over)
+            end(process)
+            if failed or over.is_set():
                 return
             hear(State("starting" if sentence == AGAIN else "failed", sentence))
             if sentence == AGAIN:
                 try:
-                    process = self._spawn(grammar)
+                    process = self._spawn(grammar, over)
                 except VoiceTrouble as trouble:
                     hear(State("failed", str(trouble)))
                     return
 
-    def _events(self, process: subprocess.Popen[str], hear: Hear) -> bool:
+    def _events(
+        self, process: subprocess.Popen[str], grammar: Grammar, hear: Hear, over: threading.Event
+    ) -> bool:
         """Until the process ends; whether it had said that it fails."""
         failed = False
         for line in process.stdout or ():
-            if self._stopping:
+            if over.is_set():
                 break
             try:
                 event = read_event(line)
             except ValueError:
                 continue  # a foreign library printed something
+            if isinstance(event, Result) and event.command not in grammar.phrases:
+                continue  # nobody asked for that
             failed = isinstance(event, State) and event.word == "failed"
             hear(event)
         return failed
-
-
-def _end(process: subprocess.Popen[str]) -> None:
-    """It ends with its standard input, and by force if it hangs."""
-    if process.stdin is not None:
-        with contextlib.suppress(OSError):
-            process.stdin.close()
-    try:
-        process.wait(ENDS)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()
-    if process.stdout is not None:
-        process.stdout.close()

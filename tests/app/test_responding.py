@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import os
 import zipfile
 from types import SimpleNamespace
 
@@ -324,6 +325,26 @@ def test_a_zip_that_cannot_be_written_leaves_nothing_behind(running, monkeypatch
 
     monkeypatch.setattr("app.study_export._fill", fail)
     with pytest.raises(OSError, match="No space"):
+        running.log.export()
+    assert list(running.log.exports.iterdir()) == []
+
+
+def test_a_clock_that_was_lost_leaves_the_zip_whole(running, monkeypatch):
+    running.hear("pause")
+    running.wait(12)
+    running.log.log.flush()
+    for path in running.log.folder.glob("*.jsonl"):
+        os.utime(path, (3600, 3600))
+    running.log._wall = lambda: 3600.0
+    monkeypatch.setattr("time.time", lambda: 3600.0)
+    with zipfile.ZipFile(running.log.export()) as archive:
+        assert archive.testzip() is None
+        assert {one.date_time[0] for one in archive.infolist()} == {1980}
+
+
+def test_half_a_zip_is_never_left_whatever_failed(running, monkeypatch):
+    monkeypatch.setattr("app.study_export._fill", lambda *_: [][0])
+    with pytest.raises(IndexError):
         running.log.export()
     assert list(running.log.exports.iterdir()) == []
 

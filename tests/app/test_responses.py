@@ -177,3 +177,13 @@ def test_a_disk_that_hangs_holds_nobody_up(tmp_path, monkeypatch):
     assert log.dropped >= 16
     gate.set()
     log.close()
+
+
+def test_what_follows_half_a_line_is_read_as_well(tmp_path):
+    kept(tmp_path, [Response(id="a")])
+    with (tmp_path / FILE).open("ab") as file:
+        file.write(b'{"id":"half","sess')
+    kept(tmp_path, [Response(id="b"), Response(id="c")])
+    found, wrong = read(tmp_path)
+    assert [one.id for one in found] == ["a", "b", "c"]
+    assert wrong == 1

@@ -240,3 +240,15 @@ def test_another_source_takes_over_from_the_one_before(phone: Phone) -> None:
     other = SimulatedMotion(now=lambda: phone.now)
     phone.sensing.use(other)
     assert (phone.source.running, other.running) == (False, True)
+
+
+def test_a_stamp_from_the_future_makes_nothing_that_follows_old(phone: Phone) -> None:
+    phone.listen()
+    phone.run(1.0)
+    phone.source.put("acceleration", phone.now + 3600.0, (0.0, 0.0, GRAVITY))
+    phone.sensing.look()
+    count = len(phone.got)
+    phone.run(1.0)
+    assert len(phone.got) == count + 50
+    assert phone.got[-1][0] == phone.now
+    assert not phone.fault()

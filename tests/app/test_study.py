@@ -203,3 +203,17 @@ def test_what_was_saved_and_means_nothing_is_no_plan(change):
 
 def test_nothing_saved_is_no_plan():
     assert plan_of(None, ("voice",), COMMANDS) is None
+
+
+def test_the_last_form_that_was_open_when_the_app_ended_is_asked_for_again():
+    led = Led()
+    led.trials.block = len(led.trials.blocks) - 1
+    led.trials.stage = "tlx"
+    led.trials.filled()
+    assert led.trials.stage == "sus"
+    plan, block, trial = plan_of(saved(led.trials), ("voice", "shake"), COMMANDS)
+    again = Trials(plan, now=lambda: 0.0, block=block, trial=trial)
+    assert again.stage == "sus"
+    again.filled()
+    plan, block, trial = plan_of(saved(again), ("voice", "shake"), COMMANDS)
+    assert Trials(plan, now=lambda: 0.0, block=block, trial=trial).stage == "done"

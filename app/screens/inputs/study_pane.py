@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections import deque
 from collections.abc import Callable
 from typing import Any
@@ -19,6 +20,8 @@ from app.worker import NewestWorker
 from widgets.kit import Roll, Segmented
 
 __all__ = ["StudyPane"]
+
+log = logging.getLogger(__name__)
 
 PARTS = [("log", "Log"), ("study", "Study"), ("load", "Workload")]
 
@@ -112,6 +115,9 @@ class StudyPane(BoxLayout):
             self._results.append((then, job()))
         except OSError as error:
             self._results.append((then, error))
+        except Exception as error:
+            log.exception("a job of the study failed")
+            self._results.append((then, OSError(str(error) or type(error).__name__)))
 
     # what is shown
 

@@ -1,12 +1,17 @@
 """A recogniser in a process of its own."""
 
+import io
+import json
 import queue
 import sys
 import threading
 import time
+import wave
 
 import pytest
 
+from app.voice import child
+from app.voice.ending import wait_for_ends
 from app.voice.files import read
 from app.voice.lexicon import COMMANDS
 from app.voice.recognizer import Grammar, Level, Partial, Rejected, Result, State, VoiceTrouble
@@ -34,6 +39,7 @@ def voice():
     made.missing = lambda: ""
     yield made
     made.stop()
+    wait_for_ends()
 
 
 @pytest.fixture
@@ -103,6 +109,7 @@ def test_to_stop_is_no_crash_and_ends_the_process(voice, told):
     process = voice._process
     voice.stop()
     voice.stop()
+    wait_for_ends()
     assert process.returncode is not None
     assert told.empty()
 
@@ -172,3 +179,103 @@ def test_a_recording_that_is_not_there_or_is_none_is_said(tmp_path):
     (tmp_path / "text.wav").write_text("no sound")
     with pytest.raises(VoiceTrouble, match="cannot be read as a recording"):
         read(tmp_path / "text.wav")
+
+
+def test_one_that_hangs_holds_nobody_up_and_is_ended_all_the_same(told, monkeypatch):
+    monkeypatch.setattr("app.voice.ending.ENDS", 0.3)
+    deaf = "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); print(flush=True); time.sleep(60)"
+    voice = InProcess("phonemes", command=[sys.executable, "-c", deaf])
+    voice.missing = lambda: ""
+    voice.start(GRAMMAR, told.put)
+    process, waited = voice._process, []
+    monkeypatch.setattr(
+        process, "wait", lambda *limit: waited.append(threading.current_thread()) or stock(*limit)
+    )
+    stock = type(process).wait.__get__(process)
+    voice.stop()
+    wait_for_ends()
+    assert process.returncode is not None
+    assert waited
+    assert threading.current_thread() not in waited
+
+
+def test_what_ends_beside_the_glass_is_heard_no_more(monkeypatch, told):
+    monkeypatch.setattr("app.voice.worker._missing", lambda name: "")
+    goes_on, told_late = threading.Event(), threading.Event()
+
+    class Late:
+        def __init__(self, grammar, ears, make, hear):
+            self.hear = hear
+
+        def run(self):
+            goes_on.wait(10)
+            self.hear(State("ready", "late"))
+            told_late.set()
+
+        def stop(self):
+            pass
+
+    monkeypatch.setattr("app.voice.worker.Service", Late)
+    voice = InThread("phonemes", ears=lambda: None)
+    voice.start(GRAMMAR, told.put)
+    voice.stop()
+    goes_on.set()
+    assert told_late.wait(10)
+    wait_for_ends()
+    assert told.empty()
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        '{"event": "State", "word": 5, "sentence": ""}',
+        '{"event": "State", "word": "ready", "sentence": null}',
+        '{"event": "Level", "level": "a", "noise": null, "snr": 1}',
+        '{"event": "Level", "level": true, "noise": 0, "snr": 1}',
+        '{"event": "Result", "command": [], "said": "", "confidence": 1, "alternatives": []}',
+        '{"event": "Result", "command": "stop", "said": "", "confidence": 1, "alternatives": [["go", 1]], "strong": 1}',
+    ],
+)
+def test_a_value_of_another_kind_is_no_event(line):
+    with pytest.raises(ValueError, match="No event"):
+        read_event(line)
+
+
+def test_a_command_that_nobody_asked_for_is_left_out(told):
+    strange = """
+import json
+for command in ("zzz", "stop"):
+    fields = {"command": command, "said": command, "confidence": 1.0, "alternatives": []}
+    print(json.dumps({"event": "Result", **fields}), flush=True)
+print(json.dumps({"event": "State", "word": "failed", "sentence": "over"}), flush=True)
+"""
+    voice = InProcess("phonemes", command=[sys.executable, "-c", strange])
+    voice.missing = lambda: ""
+    voice.start(GRAMMAR, told.put)
+    voice._reader.join(10)
+    assert [getattr(event, "command", event) for event in words(told, 2)] == ["stop", State("failed", "over")]
+    voice.stop()
+    wait_for_ends()
+
+
+@pytest.mark.parametrize("rate", [0, 1, 4_000_000_000])
+def test_a_recording_at_a_rate_that_cannot_be_is_said(tmp_path, rate):
+    path = tmp_path / "stop.wav"
+    with wave.open(str(path), "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(2)
+        file.setframerate(16000)
+        file.writeframes(bytes(64))
+    made = bytearray(path.read_bytes())
+    made[24:28] = rate.to_bytes(4, "little")
+    path.write_bytes(made)
+    with pytest.raises(VoiceTrouble, match="cannot be read as a recording"):
+        read(path)
+    events = io.StringIO()
+    assert (
+        child.main(["phonemes", str(path)], io.StringIO(json.dumps(grammar_fields(GRAMMAR)) + "\n"), events)
+        == 0
+    )
+    event = read_event(events.getvalue())
+    assert event.word == "failed"
+    assert "cannot be read as a recording" in event.sentence
