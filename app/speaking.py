@@ -46,6 +46,13 @@ ECHO = 0.3
 WHILE_ASKED = frozenset({"yes", "no", "pause"})
 """What counts while something waits for a yes; STOP always does."""
 DEAF = "The app itself was speaking."
+TRIES_AGAIN = 5.0
+"""Where it is to listen all the time and the microphone gives nothing, it is opened anew so often [s]."""
+DEAF_NOW = "STOP by voice is not heard now; the microphone is tried again by itself."
+HEARS = "The microphone works again."
+CLIPS = "The microphone is overdriven: speak more softly, or farther away from it."
+CLIPPED = 1.0
+"""So long that is told after it was measured last [s]."""
 EARLIER = "That was said before anything was asked."
 NOTHING = "Nothing was understood."
 
@@ -92,6 +99,8 @@ class Speaking:
         self.loud = False
         """It is too loud here for voice."""
         self._state = State("off")
+        self._again = self._clips_until = -math.inf
+        """When the microphone that gave nothing is opened anew; until when it counts as overdriven [s]."""
         self._trying = False
         self._held: set[str] = set()
         """Who holds the button to talk: `glass`, `key`."""
@@ -177,10 +186,23 @@ class Speaking:
     @property
     def problem(self) -> str:
         """Why it does not work though it is on; empty when it is well."""
+        clips = self._listening and self._app.now() < self._clips_until
+        return self._fault or (CLIPS if clips else "")
+
+    @property
+    def _fault(self) -> str:
+        """Why nothing is understood; what is overdriven is only understood badly."""
         if self.loud and self._voice is not None:
             return self._state.sentence or "Too loud here for voice."
+        if self._deaf_now:
+            return f"{self._state.sentence} {DEAF_NOW}"
         wrong = self._state.word in ("failed", "ready") and self._state.sentence
         return self.mistaken or (self._state.sentence if wrong else "")
+
+    @property
+    def _deaf_now(self) -> bool:
+        """It is to listen all the time, and the microphone gives nothing."""
+        return self._hands_free and self._state.word == "ready" and bool(self._state.sentence)
 
     @property
     def standing(self) -> str:
@@ -189,6 +211,8 @@ class Speaking:
             return "off"
         if self.loud:
             return "too loud"
+        if self._deaf_now:
+            return "deaf"
         if self._state.word == "listening":
             return "listening"
         return {"starting": "gets ready", "ready": "hold to talk"}.get(self._state.word, "does not work")
@@ -200,7 +224,7 @@ class Speaking:
             return ""
         if self.loud:
             return "loud"
-        return "wrong" if self.problem else "listening" if self._listening else "ready"
+        return "wrong" if self._fault else "listening" if self._listening else "ready"
 
     # a method's life
 
@@ -330,6 +354,9 @@ class Speaking:
         self._heed()
         if now >= self._until or (self._held and now - self._since > LONGEST):
             self.rest()
+        if self._deaf_now and not self._listening and now >= self._again:
+            self._again = now + TRIES_AGAIN
+            self._fit()
 
     def _heed(self) -> None:
         """What counts: nothing but STOP while the app speaks, yes and no only while something asks."""
@@ -350,6 +377,8 @@ class Speaking:
         """From the recogniser, in whichever thread: STOP is taken in the next frame, all else with the heartbeat."""
         if isinstance(event, Level):
             self.level = event
+            if event.clipped:
+                self._clips_until = self._app.now() + CLIPPED
             return
         self._events.append(event)
         if isinstance(event, Result):
@@ -371,17 +400,21 @@ class Speaking:
         if state.word == "failed":
             self._fail(state.sentence)
             return
-        before, self._state = self.loud, state
+        before, told, deaf = self.loud, self._state.sentence, self._deaf_now
+        self._state = state
         if state.word == "too loud":
             self.loud = True
         elif state.word == "listening" and state.sentence:  # told only where it had been too loud
             self.loud = False
-        if self.loud != before or (state.sentence and not self.loud and not before):
-            self._say(state.sentence, "warn" if state.word != "listening" else "info")
+        if deaf and state.word == "listening":
+            self._say(HEARS, "info")
+        elif self.loud != before or (state.sentence not in ("", told) and not self.loud and not before):
+            self._say(self._fault or state.sentence, "warn" if state.word != "listening" else "info")
         if state.word == "ready" and state.sentence:  # the microphone is gone: who wants it opens it anew
             self._listening = False
             self._held.clear()
             self._until = math.nan
+            self._again = self._app.now() + TRIES_AGAIN
 
     def _understood(self, result: Result) -> None:
         self.partial = ""
@@ -390,7 +423,7 @@ class Speaking:
             self._rejected(Rejected(why, result.command, result.confidence, result.ended))
             return
         self.last, self.at = result, self._app.now()
-        if self._trying and not (stop and self._app.session is not None):
+        if self._trying and not (stop and self._app.intents.possible("stop")):
             self.said = "Understood; while it is tried out nothing is done."
             return
         snippet = {"snr": _number(result.snr), "others": [list(one) for one in result.alternatives[:3]]}

@@ -27,8 +27,8 @@ SILENT = 2.0
 SILENCE = ("Discard all samples", "NULL Capture")
 """How devices that make nothing but silence begin to be called."""
 NONE = "There is no microphone. Plug one in, or command by touch, switches or keys."
-REFUSED = "The microphone cannot be opened: {}. Another program may hold it, or the system forbids it."
-GONE = "The microphone gives nothing any more. Plug it in again and switch voice on."
+REFUSED = "The microphone cannot be opened: {}. Another program may hold it, or the system forbids it: the next press to talk tries again."
+GONE = "The microphone gives nothing any more. Plug it in again: the next press to talk opens it."
 
 
 class Ears(Protocol):

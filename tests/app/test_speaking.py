@@ -10,7 +10,18 @@ import pytest
 
 from app.intents import Heard, Intents
 from app.permits import Permits
-from app.speaking import DEAF, EARLIER, LONGEST, TAP_LASTS, Speaking
+from app.speaking import (
+    CLIPPED,
+    CLIPS,
+    DEAF,
+    DEAF_NOW,
+    EARLIER,
+    HEARS,
+    LONGEST,
+    TAP_LASTS,
+    TRIES_AGAIN,
+    Speaking,
+)
 from app.voice.recognizer import Grammar, Level, Rejected, Result, State, VoiceTrouble
 from tests.headless import Stage
 
@@ -49,9 +60,11 @@ class Recogniser:
 class Acts:
     def __init__(self) -> None:
         self.done: list[str] = []
-        self.asks = False
+        self.asks = self.none = False
 
     def why_not(self, intent: str) -> str:
+        if intent == "stop" and self.none:
+            return "No robot is known."
         return "Nothing is asked just now." if intent in ("yes", "no") and not self.asks else ""
 
     def words(self, intent: str) -> str:
@@ -265,11 +278,20 @@ def test_tried_out_nothing_is_done_about_it(desk: Desk) -> None:
     assert not desk.recogniser.open
 
 
-def test_tried_out_stop_still_stops_a_robot(desk: Desk) -> None:
-    desk.app.session = object()
+@pytest.mark.parametrize("session", [object(), None], ids=["connected", "known"])
+def test_tried_out_stop_still_stops_whatever_could_be_stopped(desk: Desk, session: object) -> None:
+    desk.app.session = session
     desk.speaking.try_out(on=True)
     desk.says("stop")
     assert desk.acts.done == ["stop"]
+
+
+def test_tried_out_where_nothing_can_be_stopped_stop_is_understood_as_all_else(desk: Desk) -> None:
+    desk.acts.none = True
+    desk.speaking.try_out(on=True)
+    desk.says("stop")
+    assert desk.acts.done == []
+    assert desk.speaking.said.startswith("Understood")
 
 
 def test_tried_out_while_off_it_is_off_again_afterwards() -> None:
@@ -333,6 +355,37 @@ def test_a_microphone_pulled_out_is_said_and_the_next_press_opens_it_anew(desk: 
     desk.speaking.press()
     desk.wait(0.0)
     assert desk.recogniser.orders == [True, True]
+    assert desk.speaking.problem == ""
+
+
+def test_hands_free_a_microphone_pulled_out_is_opened_anew_until_it_works() -> None:
+    desk = Desk(hands_free=True)
+    gone = State("ready", "The microphone gives nothing any more.")
+    desk.recogniser.hear(gone)
+    desk.wait(0.0)
+    assert desk.speaking.standing == "deaf"
+    assert desk.said == [f"Voice: {gone.sentence} {DEAF_NOW}"]
+    assert desk.speaking.sign == "wrong"
+    desk.recogniser.listen = lambda *, on: desk.recogniser.orders.append(on) or desk.recogniser.hear(gone)
+    desk.wait(TRIES_AGAIN - 0.1)
+    assert desk.recogniser.orders == [True]
+    desk.wait(0.2)
+    desk.wait(0.1)
+    assert desk.recogniser.orders == [True, True]
+    assert len(desk.said) == 1, "once"
+    del desk.recogniser.listen
+    desk.wait(TRIES_AGAIN + 0.1)
+    desk.wait(0.1)
+    assert desk.recogniser.orders == [True, True, True]
+    assert (desk.speaking.problem, desk.said[-1]) == ("", f"Voice: {HEARS}")
+
+
+def test_an_overdriven_microphone_is_a_problem_for_as_long_as_it_is_and_still_listens(desk: Desk) -> None:
+    desk.speaking.press()
+    desk.wait(0.0)
+    desk.recogniser.hear(Level(-1.0, -50.0, 20.0, clipped=True))
+    assert (desk.speaking.problem, desk.speaking.sign) == (CLIPS, "listening")
+    desk.wait(CLIPPED + 0.1)
     assert desk.speaking.problem == ""
 
 
