@@ -6,12 +6,12 @@ help.groups = [("Driving", [(["W", "A", "S", "D"], "Drive while held")])]
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from kivy.lang import Builder
 from kivy.metrics import dp
-from kivy.properties import BooleanProperty, ListProperty, StringProperty
+from kivy.properties import BooleanProperty, ListProperty, NumericProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.label import Label
 from kivy.uix.widget import Widget
@@ -28,6 +28,10 @@ NARROWEST = 260.0
 """A column of it is no narrower [dp]."""
 MOST = 4
 """Columns."""
+PART = 2
+"""So many rows of a group stand together at least."""
+Group = tuple[str, list[tuple[list[str], str]]]
+"""Title, and rows: caps, and what they do."""
 
 Builder.load_string("""
 <KeyCap>:
@@ -68,7 +72,35 @@ Builder.load_string("""
             size_hint_y: None
             height: self.minimum_height
             spacing: dp(24)
+            on_height: root.whole = self.height
 """)
+
+
+def flow(groups: Sequence[Group], columns: int) -> list[list[Group]]:
+    """`groups` in their order in so many columns, as low as can be; a long group goes on, by its name, in the next column."""
+    most = sum(len(rows) + 1 for _, rows in groups)
+    for high in range(max(2 * PART, most // columns), max(2 * PART, most) + 1):
+        made = _pour(groups, high)
+        if len(made) <= columns:
+            return made
+    return [list(groups)] if groups else []
+
+
+def _pour(groups: Sequence[Group], high: int) -> list[list[Group]]:
+    """Columns of at most `high` lines, 4 or more, a name being one; a part of a group is never a single row."""
+    made: list[list[Group]] = [[]] if groups else []
+    left = high
+    for title, rows in groups:
+        rest = list(rows)
+        while rest:
+            fits = len(rest) if left > len(rest) else min(left - 1, len(rest) - PART)
+            if fits < min(PART, len(rest)) and left < high:
+                made.append([])
+                left = high
+                continue
+            made[-1].append((title, rest[:fits]))
+            rest, left = rest[fits:], left - fits - 1
+    return made
 
 
 class KeyCap(Outlined, Label):
@@ -95,6 +127,8 @@ class KeyHelp(Control, BoxLayout):
 
     groups = ListProperty()
     """Title of each group and its rows: caps, and what they do. What does `STOP` looks grave."""
+    whole = NumericProperty(0)
+    """How high it is without scrolling [px]."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -106,26 +140,24 @@ class KeyHelp(Control, BoxLayout):
         self._build()
 
     def _columns(self) -> int:
-        return max(1, min(MOST, len(self.groups), int((self.width + dp(24)) // dp(NARROWEST + 24))))
+        return max(1, min(MOST, int((self.width + dp(24)) // dp(NARROWEST + 24))))
 
     def _fit(self, *_: object) -> None:
         if self._columns() != self._count:
             self._build()
 
     def _build(self, *_: object) -> None:
-        """Each group goes to the column that is shortest then."""
+        """Groups one below the other, column after column, all about as high."""
         self._count = self._columns()
-        columns = [Column(spacing=dp(2), pos_hint={"top": 1}) for _ in range(self._count)]
-        heights = [0] * self._count
-        for title, rows in self.groups:
-            shortest = heights.index(min(heights))
-            heights[shortest] += len(rows) + 1
-            column = columns[shortest]
-            column.add_widget(group_label(title))
-            for caps, words in rows:
-                column.add_widget(HelpRow(caps, words=words, grave=words == "STOP"))
+        columns = []
+        for groups in flow(self.groups, self._count):
+            columns.append(Column(spacing=dp(2), pos_hint={"top": 1}))
+            for title, rows in groups:
+                columns[-1].add_widget(group_label(title))
+                for caps, words in rows:
+                    columns[-1].add_widget(HelpRow(caps, words=words, grave=words == "STOP"))
         self.ids.columns.clear_widgets()
-        for column in columns if self.groups else ():
+        for column in columns:
             self.ids.columns.add_widget(column)
         if not self.groups:
             self.ids.columns.add_widget(Text(text="No keys mean anything.", role="muted", font_size="15sp"))

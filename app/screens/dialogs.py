@@ -2,34 +2,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
+from kivy.clock import Clock
 from kivy.lang import Builder
-from kivy.properties import StringProperty
+from kivy.metrics import dp
+from kivy.properties import ListProperty, StringProperty
 from kivy.uix.floatlayout import FloatLayout
 
 import widgets.kit  # noqa: F401 - its rules draw what is used here
+from app.rects import Rect
+from widgets import StopAll, StopButton
 
-__all__ = ["AddressDialog", "Question"]
+__all__ = ["AddressDialog", "Question", "free_room"]
 
 Builder.load_string("""
 <Question>:
     canvas.before:
+        StencilPush
+        SmoothRoundedRectangle:
+            pos: self.hole[:2]
+            size: self.hole[2:]
+            radius: [theme.radius * 1.3]
+        StencilUse:
+            func_op: 'notequal'
         Color:
             rgba: theme.shade[:3] + [.6]
         Rectangle:
             pos: self.pos
             size: self.size
+        StencilUnUse
+        SmoothRoundedRectangle:
+            pos: self.hole[:2]
+            size: self.hole[2:]
+            radius: [theme.radius * 1.3]
+        StencilPop
 
 <AddressDialog>:
     Card:
         id: card
         size_hint: None, None
-        width: min(dp(440), root.width - dp(28))
+        width: min(dp(440), root.room[2] - dp(28))
         height: self.minimum_height
-        pos_hint: {'center_x': .5}
-        top: root.top - max(dp(40), min(root.height * .28, dp(180)))
+        x: root.room[0] + (root.room[2] - self.width) / 2
+        y: max(root.room[1] + dp(8), root.room[1] + root.room[3] - self.height - max(dp(40), min(root.room[3] * .28, dp(180))))
         padding: dp(20)
         spacing: dp(14)
         Text:
@@ -62,10 +79,64 @@ Builder.load_string("""
 """)
 
 
+def free_room(whole: Rect, kept: Sequence[Rect], gap: float) -> Rect:
+    """The largest part of `whole` beside, above or below all of `kept`, `gap` away from them; all of it without any [px]."""
+    if not kept:
+        return whole
+    left, right = min(one.x for one in kept) - gap, max(one.right for one in kept) + gap
+    low, top = min(one.y for one in kept) - gap, max(one.top for one in kept) + gap
+    parts = (
+        Rect(whole.x, top, whole.width, whole.top - top),
+        Rect(whole.x, whole.y, left - whole.x, whole.height),
+        Rect(right, whole.y, whole.right - right, whole.height),
+        Rect(whole.x, whole.y, whole.width, low - whole.y),
+    )
+    return max(parts, key=lambda part: max(0.0, part.width) * max(0.0, part.height))
+
+
 class Question(FloatLayout):
-    """Lies over everything else until it is answered or cancelled; its rule has a `card`."""
+    """Lies over everything else until it is answered or cancelled; its rule has a `card`.
+
+    STOP is not among what it lies over: it is seen through the shade, the card leaves it free, and it takes its finger.
+    """
 
     __events__ = ("on_close",)
+
+    hole = ListProperty([0, 0, 0, 0])
+    """x, y, width and height of STOP, where there is no shade [px]."""
+    room = ListProperty([0, 0, 1, 1])
+    """x, y, width and height of where the card may be [px]: STOP and STOP ALL are elsewhere."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        self._stops: list[Any] = []
+        self._over: Any = None
+        self._placing = Clock.create_trigger(self._place, -1)
+        super().__init__(**kwargs)
+        self.bind(pos=self._place, size=self._place)
+
+    def on_parent(self, _: object, parent: Any) -> None:
+        """It comes over a page, whose STOP it finds, or leaves it."""
+        for stop in self._stops:
+            stop.unbind(pos=self._placing, size=self._placing)
+        if self._over is not None:
+            self._over.unbind(children=self._placing)
+        pages = parent.children if parent is not None else ()
+        found = (getattr(page, "stop", None) for page in pages)
+        self._stops = [stop for stop in found if isinstance(stop, StopButton)]
+        self._over = getattr(parent, "over", None)
+        for stop in self._stops:
+            stop.bind(pos=self._placing, size=self._placing)
+        if self._over is not None:
+            self._over.bind(children=self._placing)
+        self._place()
+
+    def _place(self, *_: object) -> None:
+        kept = [Rect(*stop.pos, *stop.size) for stop in self._stops]
+        self.hole = [kept[0].x, kept[0].y, kept[0].width, kept[0].height] if kept else [0, 0, 0, 0]
+        over = self._over.children if self._over is not None else ()
+        kept += [Rect(*one.pos, *one.size) for one in over if isinstance(one, StopAll)]
+        room = free_room(Rect(*self.pos, *self.size), kept, dp(8))
+        self.room = [room.x, room.y, room.width, room.height]
 
     def close(self) -> None:
         """Leave the glass."""
@@ -77,7 +148,10 @@ class Question(FloatLayout):
         """It was answered or cancelled."""
 
     def on_touch_down(self, touch: Any) -> bool:
-        """Nothing behind the question gets a finger; one beside the card cancels."""
+        """Nothing behind the question gets a finger, but STOP before all else; one beside the card cancels."""
+        for stop in self._stops:
+            if stop.collide_point(*touch.pos):
+                return bool(stop.dispatch("on_touch_down", touch))
         if not self.ids.card.collide_point(*touch.pos):
             self.close()
         else:

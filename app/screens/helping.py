@@ -24,9 +24,9 @@ Builder.load_string("""
     Card:
         id: card
         size_hint: None, None
-        width: min(dp(1180), root.width - dp(28))
-        height: min(dp(660), root.height - dp(28))
-        pos_hint: {'center_x': .5, 'center_y': .5}
+        width: min(dp(1180), root.room[2] - dp(28))
+        height: min(theme.target + help.whole + 2 * dp(12) + dp(8), root.room[3] - dp(20))
+        pos: root.room[0] + (root.room[2] - self.width) / 2, root.room[1] + (root.room[3] - self.height) / 2
         padding: dp(18), dp(12)
         spacing: dp(8)
         BoxLayout:

@@ -28,9 +28,9 @@ Builder.load_string("""
     Card:
         id: card
         size_hint: None, None
-        width: min(dp(940), root.width - dp(20))
-        height: min(root.height - dp(24), head.height + column.height + foot.height + 2 * self.spacing + self.padding[1] + self.padding[3])
-        pos_hint: {'center_x': .5, 'center_y': .5}
+        width: min(dp(940), root.room[2] - dp(20))
+        height: min(root.room[3] - dp(24), head.height + column.height + foot.height + 2 * self.spacing + self.padding[1] + self.padding[3])
+        pos: root.room[0] + (root.room[2] - self.width) / 2, root.room[1] + (root.room[3] - self.height) / 2
         padding: dp(14)
         spacing: dp(12)
         Column:

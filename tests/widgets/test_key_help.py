@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from tests.headless import Stage
-from widgets.key_help import KeyCap, KeyHelp
+from widgets.key_help import KeyCap, KeyHelp, flow
 
 GROUPS: list[Any] = [
     ("STOP", [(["Esc", "Space"], "STOP")]),
@@ -41,3 +41,17 @@ def test_with_nothing_to_tell_it_says_so(stage: Stage) -> None:
     help_.groups = []
     (said,) = help_.ids.columns.children
     assert said.text == "No keys mean anything."
+
+
+def test_a_long_group_goes_on_in_the_next_column_so_that_none_is_empty() -> None:
+    rows = [([str(number)], "acts") for number in range(12)]
+    columns = flow([("STOP", rows[:1]), ("Driving", rows[:3]), ("Robot", rows)], 3)
+    lines = [sum(len(told) + 1 for _, told in column) for column in columns]
+    assert len(columns) == 3
+    assert max(lines) - min(lines) <= 2
+    assert [row for column in columns for title, told in column if title == "Robot" for row in told] == rows
+
+
+def test_it_says_how_high_it_would_be_without_scrolling(stage: Stage) -> None:
+    help_ = shown(stage, 340)
+    assert help_.whole == help_.ids.columns.height > 200
