@@ -117,7 +117,7 @@ class Tilting:
 
     def look(self, now: float) -> None:
         """With each heartbeat: lead the circle that is on the glass, if there is one."""
-        self._offer(on=self.others)
+        self._offer(on=self.others and bool(self._app.sensing.possible))
         self._lead(self._found())
         self._fit()
         if self._circle is None:
@@ -284,7 +284,7 @@ class Tilting:
             self.let_go()
             before.unbind(on_let_go=self._let_go)
             before.rest()
-            before.needs_hold, before.clutched, before.opened = False, False, ""
+            before.needs_hold, before.clutched, before.opened, before.missing = False, False, "", ""
             before.dead = TiltCircle.dead.defaultvalue
         self._circle = circle
         if circle is not None:
@@ -297,6 +297,8 @@ class Tilting:
         if self.tilt.why and self.tilt.why != self._said:
             self._say(self.tilt.why)
         self._said = self.tilt.why
+        sensing = self._app.sensing
+        circle.missing = "" if sensing.possible else str(sensing.sentence)
         circle.dead = self.settings.share
         circle.clutched = self._clutched
         circle.opened = self.tilt.why.partition(":")[0]

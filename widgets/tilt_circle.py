@@ -49,6 +49,7 @@ class TiltCircle(Stick, Gauge):
         "needs_hold",
         "held",
         "opened",
+        "missing",
         "dead",
         "in_shares",
         "badge",
@@ -69,6 +70,8 @@ class TiltCircle(Stick, Gauge):
     """A finger, a key or a switch holds it."""
     opened = StringProperty("")
     """Why it commands nothing though it is held, in a few words; empty when it does."""
+    missing = StringProperty("")
+    """Why no tablet can tilt it, as a sentence; empty where one can. It looks disabled then, whoever else may push it."""
     dead = NumericProperty(NEUTRAL)
     """Within that share of the way to the rim nothing is commanded; drawn as the green ring."""
     in_shares = BooleanProperty(False)
@@ -92,21 +95,37 @@ class TiltCircle(Stick, Gauge):
         super().__init__(**{"title": "Tilt", "card": False, **kwargs})
         self.fbind("clutched", self._hold)
         self._hold()
-        for name in ("size", "card", "title"):
+        for name in ("size", "card", "title", "missing"):
             self.fbind(name, self._round_veil)
         self._round_veil()
 
     def _round_veil(self, *_: object) -> None:
-        self.veil_radius = theme.radius if self.card or self.wide else self.round[2]
+        self.veil_radius = theme.radius if self._veils_all else self.round[2]
 
     def _veil_box(self) -> tuple[float, float, float, float]:
         """The round alone, lest it were a box of its own on a picture; the words below fade by themselves."""
-        if self.card or self.wide:
+        if self._veils_all:
             return super()._veil_box()
         (x, y, radius), rim = self.round, theme.outline
         return x - radius - rim, y - radius - rim, 2 * (radius + rim), 2 * (radius + rim)
 
-    veil_box = AliasProperty(_veil_box, bind=["pos", "size", "card", "title"])
+    veil_box = AliasProperty(_veil_box, bind=["pos", "size", "card", "title", "missing"])
+
+    @property
+    def _veils_all(self) -> bool:
+        """Its words fade with it, unless they say why it is disabled."""
+        return bool((self.card or self.wide) and not self.missing)
+
+    def _veil(self) -> list[float]:
+        led = self.forward or self.left
+        state = (
+            "disabled"
+            if self.missing and self.needs_hold and self.state == "live" and not led
+            else self.state
+        )
+        return [*theme.surface[:3], self.veils.get(state, 0.0)]
+
+    veil = AliasProperty(_veil, bind=["state", "missing", "needs_hold", "forward", "left"])
 
     @property
     def order(self) -> Manoeuvre:
@@ -256,11 +275,13 @@ class TiltCircle(Stick, Gauge):
         idle = self.needs_hold and (not self.held or bool(self.opened)) and not (self.forward or self.left)
         knob = self.knob_pos
         if idle:
-            shapes.ring(*knob, self.knob_radius - dp(1.5), dp(3), theme.danger)
+            rim = theme.muted if self.missing else theme.danger
+            shapes.ring(*knob, self.knob_radius - dp(1.5), dp(3), rim)
         else:
             shapes.disc(*knob, self.knob_radius, theme.danger)
         ring = self.knob_radius + self.dead * self.travel[0]
-        shapes.ring(x, y, ring, dp(3 if level else 2), theme.ok)
+        lies_dead = self.missing and self.needs_hold and idle
+        shapes.ring(x, y, ring, dp(3 if level else 2), theme.muted if lies_dead else theme.ok)
         if self.wide:
             yield from self._beside(x - radius)
         elif self.title and not self.badge:
@@ -272,7 +293,7 @@ class TiltCircle(Stick, Gauge):
         told = self._told()
         words = (told,) if told else self._idle_words()
         size = sp(13)
-        role = "faint" if self.disabled and not self.card else "text" if told else "muted"
+        role = "faint" if self.disabled and not self.card else "text" if told or self.missing else "muted"
         word = Word(first_fitting(words, size, room), x, y, size, theme.roles[role])
         if not self.card and word.text:
             ground(shapes, word, tint(theme.bg, 0.7))
@@ -294,9 +315,11 @@ class TiltCircle(Stick, Gauge):
 
     def _idle_words(self) -> tuple[str, ...]:
         name = spaced(self.title.upper())
+        if self.needs_hold and self.missing and not self.disabled:
+            return (self.missing, "No motion sensor", "No sensor")
         if self.needs_hold and self.held and self.opened:
             return (self.opened, "let go")
-        if self.needs_hold and not self.held:
+        if self.needs_hold and not self.held and not self.disabled:
             return (f"{name} · hold it to tilt", "hold to tilt", self.title)
         return (name, self.title.upper())
 
@@ -359,6 +382,14 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "held": make(6, 9, needs_hold=True, clutched=True, dead=0.16, title="Tablet tilt"),
         "held by one who walks": make(0, 14, needs_hold=True, clutched=True, dead=0.32, in_shares=True),
         "opened": make(opened="beyond 50°", needs_hold=True, clutched=True, title="Tablet tilt"),
+        "no sensor": make(needs_hold=True, missing="This computer has no motion sensor.", title="Tilt"),
+        "no sensor, card": make(
+            size=(326, 228),
+            card=True,
+            needs_hold=True,
+            missing="This computer has no motion sensor.",
+            title="Tilt",
+        ),
         "card": make(5, 12, card=True, title="Tablet tilt"),
         "large": make(5, 12, size=(326, 228), card=True, title="Tablet tilt"),
         "large level": make(size=(326, 228), card=True, title="Tablet tilt"),

@@ -310,3 +310,23 @@ def test_settings_that_are_no_good_are_as_at_first(kept: Any) -> None:
 
 def test_neutral_cannot_be_set_where_nothing_is_known_of_it() -> None:
     assert not Handheld().tilting.set_neutral(fixed=True)
+
+
+def test_without_a_sensor_the_circle_looks_disabled_and_says_why_and_none_is_offered_beside_a_stick(
+    handheld: Handheld,
+) -> None:
+    handheld.run(0.1)
+    assert handheld.hands.tablet, "with a sensor it is offered"
+    live = handheld.circle.veil[3]
+    handheld.sensing.use(NoMotion())
+    handheld.run(0.1)
+    circle = handheld.circle
+    assert circle.missing == "This computer has no motion sensor."
+    assert circle.veil[3] > live
+    assert not any("hold" in words for words in circle._idle_words())
+    assert circle._idle_words()[0] == circle.missing
+    assert not handheld.hands.tablet, "nothing to choose where no tablet can be tilted"
+    handheld.tilting.simulate(on=True)
+    handheld.run(0.1)
+    assert not circle.missing, "a simulated tablet is one"
+    assert handheld.hands.tablet

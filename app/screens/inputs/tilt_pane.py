@@ -195,7 +195,7 @@ class TiltPane(BoxLayout):
         if not tilting.on:
             self.says.text = "Switch tilting on to try it here."
         else:
-            self.says.text = tilting.tilt.why or self._how()
+            self.says.text = tilting.tilt.why or ("" if tilting.problem else self._how())
         self.says.role = "warn" if tilting.tilt.why else "muted"
         self.sensor.text, self.sensor.role = self._sensor(tilting)
 
