@@ -92,13 +92,18 @@ def in_window(widget: Widget) -> Box:
     return left, low, right, top
 
 
-def find(roots: list[Any]) -> list[Found]:
-    """All that takes a finger in these, of which the first lies on top of the others, in the order of their places."""
+def find(roots: list[Any], over: Any = None) -> list[Found]:
+    """All that takes a finger in these, in the order of their places; each lies on top of those that come after it.
+
+    `over` is the one of them that lies on top of all, wherever it comes.
+    """
     found: list[Found] = []
+    top = list(_walk(over, _Where(window()))) if over is not None else []
     for root in roots:
         known = {id(one.widget) for one in found}
         here = [one for one in _walk(root, _Where(window())) if id(one.widget) not in known]
-        found += _in_rows([one for one in here if one.scrolled or _free(one, [*found, *here])])
+        above = here if root is over else [*top, *found, *here]
+        found += _in_rows([one for one in here if one.scrolled or _free(one, above)])
     return found
 
 

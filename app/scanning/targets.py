@@ -76,7 +76,7 @@ class OnGlass:
     def targets(self) -> Sequence[Target]:
         """All that can be done now, rows from the top, from the left, never STOP."""
         self.openings.look()
-        found = find(self._roots())
+        found = find(self._roots(), self._app.corner.layer)
         dialog = self._dialog()
         made = [self._target(one) for one in found]
         if dialog is not None and self.openings.pad is None:
