@@ -25,7 +25,7 @@ from app.speaking import Speaking
 from app.talking import Talking
 from app.tilting import Tilting
 
-GARBAGE = [
+GARBAGE: list[Any] = [
     [],
     {},
     [[1]],
@@ -143,7 +143,8 @@ def test_what_is_not_there_is_as_usual_and_no_mistake() -> None:
 
 def test_only_numbers_in_their_range_are_numbers() -> None:
     assert number(2, 0.0, 2.0) == 2.0
-    assert [number(value, 0.0, 2.0) for value in (True, math.nan, 10**400, "1", [], None)] == [None] * 6
+    none: list[Any] = [True, math.nan, 10**400, "1", [], None]
+    assert [number(value, 0.0, 2.0) for value in none] == [None] * 6
 
 
 def test_only_texts_are_looked_up() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import threading
 from collections.abc import Iterator
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -14,6 +15,7 @@ from app.intents import Heard, Intents
 from app.methods import Methods
 from app.origin import NOBODY, origins
 from app.permits import Permits
+from app.voice.ending import end_aside
 from tests.app.test_inputs import Settings
 from tests.headless import Stage
 
@@ -155,3 +157,26 @@ def test_what_is_on_and_does_not_work_is_said_with_the_next_heartbeat(make: Any)
     app = make(voice=Deaf)
     app.methods.look(100.0)
     assert app.said == ["Voice: There is no microphone."]
+
+
+def test_settings_that_mean_nothing_are_said_of_each_that_reads_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Mistaken(Made):
+        mistaken = "In the settings of talking rate is from 0.5 to 2, not 9: as usual again."
+
+    app = App({"Mistaken": Mistaken, "Made": Made}, monkeypatch)
+    app.methods.open()
+    assert app.said == [Mistaken.mistaken]
+    app.methods.close()
+
+
+def test_what_still_ends_beside_the_glass_has_ended_when_they_are_closed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    app = App({"Made": Made}, monkeypatch)
+    app.methods.open()
+    gone = threading.Event()
+    reader = threading.Thread(target=gone.wait, args=(0.2,), name="slow")
+    reader.start()
+    end_aside(None, reader)
+    app.methods.close()
+    assert not reader.is_alive()

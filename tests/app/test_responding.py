@@ -343,8 +343,8 @@ def test_a_clock_that_was_lost_leaves_the_zip_whole(running, monkeypatch):
 
 
 def test_half_a_zip_is_never_left_whatever_failed(running, monkeypatch):
-    monkeypatch.setattr("app.study_export._fill", lambda *_: [][0])
-    with pytest.raises(IndexError):
+    monkeypatch.setattr("app.study_export._fill", lambda *_: int("no"))
+    with pytest.raises(ValueError, match="invalid literal"):
         running.log.export()
     assert list(running.log.exports.iterdir()) == []
 
