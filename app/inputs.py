@@ -151,7 +151,7 @@ class Inputs:
         """Where an input device is taken away and the system does not say which, no button of a gamepad is held any more."""
         before, self._there = self._there, self._devices() if self.meanings.holds("pad") else None
         if before is not None and self._there is not None and not before <= self._there:
-            self.presses.forget("pad")
+            self.meanings.lose("pad")
 
     def rest(self, *_: object) -> None:
         """Every control lets go, and gamepad and keys must be let go before they drive again."""

@@ -100,6 +100,12 @@ class Meanings:
             held.press.source == source for holding in self._holding.values() for held in holding.values()
         )
 
+    def lose(self, source: str) -> None:
+        """Nothing of `key` or `pad` holds anything until it is let go and pressed anew."""
+        for name, holding in self._holding.items():
+            for held in [held for held in holding.values() if held.press.source == source]:
+                self._let_go(name, held.press)
+
     def look(self) -> None:
         """With each heartbeat: whatever is held is looked at, whether a hand still holds it."""
         for name, holding in self._holding.items():

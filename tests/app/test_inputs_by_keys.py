@@ -190,3 +190,20 @@ def test_a_gamepad_out_of_reach_holds_no_clutch_and_that_is_said(hands: Hands) -
     hands.pass_time(0.2)
     assert told == [True, False]
     assert hands.shell.offers[-1][0].startswith("The gamepad is silent")
+
+
+@pytest.mark.parametrize(
+    "taken",
+    [
+        lambda hands: hands.source.there.clear(),
+        lambda hands: setattr(hands, "devices", frozenset({1})),
+    ],
+    ids=["as SDL tells", "and SDL does not know yet"],
+)
+def test_a_gamepad_that_is_taken_away_holds_no_clutch(hands: Hands, taken: Callable[[Hands], object]) -> None:
+    told = clutch(hands)
+    hands.source.there = {1: replace(PAD, buttons=frozenset({"righttrigger"}))}
+    hands.pass_time(1.0)
+    taken(hands)
+    hands.pass_time(0.3)
+    assert told == [True, False]
