@@ -18,6 +18,7 @@ from app.voice.ctc import HamaModel
 from app.voice.files import chunks, resampled
 from app.voice.hearing import Hearing, Phonemes
 from app.voice.lexicon import COMMANDS
+from app.voice.ending import wait_for_ends
 from app.voice.mouth import CRASHED, NO_ESPEAK, ChildMouth, mouth_of
 from app.voice.recognizer import Grammar, Result, VoiceTrouble
 from app.voice.talker import NO_SPEAKER, play, serve
@@ -144,6 +145,7 @@ def test_a_process_that_ends_by_itself_is_said() -> None:
     mouth.say("One.", 1.0)
     mouth.stop()
     mouth.stop()
+    wait_for_ends()
 
 
 def test_the_real_voice_has_a_process_of_its_own_and_says_where_it_cannot_be_heard() -> None:
@@ -158,6 +160,7 @@ def test_the_real_voice_has_a_process_of_its_own_and_says_where_it_cannot_be_hea
         assert (word, sentence) == ("ended", "Go home?") or (word == "failed" and "loudspeaker" in sentence)
     finally:
         mouth.stop()
+        wait_for_ends()
 
 
 def test_nothing_that_it_says_is_taken_for_stop_by_the_microphone() -> None:
