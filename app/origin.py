@@ -13,7 +13,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-__all__ = ["ITSELF", "NOBODY", "Origin", "Origins", "origins"]
+__all__ = ["ITSELF", "NOBODY", "Origin", "Origins", "gave_stop", "origins"]
 
 ITSELF = ""
 """The method of what nobody asked for just now: the app did it by itself, as taking control that is free."""
@@ -39,6 +39,20 @@ class Origin:
     """How loud it was round about then [dB]."""
     intent: str = ""
     """Key in `app.intents.INTENTS`; empty where a control was used that has none."""
+
+
+GUESSED = {"voice": "Your voice", "shake": "A shake"}
+"""Methods that guess what a hand or a voice meant, and so may be wrong."""
+
+
+def gave_stop(origin: Origin) -> str:
+    """What gave STOP, as in `Your voice gave STOP: “stop”, 99 % sure.`; empty for a hand on a button, who knows it."""
+    if origin.method not in GUESSED:
+        return ""
+    said = f"“{origin.said}”" if origin.said else ""
+    sure = "" if math.isnan(origin.confidence) else f"{origin.confidence * 100:.0f} % sure"
+    about = ", ".join(filter(None, (said, sure)))
+    return f"{GUESSED[origin.method]} gave STOP{f': {about}' if about else ''}."
 
 
 LASTS = 1.0

@@ -1,7 +1,8 @@
 """What a robot calls this handheld in its sentences, and which of them are about it.
 
 Two handhelds may have one name: a robot calls the second of them `tablet (2)`. What is said of a name that this one is
-not known to have is left as the robot says it.
+not known to have is left as the robot says it. A STOP that was guessed from a gesture or a word is told with what gave it,
+so that a false one is known from a finger's.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from collections.abc import Callable
 
 import msgspec
 
-from bridge.msgs.pilothouse_msgs import ControlStatus, Event
+from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskStatus
 
 __all__ = ["OwnName"]
 
@@ -23,10 +24,13 @@ SAYS = {
     "{} has control.": "You have control.",
     "STOP pressed by {}.": "You pressed STOP.",
     "STOP released by {}.": "You released STOP.",
-    "Stopped by {}.": "You pressed STOP.",
+    "Stopped by {}.": "STOP paused the task.",
+    "Paused by {}.": "You paused.",
     "Canceled by {}.": "You canceled it.",
+    "Discarded by {}.": "You discarded it.",
 }
 """A robot's sentence about somebody, and what is said to the one whom it is about."""
+PRESSED_STOP = "STOP pressed by {}."
 
 
 class OwnName:
@@ -57,22 +61,42 @@ class OwnName:
         """Whether `event` may be about it, which the robot's next word of control tells; `clock` as in `said`."""
         return not self.known and event.kind == "control" and self._words(event, clock) is not None
 
-    def said(self, event: Event, clock: float, *, asked: bool = False) -> Event:
-        """`event` as it is told here, by the operators' `clock` [s]; `asked` when this handheld has just asked for that."""
+    def said(self, event: Event, clock: float, *, asked: bool = False, how: str = "") -> Event:
+        """`event` as it is told here, by the operators' `clock` [s].
+
+        `asked` when this handheld has just asked for that; `how` says what gave its STOP, empty for a hand on a button.
+        """
         found = self._words(event, clock)
         if found is None:
             return event
         name, words = found
         mine = name == self.known if self.known else asked
-        return msgspec.structs.replace(event, text=words) if mine else event
+        if mine and how and words == SAYS[PRESSED_STOP]:
+            words = how
+        if not mine:
+            return event
+        # the alarm is its STOP, told before; what came of it takes nobody's eye from that
+        level = "info" if words == SAYS["Stopped by {}."] else event.level
+        return msgspec.structs.replace(event, text=words, level=level)
+
+    def task(self, status: TaskStatus, clock: float) -> TaskStatus:
+        """`status` with its reason as it is told here; `clock` as in `said`."""
+        found = self._found(status.reason, status.stamp.seconds, clock)
+        if found is None or found[0] != self.known:
+            return status
+        stopped = found[1] == SAYS["Stopped by {}."]
+        return msgspec.structs.replace(status, reason=SAYS[PRESSED_STOP] if stopped else found[1])
 
     def _words(self, event: Event, clock: float) -> tuple[str, str] | None:
         """Of whom it tells, and the words for that one; None when it is surely about another."""
-        age = clock - event.stamp.seconds
-        if math.isfinite(age) and event.stamp.seconds > 0 and age > self._now() - self._since + PATIENCE:
+        return self._found(event.text, event.stamp.seconds, clock)
+
+    def _found(self, text: str, stamp: float, clock: float) -> tuple[str, str] | None:
+        age = clock - stamp
+        if math.isfinite(age) and stamp > 0 and age > self._now() - self._since + PATIENCE:
             return None
         for like, words in self._like.items():
-            found = like.fullmatch(event.text)
+            found = like.fullmatch(text)
             if found is not None:
                 return found[1], words
         return None

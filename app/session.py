@@ -18,7 +18,7 @@ from app.logbook import Logbook
 from app.mission import Draft, MissionEditor
 from app.missions import KeptMissions
 from app.offer import CAMERA, Offer
-from app.origin import NOBODY, origins
+from app.origin import NOBODY, gave_stop, origins
 from app.own_name import OwnName
 from app.refusals import Refusals
 from app.settings import Settings
@@ -69,6 +69,8 @@ class Session:
         self.own_name = OwnName(client_id, client_name, now)
         self._undecided: list[Post] = []
         """Events that may be about us, until the robot's word of control comes."""
+        self._task: Post | None = None
+        """What the robot said last of its task, in its own words."""
         self.wants_control = wants_control
         self.mission = MissionEditor(on_change=self._mission_changed)
         self.tasking = Tasking(self)
@@ -258,6 +260,9 @@ class Session:
         if channel == EVENT:
             self._hear_event(post)
             return
+        if channel == "/task/status":
+            self._task = post
+            post = replace(post, value=self.own_name.task(post.value, self.link.robot_time()))
         if channel in self.feeds:
             self.feeds.put(channel, post)
         takes: dict[str, Callable[[Any], None]] = {
@@ -279,7 +284,7 @@ class Session:
             self._take_mission()
         elif channel == "/control/status":
             self._stopping.hear(post.value)
-            self.own_name.hear(post.value)
+            self._learn_name(post.value)
             self._decide()
             self.authority.hear(post.value)
             self._take_control()
@@ -298,7 +303,8 @@ class Session:
     def _take_event(self, post: Post) -> None:
         stop = self.outcomes.get("stop" if "pressed" in post.value.text else "stop_release")
         asked = post.value.kind == "stop" and stop is not None and stop.phase in ("sent", "accepted")
-        event = self.own_name.said(post.value, self.link.robot_time(), asked=asked)
+        how = gave_stop(stop.origin) if asked and stop is not None else ""
+        event = self.own_name.said(post.value, self.link.robot_time(), asked=asked, how=how)
         if self.logbook.take(event):
             post = replace(post, value=event)
             if not self.listeners:
@@ -310,6 +316,13 @@ class Session:
         undecided, self._undecided = self._undecided, []
         for post in undecided:
             self._take_event(post)
+
+    def _learn_name(self, status: ControlStatus) -> None:
+        """What was said before of the task may have been about us."""
+        before = self.own_name.known
+        self.own_name.hear(status)
+        if self.own_name.known != before and self._task is not None:
+            self.deliver("/task/status", self._task)
 
     def _tell(self, channel: str, post: Post) -> None:
         for listener in list(self.listeners):

@@ -38,6 +38,8 @@ class Wishes:
         """`say` is as `Shell.say`."""
         self._intents, self._notices, self._say = intents, notices, say
         self._shown: Pending | None = None
+        self._refused = ""
+        """The method whose refusal was said last; empty where a success was."""
         self.tight = False
         """There is room for the card alone: what would be said beside it is said on it."""
         self.card = IntentCard()
@@ -76,9 +78,11 @@ class Wishes:
             return  # its card goes, and whoever said no is told so
         done = verdict.what == "acted"
         if done and (heard.method in PRESSED or heard.intent in LOOKS):
+            if heard.method == self._refused:  # what was refused before is not about this one
+                self._refused = ""
+                self._notices.unsay(ABOUT)
             return  # whoever pressed it sees what it did
-        if heard.intent == "stop" and done:
-            return  # the button says what becomes of it
+        self._refused = "" if done else heard.method
         lead = f"{heard_words(heard)} " if verdict.what == "acted" else ""
         if verdict.what == "not now":
             lead = f"{INTENTS[heard.intent].words}: "

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
 
 from app.commands import Outcome
 from app.feeds import Feeds, Post
-from app.link import LINK, OUTCOME
+from app.link import EVENT, LINK, OUTCOME
+from app.origin import Origin
 from app.session import Session
 from app.settings import Settings
 from app.stopping import COMES_TO_REST
 from bridge.client import LinkState, Phase
-from bridge.msgs.pilothouse_msgs import ControlStatus
+from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskStatus
 from tests.bridge.wires import Clock
 
 UNREACHED = "STOP is pressed, but the robot cannot be reached: the connection was cut."
@@ -24,6 +26,7 @@ class Wire:
 
     state = LinkState(Phase.CONNECTED, "", 0, 0.0)
     silence = 0.0
+    robot_time = staticmethod(lambda: math.nan)
 
     def __init__(self) -> None:
         self.asked: list[str] = []
@@ -44,7 +47,7 @@ class Wire:
 class Watch:
     """A session, its clock and its link."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, client_name: str = "") -> None:
         self.clock, self.link = Clock(), Wire()
         self.session = Session(
             self.link,  # type: ignore[arg-type]
@@ -52,6 +55,7 @@ class Watch:
             Settings(folder / "settings.json"),
             now=self.clock,
             client_id="me",
+            client_name=client_name,
             wants_control=False,
         )
 
@@ -141,9 +145,28 @@ def test_a_stop_that_is_not_done_goes_on_over_a_new_link(watch: Watch) -> None:
     assert later.asked == []
 
 
-def test_a_link_that_is_lost_and_found_before_anybody_looks_brings_every_control_to_rest(watch: Watch) -> None:
+def test_a_link_that_is_lost_and_found_before_anybody_looks_brings_every_control_to_rest(
+    watch: Watch,
+) -> None:
     rests: list[str] = []
     watch.session.on_rest = lambda: rests.append("rest")
     for phase in (Phase.CONNECTED, Phase.CONNECTING, Phase.CONNECTED):
         watch.session.deliver(LINK, Post(LinkState(phase, "", 0, 0.0), watch.clock(), 1))
     assert rests == ["rest"]
+
+
+def test_what_paused_the_task_and_gave_stop_is_told_as_done_here_once_the_name_is_known(
+    tmp_path: Path,
+) -> None:
+    watch = Watch(tmp_path, client_name="vm")
+    paused = TaskStatus(task_id=1, state="PAUSED", reason="Paused by vm (2).")
+    watch.session.deliver("/task/status", Post(paused, watch.clock(), 1))
+    assert watch.session.feeds.latest("/task/status").reason == "Paused by vm (2)."
+    mine = ControlStatus(driver="vm (2)", driver_id="me")
+    watch.session.deliver("/control/status", Post(mine, watch.clock(), 1))
+    assert watch.session.feeds.latest("/task/status").reason == "You paused."
+    shaken = Outcome("stop", "1", "accepted", origin=Origin("shake", 0.97, said="left-right"))
+    watch.session.deliver(OUTCOME, Post(shaken, watch.clock(), 1))
+    stop = Event(id=1, kind="stop", level="alarm", text="STOP pressed by vm (2).")
+    watch.session.deliver(EVENT, Post(stop, watch.clock(), 1))
+    assert watch.session.logbook.events[-1].text == "A shake gave STOP: “left-right”, 97 % sure."
