@@ -192,6 +192,11 @@ def test_a_method_that_is_not_listening_is_told_before_it_is_asked_for(bench):
     setup = SetupView(bench.app)
     setup.tick()
     assert setup._rows["shake"].detail.startswith("Off: ")
+    assert setup._rows["shake"].role == setup.remark.role == "warn"
+    assert setup.begin.disabled, "nobody could answer its prompts"
+    setup.switches["shake"].active = False
+    setup.tick()
+    assert not setup.begin.disabled
 
 
 def test_a_study_by_buttons_runs_through_to_its_forms(bench):

@@ -107,18 +107,21 @@ class SetupView(Column):
 
     def tick(self) -> None:
         """Say what comes of it, and which methods are not listening."""
+        faults = {method: self._fault(method) for method in self._rows}
         for method, row in self._rows.items():
-            made = self._app.methods.get(method)
-            off = made is not None and not made.on
-            row.detail = (
-                "Off: switch it on in the list of inputs first."
-                if off and self.switches[method].active
-                else ""
-            )
+            row.detail, row.whole = faults[method] if self.switches[method].active else "", True
+            row.role = "warn" if row.detail else "muted"
         plan = self.plan
-        self.begin.disabled = not plan.methods
+        deaf = [look_of(method)[1] for method in plan.methods if faults[method]]
+        self.begin.disabled = bool(deaf) or not plan.methods
+        self.remark.role = "warn" if self.begin.disabled else "muted"
         if not plan.methods:
             self.remark.text = "Choose a method."
+            return
+        if deaf:
+            self.remark.text = (
+                f"{' and '.join(deaf)} cannot answer now: leave out what cannot, or put it right first."
+            )
             return
         prompts = sum(len(block.prompts) for block in plan.blocks())
         order = ", ".join(dict.fromkeys(look_of(block.method)[1] for block in plan.blocks()))
@@ -126,6 +129,13 @@ class SetupView(Column):
             f"{prompts} prompts, about {max(1, round(prompts * EACH / 60))} min. Person {self.person}: {order}. "
             "Nothing is sent to a robot but STOP, which one that is connected obeys."
         )
+
+    def _fault(self, method: str) -> str:
+        """Why a method could not answer a prompt now, as a sentence; empty where it can."""
+        made = self._app.methods.get(method)
+        if made is None:
+            return ""
+        return str(made.problem or "") if made.on else "Off: switch it on in the list of inputs first."
 
     def on_begin(self, plan: Plan) -> None:
         """A finger began it."""

@@ -116,7 +116,8 @@ class ShakePane(BoxLayout):
             self._follow_lesson(now)
             return
         new = shaking.last is not None and now - shaking.at < FRESH
-        self.standing.role = "danger" if shaking.problem else "accent" if new else "muted"
+        self.standing.role = "warn" if shaking.problem else "accent" if new else "muted"
+        self._write_lesson()
         self.standing.text = shaking.problem or self._last(new) or self._usual()
 
     def _last(self, new: bool) -> str:
@@ -137,7 +138,7 @@ class ShakePane(BoxLayout):
             self.back()
             return
         self.picture.tell(lesson.axis or "", doing=lesson.doing, progress=lesson.progress, beat=now)
-        self.told.role = "danger" if self.shaking.problem or lesson.sentence else "muted"
+        self.told.role = "warn" if self.shaking.problem or lesson.sentence else "muted"
         if lesson.over:
             self.told.text = "Done: that is how you shake. It is kept."
             self.leave_lesson.text, self.leave_lesson.icon = "Good", "check"
@@ -158,9 +159,19 @@ class ShakePane(BoxLayout):
         for axis in CHOICES:
             self.rows[axis].detail, self.rows[axis].icon = _words(shaking.meaning[axis])
         self.any_stops.active = shaking.any_stops
-        self.learnt.text = "It goes by how you shake." if shaking.own else LESSON
+        self._write_lesson()
         self.teach.text = "Do the lesson again" if shaking.own else "Begin the lesson"
         self.unlearn.disabled = not shaking.own
+
+    def _write_lesson(self) -> None:
+        """No lesson begins that could not be heard: its place says why."""
+        sensing, shaking = self._app.sensing, self.shaking
+        self.teach.disabled = not sensing.has("acceleration")
+        if self.teach.disabled:
+            self.learnt.text, self.learnt.role = str(sensing.health("acceleration").sentence), "warn"
+        else:
+            self.learnt.text = "It goes by how you shake." if shaking.own else LESSON
+            self.learnt.role = "muted"
 
     def _ask(self, axis: Axis) -> None:
         if axis not in CHOICES:
@@ -177,6 +188,8 @@ class ShakePane(BoxLayout):
         self.back()
 
     def _teach(self) -> None:
+        if self.teach.disabled:
+            return
         self.shaking.teach()
         self.leave_lesson.text, self.leave_lesson.icon = "Leave the lesson", "close"
         self._page(self.lesson_page)

@@ -1,0 +1,29 @@
+"""The pane where shaking is set up, by an app that is only what it asks for."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from app.device.motion import NoMotion
+from app.screens.inputs.shake_pane import LESSON, ShakePane
+from tests.app.test_shaking import Hand
+
+
+def test_without_a_sensor_no_lesson_begins_and_its_place_says_why(monkeypatch: pytest.MonkeyPatch) -> None:
+    hand: Any = Hand(monkeypatch, on=True)
+    hand.app.methods = SimpleNamespace(get=lambda _: hand.shaking)
+    hand.app.now = lambda: hand.t
+    pane = ShakePane(hand.app)
+    pane.enter()
+    assert not pane.teach.disabled
+    assert pane.learnt.text == LESSON
+    hand.sensing.use(NoMotion())
+    pane.tick()
+    assert pane.teach.disabled
+    assert pane.learnt.text == "This computer has no motion sensor."
+    pane._teach()
+    assert hand.shaking.lesson is None
+    assert pane.roll.parent is pane
