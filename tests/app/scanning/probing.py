@@ -1,4 +1,4 @@
-"""Where real fingers find something to press: probed point by point, without pressing it."""
+"""Where real fingers find something to press: probed without pressing it."""
 
 from __future__ import annotations
 
@@ -8,13 +8,15 @@ from typing import Any
 
 from kivy.core.window import Window
 from kivy.input.motionevent import MotionEvent
+from kivy.uix.label import Label
 from kivy.uix.scrollview import ScrollView
 from kivy.uix.textinput import TextInput
+from kivy.uix.widget import Widget
 
 __all__ = ["Taken", "bound", "taken"]
 
-GRID = 40
-"""From one probed point to the next [px]: smaller than anything that is to be pressed."""
+SHARES = ((0.5, 0.5), (0.15, 0.5), (0.85, 0.5), (0.5, 0.12), (0.5, 0.88))
+"""Of width and height of what may be pressed, where it is probed."""
 
 
 class Taken(Exception):
@@ -49,16 +51,33 @@ def taken(skip: list[Any], room: Any = None) -> dict[int, Any]:
     found: dict[int, Any] = {}
     left, low, right, top = (0, 0, Window.width, Window.height) if room is None else box(room)
     boxes = [box(one) for one in skip]
-    points = [
-        (x, y)
-        for x in range(round(left) + 7, round(right), GRID)
-        for y in range(round(low) + 7, round(top), GRID)
-    ]
     with lying_still():
-        for x, y in points:
-            if not any(b[0] <= x <= b[2] and b[1] <= y <= b[3] for b in boxes):
+        for x, y in _spots():
+            on_glass = left <= x < right and low <= y < top
+            if on_glass and not any(b[0] <= x <= b[2] and b[1] <= y <= b[3] for b in boxes):
                 found.update({id(widget): widget for widget in probe(x, y)})
     return found
+
+
+def _spots() -> set[tuple[int, int]]:
+    """Where a finger may find something: on everything that does not leave fingers to what is in it."""
+    spots = set()
+    for root in Window.children:
+        for one in root.walk(restrict=True):
+            if not _listens(one) or not one.opacity:
+                continue
+            left, low, right, top = box(one)
+            for across, up in SHARES:
+                spots.add((round(left + across * (right - left)), round(low + up * (top - low))))
+    return spots
+
+
+def _listens(widget: Any) -> bool:
+    """It has a way of its own with fingers; a text has one for links, of which there are none."""
+    kind = type(widget)
+    ways = ("on_touch_down", "on_touch_up")
+    own = any(getattr(kind, way) not in (getattr(Widget, way), getattr(Label, way)) for way in ways)
+    return own or bool(widget.get_property_observers("on_touch_down"))
 
 
 def probe(x: float, y: float) -> Iterator[Any]:

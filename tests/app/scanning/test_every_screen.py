@@ -8,11 +8,15 @@ from typing import Any
 import pytest
 from kivy.core.window import Window
 
+from app.intents import Heard
 from app.scanning.targets import OnGlass
+from app.screens.helping import HelpCard, toggle_help
+from app.screens.inputs.form_view import FormView
 from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 from tests.app.scanning.probing import bound, box, taken
+from tests.app.test_dive import AQUA
 from tests.app.test_profiles import BOAT, DRONE, SCOUT, TRUCK
 from widgets.place_list import SOME
 
@@ -38,6 +42,8 @@ KINDS = {
     "PrimaryButton",
 }
 """Kinds of things that the walk must have come by, else it did not walk."""
+BESIDE = ("Ticks",)
+"""What the buttons at its ends do as well."""
 
 
 class Walk:
@@ -56,9 +62,10 @@ class Walk:
         stops += bound(app.root)
         keys = [target.key for target in self.targets.targets()]
         assert len({target.name for target in self.targets.targets()}) == len(keys), where
-        found = taken(stops, room)
+        found = {key: one for key, one in taken(stops, room).items() if type(one).__name__ not in BESIDE}
         missed = [one for one in found.values() if not any(one is key for key in keys)]
-        missed += [one for one in bound(app.root) if visible(one) and not any(one is key for key in keys)]
+        behind = [] if room is not None else bound(app.root)
+        missed += [one for one in behind if visible(one) and not any(one is key for key in keys)]
         assert not missed, (
             f"{where}: switches do not reach {[(one, box(one), getattr(one, 'text', '')) for one in missed]}"
         )
@@ -90,10 +97,23 @@ def screens(walk: Walk) -> Iterator[tuple[str, Callable[[], object]]]:
     for task in TASKS:
         yield f"order {task}", lambda task=task: tasks.begin(task)
     yield "a place", lambda: tasks.edit_place(SOME[0])
+    yield "missions again", lambda: setattr(tasks, "tab", "missions")
+    yield "save a mission", lambda: tasks.acts.by_name["save_as"].dispatch("on_release")
     inputs = app.screens["inputs"]
     yield "inputs", lambda: app.show("inputs")
     for pane in inputs.panes:
         yield f"inputs {pane}", lambda pane=pane: setattr(inputs, "chosen", pane)
+    for part in ("study", "load", "log"):
+        yield f"study {part}", lambda part=part: setattr(inputs.pane("study"), "part", part)
+    for form in ("tlx", "sus"):
+        yield (
+            f"form {form}",
+            lambda form=form: inputs.pane("study")._unroll(FormView(form, inputs.pane("study").log, app.now)),
+        )
+    yield "what waits", lambda: app.intents.take(Heard("end_task", "voice", 0.9, said="end"))
+    yield "what asks", lambda: app.intents.take(Heard("go_home", "voice", 0.9, said="home"))
+    yield "no more", lambda: app.intents.answer(False)
+    yield "reset", app.shell.reset.ask
     yield "the mode", lambda: app.show("drive") or app.shell.cards.ask_mode()
     yield "who has control", lambda: robot.publish("/control/status", asked(app))
     yield (
@@ -103,7 +123,7 @@ def screens(walk: Walk) -> Iterator[tuple[str, Callable[[], object]]]:
         ),
     )
     yield "undo", lambda: app.shell._offer_undo("Office 12", lambda: None)
-    for info in (BOAT, DRONE, TRUCK, SCOUT):
+    for info in (AQUA, BOAT, DRONE, TRUCK, SCOUT):
         yield info.name, lambda info=info: robot.publish("/robot/info", info)
 
 
@@ -118,8 +138,14 @@ def asked(app: Any) -> ControlStatus:
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_whatever_takes_a_finger_is_reached_by_switches(form: str, driving: Glass, robot: FakeRobot) -> None:
+def test_whatever_takes_a_finger_is_reached_by_switches(
+    form: str, driving: Glass, robot: FakeRobot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # it would look through all of it 69 times
+    monkeypatch.setattr("app.garbage.Collector.look", lambda _: None)
     before = Window.size
+    # the one that draws nowhere would be made anew with the size it had
+    monkeypatch.setattr(Window, "create_window", lambda *_: None)
     Window.size = FORMS[form]
     driving.app.root.size = FORMS[form]
     try:
@@ -127,8 +153,16 @@ def test_whatever_takes_a_finger_is_reached_by_switches(form: str, driving: Glas
         walk = Walk(driving, robot)
         for name, come in screens(walk):
             come()
-            driving.stage.run_for(0.4, 1 / 16)
+            driving.stage.run_for(0.3, 1 / 10)
             walk.check(f"{form}, {name}")
+        toggle_help(driving.app)
+        driving.stage.frames(3)
+        (dialog,) = [one for one in driving.app.root.children if isinstance(one, HelpCard)]
+        walk.check(f"{form}, help", dialog.ids.card)
+        dialog.close()
+        driving.app.corner.press()
+        driving.stage.run_for(0.4, 1 / 16)
+        walk.check(f"{form}, STOP ALL's list")
         driving.app.leave()
         walk.check(f"{form}, connect")
         driving.app.ask_address()
