@@ -348,7 +348,7 @@ class PilothouseApp(App):
             entries = self.robots.entries()
             self.connect.show_entries(entries, self.client_id)
             self.nearby.measure(entries)
-            self.connect.ids.inputs.show(self.methods.standing())
+            self.connect.ids.inputs.show(self.methods.standing(), self.methods.idle())
 
     def _save_robots(self) -> None:
         self.settings.set("robots", self.robots.save())

@@ -23,6 +23,7 @@ __all__ = [
     "mission",
     "shell",
     "stop_list",
+    "talk_row",
     "tasks",
     "topics",
     "two_sticks",
@@ -39,13 +40,21 @@ def form(width: float, height: float, dp: float = 1.0) -> str:
     return "short" if height < 600 * dp else "wide"
 
 
-def shell(width: float, height: float, dp: float = 1.0) -> dict[str, Rect]:
-    """Of the frame round every screen of a robot: `bar` on top, `nav`, and the `body` between."""
+def talk_row(height: float, dp: float = 1.0) -> float:
+    """How high the row of the button to talk is above the navigation of an upright window [px]."""
+    return min(max(0.086 * height, 52 * dp), 96 * dp)
+
+
+def shell(width: float, height: float, dp: float = 1.0, *, talks: bool = False) -> dict[str, Rect]:
+    """Of the frame round every screen of a robot: `bar` on top, `nav`, and the `body` between.
+
+    `talks`: the navigation holds the button to talk as well, in an upright window in a row of its own.
+    """
     shape = form(width, height, dp)
     bar = (48 if shape == "short" else 56) * dp
     top = Rect(0, height - bar, width, bar)
     if shape == "tall":
-        nav = 60 * dp
+        nav = 60 * dp + (talk_row(height, dp) if talks else 0)
         return {"bar": top, "nav": Rect(0, 0, width, nav), "body": Rect(0, nav, width, height - bar - nav)}
     rail = (68 if shape == "short" else 76) * dp
     body = Rect(rail, 0, width - rail, height - bar)

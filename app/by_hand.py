@@ -39,6 +39,11 @@ class GamepadMethod:
         return f"{names}: {STANDING[pads.standing] if self.on else 'off, but for STOP'}"
 
     @property
+    def idle(self) -> bool:
+        """None is plugged in."""
+        return not self._inputs.gamepads.states
+
+    @property
     def problem(self) -> str:
         """Nothing that it could not tell by how it stands."""
         return ""

@@ -174,6 +174,10 @@ class Methods:
         """Name of each that is on, and whether it is well."""
         return [(name, not self.get(name).problem) for name in self.armed]
 
+    def idle(self) -> list[str]:
+        """Names of those that are on and well, and have nothing to work with: no gamepad is plugged in."""
+        return [name for name in self.armed if getattr(self.get(name), "idle", False)]
+
     def _told(self, _: Heard, verdict: Verdict) -> None:
         """Without a robot there is nothing that waits: only why nothing was done is said."""
         if self._app.shell is None and verdict.what in ("not allowed", "not now"):

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from typing import Any
 
 from kivy.lang import Builder
-from kivy.properties import ListProperty, OptionProperty
+from kivy.properties import BooleanProperty, ListProperty, OptionProperty, StringProperty
 from kivy.uix.floatlayout import FloatLayout
 
 from app.arrange import Rect
 from app.screens.connect import THEMES
 from app.screens.placing import put
 from bridge.msgs.pilothouse_msgs import Event
-from widgets.kit import NavButton
+from widgets.kit import NavButton, PushButton
 from widgets.theme import theme
 
 __all__ = ["Rail"]
@@ -28,10 +28,19 @@ ENTRIES = {
     "record": ("fiber_manual_record", "Record"),
     "theme": ("light_mode", "Sunlight"),
 }
-"""Name of each button to its icon and text; elsewhere than on a phone the third from the end is in the bar. To talk there is one
-while voice is on."""
-TALKS = {"ready": "accent", "listening": "ok", "loud": "warn", "wrong": "warn"}
-"""How voice stands, to the role of the button to talk."""
+"""Name of each button to its icon and text; elsewhere than on a phone the third from the end is in the bar on top. The one to
+talk is there while voice is on."""
+TALKS = {
+    "ready": ("Hold to talk", "accent"),
+    "listening": ("Listens", "ink_accent"),
+    "loud": ("Too loud", "warn"),
+    "wrong": ("Hold to talk", "warn"),
+}
+"""How voice stands, to the words of the button to talk and the role of its icon."""
+NAV = 60
+"""Height of the bar of a phone without the button to talk [dp]."""
+LOW = 66
+"""Height of the button to talk on a phone's side [dp]."""
 TALL = 120
 """Height of the button to talk where there is room [dp]."""
 UPPER = 4
@@ -51,7 +60,28 @@ Builder.load_string("""
         Rectangle:
             pos: (self.x, self.top - theme.outline) if root.form == 'tall' else (self.right - theme.outline, self.y)
             size: (self.width, theme.outline) if root.form == 'tall' else (theme.outline, self.height)
+
+<TalkButton>:
+    icon: 'mic'
+    text: root.words if root.flow == 'horizontal' else root.words.replace(' to ', ' to\\n').replace('Too ', 'Too\\n')
+    fill: 'accent' if root.sign == 'listening' else 'raised'
+    border: 'accent' if root.sign in ('ready', 'listening') else 'warn'
+    rim_width: dp(2)
+    padding: dp(4), 0
+    ink: 'ink_accent' if root.sign == 'listening' else 'text'
 """)
+
+
+class TalkButton(PushButton):
+    """Raised from what is beside it, because it is held and leads nowhere."""
+
+    sign = OptionProperty("ready", options=list(TALKS))
+    """How voice stands."""
+    words = StringProperty(TALKS["ready"][0])
+
+    def on_sign(self, *_: object) -> None:
+        """Say it."""
+        self.words, self.ink_icon = TALKS[self.sign]
 
 
 class Rail(FloatLayout):
@@ -65,13 +95,16 @@ class Rail(FloatLayout):
     """In their order."""
     voice = OptionProperty("", options=["", *TALKS])
     """How voice stands; empty while it is off."""
+    talks = BooleanProperty(False)
+    """The button to talk is there, for which an upright window has a row of its own."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._rect, self._dp = Rect(0, 0, 1, 1), 1.0
         for name, (icon, text) in ENTRIES.items():
-            button = NavButton(icon=icon, text=text)
+            button = TalkButton(size_hint=(None, None)) if name == "talk" else NavButton(icon=icon, text=text)
             if name == "talk":
+                button.on_sign()
                 button.bind(state=lambda _, state: self.dispatch("on_talk", state == "down"))
             else:
                 button.bind(on_release=lambda _, name=name: self.dispatch("on_press", name))
@@ -83,32 +116,49 @@ class Rail(FloatLayout):
         self.form, tall = form, form == "tall"
         self._rect, self._dp = rect, dp
         put(self, rect)
-        absent = ("control_nav" if not tall else "", "talk" if not self.voice else "")
+        absent = ("control_nav" if not tall else "", "talk")
         buttons = [self.ids[name] for name in ENTRIES if name not in absent]
         self.clear_widgets()
-        step = rect.width / len(buttons) if tall else min(72 * dp, (rect.height - 24 * dp) / len(buttons))
-        high = min(64 * dp, step)
-        for index, button in enumerate(buttons):
+        for button in [*buttons, *([self.ids.talk] if self.talks else [])]:
             self.add_widget(button)
-            button.framed = not tall
-            button.size = (min(step, 82 * dp), rect.height) if tall else (rect.width - 12 * dp, high)
             button.pos_hint = {}
-            if tall:
-                button.pos = (rect.x + step * index + (step - button.width) / 2, rect.y)
-            elif index >= UPPER:
-                button.pos = (rect.x + 6 * dp, rect.y + 12 * dp + (len(buttons) - 1 - index) * step)
-            else:
-                button.pos = (rect.x + 6 * dp, rect.top - 12 * dp - high - index * step)
-        more = self._grow(dp) if form == "wide" and self.voice else 0.0
-        self.ids.talk.padding = 0, 10 * dp + more, 0, 9 * dp + more
+        if tall:
+            self._along(buttons, rect, dp)
+        else:
+            self._below_each_other(buttons, rect, dp)
 
-    def _grow(self, dp: float) -> float:
-        """Where there is room the button to talk is found without looking; returns what it has more above and below [px]."""
-        talk, low, top = self.ids.talk, self.ids.record.top + 8 * dp, self.ids.topics.y - 8 * dp
-        before = talk.height
-        talk.height = max(before, min(TALL * dp, top - low))
-        talk.y = low + (top - low - talk.height) / 2
-        return float(talk.height - before) / 2
+    def _along(self, buttons: Sequence[Any], rect: Rect, dp: float) -> None:
+        """Along the lower edge, the button to talk in a row above them."""
+        step = rect.width / len(buttons)
+        for index, button in enumerate(buttons):
+            button.framed, button.padding = False, (0, 10 * dp, 0, 9 * dp)
+            button.size = min(step, 82 * dp), NAV * dp
+            button.pos = rect.x + step * index + (step - button.width) / 2, rect.y
+        talk, low = self.ids.talk, rect.y + NAV * dp
+        talk.flow = "horizontal"
+        talk.size = min(rect.width - 24 * dp, 560 * dp), max(rect.top - low - 10 * dp, 44 * dp)
+        talk.pos = rect.x + (rect.width - talk.width) / 2, low + 2 * dp
+
+    def _below_each_other(self, buttons: Sequence[Any], rect: Rect, dp: float) -> None:
+        """Along the left edge, the button to talk between the upper and the lower ones."""
+        talk, gap = self.ids.talk, 8 * dp
+        room = rect.height - 24 * dp - ((LOW * dp + 2 * gap) if self.talks else 0)
+        step = min(72 * dp, room / len(buttons))
+        high, lower = min(64 * dp, step), len(buttons) - UPPER
+        for index, button in enumerate(buttons):
+            # what is lower than its icon and its word need gives up its edges first
+            edge = max(0.0, min(10 * dp, (high - 43 * dp) / 2))
+            button.framed, button.padding = True, (0, edge, 0, max(0.0, edge - dp))
+            button.size = rect.width - 12 * dp, high
+            if index >= UPPER:
+                button.pos = rect.x + 6 * dp, rect.y + 12 * dp + (len(buttons) - 1 - index) * step
+            else:
+                button.pos = rect.x + 6 * dp, rect.top - 12 * dp - high - index * step
+        low = rect.y + 12 * dp + (lower - 1) * step + high + gap
+        top = rect.top - 12 * dp - high - (UPPER - 1) * step - gap
+        talk.flow = "vertical"
+        talk.size = rect.width - 6 * dp, max(LOW * dp, min(TALL * dp, top - low))
+        talk.pos = rect.x + 3 * dp, low + (top - low - talk.height) / 2
 
     def show(
         self,
@@ -125,18 +175,17 @@ class Rail(FloatLayout):
         `waiting` for somebody to see to them are warnings and alarms; they are counted where they are listed.
         `talk` is how voice stands, of `TALKS`, empty while it is off.
         """
-        if bool(talk) != bool(self.voice):
-            self.voice = talk
-            self.arrange(self._rect, self.form, self._dp)
         self.voice = talk
-        button = self.ids.talk
-        button.tint, button.active = TALKS.get(talk, ""), talk == "listening"
-        button.text = {"listening": "Listens", "loud": "Too loud"}.get(talk, "Talk")
+        self.ids.talk.sign = talk or "ready"
+        if bool(talk) != self.talks:
+            self.talks = bool(talk)
+            self.arrange(self._rect, self.form, self._dp)
         tasks = self.ids.tasks
         tasks.count = len(waiting)
         tasks.urgent = any(event.level == "alarm" for event in waiting)
         for name in ENTRIES:
-            self.ids[name].active = name == screen
+            if name != "talk":
+                self.ids[name].active = name == screen
         icon, text, _ = THEMES[theme.name]
         self.ids.theme.icon, self.ids.theme.text = icon, text
         self.ids.record.tint = "danger" if recording else ""

@@ -94,6 +94,7 @@ class Shell(FloatLayout):
         self.session.listeners.append(self._hear)
         self._greet()
         self.bind(size=self._arrange, pos=self._arrange, shares_stop=self._arrange)
+        self.nav.bind(talks=self._arrange)
         theme.bind(target=self._arrange)
         self._arrange()
 
@@ -191,7 +192,7 @@ class Shell(FloatLayout):
     def _arrange(self, *_: object) -> None:
         dp = Metrics.density
         self.form = arrange.form(self.width, self.height, dp)
-        places = arrange.shell(self.width, self.height, dp)
+        places = arrange.shell(self.width, self.height, dp, talks=self.nav.talks)
         put(self.bar, places["bar"])
         put(self.ids.body, places["body"])
         self.bar.arrange(self.form)
@@ -292,7 +293,7 @@ class Shell(FloatLayout):
         """Bring everything up to date that time changes; ten times a second."""
         self._tick_banner()
         self.bar.tick(self.session)
-        self.bar.show_methods(self.app.methods.standing())
+        self.bar.show_methods(self.app.methods.standing(), self.app.methods.idle())
         self._dashboard.tick()
         self._tick_question()
         self.cards.yields = self.wishes.tight = self.form == "short" and self.wishes.card.parent is not None

@@ -119,7 +119,7 @@ class StopCorner:
         else:
             shell.shares_stop = shared
             place = shell.stop_place
-            body = arrange.shell(self.layer.width, self.layer.height, dp)["body"]
+            body = arrange.shell(self.layer.width, self.layer.height, dp, talks=shell.nav.talks)["body"]
         if place.other is not None:
             put(self.button, place.other)
         self._place_list(body, place, form, dp)

@@ -196,9 +196,9 @@ class TopBar(BoxLayout):
     def on_back(self) -> None:
         """The arrow was tapped."""
 
-    def show_methods(self, methods: Sequence[tuple[str, bool]]) -> None:
+    def show_methods(self, methods: Sequence[tuple[str, bool]], idle: Sequence[str] = ()) -> None:
         """Say which methods are armed, as `InputsChip.show`."""
-        self.ids.inputs.show(methods)
+        self.ids.inputs.show(methods, idle)
 
     def on_inputs(self) -> None:
         """The ways in were tapped."""

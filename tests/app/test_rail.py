@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import pytest
+from kivy.uix.label import Label
 
+from app import arrange
 from app.arrange import Rect
 from app.screens.rail import Rail
 from tests.headless import Stage
+from widgets.theme import theme
 
-FORMS = {"tall": Rect(0, 0, 412, 60), "short": Rect(0, 0, 68, 344), "wide": Rect(0, 0, 76, 744)}
+FORMS = {"tall": Rect(0, 0, 412, 137), "short": Rect(0, 0, 68, 344), "wide": Rect(0, 0, 76, 744)}
 
 
 def rail(stage: Stage, form: str, talk: str) -> Rail:
@@ -52,7 +55,33 @@ def test_it_tells_when_it_is_held_and_when_it_is_let_go(stage: Stage) -> None:
 
 
 @pytest.mark.parametrize(
-    ("talk", "words"), [("ready", "Talk"), ("listening", "Listens"), ("loud", "Too loud"), ("wrong", "Talk")]
+    ("talk", "words"),
+    [("ready", "Hold to talk"), ("listening", "Listens"), ("loud", "Too loud"), ("wrong", "Hold to talk")],
 )
 def test_it_says_how_voice_stands(stage: Stage, talk: str, words: str) -> None:
     assert rail(stage, "tall", talk).ids.talk.text == words
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_it_is_raised_with_a_ground_and_a_border_and_is_as_large_as_a_finger_needs(
+    stage: Stage, form: str
+) -> None:
+    talk = rail(stage, form, "ready").ids.talk
+    assert talk.ground == "raised"
+    assert talk.rim == "accent"
+    assert min(talk.size) >= theme.target
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_everything_keeps_within_its_room_and_no_word_leaves_its_button(stage: Stage, form: str) -> None:
+    made, room = rail(stage, form, "ready"), FORMS[form]
+    assert all(room.holds(Rect(*one.pos, *one.size)) for one in made.children)
+    for one in made.children:
+        for label in (child for child in one.walk(restrict=True) if isinstance(child, Label)):
+            assert label.texture_size[0] <= one.width, label.text
+
+
+def test_an_upright_window_has_a_row_for_it_while_it_is_there() -> None:
+    silent, talking = (arrange.shell(412, 892, talks=talks) for talks in (False, True))
+    assert talking["nav"].height - silent["nav"].height >= 60
+    assert talking["body"].y == talking["nav"].top

@@ -1,4 +1,4 @@
-"""The way to the inputs screen: a chip that shows by icons which methods are armed, and which of them does not work."""
+"""The way to the inputs screen: a chip that shows by icons which methods are armed, struck through which do not work."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from kivy.uix.boxlayout import BoxLayout
 
 from app.screens.inputs import PANES
 from widgets.frames import Pressable
-from widgets.kit import Icon
+from widgets.kit import Icon, Text
 from widgets.theme import theme
 
 __all__ = ["InputsChip"]
 
 NOTHING = "tune"
 """Icon while no method is armed."""
-MOST = 4
-"""So many icons are shown, on a brief one the first alone."""
+BRIEF = 1
+"""So many icons a brief one shows; the rest is counted."""
 
 Builder.load_string("""
 <InputsChip>:
@@ -30,38 +30,70 @@ Builder.load_string("""
     rim: 'line'
     ground: 'raised'
     corner: self.height / 2
+
+<MethodSign>:
+    role: 'muted' if root.idle else 'warn' if root.struck else 'accent'
+    font_size: sp(20)
+    pos_hint: {'center_y': .5}
+    canvas.after:
+        Color:
+            rgba: theme.raised if root.struck else (0, 0, 0, 0)
+        Line:
+            points: self.x + dp(1), self.top - dp(1), self.right - dp(1), self.y + dp(1)
+            width: dp(2.4)
+        Color:
+            rgba: theme.warn if root.struck else (0, 0, 0, 0)
+        Line:
+            points: self.x, self.top, self.right, self.y
+            width: dp(1.2)
 """)
+
+
+class MethodSign(Icon):
+    """A method that is armed; struck through while it does not work, muted while it has nothing to work with."""
+
+    struck = BooleanProperty(False)
+    idle = BooleanProperty(False)
 
 
 class InputsChip(Pressable, BoxLayout):
     """Dispatches `on_release`."""
 
     brief = BooleanProperty(False)
-    """It has room for one icon."""
+    """It has room for one icon and a number."""
     methods = ListProperty()
     """Name of each method that is armed, and whether it is well."""
+    idle = ListProperty()
+    """Names of those that are well and have nothing to work with, as a gamepad that is not plugged in."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.bind(methods=self._draw, brief=self._draw)
+        self.bind(methods=self._draw, idle=self._draw, brief=self._draw)
         self._draw()
 
-    def show(self, methods: Sequence[tuple[str, bool]]) -> None:
-        """Take over which methods are armed."""
-        self.methods = list(methods)
+    def show(self, methods: Sequence[tuple[str, bool]], idle: Sequence[str] = ()) -> None:
+        """Take over which methods are armed, and which of them have nothing to work with."""
+        self.methods, self.idle = list(methods), list(idle)
 
     def _draw(self, *_: object) -> None:
         self.clear_widgets()
         # what does not work goes before what does: it must not be the one that has no room
         told = sorted((one for one in self.methods if one[0] in PANES), key=self._rank)
-        shown = told[: 1 if self.brief else MOST]
-        for name, well in shown or [("", True)]:
-            icon = PANES[name][0] if name else NOTHING
-            role = "muted" if not name else "accent" if well else "warn"
-            self.add_widget(Icon(name=icon, role=role, font_size="20sp", pos_hint={"center_y": 0.5}))
+        shown = told[:BRIEF] if self.brief else told
+        for name, well in shown:
+            self.add_widget(MethodSign(name=PANES[name][0], struck=not well, idle=well and name in self.idle))
+        if not shown:
+            self.add_widget(MethodSign(name=NOTHING, idle=True))
+        if len(told) > len(shown):
+            more = Text(text=f"+{len(told) - len(shown)}", font_size="14sp", size_hint_x=None)
+            more.text_size = None, None
+            more.pos_hint = {"center_y": 0.5}
+            more.texture_update()
+            more.width = more.texture_size[0]
+            self.add_widget(more)
 
-    def _rank(self, one: tuple[str, bool]) -> tuple[bool, int]:
-        return one[1], list(PANES).index(one[0])
+    def _rank(self, one: tuple[str, bool]) -> tuple[bool, bool, int]:
+        return one[1], one[0] in self.idle, list(PANES).index(one[0])
 
     def collide_point(self, x: float, y: float) -> bool:
         """It is hit within a whole target round it."""
