@@ -178,8 +178,11 @@ class Methods:
         """Names of those that are on and well, and have nothing to work with: no gamepad is plugged in."""
         return [name for name in self.armed if getattr(self.get(name), "idle", False)]
 
-    def _told(self, _: Heard, verdict: Verdict) -> None:
+    def _told(self, heard: Heard, verdict: Verdict) -> None:
         """Without a robot there is nothing that waits: only why nothing was done is said."""
+        method = self._all.get(heard.method)
+        if hasattr(method, "said") and verdict.done:  # what it asked was answered, or lapsed
+            method.said = verdict.sentence
         if self._app.shell is None and verdict.what in ("not allowed", "not now"):
             self._app.connect.say(verdict.sentence, "warn")
 

@@ -190,7 +190,9 @@ def _listen(host: str, port: int) -> socket.socket:
     except OSError as error:
         listener.close()
         why = error.strerror or str(error)
-        raise BridgeError(f"Cannot serve HTTP on {host}:{port}: {why.lower()}.") from error
+        raise BridgeError(
+            f"Cannot serve HTTP on {host}:{port}: {why.lower()}; --http-port names another port."
+        ) from error
     return listener
 
 

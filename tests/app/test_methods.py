@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 import app.methods as methods_of
-from app.intents import Heard, Intents
+from app.intents import CONFIRM_FOR, Heard, Intents
 from app.methods import Methods
 from app.origin import NOBODY, origins
 from app.permits import Permits
@@ -130,6 +130,21 @@ def test_while_the_glass_is_away_nothing_listens_and_no_question_waits(make: Any
     app.intents.answer(yes=True, method="voice")
     assert app.acts.done == []
     assert app.methods.get("voice").life == ["start", "stop", "start"]
+
+
+class Speaks(Made):
+    said = ""
+
+
+def test_what_came_of_a_question_is_said_where_the_question_was(make: Any) -> None:
+    app = make(voice=Speaks, shake=Speaks)
+    voice, shake = app.methods.get("voice"), app.methods.get("shake")
+    voice.said = app.intents.take(Heard("go_home", "voice")).sentence
+    assert voice.said == "go_home?"
+    app.time += CONFIRM_FOR + 1.0
+    app.intents.look(app.time)
+    assert voice.said == "Not done, nobody said yes: go_home."
+    assert shake.said == "", "it asked nothing"
 
 
 def test_a_finger_that_was_on_the_glass_when_it_was_taken_away_does_nothing_later(make: Any) -> None:

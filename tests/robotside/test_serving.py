@@ -209,7 +209,7 @@ async def test_a_port_that_is_taken_is_said_and_nothing_is_left_open(tmp_path: P
         with pytest.raises(BridgeError, match=f"Port {port} on 127.0.0.1 is taken"):
             await serves.run(lambda _: None)
         web = Serving(station, RobotClock(0.0), lambda: 0.0, Addresses("127.0.0.1", 0, port))
-        with pytest.raises(BridgeError, match=f"Cannot serve HTTP on 127.0.0.1:{port}"):
+        with pytest.raises(BridgeError, match=f"Cannot serve HTTP on 127.0.0.1:{port}.*--http-port names"):
             await web.run(lambda _: None)
 
 
