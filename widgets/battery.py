@@ -177,10 +177,9 @@ class BatteryChip(_Charge, BoxLayout):
 
     def _write(self, *_: object) -> None:
         old = age_text(self.age) if self.state == "stale" and not self.brief else ""
-        text = self.text.replace(" %", "%") if self.brief else self.text
-        self._chip.text = f"{text} · {old}" if old else text
+        self._chip.text = f"{self.text} · {old}" if old else self.text
         self._chip.tinted = self.state == "stale"
-        self._chip.usual, self._chip.edge = ("100%", dp(8)) if self.brief else ("100 %", dp(13))
+        self._chip.usual, self._chip.edge = ("288 ms", dp(7)) if self.brief else ("100 %", dp(13))
         self._chip.role = self.role
         alarming = self.role == "danger" and not self.charging
         self._chip.icon = (

@@ -135,7 +135,7 @@ class TopBar(BoxLayout):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.ids["stack"] = self._stack = BoxLayout(
-            orientation="vertical", size_hint=(None, 1), padding=(0, "2dp")
+            orientation="vertical", size_hint=(None, 1), padding=(0, "5dp"), spacing="2dp"
         )
         for name in PARTS:  # kv holds ids weakly, and the narrow bar takes some of them out
             self.ids[name] = self.ids[name].__self__

@@ -75,10 +75,10 @@ def test_the_chip_is_as_wide_as_its_words(stage):
 def test_a_brief_chip_keeps_its_unit():
     chip = BatteryChip(state="live", brief=True)
     chip.show(BatteryState(percentage=0.87))
-    assert chip.children[0].text == "87%"
+    assert chip.children[0].text == "87 %"
 
 
-@pytest.mark.parametrize(("brief", "text"), [(False, "87 % · 12 s old"), (True, "87%")])
+@pytest.mark.parametrize(("brief", "text"), [(False, "87 % · 12 s old"), (True, "87 %")])
 def test_an_old_charge_fades_in_the_bar_and_says_how_old_it_is_where_there_is_room(stage, brief, text):
     chip = stage.show(BatteryChip(state="live", brief=brief))
     chip.show(BatteryState(percentage=0.87))
