@@ -26,7 +26,20 @@ Builder.load_string("""
     padding: dp(12), 0, root.end, 0
     spacing: dp(10)
     rim: 'accent' if root.chosen else 'line'
-    rim_width: 1.5
+    rim_width: dp(3) if root.chosen else 1.5
+    canvas.before:
+        Color:
+            rgba: theme.accent[:3] + [.16 if root.chosen else 0]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [self.corner]
+        Color:
+            rgba: theme.accent[:3] + [1 if root.chosen else 0]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: dp(9), self.height
+            radius: [self.corner, 0, 0, self.corner]
     Icon:
         id: sign
         name: root.icon
