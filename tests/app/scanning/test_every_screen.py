@@ -12,7 +12,7 @@ from app.intents import Heard
 from app.scanning.targets import OnGlass
 from app.screens.helping import HelpCard, toggle_help
 from app.screens.inputs.form_view import FormView
-from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
+from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo, TaskStatus
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 from tests.app.scanning.probing import bound, box, taken
@@ -124,7 +124,13 @@ def screens(walk: Walk) -> Iterator[tuple[str, Callable[[], object]]]:
     )
     yield "undo", lambda: app.shell._offer_undo("Office 12", lambda: None)
     for info in (AQUA, BOAT, DRONE, TRUCK, SCOUT):
-        yield info.name, lambda info=info: robot.publish("/robot/info", info)
+        yield info.name, lambda info=info: introduce(walk, info)
+
+
+def introduce(walk: Walk, info: RobotInfo) -> None:
+    """It is another robot now, and the app knows."""
+    walk.robot.publish("/robot/info", info)
+    walk.glass.until(lambda: walk.app.session.info.name == info.name, info.name)
 
 
 def asked(app: Any) -> ControlStatus:
