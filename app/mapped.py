@@ -72,6 +72,11 @@ class Mapped:
         self.pads_on = on
         self._keep_pads()
 
+    @property
+    def profiles_kept(self) -> dict[str, Any]:
+        """What was changed, by the gamepad's name, as JSON."""
+        return dict(self._kept)
+
     def set_keys(self, table: KeyTable) -> None:
         """Keep another table of keys."""
         self.keys = table

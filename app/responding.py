@@ -22,6 +22,7 @@ from app.origin import origins
 from app.response_tracks import Asked, State, Tracks
 from app.responses import Response, ResponseLog, read
 from app.responses_stats import counts
+from app.set_up import set_up
 from app.study import Plan, Prompt, Trials, plan_of, saved
 from app.study_export import SETTINGS, export
 from app.workload import Workload, Workloads
@@ -368,7 +369,11 @@ class Responding:
     def export(self) -> Path:
         """Write everything into one zip; OSError when that fails. Takes a while, for a thread of its own."""
         self.log.flush()
-        settings = {name: self._app.settings.get(name) for name in SETTINGS}
+        settings = {name: self._app.settings.get(name) for name in SETTINGS} | set_up(self._app)
+        flags = {"log": True, "snippets": False, "remind": False}
+        settings["study"] = self._values() | {
+            name: self._setting(name, usual) for name, usual in flags.items()
+        }
         return export(self.folder, self.exports, settings, self._wall())
 
     def forget(self) -> None:

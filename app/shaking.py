@@ -9,6 +9,7 @@ import math
 import time
 from collections import deque
 from collections.abc import Callable
+from dataclasses import asdict
 from typing import Any
 
 from app.device import rotation, vibrate
@@ -83,10 +84,16 @@ class Shaking:
             self.own, self.mistaken = {}, f"{problem} The lesson has to be done again."
 
     def _keep(self) -> None:
+        self._app.settings.set("shake", self._kept())
+
+    def _kept(self) -> dict[str, Any]:
         meaning = {str(axis): intent for axis, intent in self.meaning.items()}
-        self._app.settings.set(
-            "shake", {"on": self._on, "any": self._any, **meaning, "own": own_to(self.own)}
-        )
+        return {"on": self._on, "any": self._any, **meaning, "own": own_to(self.own)}
+
+    @property
+    def set_to(self) -> dict[str, Any]:
+        """Everything that it goes by, thresholds included, as JSON."""
+        return self._kept() | {"tuning": asdict(fitted(USUAL, self.own))}
 
     @property
     def on(self) -> bool:

@@ -126,8 +126,12 @@ class Speaking:
             self.mistaken = f"There are no commands in the language {shown(language)}; they are English."
 
     def _keep(self) -> None:
-        fields = {"on": self._on, "hands_free": self._hands_free, "language": self._language}
-        self._app.settings.set("voice", fields)
+        self._app.settings.set("voice", self.set_to)
+
+    @property
+    def set_to(self) -> dict[str, Any]:
+        """Everything that the operator can set, as JSON."""
+        return {"on": self._on, "hands_free": self._hands_free, "language": self._language}
 
     @property
     def on(self) -> bool:

@@ -33,7 +33,7 @@ responses*.jsonl   one line of JSON for each command, the oldest file has the hi
 responses.csv      the same as a table, without snippets
 workload.jsonl     the forms: NASA-TLX (raw) and SUS, every answer with order and time
 scores.csv         the forms' scores
-settings.json      how the methods were set up
+settings.json      how the methods were set up when this was written, what nobody changed included; null: as usual
 
 Times are seconds since 1970; an empty field means not known, or did not happen. Differences are exact: the clock that counts
 them is not set during a session. Fields of a response:

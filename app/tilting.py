@@ -165,12 +165,17 @@ class Tilting:
         return True
 
     def _keep(self) -> None:
+        self._app.settings.set("tilt", self.set_to)
+
+    @property
+    def set_to(self) -> dict[str, Any]:
+        """Everything that it goes by, as JSON."""
         more = {
             "on": self._on,
             "others": self.others,
             "neutral": self.tilt.neutral and list(self.tilt.neutral),
         }
-        self._app.settings.set("tilt", self.settings.save() | more)
+        return self.settings.save() | more
 
     # the tablet of a desktop
 

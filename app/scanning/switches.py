@@ -76,6 +76,11 @@ class Switches:
     # as a method
 
     @property
+    def set_to(self) -> dict[str, Any]:
+        """Everything that it goes by, as JSON."""
+        return self.options.save()
+
+    @property
     def on(self) -> bool:
         """The operator wants it."""
         return self.options.on

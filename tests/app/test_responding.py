@@ -51,7 +51,7 @@ class Running:
     """The log in an app without a glass, with clocks that are moved by hand."""
 
     def __init__(self, folder) -> None:
-        self.folder, self.time = folder, 100.0
+        self.folder, self.time, self.made = folder, 100.0, {}
         self.open()
 
     def open(self) -> None:
@@ -60,7 +60,7 @@ class Running:
             settings=self.settings,
             now=lambda: self.time,
             session=None,
-            methods=SimpleNamespace(armed=["voice"]),
+            methods=SimpleNamespace(armed=["voice"], get=self.made.get),
             corner=SimpleNamespace(on_pressed=[]),
             fleet=SimpleNamespace(active=False, total=0, stopped=0),
             intents=Intents(self.acts, Permits(self.settings), lambda: self.time),
@@ -291,7 +291,6 @@ def test_a_form_after_a_block_says_by_whom_and_which_method(running):
 
 def test_all_of_it_goes_into_one_zip(running):
     running.settings.set("robots", [{"url": "ws://10.0.0.7"}])
-    running.settings.set("voice", {"noise": 70})
     running.hear("pause")
     running.log.fill("tlx", TLX, [], {})
     running.wait(12)
@@ -312,7 +311,8 @@ def test_all_of_it_goes_into_one_zip(running):
         rows = list(csv.DictReader(io.StringIO(archive.read("responses.csv").decode())))
         assert [row["recognised"] for row in rows if row["kind"] == "command"] == ["pause"]
         settings = json.loads(archive.read("settings.json"))
-        assert settings["voice"] == {"noise": 70}
+        assert settings["study"] == {"log": True, "snippets": False, "remind": False}
+        assert settings["intents"]["shake"]["start"] is False, "nobody has changed that"
         assert "robots" not in settings
         readme = archive.read("README.txt").decode()
     assert str(BASELINE) in readme
