@@ -6,7 +6,6 @@ It is drawn above everything else and takes no finger. It never covers STOP.
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -27,44 +26,81 @@ CORNER = 28.0
 """Length of the corners that frame a group [dp]."""
 ARROW = 22.0
 """Of the arrow that points at a thing [dp]."""
+FULL = 0.8
+"""Things lie together that fill so much of the rectangle round them: it then holds nothing that is not marked."""
+NEAR = 6
+"""At so many frames of a group a place for its words is looked for."""
+STOP_COUNTS = 1000.0
+"""So much worse than on anything else are words on STOP."""
 
 
 class Ring:
     """`show` draws it; without boxes it is gone."""
 
-    def __init__(
-        self, app: Any, stops: Callable[[], list[Box]], now: Callable[[], float] = time.monotonic
-    ) -> None:
+    def __init__(self, app: Any, stops: Callable[[], list[Box]]) -> None:
         """`app` is asked for its `root` and its size; `stops` says where STOP is [px]."""
-        self._app, self._stops, self._now = app, stops, now
+        self._app, self._stops = app, stops
         self._group = InstructionGroup()
         self._shown: tuple[Any, ...] = ()
         self.box: Box | None = None
-        """What is framed now [px, window]; None for nothing."""
+        """What holds all that is framed now [px, window]; None for nothing."""
+        self.frames: list[Box] = []
+        """Each frame: of things that lie together there is one."""
         self.said = ""
         """The words beside it."""
 
-    def show(self, boxes: Sequence[Box], kind: str, words: str = "", until: float = math.nan) -> None:
-        """Frame all of `boxes`, of which none means nothing is marked. `until` says when the mark goes on by itself."""
+    def show(
+        self,
+        boxes: Sequence[Box],
+        kind: str,
+        words: str = "",
+        others: Callable[[], Sequence[Box]] | None = None,
+        *,
+        named: bool = False,
+    ) -> None:
+        """Frame each of `boxes`, those that lie together as one; none means nothing is marked.
+
+        `others` tells what else is read or pressed on the glass: the words beside the frame cover as little of it as they can.
+        A thing has no words beside it unless it is to be `named`.
+        """
         root = self._app.root
         box = _around(boxes, (0, 0, root.width, root.height)) if boxes else None
-        left = "" if math.isnan(until) else f"{max(until - self._now(), 0.0):.1f}"
-        shown = (box, kind, words, theme.name, left)
+        shown = (tuple(boxes), kind, words, theme.name, named, (root.width, root.height))
         if shown == self._shown:
             return
         self._shown, self.box = shown, box
-        self.said = words if kind != "item" else ""
+        self.said = words if kind != "item" or named else ""
+        self.frames = []
         self._group.clear()
         if self._group not in root.canvas.after.children:
             root.canvas.after.add(self._group)
         if box is None:
             return
-        box = self._clear_of_stop(box)
-        self._frame(box, kind)
+        parts = [self._outside_stop(part) for part in together(boxes)]
+        self.frames = [self._clear_of_stop(part) for part in parts]
+        for frame in self.frames:
+            self._frame(frame, kind)
         if kind == "item":
-            self._arrow(box)
-        else:
-            self._chip(box, "Back" if kind == "back" else words)
+            self._arrow(self.frames[0])
+        if kind != "item" or named:
+            self._chip("Back" if kind == "back" else words, others() if others is not None else [])
+
+    def _outside_stop(self, box: Box) -> Box:
+        """The largest part of it that STOP does not lie on; STOP itself where that is what is marked."""
+        for stop in self._stops():
+            if not _meet(box, stop) or (
+                box[2] - box[0] <= stop[2] - stop[0] and box[3] - box[1] <= stop[3] - stop[1]
+            ):
+                continue
+            left, low, right, top = box
+            parts = (
+                (left, low, min(right, stop[0]), top),
+                (max(left, stop[2]), low, right, top),
+                (left, max(low, stop[3]), right, top),
+                (left, low, right, min(top, stop[1])),
+            )
+            box = max(parts, key=_area)
+        return box
 
     def _clear_of_stop(self, box: Box) -> Box:
         """The frame lies outside its box, and gives way where that would be on STOP."""
@@ -120,21 +156,42 @@ class Ring:
             points = [x + way * grown, y, 0, 0, back, y + half, 0, 0, back, y - half, 0, 0]
             self._group.add(Mesh(vertices=points, indices=[0, 1, 2], mode="triangles"))
 
-    def _chip(self, box: Box, words: str) -> None:
-        """What a press would do, above or below what is framed."""
+    def _chip(self, words: str, others: Sequence[Box]) -> None:
+        """What a press would do, at the side of a frame where it covers least of what else is there."""
         short = words if len(words) <= 48 else f"{words[:47].rstrip()}…"
         texture = text_texture(short, sp(15), theme.font, bold=True)
         wide, high = texture.width + dp(20), texture.height + dp(10)
-        root = self._app.root
-        x = min(max(box[0], 0), max(root.width - wide, 0))
-        above = box[3] + dp(THICK)
-        y = above if above + high <= root.height else max(box[1] - dp(THICK) - high, 0)
-        if any(_meet((x, y, x + wide, y + high), stop) for stop in self._stops()):
-            x, y = box[0] + dp(THICK), box[3] - high - dp(THICK)
+        x, y = self._room_for(wide, high, others)
         self._group.add(Color(*theme.roles["text"]))
         self._group.add(RoundedRectangle(pos=(x, y), size=(wide, high), radius=[dp(6)]))
         self._group.add(Color(*theme.roles["surface"]))
         self._group.add(Rectangle(pos=(x + dp(10), y + dp(5)), size=texture.size, texture=texture))
+
+    def _room_for(self, wide: float, high: float, others: Sequence[Box]) -> tuple[float, float]:
+        """Lower left corner of a chip of that size [px]."""
+        root, out = self._app.root, dp(THICK)
+        places = []
+        for left, low, right, top in self.frames[:NEAR]:
+            rows = (top + out, low - out - high, top - high - out, low + out)
+            columns = (left, right - wide, (left + right - wide) / 2)
+            places += [(x, y) for y in rows for x in columns]
+            places += [
+                (x, y)
+                for x in (right + out, left - out - wide)
+                for y in (top - high, low, (low + top - high) / 2)
+            ]
+        inside = [
+            (min(max(x, 0.0), max(root.width - wide, 0.0)), min(max(y, 0.0), max(root.height - high, 0.0)))
+            for x, y in places
+        ]
+        stops = self._stops()
+
+        def covers(place: tuple[float, float]) -> float:
+            chip = (*place, place[0] + wide, place[1] + high)
+            on_stop = sum(_shared(chip, stop) for stop in stops)
+            return round(on_stop * STOP_COUNTS + sum(_shared(chip, other) for other in others), 1)
+
+        return min(inside, key=covers)
 
 
 def _plain(line: dict[str, Any]) -> dict[str, Any]:
@@ -157,6 +214,36 @@ def _corners(box: Box, length: float) -> list[list[float]]:
         [right, top - up, right, top, right - across, top],
         [left + across, top, left, top, left, top - up],
     ]
+
+
+def together(boxes: Sequence[Box]) -> list[Box]:
+    """Boxes that fill what holds them almost as one; each by itself that lies apart from the others."""
+    parts = list(dict.fromkeys(boxes))
+    filled = {part: _area(part) for part in parts}
+    at = 0
+    while at < len(parts):
+        for other in range(at + 1, len(parts)):
+            one, two = parts[at], parts[other]
+            both = _around((one, two), (-math.inf, -math.inf, math.inf, math.inf))
+            whole = filled[one] + filled[two] - _shared(one, two)
+            if whole >= FULL * _area(both):
+                parts[at] = both
+                filled[both] = min(whole, _area(both))
+                del parts[other]
+                at = -1
+                break
+        at += 1
+    return parts
+
+
+def _area(box: Box) -> float:
+    return max(box[2] - box[0], 0.0) * max(box[3] - box[1], 0.0)
+
+
+def _shared(one: Box, other: Box) -> float:
+    wide = min(one[2], other[2]) - max(one[0], other[0])
+    high = min(one[3], other[3]) - max(one[1], other[1])
+    return max(wide, 0.0) * max(high, 0.0)
 
 
 def _meet(one: Box, other: Box) -> bool:

@@ -21,8 +21,10 @@ __all__ = ["Pace", "Scan"]
 
 BACK = "Back"
 """What the way out of a group is called."""
-NAMED = 4
-"""So many of a group's targets are named in its words."""
+NAMED = 2
+"""So many are named; of more the first and the last."""
+LETTERS = 22
+"""Of each name, at most."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -248,8 +250,27 @@ def _names(mark: Mark) -> frozenset[str]:
 def _words(child: Group | Target) -> str:
     if isinstance(child, Target):
         return child.words
-    named = [one.words for one in leaves(child)]
-    return child.words or ", ".join([*named[:NAMED], *(["…"] if len(named) > NAMED else [])])
+    inside = list(leaves(child))
+    groups = list(dict.fromkeys(one.group[0] for one in inside if one.group))
+    if len(groups) == 1 and all(one.group for one in inside):
+        return child.words or _from_to([_short(one.words) for one in inside])
+    # a container is named once, what stands alone by itself
+    named = list(dict.fromkeys(one.group[0] if one.group else _short(one.words) for one in inside))
+    return child.words or _from_to(named)
+
+
+def _from_to(named: list[str]) -> str:
+    """The names that a group is known by: all of a few, else where it begins and where it ends."""
+    named = list(dict.fromkeys(named))
+    if len(named) <= NAMED:
+        return " and ".join((", ".join(named[:-1]), named[-1])) if len(named) > 1 else "".join(named)
+    return f"{named[0]} to {named[-1]}"
+
+
+def _short(words: str) -> str:
+    """What it says before it goes into detail."""
+    head = words.partition(":")[0].strip() or words
+    return head if len(head) <= LETTERS else f"{head[: LETTERS - 1].rstrip()}…"
 
 
 def _everywhere(group: Group, path: tuple[int, ...]) -> Iterator[tuple[tuple[int, ...], int, Group | Target]]:

@@ -7,10 +7,12 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
+from kivy.uix.label import Label
 from kivy.uix.scrollview import ScrollView
 
 from app.scanning import Mark, Target, finger
 from app.scanning.finding import Box, Found, find, in_window
+from app.scanning.kinds import kind_of
 from app.scanning.naming import beside, intent_of, slug, words_of
 from app.scanning.openings import Openings
 from app.scanning.ring import Ring
@@ -33,6 +35,10 @@ URGENT = 8.0
 """How much likelier than all else is what waits for an answer."""
 PAGE = 0.8
 """Of what is in sight is scrolled on by one step."""
+LEAVES = {"cancel", "close", "back", "not now", "no", "leave"}
+"""What the button says that closes a question; one that has it needs no other way out."""
+PRESSED = ("press", "hold", "step", "field", "fader", "slide")
+"""Kinds that words of the mark should not lie on; a map or a stick has room."""
 PADDING = 24
 """Kept free round what is scrolled to [px]."""
 MOST_WORDS = 200
@@ -79,7 +85,8 @@ class OnGlass:
         found = find(self._roots(), self._app.corner.layer)
         dialog = self._dialog()
         made = [self._target(one) for one in found]
-        if dialog is not None and self.openings.pad is None:
+        ways_out = {one.words.casefold() for one in made} & LEAVES
+        if dialog is not None and self.openings.pad is None and not ways_out:
             made.append(
                 Target(f"{self.place}.leave", "Close", dialog.close, group=("Dialog",), key=dialog.ids.card)
             )
@@ -207,8 +214,26 @@ class OnGlass:
             self._step = mark.step
             for target in mark.targets[:1]:
                 _into_view(target.key)
-        boxes = [in_window(target.key) for target in mark.targets if _there(target.key)]
-        self.ring.show(boxes, mark.kind, mark.words, mark.until)
+        keys = [target.key for target in mark.targets if _there(target.key)]
+        seen = [box for key in keys if (box := _in_sight(key)) is not None]
+        leaves = mark.targets[0].name.endswith(".leave")
+        self.ring.show(
+            seen, mark.kind, mark.words, lambda: self._texts(keys), named=mark.kind == "item" and leaves
+        )
+
+    def _texts(self, keys: Sequence[Any]) -> list[Box]:
+        """Where something can be read or pressed that is not marked, each in sight."""
+        boxes, widgets = [], list(self._roots())
+        while widgets:
+            widget = widgets.pop()
+            if not widget.opacity or any(widget is key for key in keys):
+                continue
+            reads = isinstance(widget, Label) and str(widget.text).strip()
+            box = _in_sight(widget) if reads or kind_of(widget) in PRESSED else None
+            if box is not None:
+                boxes.append(box)
+            widgets += getattr(widget, "__self__", widget).children
+        return boxes
 
     def _keep_offers(self, mark: Mark | None) -> None:
         """What can be undone for a while can be until the mark has been there and gone on."""
@@ -233,6 +258,19 @@ def _press(widget: Any) -> None:
 
 def _there(widget: Any) -> bool:
     return widget is not None and widget.get_root_window() is not None
+
+
+def _in_sight(widget: Any) -> Box | None:
+    """Where it can be seen [px]; None where it is scrolled away."""
+    left, low, right, top = in_window(widget)
+    parent = widget.parent
+    while parent is not None and parent.parent is not parent:
+        if isinstance(parent, ScrollView):
+            view = in_window(parent)
+            left, low = max(left, view[0]), max(low, view[1])
+            right, top = min(right, view[2]), min(top, view[3])
+        parent = parent.parent
+    return (left, low, right, top) if right - left > 1 and top - low > 1 else None
 
 
 def _mute(widget: Any) -> bool:

@@ -59,6 +59,7 @@ class MethodSign(Icon):
 class InputsChip(Pressable, BoxLayout):
     """Dispatches `on_release`."""
 
+    scan_words = "Inputs"
     brief = BooleanProperty(False)
     """It has room for one icon and a number."""
     methods = ListProperty()

@@ -6,11 +6,11 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from kivy.graphics import Line, Mesh
+from kivy.graphics import Line, Mesh, RoundedRectangle
 from kivy.uix.floatlayout import FloatLayout
 
 from app.scanning.placing import beside
-from app.scanning.ring import THICK, Ring
+from app.scanning.ring import CASING, THICK, Ring
 from tests.headless import Stage
 
 STOP = (222.0, 10.0, 402.0, 130.0)
@@ -27,6 +27,11 @@ def drawn(ring: Ring, kind: type) -> list[Any]:
     return [one for one in ring._group.children if isinstance(one, kind)]
 
 
+def grown(box: Any) -> Any:
+    out = (THICK + CASING) / 2
+    return box[0] - out, box[1] - out, box[2] + out, box[3] + out
+
+
 def test_a_thing_a_group_and_the_way_back_differ_by_shape_and_not_by_colour_alone(ring: Ring) -> None:
     shapes = []
     for kind in ("item", "group", "back"):
@@ -37,12 +42,34 @@ def test_a_thing_a_group_and_the_way_back_differ_by_shape_and_not_by_colour_alon
     assert max(line.width for line in drawn(ring, Line)) * 2 >= THICK
 
 
-def test_it_frames_all_of_a_group_and_is_gone_without_one(ring: Ring) -> None:
-    ring.show([THING, (200.0, 500.0, 250.0, 520.0)], "group", "Two")
-    assert ring.box == (40.0, 300.0, 250.0, 520.0)
+def test_it_frames_each_of_a_group_that_lies_apart_and_is_gone_without_one(ring: Ring) -> None:
+    far = (200.0, 500.0, 250.0, 560.0)
+    ring.show([THING, far], "group", "Two")
+    assert ring.frames == [grown(THING), grown(far)], "what lies between them is not marked"
+    ring.show([(40.0, 300.0, 140.0, 360.0), (148.0, 300.0, 250.0, 360.0)], "group", "Two")
+    assert ring.frames == [grown((40.0, 300.0, 250.0, 360.0))], "neighbours are one"
     ring.show([], "")
     assert ring.box is None
     assert not ring._group.children
+
+
+def test_stop_is_never_within_a_mark(ring: Ring) -> None:
+    for boxes in ([(0.0, 0.0, 412.0, 892.0)], [(5.0, 700.0, 100.0, 760.0), (300.0, 140.0, 400.0, 200.0)]):
+        ring.show(boxes, "group", "Map to Report")
+        for left, low, right, top in ring.frames:
+            apart = right <= STOP[0] or left >= STOP[2] or low >= STOP[3] or top <= STOP[1]
+            assert apart, (left, low, right, top)
+
+
+def test_the_words_stand_where_they_cover_no_neighbour_and_the_way_out_has_some(ring: Ring) -> None:
+    above = (0.0, 362.0, 412.0, 420.0)
+    ring.show([THING], "group", "Top bar", lambda: [above])
+    chip = next(one for one in drawn(ring, RoundedRectangle))
+    assert chip.pos[1] + chip.size[1] <= above[1]
+    ring.show([THING], "item", "Close", named=True)
+    assert ring.said == "Close"
+    ring.show([THING], "item", "Drive")
+    assert ring.said == ""
 
 
 def test_beside_stop_the_frame_gives_way(ring: Ring) -> None:

@@ -6,7 +6,7 @@ import math
 
 from app.scanning import Target
 from app.scanning.plan import Group
-from app.scanning.scan import Pace, Scan
+from app.scanning.scan import Pace, Scan, _words
 
 
 def target(name: str, *, repeatable: bool = False) -> Target:
@@ -162,3 +162,14 @@ def test_a_screen_with_nothing_to_do_marks_nothing_until_there_is_something() ->
     assert (marked(scan), done(scan, 2.0)) == ("", "")
     scan.show(tree("a"), 3.0)
     assert marked(scan) == "item a"
+
+
+def test_a_group_is_called_by_its_containers_else_by_where_it_begins_and_ends() -> None:
+    def thing(words: str, *group: str) -> Target:
+        return Target(words, words, lambda: None, group=group)
+
+    bar = [thing("Back", "Top bar"), thing("Mode", "Top bar"), thing("Before it moves: 4 of 5", "Top bar")]
+    assert _words(Group(tuple(bar))) == "Back to Before it moves"
+    assert _words(Group(tuple(bar), "Top bar")) == "Top bar"
+    assert _words(Group((*bar, thing("Loop")))) == "Top bar and Loop"
+    assert _words(Group((*bar, thing("Loop"), thing("Random"), thing("Report")))) == "Top bar to Report"
