@@ -113,7 +113,9 @@ class Stepper(Outlined, BoxLayout):
     def _figures(self) -> str:
         if self.zero and self.value == 0:
             return self.zero
-        return f"{self.value:g} {self.unit}".rstrip()
+        # as it is written: nothing before the sign of degrees and of times
+        gap = "" if self.unit in ("°", "×") else " "
+        return f"{self.value:g}{gap}{self.unit}".rstrip()
 
     figures = AliasProperty(_figures, bind=["value", "unit", "zero"], cache=True)
 

@@ -293,7 +293,13 @@ class TiltCircle(Stick, Gauge):
         told = self._told()
         words = (told,) if told else self._idle_words()
         size = sp(13)
-        role = "faint" if self.disabled and not self.card else "text" if told or self.missing else "muted"
+        role = (
+            "faint"
+            if self.disabled and not self.card and not self.missing
+            else "text"
+            if told or self.missing
+            else "muted"
+        )
         word = Word(first_fitting(words, size, room), x, y, size, theme.roles[role])
         if not self.card and word.text:
             ground(shapes, word, tint(theme.bg, 0.7))
@@ -315,7 +321,7 @@ class TiltCircle(Stick, Gauge):
 
     def _idle_words(self) -> tuple[str, ...]:
         name = spaced(self.title.upper())
-        if self.needs_hold and self.missing and not self.disabled:
+        if self.needs_hold and self.missing:
             return (self.missing, "No motion sensor", "No sensor")
         if self.needs_hold and self.held and self.opened:
             return (self.opened, "let go")

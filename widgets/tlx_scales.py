@@ -42,7 +42,7 @@ STEP, MOST, MIDDLE = 5, 100, 50
 
 Builder.load_string("""
 <TlxScale>:
-    padding: dp(12), dp(9), dp(12), dp(6)
+    padding: dp(12), dp(9), dp(12), dp(10)
     spacing: dp(2)
     ground: 'surface'
     rim: 'warn' if root.lacking else 'line'
@@ -124,11 +124,11 @@ class Ticks(Drawing, Widget):
             shapes.disc(x, y, dp(12), theme.accent)
             shapes.ring(x, y, dp(8), dp(2), theme.ink_accent)
         self._ink.draw(shapes)
-        low = self.y + dp(8)
+        low = self.y + dp(10)
         self._words.write(
             [
-                Word(self.low, self.x, low, sp(13), theme.text, anchor=(0, 0.5)),
-                Word(self.high, self.right, low, sp(13), theme.text, anchor=(1, 0.5)),
+                Word(self.low, left, low, sp(13), theme.text, anchor=(0, 0.5)),
+                Word(self.high, right, low, sp(13), theme.text, anchor=(1, 0.5)),
             ]
         )
 

@@ -23,7 +23,7 @@ RANGES: dict[str, tuple[float, float]] = {
 """Least and most of each figure: seconds, and `loops` a number."""
 MOST_KEYS = 6
 """Keys and buttons that one switch may have."""
-WORDS = {"spacebar": "Space", "numpadenter": "Enter (numbers)"}
+WORDS = {"spacebar": "Space", "numpadenter": "Number pad Enter"}
 """What keys are called here that Kivy calls otherwise."""
 NAME = 80
 """Letters of a name, at most."""

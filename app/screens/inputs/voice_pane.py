@@ -89,6 +89,7 @@ class VoicePane(BoxLayout):
             minimum=RATES[0],
             maximum=RATES[1],
             step=0.1,
+            unit="×",
         )
         add(row)
         self.example = QuietButton(text="Say something", icon="volume_up", size_hint_y=None)
