@@ -11,6 +11,7 @@ from app.key_table import ARROWS, DRIVING, KeyTable, key_words
 from app.mapped import Mapped
 from app.meaning import MEANINGS, meaning_words
 from app.pad_map import AXES, WAYS, Profile, button_words
+from app.scanning.settings import Options
 from app.screens.dialogs import Question
 
 __all__ = ["HelpCard", "help_groups", "toggle_help"]
@@ -64,14 +65,21 @@ def toggle_help(app: Any) -> None:
         return
     card = HelpCard()
     inputs = app.inputs
-    card.show(help_groups(inputs.mapped, [state.name for state in inputs.gamepads.states]))
+    switches = app.methods.get("switches")
+    options = switches.options if switches is not None else None
+    card.show(help_groups(inputs.mapped, [state.name for state in inputs.gamepads.states], options))
     app.root.add_widget(card)
 
 
-def help_groups(mapped: Mapped, pads: list[str]) -> list[tuple[str, Rows]]:
-    """Title and rows of each group: caps, and what they do; `pads` are the names of the gamepads that are plugged in."""
+def help_groups(mapped: Mapped, pads: list[str], switches: Options | None = None) -> list[tuple[str, Rows]]:
+    """Title and rows of each group: caps, and what they do; `pads` are the names of the gamepads that are plugged in.
+
+    `switches` are the options of the switches; None where there are none.
+    """
     table = mapped.keys
     groups = [("STOP", [([key_words(key) for key in table.keys_of("stop")], "STOP")])]
+    if switches is not None and switches.on:
+        groups.append(("Switches", _switches(switches)))
     if table.on:
         groups += [
             ("Driving", _driving(table)),
@@ -80,6 +88,16 @@ def help_groups(mapped: Mapped, pads: list[str]) -> list[tuple[str, Rows]]:
         ]
     groups += [(name, _pad(mapped.profile(name), mapped.pads_on)) for name in dict.fromkeys(pads)]
     return [(title, rows) for title, rows in groups if rows]
+
+
+def _switches(options: Options) -> Rows:
+    following, doing = [key.words for key in options.a[:1]], [key.words for key in options.b[:1]]
+    rows = [
+        (following if not options.one else [], "Next on the glass"),
+        (doing, "Do it"),
+        (doing, f"STOP, held {options.timing.stop:.1f} s"),
+    ]
+    return [(caps, words) for caps, words in rows if caps]
 
 
 def _driving(table: KeyTable) -> Rows:
