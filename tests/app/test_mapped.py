@@ -53,5 +53,7 @@ def test_what_is_wrong_is_said_once_it_is_looked_at() -> None:
 
 def test_what_is_no_table_at_all_is_as_at_first() -> None:
     mapped = Mapped(Settings(gamepads="all"))
-    assert mapped.problems == ["In the settings of gamepads what is kept is no table but 'all': as usual again."]
+    assert mapped.problems == [
+        "In the settings of gamepads what is kept is no table but 'all': as usual again."
+    ]
     assert mapped.pads_on
