@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 from app.intents import Intents
+from app.origin import origins
 from app.permits import Permits
 from app.responding import Responding
 from app.responses import Response, ResponseLog
@@ -41,7 +42,7 @@ class Ways:
     armed = ("shake",)
 
     def __init__(self) -> None:
-        self.all = {"shake": SimpleNamespace(on=False, meaning={"ud": "pause", "fb": "resume"})}
+        self.all = {"shake": SimpleNamespace(on=False, meaning={"ud": "pause", "fb": "resume"}, set_to={})}
 
     def get(self, name):
         return self.all.get(name)
@@ -111,6 +112,7 @@ def bench(stage, tmp_path):
             )
         )
     log.close()
+    origins.forget()  # of this process: another test may have left a key in it
     bench = Bench(stage, tmp_path)
     yield bench
     bench.close()
