@@ -424,6 +424,7 @@ class PilothouseApp(App):
         self.root.show_page(self.shell)
         for post in self.session.early:
             self.shell.replay(post)
+        self.session.shown = True
         self.show(self._first_screen)
         self.shell.tick()  # nothing comes onto the glass that says less than is known
 

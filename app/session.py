@@ -49,6 +49,9 @@ PLACED_WITHIN = (0.25, 0.25, 0.07)
 class Session:
     """One robot, from Connect to Back. Everything here happens in the UI thread."""
 
+    shown = False
+    """There are screens: what is heard is shown as it comes."""
+
     def __init__(
         self,
         link: Link,
@@ -86,7 +89,7 @@ class Session:
         self.on_rest: Callable[[], object] = lambda: None
         """Called when whatever pushes the stick has to let go."""
         self.early: list[Post] = []
-        """Events that came while nobody listened."""
+        """Events that came before there was a screen to show them."""
         self.offer: Offer | None = None
         """What the robot offers; None until it said so."""
         self.local_stop = LocalStop(now)
@@ -307,7 +310,7 @@ class Session:
         event = self.own_name.said(post.value, self.link.robot_time(), asked=asked, how=how)
         if self.logbook.take(event):
             post = replace(post, value=event)
-            if not self.listeners:
+            if not self.shown:
                 self.early.append(post)
             self._tell(EVENT, post)
 

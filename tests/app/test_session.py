@@ -170,3 +170,11 @@ def test_what_paused_the_task_and_gave_stop_is_told_as_done_here_once_the_name_i
     stop = Event(id=1, kind="stop", level="alarm", text="STOP pressed by vm (2).")
     watch.session.deliver(EVENT, Post(stop, watch.clock(), 1))
     assert watch.session.logbook.events[-1].text == "A shake gave STOP: “left-right”, 97 % sure."
+
+
+def test_events_are_kept_for_the_screens_until_there_are_any_whoever_else_listens(watch: Watch) -> None:
+    watch.session.listeners.append(lambda _channel, _post: None)
+    for text, shown in (("before", False), ("after", True)):
+        watch.session.shown = shown
+        watch.session.deliver(EVENT, Post(Event(text=text), watch.clock(), 1))
+    assert [post.value.text for post in watch.session.early] == ["before"]
