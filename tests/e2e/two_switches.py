@@ -17,7 +17,7 @@ __all__ = ["TwoSwitches"]
 
 A, B = 9, 13
 """Key codes of Tab and Enter."""
-UP = 0.25
+UP = 0.2
 """A held so long leads up a level [s]: less than a hand would, for a test that need not wait."""
 FRAMES = 2
 """After what may change the screen; a step of the mark is seen at once."""
@@ -33,22 +33,28 @@ class TwoSwitches:
         self.switches: Any = glass.app.methods.get("switches")
         self.switches.change(ignore_repeat=0.0, debounce=0.0, tones=False)
         options = self.switches.options
-        self.switches.engine.setup(replace(options.timing, back=UP - 0.05), options.pace)
+        self.switches.engine.setup(replace(options.timing, back=UP), options.pace)
 
     @property
     def mark(self) -> Mark | None:
         """What stands out."""
         return self.switches.engine._glass.marked
 
-    def press(self, key: int, seconds: float = 0.0) -> None:
-        """One key down, and up again after so long [s]; a slow frame in between is no part of it."""
+    def press(self, key: int) -> None:
+        """One key down, and up again at once."""
         self.presses += 1
         Window.dispatch("on_key_down", key, 0, None, [])
-        if seconds:
-            self.glass.run(seconds)
         Window.dispatch("on_key_up", key, 0)
         for _ in range(FRAMES if key == B else 0):
             EventLoop.idle()
+
+    def up(self) -> None:
+        """A held until the mark has gone up a level, as somebody does who looks."""
+        depth = self.switches.engine.scan.depth
+        self.presses += 1
+        Window.dispatch("on_key_down", A, 0, None, [])
+        self.glass.until(lambda: self.switches.engine.scan.depth != depth, "the mark to go up a level")
+        Window.dispatch("on_key_up", A, 0)
 
     def look(self) -> None:
         """Look what became of it: a button that has just changed its meaning takes no press for half a second."""
@@ -101,7 +107,7 @@ class TwoSwitches:
             inside = mark is not None and mark.kind == "group" and here
             scan = self.switches.engine.scan
             if scan.depth and not any(wanted(target) for target in scan.inside):
-                self.press(A, UP)  # it is not in this group: up
+                self.up()  # it is not in this group
             else:
                 self.press(B if inside else A)
         raise AssertionError(
