@@ -454,6 +454,7 @@ class PilothouseApp(App):
         self.inputs.rest()
         if self.shell is not None:
             self.shell.close()
+            self.collector.expect(self.shell)
             self.shell = None
         self.fleet.look(None)
         self.session.link.close()
@@ -464,7 +465,6 @@ class PilothouseApp(App):
         self.stop_recording()
         self.root.show_page(self.connect)
         self.corner.tick()
-        self.collector.expect()
         self._list()
 
     def _say(self, text: str, level: str) -> None:

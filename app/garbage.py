@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import gc
 import sys
+import weakref
 
 __all__ = ["Collector"]
 
@@ -24,7 +25,12 @@ with software GL a look takes 12 to 18 ms then, for 125 000 objects, and 26 to 3
 start are left out of it, else it would be 34 and 51 ms.
 """
 AGAIN = 10_000
-"""Objects found in a look at everything that are worth another one with the next frame."""
+"""Objects found in a look at everything that are worth another one with the next."""
+PATIENCE = 7
+"""How often what was expected to go, and is still held, is waited for: twice as long each time, 4 s in all.
+
+Its last frame, an animation, a touch or an answer on its way may hold a screen for a while after it was left.
+"""
 
 
 class Collector:
@@ -40,6 +46,8 @@ class Collector:
     def __init__(self) -> None:
         self._was_enabled = gc.isenabled()
         self._due = False
+        self._left: weakref.ref[object] | None = None
+        self._looks = self._wait = 0
         self._blocks = sys.getallocatedblocks()
         Collector._at_work += 1
         if Collector._at_work == 1:
@@ -62,19 +70,32 @@ class Collector:
         """From now on only `look` collects."""
         gc.disable()
 
-    def expect(self) -> None:
-        """Much was thrown away, as when a screen is left: the next look is at everything."""
-        self._due = True
+    def expect(self, left: object) -> None:
+        """Much was thrown away with `left`, as when a screen is left: look at everything until it is gone."""
+        self._due, self._left = True, weakref.ref(left)
+        self._looks = self._wait = 0
 
     def look(self) -> None:
         """Collect if there may be enough; to be called between frames, from the clock and from no binding."""
         blocks = sys.getallocatedblocks()  # 0.01 to 0.05 ms
-        if self._due or blocks - self._blocks >= OLD:
-            self._due = (
-                gc.collect() >= AGAIN
-            )  # a screen comes apart in two goes: the first lets go of the second
+        if self._due or self._again() or blocks - self._blocks >= OLD:
+            # a screen comes apart in two goes: the first lets go of the second
+            self._due = gc.collect() >= AGAIN
             self._blocks = sys.getallocatedblocks()
             return
         self._blocks = min(self._blocks, blocks)
         if gc.get_count()[0] >= YOUNG:
             gc.collect(0)
+
+    def _again(self) -> bool:
+        """What was expected to go is still there, and it is time for another look."""
+        if self._left is None:
+            return False
+        if self._left() is None or self._wait == PATIENCE:
+            self._left = None
+            return False
+        self._looks += 1
+        if self._looks < 2**self._wait:
+            return False
+        self._looks, self._wait = 0, self._wait + 1
+        return True

@@ -383,7 +383,7 @@ def test_in_the_app_a_widget_that_was_thrown_away_does_not_vanish_in_the_middle_
 def test_screens_that_were_left_are_collected(driving: Glass) -> None:
     left = weakref.ref(driving.app.shell)
     driving.app.leave()
-    driving.stage.run_for(0.1)
+    driving.stage.run_for(0.5)
     assert left() is None
 
 

@@ -47,7 +47,7 @@ def test_with_it_the_widget_stays_until_the_rule_is_through(collector: Collector
     gone = throw_away(lasting)
     lasting.name = "after"
     assert gone().followed[0] == "after"
-    collector.expect()
+    collector.expect(gone())
     collector.look()
     assert gone() is None
 
@@ -102,14 +102,37 @@ def test_where_much_is_made_and_goes_again_the_old_are_left(collector: Collector
 
 def test_much_that_was_thrown_away_goes_with_the_next_look(collector: Collector) -> None:
     cycle, gone = old()
+    collector.expect(cycle)
     del cycle
-    collector.expect()
     assert gone() is not None
     collector.look()
     assert gone() is None
     gone = dropped()
     collector.look()
     assert gone() is not None
+
+
+def test_what_something_still_holds_for_a_while_is_waited_for(collector: Collector) -> None:
+    cycle, gone = old()
+    collector.expect(cycle)
+    for _ in range(100):
+        collector.look()
+    del cycle
+    for _ in range(128):
+        collector.look()
+    assert gone() is None
+
+
+def test_what_never_goes_is_not_looked_for_for_ever(
+    collector: Collector, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cycle, _ = old()
+    found: list[object] = []
+    collector.expect(cycle)
+    monkeypatch.setattr(gc, "collect", lambda *of: found.append(of) or 0)
+    for _ in range(10_000):
+        collector.look()
+    assert len([of for of in found if not of]) == 1 + garbage.PATIENCE
 
 
 def test_what_was_there_before_is_not_looked_at(collector: Collector) -> None:
