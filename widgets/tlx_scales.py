@@ -15,14 +15,11 @@ from typing import Any, ClassVar
 import numpy as np
 from kivy.lang import Builder
 from kivy.metrics import dp, sp
-from kivy.properties import BooleanProperty, NumericProperty, StringProperty
-from kivy.uix.boxlayout import BoxLayout
+from kivy.properties import AliasProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
-from widgets.base import Control
+from widgets.answer_sheet import AnswerRow, AnswerSheet
 from widgets.buttons import IconButton
-from widgets.column import Column
-from widgets.frames import Outlined
 from widgets.ink import Drawing, Ink, Word, Words
 from widgets.shapes import Shapes
 from widgets.theme import theme
@@ -44,9 +41,6 @@ Builder.load_string("""
 <TlxScale>:
     padding: dp(12), dp(9), dp(12), dp(10)
     spacing: dp(2)
-    ground: 'surface'
-    rim: 'warn' if root.lacking else 'line'
-    corner: theme.radius
     BoxLayout:
         size_hint_y: None
         height: name.height
@@ -158,27 +152,27 @@ class Ticks(Drawing, Widget):
         """A finger is at that tick."""
 
 
-class TlxScale(Outlined, Column):
-    """One scale: its question, the line, and a button at either end for who cannot point so finely."""
+class TlxScale(AnswerRow):
+    """One scale, 0 to 100 in steps of 5: its question, the line, and a button at either end for who cannot point so finely."""
 
-    name = StringProperty("")
     question = StringProperty("")
-    figure = StringProperty("—")
-    answered = BooleanProperty(False)
-    lacking = BooleanProperty(False)
-    """It was asked for and has no answer."""
 
-    __events__ = ("on_answer",)
+    def _figure(self) -> str:
+        without = "no answer" if self.lacking else "—"
+        return f"{self.value:.0f}" if math.isfinite(self.value) else without
+
+    figure = AliasProperty(_figure, bind=["value", "lacking"])
+    """The answer in words."""
 
     def __init__(self, key: str, **kwargs: Any) -> None:
         name, question, low, high = SCALES[key]
         super().__init__(name=name, question=question, **kwargs)
-        self.key, self.value = key, math.nan
         self.ticks = Ticks(low=low, high=high)
         self.less, self.more = IconButton(icon="remove"), IconButton(icon="add")
         self.less.bind(on_release=lambda _: self.step(-STEP))
         self.more.bind(on_release=lambda _: self.step(STEP))
         self.ticks.bind(on_point=lambda _, value: self.answer(value))
+        self.bind(value=self.ticks.setter("value"))
         for part in (self.less, self.ticks, self.more):
             self.ids.line.add_widget(part)
 
@@ -186,68 +180,13 @@ class TlxScale(Outlined, Column):
         """One tick on; the first step of all goes to the middle, from where either end is as far."""
         self.answer(MIDDLE if math.isnan(self.value) else int(max(0, min(self.value + by, MOST))))
 
-    def answer(self, value: int) -> None:
-        """Give an answer, 0 to 100 in steps of 5."""
-        if self.value != value:
-            self.value = self.ticks.value = float(value)
-            self.figure, self.answered, self.lacking = str(value), True, False
-            self.dispatch("on_answer", value)
 
-    def clear(self) -> None:
-        """No answer again."""
-        self.value = self.ticks.value = math.nan
-        self.figure, self.answered, self.lacking = "—", False, False
-
-    def on_answer(self, value: int) -> None:
-        """A hand gave an answer, or another one."""
-
-
-class TlxScales(Control, BoxLayout):
+class TlxScales(AnswerSheet):
     """Dispatches `on_command(scale, value)` with each answer, 0 to 100 in steps of 5."""
-
-    veiled = False
-
-    complete = BooleanProperty(False)
-    """Every scale has an answer."""
 
     def __init__(self, now: Callable[[], float] = time.monotonic, **kwargs: Any) -> None:
         """`now` times the answers [s]."""
-        super().__init__(**{"orientation": "vertical", "spacing": dp(8), "size_hint_y": None, **kwargs})
-        self._now, self._shown = now, now()
-        self.bind(minimum_height=self.setter("height"))
-        self.order: list[str] = []
-        """The scales in the order in which they were answered first."""
-        self.seconds: dict[str, float] = {}
-        """Scale to the time of its last answer since the form was shown [s]."""
-        self.scales = {key: TlxScale(key) for key in SCALES}
-        for key, scale in self.scales.items():
-            scale.bind(on_answer=lambda _, value, key=key: self._answered(key, value))
-            self.add_widget(scale)
-
-    @property
-    def answers(self) -> dict[str, int]:
-        """Scale to answer, of those that have one."""
-        return {key: int(scale.value) for key, scale in self.scales.items() if math.isfinite(scale.value)}
-
-    def _answered(self, key: str, value: int) -> None:
-        if key not in self.order:
-            self.order.append(key)
-        self.seconds[key] = round(self._now() - self._shown, 3)
-        self.complete = len(self.order) == len(SCALES)
-        self.dispatch("on_command", key, value)
-
-    def miss(self) -> list[str]:
-        """Mark the scales without an answer, and name them in words."""
-        for scale in self.scales.values():
-            scale.lacking = not scale.answered
-            scale.figure = "no answer" if scale.lacking else scale.figure
-        return [scale.name for scale in self.scales.values() if scale.lacking]
-
-    def begin(self) -> None:
-        """Show it anew: without answers, and from now on timed."""
-        self.order, self.seconds, self._shown, self.complete = [], {}, self._now(), False
-        for scale in self.scales.values():
-            scale.clear()
+        super().__init__({key: TlxScale(key) for key in SCALES}, now, **kwargs)
 
 
 def samples() -> dict[str, Callable[[], Widget]]:
@@ -258,7 +197,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
     ) -> Callable[[], Widget]:
         def build() -> Widget:
             form = TlxScales(size_hint=(None, None), width=dp(width), **more)
-            for number, scale in enumerate(list(form.scales.values())[:some]):
+            for number, scale in enumerate(list(form.rows.values())[:some]):
                 scale.answer((35, 10, 60, 25, 100, 0)[number])
             if lacking:
                 form.miss()

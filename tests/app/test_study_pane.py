@@ -221,7 +221,7 @@ def test_a_study_by_buttons_runs_through_to_its_forms(bench):
     assert isinstance(pane.view, FormView)
     pane.view.hand_in.dispatch("on_release")
     assert pane.view.said.text.startswith("No answer yet: Mental demand")
-    for scale in pane.view.sheet.scales.values():
+    for scale in pane.view.sheet.rows.values():
         scale.answer(30)
     pane.view.hand_in.dispatch("on_release")
     bench.tick()

@@ -13,7 +13,7 @@ from widgets.tlx_scales import SCALES, TlxScales
 
 
 class Clock:
-    now = 0.0
+    now = 100.0
 
     def __call__(self):
         return self.now
@@ -31,13 +31,12 @@ def tlx(clock):
 
 def test_no_scale_has_an_answer_before_a_hand_gave_one(tlx):
     assert tlx.answers == {}
-    assert not tlx.complete
-    assert {scale.figure for scale in tlx.scales.values()} == {"—"}
-    assert all(math.isnan(scale.ticks.value) for scale in tlx.scales.values())
+    assert {scale.figure for scale in tlx.rows.values()} == {"—"}
+    assert all(math.isnan(scale.ticks.value) for scale in tlx.rows.values())
 
 
 def test_a_place_on_the_line_is_the_nearest_of_21_ticks(tlx):
-    ticks = tlx.scales["mental"].ticks
+    ticks = tlx.rows["mental"].ticks
     ticks.size = 200 + 24, 60
     left, right = ticks.span
     assert {ticks.at(x) for x in range(int(left) - 40, int(right) + 40)} == set(range(0, 101, 5))
@@ -46,7 +45,7 @@ def test_a_place_on_the_line_is_the_nearest_of_21_ticks(tlx):
 
 def test_a_finger_gives_an_answer_and_moves_it(stage: Stage, tlx):
     stage.show(tlx)
-    ticks = tlx.scales["effort"].ticks
+    ticks = tlx.rows["effort"].ticks
     left, right = ticks.span
     y = ticks.center_y
     finger = stage.touch(*ticks.to_window(left + (right - left) * 0.2, y))
@@ -58,7 +57,7 @@ def test_a_finger_gives_an_answer_and_moves_it(stage: Stage, tlx):
 
 
 def test_the_first_step_of_a_button_goes_to_the_middle_and_the_others_by_five(tlx):
-    scale = tlx.scales["physical"]
+    scale = tlx.rows["physical"]
     scale.step(5)
     assert scale.value == 50
     scale.step(5)
@@ -71,52 +70,36 @@ def test_the_first_step_of_a_button_goes_to_the_middle_and_the_others_by_five(tl
 def test_each_answer_is_told_with_its_order_and_its_time(tlx, clock):
     told = []
     tlx.bind(on_command=lambda _, *answer: told.append(answer))
-    for when, name, value in ((1.0, "effort", 20), (2.5, "mental", 35), (4.0, "effort", 25)):
+    for when, name, value in ((101.0, "effort", 20), (102.5, "mental", 35), (104.0, "effort", 25)):
         clock.now = when
-        tlx.scales[name].answer(value)
+        tlx.rows[name].answer(value)
     assert told == [("effort", 20), ("mental", 35), ("effort", 25)]
     assert tlx.order == ["effort", "mental"]
     assert tlx.seconds == {"effort": 4.0, "mental": 2.5}
 
 
 def test_scales_without_an_answer_are_marked_and_named(tlx):
-    tlx.scales["mental"].answer(0)
+    tlx.rows["mental"].answer(0)
     assert tlx.miss() == [name for key, (name, *_) in SCALES.items() if key != "mental"]
-    assert tlx.scales["effort"].figure == "no answer"
-    tlx.scales["effort"].answer(5)
-    assert not tlx.scales["effort"].lacking
-
-
-def test_shown_anew_it_is_empty_and_timed_from_then_on(tlx, clock):
-    for scale in tlx.scales.values():
-        scale.answer(50)
-    assert tlx.complete
-    clock.now = 100.0
-    tlx.begin()
-    assert (tlx.answers, tlx.order, tlx.complete) == ({}, [], False)
-    clock.now = 101.0
-    tlx.scales["mental"].answer(50)
-    assert tlx.seconds == {"mental": 1.0}
+    assert tlx.rows["effort"].figure == "no answer"
+    tlx.rows["effort"].answer(5)
+    assert not tlx.rows["effort"].lacking
 
 
 def test_every_sentence_of_the_usability_scale_takes_one_of_five_steps(clock):
     form = SusForm(clock)
-    assert (form.answers, form.complete, len(ITEMS)) == ({}, False, 10)
-    for number, item in enumerate(form.items):
+    assert (form.answers, len(ITEMS)) == ({}, 10)
+    for number, item in enumerate(form.rows.values()):
         item.steps.choose(str(number % 5 + 1))
     assert form.answers == {str(number + 1): number % 5 + 1 for number in range(10)}
-    assert form.complete
-    form.begin()
-    assert (form.answers, form.complete) == ({}, False)
-    assert {item.steps.value for item in form.items} == {""}
 
 
 def test_sentences_without_an_answer_are_told_by_their_number(clock):
     form = SusForm(clock)
-    for item in form.items[1:]:
-        item.choose(3)
+    for item in list(form.rows.values())[1:]:
+        item.answer(3)
     assert form.miss() == ["1"]
-    assert form.items[0].lacking
+    assert form.rows["1"].lacking
 
 
 def drawn(**kwargs):
