@@ -123,9 +123,8 @@ class Responding:
         self.keep("log", on)
 
     def turn(self, on: bool) -> None:
-        """Keep a log or keep none, from now on."""
-        self.on = on
-        (self.start if on else self.stop)()
+        """Keep a log or keep none, from now on, as every method is switched."""
+        self._app.methods.turn(self.name, on)
 
     # a method's life
 

@@ -17,6 +17,7 @@ from app.intents import Heard
 from app.kept import Kept, known, shown
 from app.shake import LEAST_RATE, USUAL, WORDS, Axis, Lesson, Own, Recogniser, Shake, fitted, own_from, own_to
 from app.shake.ground import Motion
+from app.switched import Switched
 from app.tilt import turned
 
 __all__ = ["CHOICES", "USUAL_MEANING", "Shaking"]
@@ -38,7 +39,7 @@ NEEDED = LEAST_RATE - 0.4
 """A sensor of 25 Hz is never quite that by its own times [Hz]."""
 
 
-class Shaking:
+class Shaking(Switched):
     """The method `shake`."""
 
     name = "shake"
@@ -83,9 +84,6 @@ class Shaking:
         except ValueError as problem:
             self.own, self.mistaken = {}, f"{problem} The lesson has to be done again."
 
-    def _keep(self) -> None:
-        self._app.settings.set("shake", self._kept())
-
     def _kept(self) -> dict[str, Any]:
         meaning = {str(axis): intent for axis, intent in self.meaning.items()}
         return {"on": self._on, "any": self._any, **meaning, "own": own_to(self.own)}
@@ -94,16 +92,6 @@ class Shaking:
     def set_to(self) -> dict[str, Any]:
         """Everything that it goes by, thresholds included, as JSON."""
         return self._kept() | {"tuning": asdict(fitted(USUAL, self.own))}
-
-    @property
-    def on(self) -> bool:
-        """The operator wants it."""
-        return self._on
-
-    @on.setter
-    def on(self, on: bool) -> None:
-        self._on = on
-        self._keep()
 
     @property
     def any_stops(self) -> bool:

@@ -16,6 +16,7 @@ from kivy.clock import Clock
 from app.device import is_android
 from app.intents import Heard
 from app.kept import Kept, known, shown
+from app.switched import Switched
 from app.voice.phrases import PHRASES
 from app.voice.recognizer import (
     Event,
@@ -74,7 +75,7 @@ def _made(kind: str) -> VoiceRecognizer:
     return recognizer(kind)
 
 
-class Speaking:
+class Speaking(Switched):
     """The method `voice`."""
 
     name = "voice"
@@ -125,23 +126,8 @@ class Speaking:
         if language != self._language:
             self.mistaken = f"There are no commands in the language {shown(language)}; they are English."
 
-    def _keep(self) -> None:
-        self._app.settings.set("voice", self.set_to)
-
-    @property
-    def set_to(self) -> dict[str, Any]:
-        """Everything that the operator can set, as JSON."""
+    def _kept(self) -> dict[str, Any]:
         return {"on": self._on, "hands_free": self._hands_free, "language": self._language}
-
-    @property
-    def on(self) -> bool:
-        """The operator wants it."""
-        return self._on
-
-    @on.setter
-    def on(self, on: bool) -> None:
-        self._on = on
-        self._keep()
 
     @property
     def hands_free(self) -> bool:

@@ -25,6 +25,7 @@ from app.intents import Heard, Verdict
 from app.kept import Kept
 from app.link import EVENT, OUTCOME
 from app.response_tracks import LOCAL
+from app.switched import Switched
 from app.voice.mouth import VOICES, Mouth, mouth_of
 
 __all__ = ["RATES", "Talking", "aloud"]
@@ -70,7 +71,7 @@ def _android_or(voice: str) -> Mouth:
     return mouth_of(voice)
 
 
-class Talking:
+class Talking(Switched):
     """`app.talk`, and an entry of `app.methods` that is no way in."""
 
     name = "talk"
@@ -104,18 +105,8 @@ class Talking:
         self.mistaken = kept.sentence
         """One sentence about settings that mean nothing; empty when all is well."""
 
-    def _keep(self) -> None:
-        self._app.settings.set("talk", {"on": self._on, "voice": self._voice, "rate": self._rate})
-
-    @property
-    def on(self) -> bool:
-        """What happens is told aloud."""
-        return self._on
-
-    @on.setter
-    def on(self, on: bool) -> None:
-        self._on = on
-        self._keep()
+    def _kept(self) -> dict[str, Any]:
+        return {"on": self._on, "voice": self._voice, "rate": self._rate}
 
     @property
     def voice(self) -> str:

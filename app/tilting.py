@@ -14,6 +14,7 @@ from app.inputs import typing
 from app.kept import Kept, number
 from app.origin import Origin, origins
 from app.press import Press
+from app.switched import Switched
 from app.tilt import Level, Tilt, TiltSettings, turned
 from widgets.tilt_circle import TiltCircle
 
@@ -28,7 +29,7 @@ LEAN = math.radians(20.0)
 NAMES = frozenset(field.name for field in fields(TiltSettings))
 
 
-class Tilting:
+class Tilting(Switched):
     """Made once for the app, which is asked for its `settings`, `now`, `shell`, `session` and `sensing`. Everything in the UI thread."""
 
     name = "tilt"
@@ -59,16 +60,6 @@ class Tilting:
         self._simulated: SimulatedMotion | None = None
 
     # as every method
-
-    @property
-    def on(self) -> bool:
-        """The operator wants it."""
-        return self._on
-
-    @on.setter
-    def on(self, on: bool) -> None:
-        self._on = on
-        self._keep()
 
     @property
     def standing(self) -> str:
@@ -164,12 +155,7 @@ class Tilting:
         self._keep()
         return True
 
-    def _keep(self) -> None:
-        self._app.settings.set("tilt", self.set_to)
-
-    @property
-    def set_to(self) -> dict[str, Any]:
-        """Everything that it goes by, as JSON."""
+    def _kept(self) -> dict[str, Any]:
         more = {
             "on": self._on,
             "others": self.others,

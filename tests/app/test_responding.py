@@ -47,6 +47,21 @@ class Acts:
         return ""
 
 
+class Ways:
+    """The methods of the app: of the log alone it is told that it is switched on or off."""
+
+    armed = ("voice",)
+
+    def __init__(self, made) -> None:
+        self.get = made.get
+        self.log = None
+
+    def turn(self, name, on) -> None:
+        assert name == "log"
+        self.log.on = on
+        (self.log.start if on else self.log.stop)()
+
+
 class Running:
     """The log in an app without a glass, with clocks that are moved by hand."""
 
@@ -60,12 +75,13 @@ class Running:
             settings=self.settings,
             now=lambda: self.time,
             session=None,
-            methods=SimpleNamespace(armed=["voice"], get=self.made.get),
+            methods=Ways(self.made),
             corner=SimpleNamespace(on_pressed=[]),
             fleet=SimpleNamespace(active=False, total=0, stopped=0),
             intents=Intents(self.acts, Permits(self.settings), lambda: self.time),
         )
         self.log = Responding(self.app, wall=lambda: 1_700_000_000.0 + self.time)
+        self.app.methods.log = self.log
         self.log.start()
 
     def close(self) -> None:
