@@ -6,15 +6,13 @@ import math
 
 from bridge.units import wrap
 from sim.backend_bullet import STEPS_PER_SECOND
-from sim.sensors.battery import BatteryParameters
 from sim.sensors.compass import CompassParameters
 from sim.sensors.gps import GpsParameters
-from sim.sensors.imu import ImuParameters
 from sim.sensors.reckoning import ReckoningParameters
 from sim.shapes import Vec3
 from sim.vehicles.control import towards, within
 from sim.vehicles.hull import HullParameters
-from sim.vehicles.parameters import CameraParameters, Motor, Parameters, Part, Positive, Rate, Table
+from sim.vehicles.parameters import CameraParameters, Parameters, Part, Positive, Table
 
 __all__ = ["BoatParameters", "Drive", "Helmsman", "Propeller", "Rudder"]
 
@@ -59,14 +57,10 @@ class BoatParameters(Parameters, frozen=True, kw_only=True):
     hull: HullParameters
     propeller: Propeller
     rudder: Rudder
-    motor: Motor
     reckoning: ReckoningParameters
-    imu: ImuParameters
     compass: CompassParameters
     gps: GpsParameters
-    battery: BatteryParameters
     camera: CameraParameters
-    bumper: Rate
 
     @property
     def radius(self) -> float:

@@ -12,9 +12,11 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.msgs.std_msgs import Header, Time
 from sim.backend_bullet import State
+from sim.motors import Motors
 from sim.scene import Scene
 from sim.sensors.battery import Battery
 from sim.sensors.bumper import BumperRing
+from sim.sensors.imu import InertialUnit
 from sim.shapes import Shape
 from sim.starts import places
 from sim.vehicles.parameters import Parameters
@@ -23,7 +25,7 @@ from sim.world import Start
 
 __all__ = ["Chassis"]
 
-MANOEUVRE_RATE = 10.0
+MANOEUVRE_RATE, MOTORS_RATE = 10.0, 5.0
 CLEAR = 0.05
 """Kept free round one that is put back [m]."""
 
@@ -53,7 +55,8 @@ class Chassis(Generic[P]):
         self.laser_x = 0.0
         """How far its laser is ahead of `base_link` [m]."""
         self.attached: list[Callable[[], tuple[Shape, ...]]] = []
-        self.battery: Battery
+        self.battery = Battery(parameters.battery)
+        self.motors: Motors
         self.order = Manoeuvre(kind="rest")
         """What it moves by."""
         self.odometer: Odometer | None = None
@@ -148,6 +151,19 @@ class Chassis(Generic[P]):
             if truth or topic != "/sim/ground_truth":
                 yield topic, message
 
+    def add_bumper_and_imu(self) -> None:
+        """What it runs into, how it is turned and how it is moved, as sensors."""
+        parameters = self.parameters
+        imu = InertialUnit(parameters.imu, self.scene.generator("imu"))
+        self.suite.add("bumper", parameters.bumper.rate, self._tell_bumper)
+        self.suite.add("imu", parameters.imu.rate, lambda state, at: [("/imu/data", imu.measure(state, at))])
+
+    def add_power(self) -> None:
+        """Motors and battery, as sensors."""
+        rate = self.parameters.battery.rate
+        self.suite.add("motors", MOTORS_RATE, lambda _, at: [("/motors", self.motors.message(at))])
+        self.suite.add("battery", rate, lambda _, at: [("/battery_state", self.battery.message(at))])
+
     def add_truth(self) -> None:
         """Where it really is, as a sensor."""
         self.suite.add(
@@ -160,8 +176,8 @@ class Chassis(Generic[P]):
         """The order that it moves by, as a sensor."""
         self.suite.add("manoeuvre", MANOEUVRE_RATE, self._tell_order)
 
-    def tell_bumper(self, _: State, stamp: float) -> Iterator[Measurement]:
-        """The bumper, as a sensor; what has just changed is told anyway."""
+    def _tell_bumper(self, _: State, stamp: float) -> Iterator[Measurement]:
+        """What has just changed is told anyway."""
         yield "/bumper", self.bumper.message(stamp)
 
     def _tell_order(self, state: State, stamp: float) -> Iterator[Measurement]:

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from bridge.msgs.geometry_msgs import Twist
 from sim.backend_bullet import STEPS_PER_SECOND, Bullet, Wheeled
-from sim.sensors.battery import BatteryParameters
-from sim.sensors.imu import ImuParameters
 from sim.sensors.odometry import OdometryParameters
 from sim.shapes import Shape
 from sim.vehicles.control import towards
-from sim.vehicles.parameters import CameraParameters, Limits, Motor, Parameters, Positive, Rate, Table
+from sim.vehicles.parameters import CameraParameters, Limits, Parameters, Positive, Table
 
 __all__ = ["DifferentialDrive", "DifferentialLimits", "DifferentialParameters", "Wheels", "body_of"]
 
@@ -86,12 +84,8 @@ class DifferentialParameters(Parameters, frozen=True, kw_only=True):
     wheels: Wheels
     casters: Casters
     limits: DifferentialLimits
-    motor: Motor
     rolling: Rolling
     odometry: OdometryParameters
-    imu: ImuParameters
-    bumper: Rate
-    battery: BatteryParameters
     camera: CameraParameters
 
     @property

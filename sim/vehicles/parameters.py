@@ -7,6 +7,8 @@ from typing import Annotated, TypeVar
 
 import msgspec
 
+from sim.sensors.battery import BatteryParameters
+from sim.sensors.imu import ImuParameters
 from sim.tables import read, text_of
 
 __all__ = [
@@ -94,6 +96,10 @@ class Parameters(Table, frozen=True, kw_only=True):
 
     info: Info
     limits: Limits
+    motor: Motor
+    imu: ImuParameters
+    bumper: Rate
+    battery: BatteryParameters
     truth: Rate
 
     @property

@@ -5,12 +5,10 @@ from __future__ import annotations
 import math
 
 from sim.backend_bullet import GRAVITY, STEPS_PER_SECOND
-from sim.sensors.battery import BatteryParameters
 from sim.sensors.height import HeightParameters
-from sim.sensors.imu import ImuParameters
 from sim.sensors.reckoning import ReckoningParameters
 from sim.shapes import Vec3
-from sim.vehicles.parameters import CameraParameters, Limits, Motor, Parameters, Positive, Rate, Table
+from sim.vehicles.parameters import CameraParameters, Limits, Parameters, Positive, Table
 
 __all__ = ["ROTORS", "QuadrotorBody", "QuadrotorLimits", "QuadrotorParameters", "RotorParameters", "Rotors"]
 
@@ -69,14 +67,10 @@ class QuadrotorParameters(Parameters, frozen=True, kw_only=True):
     body: QuadrotorBody
     rotors: RotorParameters
     limits: QuadrotorLimits
-    motor: Motor
     reckoning: ReckoningParameters
-    imu: ImuParameters
     range: HeightParameters
-    battery: BatteryParameters
     front: CameraParameters
     down: CameraParameters
-    bumper: Rate
 
     @property
     def radius(self) -> float:

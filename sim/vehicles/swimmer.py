@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 
 from sim.backend_bullet import GRAVITY
-from sim.sensors.battery import BatteryParameters
 from sim.sensors.compass import CompassParameters
 from sim.sensors.depth import DepthParameters
-from sim.sensors.imu import ImuParameters
 from sim.sensors.reckoning import ReckoningParameters
 from sim.shapes import Vec3
 from sim.vehicles.fins import FinParameters
-from sim.vehicles.parameters import CameraParameters, Limits, Motor, Parameters, Positive, Rate, Table
+from sim.vehicles.parameters import CameraParameters, Limits, Parameters, Positive, Table
 from sim.vehicles.sixdof import Inertia, SixDof
 from sim.weather import Weather
 
@@ -62,14 +60,10 @@ class SwimmerParameters(Parameters, frozen=True, kw_only=True):
     body: SwimmerBody
     fins: FinParameters
     limits: SwimmerLimits
-    motor: Motor
     reckoning: ReckoningParameters
-    imu: ImuParameters
     compass: CompassParameters
     depth: DepthParameters
-    battery: BatteryParameters
     camera: CameraParameters
-    bumper: Rate
 
     @property
     def radius(self) -> float:

@@ -10,23 +10,21 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre
 from sim.backend_bullet import GRAVITY, State
 from sim.motors import Motors
 from sim.scene import Scene
-from sim.sensors.battery import Battery
-from sim.sensors.imu import InertialUnit
 from sim.sensors.odometry import WheelOdometry
 from sim.shapes import from_yaw
-from sim.vehicles.chassis import Chassis
 from sim.vehicles.differential import DifferentialDrive, DifferentialParameters, body_of
 from sim.vehicles.suite import Measurement
+from sim.vehicles.wheeled import Wheeled
 
 __all__ = ["TwoWheeled"]
-
-MOTORS_RATE = 5.0
 
 D = TypeVar("D", bound=DifferentialParameters)
 
 
-class TwoWheeled(Chassis[D]):
+class TwoWheeled(Wheeled[D]):
     """The robot in a world that already has its ground and its things; each model adds its own sensors."""
+
+    _drive: DifferentialDrive
 
     def __init__(self, scene: Scene, parameters: D) -> None:
         """Stand still at the start, with bumper, inertial unit, odometry, motors and battery."""
@@ -36,7 +34,6 @@ class TwoWheeled(Chassis[D]):
         )
         super().__init__(scene, parameters, body)
         self._drive = DifferentialDrive(parameters.wheels, parameters.limits, backend, body)
-        self.battery = Battery(parameters.battery)
         self.motors = Motors(parameters.motor, ["left", "right"])
         self.odometer = self._odometry = WheelOdometry(
             parameters.odometry,
@@ -64,26 +61,11 @@ class TwoWheeled(Chassis[D]):
         else:
             self._drive.brake()
 
-    def halt(self) -> None:
-        """Let the wheels stand still at once."""
-        self._drive.halt()
-
-    def push(self) -> None:
-        """Let the drive come a step nearer to what is wanted."""
-        if self.battery.empty:
-            self._drive.brake()
-        self._drive.step()
-
     def _add_common(self) -> None:
         parameters, suite = self.parameters, self.suite
-        imu = InertialUnit(parameters.imu, self.scene.generator("imu"))
-        suite.add("bumper", parameters.bumper.rate, self.tell_bumper)
-        suite.add("imu", parameters.imu.rate, lambda state, at: [("/imu/data", imu.measure(state, at))])
+        self.add_bumper_and_imu()
         suite.add("odometry", parameters.odometry.rate, self._measure_wheels)
-        suite.add("motors", MOTORS_RATE, lambda _, at: [("/motors", self.motors.message(at))])
-        suite.add(
-            "battery", parameters.battery.rate, lambda _, at: [("/battery_state", self.battery.message(at))]
-        )
+        self.add_power()
 
     def _measure_wheels(self, _: State, stamp: float) -> Iterator[Measurement]:
         joints = self.scene.backend.joints(self.body, 2)

@@ -14,10 +14,8 @@ from sim.backend_bullet import STEPS_PER_SECOND, State
 from sim.bodies import Floating
 from sim.motors import Motors
 from sim.scene import Scene
-from sim.sensors.battery import Battery
 from sim.sensors.compass import Compass
 from sim.sensors.depth import DepthGauge
-from sim.sensors.imu import InertialUnit
 from sim.sensors.reckoning import Reckoning
 from sim.shapes import Shape, from_yaw
 from sim.vehicles.aqua.looks import looks
@@ -36,7 +34,7 @@ PARAMETERS: SwimmerParameters = load(Path(__file__).parent / "aqua.toml", Swimme
 """The swimmer's numbers."""
 
 WORK_STEPS = STEPS_PER_SECOND // 20
-LEGS_RATE, MOTORS_RATE = 20.0, 5.0
+LEGS_RATE = 20.0
 
 
 def body_of(body: SwimmerBody) -> Floating:
@@ -61,21 +59,18 @@ class Aqua(Chassis[SwimmerParameters]):
         self.dynamics = SixDof(scene.backend, body, inertia_of(own))
         self.fins = Fins(parameters.fins, scene.weather.density)
         self._pilot = Pilot(parameters, self.float.drag[0])
-        self.battery = Battery(parameters.battery)
         self.motors = Motors(parameters.motor, LEGS)
         self._add_sensors()
 
     def _add_sensors(self) -> None:
         parameters, scene, suite = self.parameters, self.scene, self.suite
         start = scene.start
-        imu = InertialUnit(parameters.imu, scene.generator("imu"))
         compass = Compass(parameters.compass, scene.generator("compass"))
         depth = DepthGauge(parameters.depth, scene.weather, scene.generator("depth"))
         self.odometer = reckoning = Reckoning(
             parameters.reckoning, (start.x, start.y, start.angle), scene.generator("reckoning")
         )
-        suite.add("bumper", parameters.bumper.rate, self.tell_bumper)
-        suite.add("imu", parameters.imu.rate, lambda state, at: [("/imu/data", imu.measure(state, at))])
+        self.add_bumper_and_imu()
         suite.add(
             "odometry", parameters.reckoning.rate, lambda state, at: [("/odom", reckoning.measure(state, at))]
         )
@@ -84,10 +79,7 @@ class Aqua(Chassis[SwimmerParameters]):
         )
         suite.add("depth", parameters.depth.rate, lambda state, at: [("/depth", depth.measure(state, at))])
         suite.add("legs", LEGS_RATE, self._tell_legs)
-        suite.add("motors", MOTORS_RATE, lambda _, at: [("/motors", self.motors.message(at))])
-        suite.add(
-            "battery", parameters.battery.rate, lambda _, at: [("/battery_state", self.battery.message(at))]
-        )
+        self.add_power()
         self.add_order()
         self.add_truth()
 

@@ -13,9 +13,7 @@ from sim.backend_bullet import GRAVITY, STEPS_PER_SECOND, State
 from sim.bodies import Floating
 from sim.motors import Motors
 from sim.scene import Scene
-from sim.sensors.battery import Battery
 from sim.sensors.height import Height
-from sim.sensors.imu import InertialUnit
 from sim.sensors.reckoning import Reckoning
 from sim.shapes import Shape, from_yaw
 from sim.vehicles.ardrone.looks import looks
@@ -34,7 +32,7 @@ PARAMETERS: QuadrotorParameters = load(Path(__file__).parent / "ardrone.toml", Q
 """The quadrotor's numbers."""
 
 WORK_STEPS = STEPS_PER_SECOND // 20
-FLIGHT_RATE, MOTORS_RATE = 10.0, 5.0
+FLIGHT_RATE = 10.0
 LAST = 0.05
 """With less charge than this it lands by itself."""
 
@@ -62,22 +60,19 @@ class Ardrone(Chassis[QuadrotorParameters]):
         self.dynamics = SixDof(scene.backend, body, Inertia(own.mass, (0.0, 0.0, 0.0), own.inertia))
         self.rotors = Rotors(parameters.rotors)
         self.pilot = Pilot(parameters, at)
-        self.battery = Battery(parameters.battery)
         self.motors = Motors(parameters.motor, ROTORS)
         self._add_sensors()
 
     def _add_sensors(self) -> None:
         parameters, scene, suite = self.parameters, self.scene, self.suite
         start = scene.start
-        imu = InertialUnit(parameters.imu, scene.generator("imu"))
         self._height = Height(
             parameters.range, scene.backend, self.body, scene.weather, scene.generator("range")
         )
         self.odometer = reckoning = Reckoning(
             parameters.reckoning, (start.x, start.y, start.angle), scene.generator("reckoning")
         )
-        suite.add("bumper", parameters.bumper.rate, self.tell_bumper)
-        suite.add("imu", parameters.imu.rate, lambda state, at: [("/imu/data", imu.measure(state, at))])
+        self.add_bumper_and_imu()
         suite.add(
             "odometry", parameters.reckoning.rate, lambda state, at: [("/odom", reckoning.measure(state, at))]
         )
@@ -87,10 +82,7 @@ class Ardrone(Chassis[QuadrotorParameters]):
             lambda state, at: [("/range/down", self._height.measure(state, at))],
         )
         suite.add("flight", FLIGHT_RATE, self._tell_flight)
-        suite.add("motors", MOTORS_RATE, lambda _, at: [("/motors", self.motors.message(at))])
-        suite.add(
-            "battery", parameters.battery.rate, lambda _, at: [("/battery_state", self.battery.message(at))]
-        )
+        self.add_power()
         self.add_order()
         self.add_truth()
 

@@ -14,24 +14,21 @@ from bridge.msgs.std_msgs import Header, Time
 from sim.backend_bullet import GRAVITY, Joint, State
 from sim.motors import Motors
 from sim.scene import Scene
-from sim.sensors.battery import Battery, BatteryParameters
 from sim.sensors.gps import Gps, GpsParameters
-from sim.sensors.imu import ImuParameters, InertialUnit
 from sim.sensors.laser import Laser, LaserParameters
 from sim.sensors.odometry import OdometryParameters, WheelOdometry
 from sim.shapes import from_yaw
 from sim.vehicles.ackermann import AckermannBody, AckermannDrive, AckermannLimits, Axles, body_of
-from sim.vehicles.chassis import Chassis
 from sim.vehicles.commander.looks import looks
 from sim.vehicles.control import given
 from sim.vehicles.model import Model
-from sim.vehicles.parameters import CameraParameters, Motor, Parameters, Rate, load
+from sim.vehicles.parameters import CameraParameters, Parameters, load
 from sim.vehicles.suite import Measurement
+from sim.vehicles.wheeled import Wheeled
 
 __all__ = ["COMMANDER", "PARAMETERS", "Commander", "CommanderParameters"]
 
 WHEELS = ["rear_left", "rear_right", "front_left", "front_right"]
-MOTORS_RATE = 5.0
 _STRAIGHT = 1e-4
 """Steered by less than this it drives straight ahead [rad]."""
 
@@ -42,13 +39,9 @@ class CommanderParameters(Parameters, frozen=True, kw_only=True):
     body: AckermannBody
     axles: Axles
     limits: AckermannLimits
-    motor: Motor
     odometry: OdometryParameters
     laser: LaserParameters
-    imu: ImuParameters
     gps: GpsParameters
-    bumper: Rate
-    battery: BatteryParameters
     front: CameraParameters
     rear: CameraParameters
 
@@ -87,10 +80,11 @@ PARAMETERS: CommanderParameters = load(Path(__file__).parent / "commander.toml",
 """The truck's numbers."""
 
 
-class Commander(Chassis[CommanderParameters]):
+class Commander(Wheeled[CommanderParameters]):
     """The truck in a world that already has its ground and its things."""
 
     MANOEUVRES: ClassVar[tuple[str, ...]] = ("twist", "steer", "rest")
+    _drive: AckermannDrive
 
     def __init__(self, scene: Scene, parameters: CommanderParameters) -> None:
         """Stand still at the start."""
@@ -102,7 +96,6 @@ class Commander(Chassis[CommanderParameters]):
         )
         super().__init__(scene, parameters, body)
         self._drive = AckermannDrive(parameters.axles, parameters.limits, backend, body)
-        self.battery = Battery(parameters.battery)
         self.motors = Motors(parameters.motor, WHEELS[:2])
         self._joints: list[Joint] = backend.joints(body, 6)
         self._add_sensors()
@@ -112,7 +105,6 @@ class Commander(Chassis[CommanderParameters]):
         start = scene.start
         self.laser_x = parameters.laser.ahead
         laser = Laser(parameters.laser, scene.backend, self.body, scene.generator("laser"))
-        imu = InertialUnit(parameters.imu, scene.generator("imu"))
         gps = Gps(parameters.gps, scene.world.datum, scene.generator("gps"))
         self.odometer = self._odometry = WheelOdometry(
             parameters.odometry,
@@ -122,15 +114,11 @@ class Commander(Chassis[CommanderParameters]):
             pose=(start.x, start.y, start.angle),
             noise=scene.generator("odometry"),
         )
-        suite.add("bumper", parameters.bumper.rate, self.tell_bumper)
-        suite.add("imu", parameters.imu.rate, lambda state, at: [("/imu/data", imu.measure(state, at))])
+        self.add_bumper_and_imu()
         suite.add("odometry", parameters.odometry.rate, self._measure_wheels)
         suite.add("laser", parameters.laser.rate, lambda _, at: [("/scan", laser.measure(at))])
         suite.add("gps", parameters.gps.rate, lambda state, at: [("/fix", gps.measure(state, at))])
-        suite.add("motors", MOTORS_RATE, lambda _, at: [("/motors", self.motors.message(at))])
-        suite.add(
-            "battery", parameters.battery.rate, lambda _, at: [("/battery_state", self.battery.message(at))]
-        )
+        self.add_power()
         self.add_order()
         self.add_truth()
 
@@ -143,16 +131,6 @@ class Commander(Chassis[CommanderParameters]):
             self._drive.want(given(order.speed, throttle), order.steering)
         else:
             self._drive.brake()
-
-    def halt(self) -> None:
-        """Let the wheels stand still at once."""
-        self._drive.halt()
-
-    def push(self) -> None:
-        """Let the drive come a step nearer to what is wanted."""
-        if self.battery.empty:
-            self._drive.brake()
-        self._drive.step()
 
     def _measure_wheels(self, _: State, stamp: float) -> Iterator[Measurement]:
         self._joints = joints = self.scene.backend.joints(self.body, 6)

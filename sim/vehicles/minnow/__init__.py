@@ -14,10 +14,8 @@ from sim.backend_bullet import STEPS_PER_SECOND, State
 from sim.bodies import Floating
 from sim.motors import Motors
 from sim.scene import Scene
-from sim.sensors.battery import Battery
 from sim.sensors.compass import Compass
 from sim.sensors.gps import Gps
-from sim.sensors.imu import InertialUnit
 from sim.sensors.reckoning import Reckoning
 from sim.shapes import Shape, from_yaw, yaw_of
 from sim.vehicles.boat import BoatParameters, Drive, Helmsman
@@ -36,7 +34,7 @@ PARAMETERS: BoatParameters = load(Path(__file__).parent / "minnow.toml", BoatPar
 """The boat's numbers."""
 
 WORK_STEPS = STEPS_PER_SECOND // 20
-MOTORS_RATE, RUDDER_RATE = 5.0, 10.0
+RUDDER_RATE = 10.0
 _STILL = 0.03
 """Slower than this it lies still [m/s]."""
 
@@ -65,21 +63,18 @@ class Minnow(Chassis[BoatParameters]):
         """Propeller and rudder."""
         self._helmsman = Helmsman(parameters, self.works)
         self._course = start.angle
-        self.battery = Battery(parameters.battery)
         self.motors = Motors(parameters.motor, ["propeller"])
         self._add_sensors()
 
     def _add_sensors(self) -> None:
         parameters, scene, suite = self.parameters, self.scene, self.suite
         start = scene.start
-        imu = InertialUnit(parameters.imu, scene.generator("imu"))
         gps = Gps(parameters.gps, scene.world.datum, scene.generator("gps"))
         compass = Compass(parameters.compass, scene.generator("compass"))
         self.odometer = reckoning = Reckoning(
             parameters.reckoning, (start.x, start.y, start.angle), scene.generator("reckoning")
         )
-        suite.add("bumper", parameters.bumper.rate, self.tell_bumper)
-        suite.add("imu", parameters.imu.rate, lambda state, at: [("/imu/data", imu.measure(state, at))])
+        self.add_bumper_and_imu()
         suite.add(
             "odometry", parameters.reckoning.rate, lambda state, at: [("/odom", reckoning.measure(state, at))]
         )
@@ -88,10 +83,7 @@ class Minnow(Chassis[BoatParameters]):
             "compass", parameters.compass.rate, lambda state, at: [("/compass", compass.measure(state, at))]
         )
         suite.add("rudder", RUDDER_RATE, self._tell_rudder)
-        suite.add("motors", MOTORS_RATE, lambda _, at: [("/motors", self.motors.message(at))])
-        suite.add(
-            "battery", parameters.battery.rate, lambda _, at: [("/battery_state", self.battery.message(at))]
-        )
+        self.add_power()
         self.add_order()
         self.add_truth()
 
