@@ -21,10 +21,10 @@ from typing import Literal
 
 import numpy as np
 
-from app.voice.ctc import HamaModel
 from app.voice.files import Samples, chunks, read
 from app.voice.hearing import Hearing, Judge, Phonemes
 from app.voice.lexicon import COMMANDS
+from app.voice.model import HamaModel
 from app.voice.noise import RATE
 from app.voice.recognizer import Event, Grammar, Rejected, Result, VoiceTrouble
 from bench.support.figures import Figure, percentile
@@ -151,8 +151,9 @@ def prepare(context: Context) -> Iterator[Sides]:
 
 
 def recordings(folder: Path) -> Iterator[Clip]:
-    """A folder for each word."""
-    for path in sorted(folder.glob("*/*")):
+    """A folder for each word, in the folder or in its `speech_commands`."""
+    among = folder / "speech_commands"
+    for path in sorted((among if among.is_dir() else folder).glob("*/*")):
         if path.suffix.lower() in (".flac", ".wav"):
             word = path.parent.name.lower()
             yield Clip(word if word in REAL else "", word, read(path))

@@ -11,15 +11,15 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.voice.lexicon import PHONES, Sounds, background, pronunciations
-from app.voice.recognizer import Grammar, VoiceTrouble
+from app.voice.recognizer import Grammar
 
-__all__ = ["FRAME", "Acoustics", "Found", "HamaModel", "Scorer", "Sequences", "frames_of"]
+__all__ = ["FRAME", "Acoustics", "Found", "Scorer", "Sequences", "frames_of"]
 
 Array = NDArray[np.float64]
 
@@ -57,27 +57,6 @@ class Acoustics(Protocol):
     def hear(self, samples: NDArray[np.float32]) -> Array:
         """Log probability of each sign in each frame: frames x signs. Samples at 16 kHz, -1 to 1."""
         ...
-
-
-class HamaModel:
-    """The model in the package `hama`."""
-
-    def __init__(self) -> None:
-        """`VoiceTrouble` where the package is missing or has no library for this machine."""
-        try:
-            from hama import ASRModel
-
-            self._model: Any = ASRModel()
-        except (ImportError, RuntimeError, OSError, KeyError) as problem:
-            raise VoiceTrouble(f"The phoneme recogniser cannot be loaded: {problem}.") from problem
-        self.tokens: Sequence[str] = self._model.decoder_tokens
-
-    def hear(self, samples: NDArray[np.float32]) -> Array:
-        """Log probability of each sign in each frame of 20 ms."""
-        wave = np.clip(samples, -1.0, 1.0).astype(np.float32).reshape(1, -1)
-        length = np.array([wave.shape[1]], np.int64)
-        found = self._model.session.run(["log_probs"], {"waveform": wave, "waveform_lengths": length})
-        return np.asarray(found[0][0], np.float64)
 
 
 def frames_of(log_probs: Array, tokens: Sequence[str]) -> Array:

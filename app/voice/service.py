@@ -26,8 +26,8 @@ def judge_of(name: str, grammar: Grammar) -> Judge:
 
 
 def _phonemes(grammar: Grammar) -> Judge:
-    from app.voice.ctc import HamaModel
     from app.voice.hearing import Phonemes
+    from app.voice.model import HamaModel
 
     return Phonemes(grammar, HamaModel())
 

@@ -14,11 +14,11 @@ import pytest
 
 from app.talking import aloud
 from app.voice import mouth as module
-from app.voice.ctc import HamaModel
 from app.voice.ending import wait_for_ends
 from app.voice.files import chunks, resampled
 from app.voice.hearing import Hearing, Phonemes
 from app.voice.lexicon import COMMANDS
+from app.voice.model import HamaModel
 from app.voice.mouth import CRASHED, NO_ESPEAK, ChildMouth, mouth_of
 from app.voice.recognizer import Grammar, Result, VoiceTrouble
 from app.voice.talker import NO_SPEAKER, play, serve

@@ -1,0 +1,91 @@
+"""Which way runs the model."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from app.voice import model as module
+from app.voice.model import HamaModel, chosen
+from app.voice.recognizer import VoiceTrouble
+
+
+class Clock:
+    """Time that only goes on where a way says that it takes time."""
+
+    def __init__(self, monkeypatch):
+        self.at = 0.0
+        monkeypatch.setattr(module.time, "thread_time", lambda: self.at)
+
+    def way(self, takes: float, probability: float = 0.5):
+        def hear(wave):
+            self.at += takes
+            return np.log(np.full((3, 2), probability, np.float32))
+
+        return lambda: hear
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    return Clock(monkeypatch)
+
+
+def fails(problem):
+    def make():
+        raise problem
+
+    return make
+
+
+def test_the_cheaper_of_two_that_say_the_same_is_taken(clock):
+    cheap, dear = clock.way(1.0), clock.way(5.0)
+    assert chosen(cheap, dear) is cheap()
+    assert chosen(dear, cheap) is cheap()
+
+
+def test_the_engine_is_taken_where_ours_says_something_else(clock):
+    ours, engine = clock.way(1.0, 0.5), clock.way(5.0, 0.6)
+    assert chosen(ours, engine) is engine()
+
+
+@pytest.mark.parametrize(
+    "problem", [ValueError("other weights"), OSError("no file"), ImportError("no numpy")]
+)
+def test_the_engine_is_taken_where_ours_cannot_be_had(clock, problem):
+    engine = clock.way(5.0)
+    assert chosen(fails(problem), engine) is engine()
+
+
+def test_ours_is_taken_where_there_is_no_engine_for_this_machine(clock):
+    ours = clock.way(9.0)
+    assert chosen(ours, fails(RuntimeError("libhama not available"))) is ours()
+
+
+def test_neither_is_said_in_one_sentence(clock):
+    with pytest.raises(VoiceTrouble, match="cannot be loaded: libhama not available"):
+        chosen(fails(ValueError("other weights")), fails(RuntimeError("libhama not available")))
+
+
+def test_what_is_shorter_than_one_window_is_heard_as_well():
+    pytest.importorskip("hama")
+    model = HamaModel()
+    assert model.hear(np.zeros(10, np.float32)).shape == (2, len(model.tokens))
+
+
+def test_numpy_is_told_to_use_one_thread(monkeypatch):
+    told = []
+
+    class Library:
+        def __getattr__(self, name):
+            if name != module.THREADS[1]:
+                raise AttributeError(name)
+            return lambda count: told.append(count.value)
+
+    monkeypatch.setattr(module.ctypes, "CDLL", lambda path: Library())
+    module.one_core()
+    assert told == [1]
+
+
+def test_a_numpy_that_cannot_be_told_goes_on_as_it_is(monkeypatch):
+    monkeypatch.setattr(module.ctypes, "CDLL", lambda path: object())
+    module.one_core()
