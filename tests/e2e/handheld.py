@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,8 @@ from tests.bridge.wires import Wire, wire
 
 PATIENCE = 15.0
 """How long a test waits for what must happen [s]; a fault, not a delay, uses it up."""
+DRAWN = 20
+"""One frame in so many is drawn: a processor that had to draw them all would have no time left for what is tested."""
 
 
 class Handheld:
@@ -98,6 +101,26 @@ class Handheld:
 
 
 @contextmanager
+def seldom_drawn() -> Iterator[None]:
+    """Only one in `DRAWN` of the window's frames is really drawn until the end of the block; the first one is."""
+    frames, left_out = count(), False
+
+    def draw(_: object) -> bool:
+        nonlocal left_out
+        left_out = next(frames) % DRAWN != 0
+        return left_out  # true keeps the event from the window itself
+
+    def flip(_: object) -> bool:
+        return left_out
+
+    EventLoop.window.bind(on_draw=draw, on_flip=flip)
+    try:
+        yield
+    finally:
+        EventLoop.window.unbind(on_draw=draw, on_flip=flip)
+
+
+@contextmanager
 def handheld(settings: Path, **options: Any) -> Iterator[Handheld]:
     """The app with its settings in a folder; closed at the end of the block."""
     from app.application import PilothouseApp
@@ -111,7 +134,8 @@ def handheld(settings: Path, **options: Any) -> Iterator[Handheld]:
     app._run_prepare()
     runTouchApp(embedded=True)
     try:
-        yield Handheld(app, hand)
+        with seldom_drawn():
+            yield Handheld(app, hand)
     finally:
         app.stop()
         EventLoop.remove_input_provider(hand)
