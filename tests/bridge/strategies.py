@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import types
 import typing
 from typing import Any
@@ -20,6 +21,7 @@ SCALARS: dict[Any, st.SearchStrategy] = {
 }
 
 
+@functools.cache  # else each example makes them anew, and looks up all their types
 def messages(cls: type[Msg]) -> st.SearchStrategy[Msg]:
     rostypes = (*getattr(cls, "ROSTYPES", ()), "", "")
     fields = zip(msgspec.structs.fields(cls), rostypes, strict=False)
