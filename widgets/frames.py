@@ -1,4 +1,4 @@
-"""What cards, rows and buttons lie on: a ground within a border, or glass over a picture. Colours are named by role.
+"""What cards, rows, buttons and bars lie on: a ground within a border, or glass over a picture. Colours are named by role.
 
 class Tile(Outlined, BoxLayout): ...
 <Tile>:
@@ -8,12 +8,13 @@ class Tile(Outlined, BoxLayout): ...
 from __future__ import annotations
 
 from kivy.lang import Builder
-from kivy.properties import BooleanProperty, NumericProperty, StringProperty
+from kivy.properties import BooleanProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.behaviors import ButtonBehavior
+from kivy.uix.boxlayout import BoxLayout
 
 from widgets.theme import theme
 
-__all__ = ["Glass", "Outlined", "Pressable"]
+__all__ = ["Edged", "EdgedBox", "Glass", "Outlined", "Pressable"]
 
 Builder.load_string("""
 <Outlined>:
@@ -39,6 +40,19 @@ Builder.load_string("""
             pos: self.pos
             size: self.size
             radius: [self.corner]
+
+<Edged>:
+    canvas.before:
+        Color:
+            rgba: theme.surface
+        Rectangle:
+            pos: self.pos
+            size: self.size
+        Color:
+            rgba: theme.line
+        Rectangle:
+            pos: self.right - theme.outline if self.edge == 'right' else self.x, self.top - theme.outline if self.edge == 'top' else self.y
+            size: theme.outline if self.edge == 'right' else self.width, self.height if self.edge == 'right' else theme.outline
 
 <Glass>:
     canvas.before:
@@ -76,6 +90,17 @@ class Pressable(Outlined, ButtonBehavior):
     """Role of what comes over it while a finger is down."""
     press_share = NumericProperty(0.12)
     """How much of that, 0 to 1."""
+
+
+class Edged:
+    """A bar along an edge of the glass, with a line where the screen begins."""
+
+    edge = OptionProperty("bottom", options=["bottom", "right", "top"])
+    """Its edge with the line."""
+
+
+class EdgedBox(Edged, BoxLayout):
+    """Such a bar with things side by side."""
 
 
 class Glass:

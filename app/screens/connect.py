@@ -14,6 +14,7 @@ from kivy.uix.floatlayout import FloatLayout
 from app.arrange import connect_columns
 from app.discovery import Entry
 from app.screens.inputs.chip import InputsChip  # noqa: F401 - its rule draws what is used here
+from widgets.frames import EdgedBox  # noqa: F401 - its rule draws the bar
 from widgets.kit import Banner, Card, Text
 from widgets.theme import theme
 
@@ -119,22 +120,11 @@ Builder.load_string("""
             size: self.size
     BoxLayout:
         orientation: 'vertical'
-        BoxLayout:
+        EdgedBox:
             size_hint_y: None
             height: dp(56)
             padding: dp(16), 0
             spacing: dp(12)
-            canvas.before:
-                Color:
-                    rgba: theme.surface
-                Rectangle:
-                    pos: self.pos
-                    size: self.size
-                Color:
-                    rgba: theme.line
-                Rectangle:
-                    pos: self.pos
-                    size: self.width, theme.outline
             Text:
                 text: 'Pilothouse'
                 bold: True

@@ -13,6 +13,7 @@ from app.arrange import Rect
 from app.screens.connect import THEMES
 from app.screens.placing import put
 from bridge.msgs.pilothouse_msgs import Event
+from widgets.frames import Edged
 from widgets.kit import NavButton, PushButton
 from widgets.theme import theme
 
@@ -49,17 +50,7 @@ UPPER = 4
 Builder.load_string("""
 <Rail>:
     size_hint: None, None
-    canvas.before:
-        Color:
-            rgba: theme.surface
-        Rectangle:
-            pos: self.pos
-            size: self.size
-        Color:
-            rgba: theme.line
-        Rectangle:
-            pos: (self.x, self.top - theme.outline) if root.form == 'tall' else (self.right - theme.outline, self.y)
-            size: (self.width, theme.outline) if root.form == 'tall' else (theme.outline, self.height)
+    edge: 'top' if root.form == 'tall' else 'right'
 
 <TalkButton>:
     icon: 'mic'
@@ -84,7 +75,7 @@ class TalkButton(PushButton):
         self.words, self.ink_icon = TALKS[self.sign]
 
 
-class Rail(FloatLayout):
+class Rail(Edged, FloatLayout):
     """Dispatches `on_press(name)` with the name of the button, and `on_talk(down)` while the one to talk is held."""
 
     __events__ = ("on_press", "on_talk")

@@ -16,6 +16,7 @@ import widgets.link_quality  # noqa: F401 - their rules draw what is used here
 from app.screens import standing
 from app.screens.inputs.chip import InputsChip  # noqa: F401 - its rule draws what is used here
 from app.session import Session
+from widgets.frames import EdgedBox
 
 __all__ = ["TopBar"]
 
@@ -36,17 +37,6 @@ Builder.load_string("""
     size_hint: None, None
     padding: (dp(2), 0, dp(8), 0) if root.form == 'tall' else (dp(6), 0, dp(16), 0)
     spacing: dp(4) if root.form == 'tall' else dp(12)
-    canvas.before:
-        Color:
-            rgba: theme.surface
-        Rectangle:
-            pos: self.pos
-            size: self.size
-        Color:
-            rgba: theme.line
-        Rectangle:
-            pos: self.pos
-            size: self.width, theme.outline
     IconButton:
         id: back
         icon: 'arrow_back'
@@ -111,7 +101,7 @@ Builder.load_string("""
 """)
 
 
-class TopBar(BoxLayout):
+class TopBar(EdgedBox):
     """Dispatches `on_back`, `on_mode`, `on_inputs` and `on_control` as they are tapped."""
 
     __events__ = ("on_back", "on_control", "on_inputs", "on_mode")

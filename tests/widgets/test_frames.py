@@ -1,10 +1,10 @@
 from __future__ import annotations
 
 import pytest
-from kivy.graphics import Color, SmoothRoundedRectangle
+from kivy.graphics import Color, Rectangle, SmoothRoundedRectangle
 from kivy.uix.widget import Widget
 
-from widgets.frames import Glass, Outlined, Pressable
+from widgets.frames import Edged, Glass, Outlined, Pressable
 from widgets.theme import theme
 
 
@@ -13,6 +13,10 @@ class Box(Outlined, Widget):
 
 
 class Key(Pressable, Widget):
+    pass
+
+
+class Rail(Edged, Widget):
     pass
 
 
@@ -59,3 +63,18 @@ def test_a_finger_changes_what_it_presses(stage):
 def test_glass_is_there_for_a_card_only(stage):
     assert colours(stage.show(Pane())) == [pytest.approx(theme.glass), pytest.approx(theme.line)]
     assert colours(stage.show(Pane(card=False))) == [[0, 0, 0, 0]] * 2
+
+
+@pytest.mark.parametrize(
+    ("edge", "pos", "size"),
+    [("bottom", (10, 20), (300, 1)), ("top", (10, 75), (300, 1)), ("right", (309, 20), (1, 56))],
+)
+def test_a_bar_has_its_line_along_the_edge_where_the_screen_begins(stage, edge, pos, size):
+    rail = Rail(edge=edge, size_hint=(None, None), pos=(10, 20), size=(300, 56))
+    stage.show(rail)
+    rail.pos = 10, 20
+    stage.frames(2)
+    ground, line = (part for part in rail.canvas.before.children if isinstance(part, Rectangle))
+    assert (tuple(ground.pos), tuple(ground.size)) == ((10, 20), (300, 56))
+    assert (line.pos, line.size) == (pytest.approx(pos), pytest.approx(size))
+    assert colours(rail) == [pytest.approx(theme.surface), pytest.approx(theme.line)]

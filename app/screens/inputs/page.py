@@ -12,6 +12,7 @@ from kivy.uix.floatlayout import FloatLayout
 from app import arrange
 from app.arrange import Body
 from app.screens.inputs.screen import InputsScreen
+from widgets.frames import EdgedBox  # noqa: F401 - its rule draws the bar
 from widgets.kit import IconButton, Text
 
 __all__ = ["InputsPage"]
@@ -27,16 +28,10 @@ Builder.load_string("""
         Rectangle:
             pos: self.pos
             size: self.size
-        Color:
-            rgba: theme.surface
-        Rectangle:
-            pos: root.x, root.top - dp(56)
-            size: root.width, dp(56)
-        Color:
-            rgba: theme.line
-        Rectangle:
-            pos: root.x, root.top - dp(56)
-            size: root.width, theme.outline
+    EdgedBox:
+        size_hint: None, None
+        pos: root.x, root.top - dp(56)
+        size: root.width, dp(56)
 """)
 
 
