@@ -1,17 +1,30 @@
-"""Putting a widget where `app.arrange` says."""
+"""Putting a widget where `app.arrange` says, and the areas that are put there whole."""
 
 from __future__ import annotations
 
+from kivy.lang import Builder
+from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from app.arrange import Rect
 
-__all__ = ["AWAY", "above", "put"]
+__all__ = ["AWAY", "Area", "above", "put"]
 
 AWAY = -1e4
 """x of what is off the glass [px]."""
 LEAST = 120.0
 """Lower ones show nothing that can be read [dp]."""
+
+Builder.load_string("""
+<Area>:
+    orientation: 'vertical'
+    size_hint: None, None
+    spacing: dp(8)
+""")
+
+
+class Area(BoxLayout):
+    """Part of a screen: what is in it lies one below the other."""
 
 
 def put(widget: Widget, rect: Rect) -> None:

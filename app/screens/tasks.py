@@ -22,7 +22,7 @@ from app.screens.mission_pane import MissionPane
 from app.screens.now_list import NowList
 from app.screens.order_pane import OrderPane
 from app.screens.place_pane import PlacePane
-from app.screens.placing import above, put
+from app.screens.placing import Area, above, put  # noqa: F401 - a rule names the area
 from app.screens.settings_pane import SettingsPane
 from app.screens.task_acts import TaskActs
 from app.screens.task_tabs import TaskTabs
@@ -52,16 +52,10 @@ NO_TASKS = "This robot offers no tasks and knows no places."
 
 Builder.load_string("""
 <TasksScreen>:
-    BoxLayout:
+    Area:
         id: listed
-        orientation: 'vertical'
-        size_hint: None, None
-        spacing: dp(8)
-    BoxLayout:
+    Area:
         id: detail
-        orientation: 'vertical'
-        size_hint: None, None
-        spacing: dp(8)
     GridLayout:
         id: strip
         size_hint: None, None

@@ -17,23 +17,17 @@ from app.feeds import Post
 from app.screens.inputs import panes
 from app.screens.inputs.method_row import MethodRow
 from app.screens.pane_head import PaneHead
-from app.screens.placing import put
+from app.screens.placing import Area, put  # noqa: F401 - a rule names the area
 from widgets.kit import Column, Remark, Roll
 
 __all__ = ["InputsScreen"]
 
 Builder.load_string("""
 <InputsScreen>:
-    BoxLayout:
+    Area:
         id: listed
-        orientation: 'vertical'
-        size_hint: None, None
-        spacing: dp(8)
-    BoxLayout:
+    Area:
         id: detail
-        orientation: 'vertical'
-        size_hint: None, None
-        spacing: dp(8)
 """)
 
 
