@@ -67,7 +67,7 @@ FIGURES = (
     ),
     Figure("own_others", "/h", "false other commands, the same", HOUR_OF_OTHERS),
     Figure("own_worst", "/h", "false STOP, the person for whom it is worst"),
-    Figure("circles", "", "share of drawn circles taken for a shake", against=SEISMIC),
+    Figure("circles", "", "share of drawn circles taken for a shake", 0.02, against=SEISMIC),
     Figure("stop_after", "s", "from its onset to STOP, median", against=SEISMIC),
     Figure("sample", "µs", "a sample, mean over the negatives", 50.0),
 )
@@ -116,7 +116,7 @@ def _made() -> Material:
     takes = [motion.made(axis, person, seed) for person in people for axis in AXES for seed in range(3)]
     walks = [motion.walking(120.0, seed) for seed in range(10)]
     negatives = [*motion.packaged(), *walks, *motion.starts(walks[:2]), *motion.car(0.5)]
-    return Material(takes, walks, negatives, [motion.drawn(15.0, seed) for seed in range(12)])
+    return Material(takes, walks, negatives, [motion.ellipse(seed) for seed in range(200)])
 
 
 Fires = Callable[[float, tuple[float, float, float]], str]

@@ -8,7 +8,7 @@ from itertools import pairwise
 from statistics import median
 
 from app.shake.ground import Ground, Motion
-from app.shake.spread import Spread
+from app.shake.spread import Spread, Turning
 from app.shake.tuning import AXES, LEAST_GAP, LEAST_PEAK, MOST_GAP, MOST_PEAK, USUAL, WORDS, Axis, Own
 
 __all__ = ["MOVING", "READY", "Lesson", "Measured", "measure"]
@@ -21,6 +21,8 @@ FEWEST = 3
 """Half cycles that a movement needs."""
 STRAIGHT = 0.62
 """Less straight than this, 1/3 to 1, it was no movement to and fro."""
+ROUND = 0.55
+"""Nor was it if it went more round than this, 0 to 1."""
 APART = math.cos(math.radians(35.0))
 """Two movements that are closer than that cannot be told from each other."""
 LEAK = 0.25
@@ -111,7 +113,7 @@ def measure(axis: Axis, moved: list[tuple[float, Motion]], others: dict[Axis, Ow
     gap = median(b - a for a, b in pairwise(times))
     if gap > MOST_GAP:
         return Measured(None, f"{name} was too slow: once to and fro takes at most {2 * MOST_GAP:.1f} s.")
-    if spread.straight < STRAIGHT:
+    if spread.straight < STRAIGHT or spread.round > ROUND:
         return Measured(None, f"{name} went round and round: go to and fro on a line.")
     for other, own in others.items():
         if abs(sum(a * b for a, b in zip(spread.way, own.way, strict=True))) > APART:
@@ -123,15 +125,19 @@ def measure(axis: Axis, moved: list[tuple[float, Motion]], others: dict[Axis, Ow
 
 def _spread(moved: list[tuple[float, Motion]]) -> Spread:
     """Of the velocity, leaky as in the recogniser."""
-    vx = vy = vz = 0.0
-    sums = [0.0] * 6
+    vx = vy = vz = power = 0.0
+    sums, turned = [0.0] * 6, [0.0] * 3
     for (before, _), (t, (x, y, z)) in pairwise(moved):
         dt = t - before
         keep = max(0.0, 1.0 - dt / LEAK)
         vx, vy, vz = vx * keep + x * dt, vy * keep + y * dt, vz * keep + z * dt
         for i, product in enumerate((vx * vx, vy * vy, vz * vz, vx * vy, vx * vz, vy * vz)):
             sums[i] += product * dt
-    return Spread(sums, moved[-1][0] - moved[0][0] if moved else 0.0)
+        for i, product in enumerate((vy * z - vz * y, vz * x - vx * z, vx * y - vy * x)):
+            turned[i] += product * dt
+        power += (x * x + y * y + z * z) * dt
+    seconds = moved[-1][0] - moved[0][0] if moved else 0.0
+    return Spread(sums, seconds, Turning((turned[0], turned[1], turned[2]), power, LEAK))
 
 
 def _halves(times: list[float], values: list[float]) -> tuple[list[float], list[float]]:

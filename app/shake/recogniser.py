@@ -18,7 +18,7 @@ from typing import NamedTuple
 from app.shake.ground import Ground, Motion
 from app.shake.halves import Halves
 from app.shake.lines import lines
-from app.shake.spread import Spread
+from app.shake.spread import Spread, Turning
 from app.shake.tuning import AXES, USUAL, Axis, Tuning
 
 __all__ = ["LEAST_RATE", "Recogniser", "Shake"]
@@ -81,6 +81,8 @@ class _Block(NamedTuple):
     sums: Products
     """Of the velocity [m²/s²·s]."""
     seconds: float
+    turn: Motion
+    """Of the velocity towards the acceleration, their cross product [m²/s³·s]."""
 
 
 @dataclass(slots=True)
@@ -131,7 +133,7 @@ class Recogniser:
         self._halves = [Halves(line.threshold, line.gap, tuning.cap) for line in self._lines]
         self._blocks: deque[_Block] = deque(maxlen=int(KEPT / BLOCK))
         self._velocity = [0.0, 0.0, 0.0]
-        self._sums = [0.0] * 7
+        self._sums = [0.0] * 10
         self._count = 0
         self._block_since = math.nan
         self._background: _Background | None = None
@@ -175,6 +177,9 @@ class Recogniser:
         sums[4] += vx * vz
         sums[5] += vy * vz
         sums[6] += x * x + y * y + z * z
+        sums[7] += vy * z - vz * y
+        sums[8] += vz * x - vx * z
+        sums[9] += vx * y - vy * x
         self._count += 1
 
     def _judge(self, t: float) -> Shake | None:
@@ -182,8 +187,16 @@ class Recogniser:
         share = seconds / count
         xx, yy, zz, xy, xz, yz = (value * share for value in sums[:6])
         loud = math.sqrt(sums[6] / count)
-        self._blocks.append(_Block(t, loud, (xx, yy, zz, xy, xz, yz), seconds))
-        self._sums, self._count, self._block_since = [0.0] * 7, 0, t
+        self._blocks.append(
+            _Block(
+                t,
+                loud,
+                (xx, yy, zz, xy, xz, yz),
+                seconds,
+                (sums[7] * share, sums[8] * share, sums[9] * share),
+            )
+        )
+        self._sums, self._count, self._block_since = [0.0] * 10, 0, t
         self._look_back(t)
         if self._background is None or t - self._begun < WARMING:
             return None
@@ -284,16 +297,17 @@ class Recogniser:
 
     def _spread(self, since: float, until: float, background: _Background) -> Spread:
         """Of the velocity between two instants, less the background's."""
-        sums, seconds = [0.0] * 6, 0.0
-        for block in self._blocks:
-            if since <= block.at <= until:
-                seconds += block.seconds
-                for i in range(6):
-                    sums[i] += block.sums[i]
+        blocks = [block for block in self._blocks if since <= block.at <= until]
+        seconds = sum(block.seconds for block in blocks)
         taken = seconds * self._tuning.without
-        left = [value - taken * mean for value, mean in zip(sums, background.mean, strict=True)]
+        left = [
+            sum(block.sums[i] for block in blocks) - taken * mean for i, mean in enumerate(background.mean)
+        ]
         left[:3] = (max(value, 1e-4) for value in left[:3])
-        return Spread(left, seconds)
+        power = sum(block.loud * block.loud * block.seconds for block in blocks)
+        x, y, z = (sum(block.turn[i] for block in blocks) for i in range(3))
+        turning = Turning((x, y, z), power - taken * background.level * background.level, self._tuning.leak)
+        return Spread(left, seconds, turning)
 
     def _scores(self, spread: Spread, soft: bool) -> list[float]:
         """How much of it each direction has."""
@@ -306,6 +320,8 @@ class Recogniser:
         """It is straight enough, fast enough, and enough of it lies along that direction."""
         way = self._tuning.ways[i]
         if spread.straight < way.straight or scores[i] < way.share * sum(scores):
+            return False
+        if spread.round > min(self._tuning.round, self._tuning.round_of_pace * spread.pace):
             return False
         return spread.along(way.way) >= max(way.speed, way.outrun * background.speed)
 

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from app.shake.ground import Motion
 
-__all__ = ["Spread", "along", "principal"]
+__all__ = ["Spread", "Turning", "along", "principal"]
 
 STEPS = 6
 """Of the power iteration: enough for what is four times as long as wide."""
+LEAST = 0.15
+"""Share of the squared pace that forgetting leaves, however slow the movement."""
 
 
 def principal(xx: float, yy: float, zz: float, xy: float, xz: float, yz: float) -> tuple[float, Motion]:
@@ -32,11 +35,22 @@ def along(products: Sequence[float], way: Motion) -> float:
     return x * x * xx + y * y * yy + z * z * zz + 2.0 * (x * y * xy + x * z * xz + y * z * yz)
 
 
+class Turning(NamedTuple):
+    """What tells whether a movement goes round, besides its spread."""
+
+    sums: Motion
+    """Of the cross product of velocity and acceleration [m²/s³·s]."""
+    power: float
+    """Of the square of the acceleration [m²/s⁴·s]."""
+    leak: float
+    """Time constant with which the velocity was forgotten [s]."""
+
+
 class Spread:
     """Of the velocity over some time, as sums of its products [m²/s²·s]."""
 
-    def __init__(self, sums: Sequence[float], seconds: float) -> None:
-        """`sums` of xx, yy, zz, xy, xz, yz over `seconds`."""
+    def __init__(self, sums: Sequence[float], seconds: float, turning: Turning | None = None) -> None:
+        """`sums` of xx, yy, zz, xy, xz, yz over `seconds`; without `turning` it goes round no more than a line does."""
         self._sums = xx, yy, zz, xy, xz, yz = tuple(sums)
         self._seconds = seconds
         self._total = xx + yy + zz
@@ -44,6 +58,20 @@ class Spread:
         self.straight = length / self._total if self._total > 0.0 else 0.0
         """Share of the direction that has most of it, 1/3 to 1: 1 on a line, a half on a circle."""
 
+        self.pace, self.round = _round(self._total, turning)
+        """How quick it is [rad/s, 0 where nothing is known of it], and how much it goes round: 0 on a line, also on one that is bent
+        to an arc and gone to and fro, 2 w / (1 + w²) on an ellipse w times as wide as long, 1 on a circle."""
+
     def along(self, way: Motion) -> float:
         """Speed along a direction of length 1 [m/s], root of the mean square; 0 where nothing was measured."""
         return math.sqrt(max(0.0, along(self._sums, way)) / self._seconds) if self._seconds > 0.0 else 0.0
+
+
+def _round(total: float, turning: Turning | None) -> tuple[float, float]:
+    """Of the sum of the squared velocity [m²/s²·s]: velocity turns by the pace in a circle, and by nothing in the mean where it swings."""
+    if turning is None or total <= 0.0:
+        return 0.0, 0.0
+    # a velocity that is forgotten is smaller than it was and turned ahead: the square of its own share is taken off
+    square = turning.power / total
+    pace = math.sqrt(max(square - 1.0 / turning.leak**2, LEAST * square, 1e-3))
+    return pace, math.hypot(*turning.sums) / (total * pace)

@@ -18,6 +18,7 @@ __all__ = [
     "Trial",
     "car",
     "drawn",
+    "ellipse",
     "folder",
     "in_frame",
     "made",
@@ -280,6 +281,31 @@ def drawn(seconds: float, seed: int, rate: float = 60.0) -> Recording:
     )
     motion += rng.normal(0.0, TREMBLE, motion.shape)
     held = GRAVITY * np.array([0.0, 0.5, 0.866])
+    return Recording("circle", "made", rate, motion @ in_frame(held) + held)
+
+
+def ellipse(seed: int, rate: float = 60.0, thin: float = 0.6) -> Recording:
+    """Somebody draws something round, with a shaky hand that leans: of any size, tempo, plane and number of turns; at least `thin` times as wide as long."""
+    rng = np.random.default_rng(seed)
+    pace = math.tau * rng.uniform(0.5, 2.6)
+    at = np.arange(int(rng.uniform(1.5, 8.0) * math.tau / pace * rate)) / rate
+    uneven = 1.0 + 0.1 * np.sin(rng.uniform(0.5, 3.0) * at + rng.uniform(0, 6))
+    phase = rng.choice([-1.0, 1.0]) * np.cumsum(pace * uneven) / rate + rng.uniform(0.0, math.tau)
+    size = math.exp(rng.uniform(math.log(3.0), math.log(25.0))) / pace**2
+    planes = (np.eye(3)[:, :2], np.eye(3)[:, ::2], np.eye(3)[:, 1:], np.linalg.qr(rng.normal(size=(3, 2)))[0])
+    plane = planes[seed % 4]
+    way = np.stack([np.cos(phase), rng.uniform(thin, 1.0) * np.sin(phase)], axis=1)
+    turn = rng.uniform(0.0, math.pi)
+    way = way @ np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]]) * size
+    speed = np.gradient(way @ plane.T, 1.0 / rate, axis=0)
+    motion = np.gradient(speed * _ramps(len(at), rng.uniform(0.08, 0.4) * rate)[:, None], 1.0 / rate, axis=0)
+    motion[:, 0] += GRAVITY * rng.uniform(0.0, 0.15) * np.sin(phase)
+    motion += rng.normal(0.0, rng.uniform(0.05, 0.6), motion.shape)
+    still = np.zeros((int(4.0 * rate), 3))
+    motion = np.concatenate([still, motion, still[: int(2.0 * rate)]])
+    motion += rng.normal(0.0, TREMBLE, motion.shape)
+    upright = rng.uniform(-0.2, 1.5)
+    held = GRAVITY * np.array([0.05, math.sin(upright), math.cos(upright)])
     return Recording("circle", "made", rate, motion @ in_frame(held) + held)
 
 

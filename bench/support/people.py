@@ -163,7 +163,9 @@ def trial(
         samples += rng.normal(0.0, TREMBLE, samples.shape)
     else:
         samples += underfoot(walk.again(take.rate), held, len(samples), rng)
-    return Trial(SHAKES[take.label], replace(done, samples=samples), STILL, STILL + count / take.rate)
+    return Trial(
+        SHAKES.get(take.label, take.label), replace(done, samples=samples), STILL, STILL + count / take.rate
+    )
 
 
 def measured(

@@ -124,6 +124,17 @@ def test_a_drawn_circle_is_no_shake() -> None:
     assert [of(motion.drawn(12.0, seed)) for seed in range(6)] == [[]] * 6
 
 
+def test_what_is_drawn_round_is_no_shake_of_any_size_tempo_plane_and_width() -> None:
+    assert sum(bool(of(motion.ellipse(seed))) for seed in range(150)) <= 1
+
+
+def test_a_line_that_is_bent_to_an_arc_is_not_round() -> None:
+    """A hand swings about the elbow and back: there it turns one way, back the other."""
+    rng = np.random.default_rng(2)
+    trials = [people.trial(people.Body(arm=0.3), motion.made("lr", 0, seed), 0.3, rng) for seed in range(6)]
+    assert [[shake.axis for shake in of(trial.take)] for trial in trials].count(["lr"]) == 6
+
+
 def test_rhythmic_exercises_of_the_arm_are_none() -> None:
     takes = motion.packaged()
     if not takes:
