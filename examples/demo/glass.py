@@ -57,24 +57,35 @@ class Glass:
 
     def all(self, kind: str) -> list[Widget]:
         """Visible widgets of the class named `kind`, or of one derived from it."""
-        return [w for w in self._seen() if kind in {base.__name__ for base in type(w).__mro__}]
+        return self._seen(lambda widget: any(base.__name__ == kind for base in type(widget).__mro__))
 
-    def _seen(self) -> Iterator[Widget]:
-        for root in Window.children:
-            yield from (widget for widget in _tree(root) if _visible(widget))
+    def _seen(self, wanted: Callable[[Any], bool]) -> list[Widget]:
+        # what is asked for is few, and whether one is visible takes the most time
+        return [w for root in Window.children for w in _tree(root) if wanted(w) and _visible(w)]
+
+    def texts(self) -> list[str]:
+        """Everything that can be read."""
+        found: list[Any] = self._seen(lambda widget: bool(getattr(widget, "text", "")))
+        return [str(widget.text) for widget in found]
 
     def shows(self, words: str) -> bool:
         """Whether `words` can be read somewhere."""
-        return any(words.lower() in str(getattr(widget, "text", "")).lower() for widget in self._seen())
+        return any(words.lower() in text.lower() for text in self.texts())
 
     def labelled(self, words: str, kind: str = "Widget") -> list[Widget]:
         """Visible widgets of class `kind` whose own text is `words`, or begins with them; the best match first."""
-        found = []
-        for widget in self.all(kind):
-            text = str(getattr(widget, "text", "")).strip().lower()
-            if text.startswith(words.lower()) and not getattr(widget, "disabled", False):
-                found.append((text != words.lower(), "on_press" not in widget.events(), widget))
-        return [widget for *_, widget in sorted(found, key=lambda item: item[:2])]
+
+        def says(widget: Any) -> str:
+            return str(getattr(widget, "text", "")).strip().lower()
+
+        def meant(widget: Any) -> bool:
+            derived = any(base.__name__ == kind for base in type(widget).__mro__)
+            return (
+                derived and says(widget).startswith(words.lower()) and not getattr(widget, "disabled", False)
+            )
+
+        found = self._seen(meant)
+        return sorted(found, key=lambda w: (says(w) != words.lower(), "on_press" not in w.events()))
 
     def icons(self, icon: str) -> list[Widget]:
         """Visible buttons that show `icon` and nothing else, and that can be pressed."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -97,7 +98,7 @@ class Handheld:
 
     def words(self) -> list[str]:
         """Everything that can be read on the glass."""
-        return [str(w.text) for w in self.glass.all("Widget") if getattr(w, "text", "") and w.opacity > 0]
+        return self.glass.texts()
 
 
 @contextmanager
@@ -125,6 +126,7 @@ def handheld(settings: Path, **options: Any) -> Iterator[Handheld]:
     """The app with its settings in a folder; closed at the end of the block."""
     from app.application import PilothouseApp
 
+    gc.collect()  # what the last story left, which would hold this one up in the middle
     app, hand = PilothouseApp(settings_dir=settings, **options), Hand()
     unpaced, Clock._max_fps = (
         Clock._max_fps,
