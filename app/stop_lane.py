@@ -15,6 +15,7 @@ from typing import Any, Protocol, TypeVar
 from app.commands import Commands, Outcome
 from app.local_stop import LocalStop
 from app.offer import DRIVE, NOTHING, Offer, ask
+from app.own_name import like
 from app.stopping import Stopping
 from bridge.choice import drive_message
 from bridge.client import BridgeClient, LinkState, Phase
@@ -116,11 +117,14 @@ class StopLane:
         self._zero = LocalStop(now)
         self._wanted, self._done = asyncio.Event(), asyncio.Event()
         self._identity: tuple[str, str, Time] | None = None
-        self._stopping = Stopping(now)
+        own = like(client_name)
+        self._stopping = Stopping(now, lambda name: own.fullmatch(name) is not None)
         self._stopping.reach(False)
         self._reached = False
         self._offer: Offer | None = None
         self._status: ControlStatus | None = None
+        self._early: ControlStatus | None = None
+        """What a robot says over a new connection before that is known to be a robot's."""
         self._info = RobotInfo()
         self._listening: dict[str, Callable[[], None]] = {}
         self._learning: asyncio.Task[None] | None = None
@@ -179,8 +183,11 @@ class StopLane:
         self._stopping.reach(self._reached, state.sentence, hopeless=hopeless)
         if self._learning is not None:
             self._learning.cancel()
+        early, self._early = self._early, None
         if self._reached:
             self._learning = asyncio.get_running_loop().create_task(self._learn())
+            if early is not None:
+                self._on_status(early, self._now())
         self._look()
 
     async def _learn(self) -> None:
@@ -214,6 +221,9 @@ class StopLane:
 
     def _on_status(self, status: ControlStatus, _: float) -> None:
         self._status = status
+        if not self._reached:
+            self._early = status
+            return
         self._stopping.hear(status)
         if self._stopping.rests:
             self._done.set()

@@ -120,9 +120,9 @@ def silence(seconds: float) -> str:
 class Stopping:
     """Notes what is heard of the STOP of a robot that has one, over whatever link."""
 
-    def __init__(self, now: Callable[[], float]) -> None:
-        """`now` is our clock [s]."""
-        self._now = now
+    def __init__(self, now: Callable[[], float], ours: Callable[[str], bool] = lambda _: False) -> None:
+        """`now` is our clock [s]; `ours` says whether a name is the one that the robot calls this handheld by."""
+        self._now, self._ours = now, ours
         self._status: ControlStatus | None = None
         self._asked_at = self._taken_at = self._moves_since = self._reached_at = self._lost_at = math.nan
         self._refusal = self._why = ""
@@ -210,7 +210,7 @@ class Stopping:
             refusal=self._refusal,
             latched=None if status is None else status.stopped,
             at_rest=self.rests,
-            by="" if status is None else status.stopped_by,
+            by="" if status is None or self._ours(status.stopped_by) else status.stopped_by,
             moves_since=self._moves_since,
             released=self._released,
             reached=self._reached,

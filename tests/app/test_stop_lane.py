@@ -33,6 +33,7 @@ class Robot:
         self.silently = False
         """It stops and its answer is lost."""
         self.refusal = ""
+        self.by = "Anna"
         self.topics = {"/cmd_vel": "geometry_msgs/Twist", "/odom": "nav_msgs/Odometry"}
         self.asked: list[tuple[float, str]] = []
         self.zeros: list[tuple[str, Any]] = []
@@ -86,7 +87,7 @@ class Robot:
         return CommandResponse(success=not self.refusal, message=self.refusal)
 
     def tell(self, *, stopped: bool, at_rest: bool) -> None:
-        self.status = ControlStatus(stamp=Time(7, 1), stopped=stopped, at_rest=at_rest, stopped_by="Anna")
+        self.status = ControlStatus(stamp=Time(7, 1), stopped=stopped, at_rest=at_rest, stopped_by=self.by)
         if "/control/status" in self.heard:
             self.heard["/control/status"](self.status, now())
 
@@ -269,6 +270,44 @@ async def test_a_stopped_robot_that_is_lost_is_not_counted_as_stopped_any_more(r
         robot.tell(stopped=True, at_rest=True)
         await asyncio.sleep(0.2)
         assert lane.report.phase == "stopped"
+
+
+@story
+async def test_what_a_robot_says_before_the_new_link_is_known_to_be_its_own_counts(robot: Robot) -> None:
+    robot.there = True
+    async with pressed(robot) as lane:
+        await asyncio.sleep(0.5)
+        robot.vanish()
+        await asyncio.sleep(3)
+        robot.tell(stopped=True, at_rest=True)
+        assert lane.report.phase == "lost"
+        robot.arrive()
+        await asyncio.sleep(5)
+        assert lane.report.phase == "stopped"
+
+
+@story
+async def test_what_was_said_over_a_link_that_did_not_come_to_stand_is_forgotten(robot: Robot) -> None:
+    robot.there = True
+    async with pressed(robot) as lane:
+        await asyncio.sleep(0.5)
+        robot.vanish()
+        robot.tell(stopped=True, at_rest=True)
+        robot.vanish()
+        robot.arrive()
+        assert lane.report.phase == "sent"
+
+
+@story
+async def test_who_pressed_is_said_of_another_and_not_of_oneself(robot: Robot) -> None:
+    robot.there = True
+    async with pressed(robot) as lane:
+        await asyncio.sleep(0.5)
+        assert lane.report.sentence == "Pressed by Anna."
+        robot.by = "tablet (2)"
+        robot.tell(stopped=True, at_rest=True)
+        await asyncio.sleep(0.2)
+        assert (lane.report.phase, lane.report.sentence) == ("stopped", "")
 
 
 @story
