@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 import threading
 from pathlib import Path
@@ -17,7 +18,7 @@ from app.voice.recognizer import Event, State, VoiceTrouble
 from app.voice.service import Service, judge_of
 from app.voice.wire import event_line, read_grammar
 
-__all__ = ["main"]
+__all__ = ["main", "own_line"]
 
 
 def main(arguments: list[str], orders: TextIO, events: TextIO) -> int:
@@ -53,5 +54,12 @@ def _obey(service: Service, orders: TextIO) -> None:
     service.stop()
 
 
+def own_line() -> TextIO:
+    """Where standard output goes, for events alone: what a foreign library prints there goes with the errors from now on, and breaks no event."""
+    events = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)
+    return events
+
+
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:], sys.stdin, sys.stdout))
+    sys.exit(main(sys.argv[1:], sys.stdin, own_line()))

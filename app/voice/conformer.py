@@ -102,11 +102,11 @@ class _Attention:
         frames = len(x)
         parts = self.asks(self.norm(x)).reshape(frames, 3, HEADS, WIDTH // HEADS).transpose(1, 2, 0, 3)
         wanted, keys, values = parts
-        weights = wanted @ keys.transpose(0, 2, 1)
+        weights: Floats = np.matmul(wanted, keys.transpose(0, 2, 1), dtype=np.float32)
         weights -= weights.max(axis=2, keepdims=True)
         np.exp(weights, out=weights)
         weights /= weights.sum(axis=2, keepdims=True)
-        heard: Floats = (weights @ values).transpose(1, 0, 2).reshape(frames, WIDTH)
+        heard: Floats = np.matmul(weights, values, dtype=np.float32).transpose(1, 0, 2).reshape(frames, WIDTH)
         return self.tells(heard)
 
 

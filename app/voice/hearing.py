@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from app.voice.ctc import Acoustics, Found, Scorer
 from app.voice.denoise import denoised
 from app.voice.endpoint import Endpointer, Segment
-from app.voice.noise import NoiseMeter
+from app.voice.noise import CLEAR, NoiseMeter
 from app.voice.recognizer import Grammar, Hear, Level, Rejected, Result, State
 from app.voice.spotter import Spotted, Spotter
 
@@ -103,6 +103,7 @@ class Hearing:
         segment = self._points.finish()
         if segment is not None:
             self._understand(segment)
+        self._meter.rest()
         self._tell(Level(float("-inf"), self._meter.noise, self._meter.snr))
 
     def _show(self, at: float) -> None:
@@ -153,6 +154,10 @@ class Hearing:
         else:
             self._tell(self._verdict(found, segment, snr))
 
+    def _too_loud(self, snr: float) -> bool:
+        """For words of that ratio to the noise [dB]: they tell themselves where it was loud when the ears were open last, and may be no more."""
+        return self._meter.too_loud and not (self._meter.outdated and snr >= CLEAR)
+
     def _verdict(self, found: Found, segment: Segment, snr: float) -> Result | Rejected:
         if not found.accepted:
             reason = "That was no command."
@@ -163,7 +168,7 @@ class Hearing:
                 if asked
                 else (f"“{found.phrase}” does not count now.")
             )
-        elif self._meter.too_loud and found.command not in self._grammar.urgent:
+        elif self._too_loud(snr) and found.command not in self._grammar.urgent:
             reason = "It is too loud here to be sure."
         else:
             detail = {"explains": round(found.explains, 2), "rival": found.rival}

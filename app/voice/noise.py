@@ -51,6 +51,8 @@ class NoiseMeter:
         self._since = math.nan
         self.too_loud = False
         """Nobody can be understood here; with hysteresis in ratio and in time."""
+        self.outdated = False
+        """That was found before the ears were closed last, and what is heard now does not say so."""
 
     def hear(self, samples: NDArray[np.float32], at: float, *, speaking: bool = False) -> None:
         """The next samples, -1 to 1, the last one heard at `at` [s]; `speaking` when somebody is thought to talk."""
@@ -62,6 +64,13 @@ class NoiseMeter:
             self._clipped.append(int(np.count_nonzero(np.abs(frame) >= CLIPPED)))
         self._rest = heard[whole:]
         self._judge(at, speaking=speaking)
+
+    def rest(self) -> None:
+        """The ears were closed: how loud it was then tells nothing of how loud it is when they open again."""
+        self._frames.clear()
+        self._rest = np.zeros(0, np.float32)
+        self._since = math.nan
+        self.outdated = True
 
     def heard(self, samples: NDArray[np.float32]) -> float:
         """Words were said: remembers how loud, and gives their ratio to the noise [dB]; NaN where no noise is known yet."""
@@ -101,8 +110,8 @@ class NoiseMeter:
             return
         changes = snr >= CLEAR if self.too_loud else snr < TOO_LOUD
         if not changes:
-            self._since = math.nan
+            self._since, self.outdated = math.nan, False
         elif math.isnan(self._since):
             self._since = at
         elif at - self._since >= LASTING:
-            self.too_loud, self._since = not self.too_loud, math.nan
+            self.too_loud, self._since, self.outdated = not self.too_loud, math.nan, False

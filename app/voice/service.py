@@ -2,22 +2,31 @@
 
 from __future__ import annotations
 
+import math
 import queue
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from app.voice.hearing import Hearing, Judge
 from app.voice.microphone import Ears
+from app.voice.noise import RATE
 from app.voice.recognizer import Grammar, Hear, State, VoiceTrouble
 
-__all__ = ["JUDGES", "LINGERS", "Service", "judge_of"]
+__all__ = ["JUDGES", "LINGERS", "MUTED", "Service", "judge_of"]
 
 LINGERS = 0.25
 """The ears stay open for so long after they were told to close: a thumb is up before the last sound is out [s]."""
 READS = 0.1
 """An order waits at most so long while the ears are open [s]."""
+FLAT, FLAT_AT_END = 3.0, 0.5
+"""A microphone that has given not one sound for so long since it was opened is muted; when it is closed again, after so long [s]. One that
+was heard is not: some give nothing at all between the words."""
+MUTED = "The microphone gives nothing but silence: it is muted, or the system does not let this app hear it."
 
 
 def judge_of(name: str, grammar: Grammar) -> Judge:
@@ -63,6 +72,7 @@ class Service:
         self._grammar, self._ears, self._make, self._tell, self._now = grammar, ears, make, tell, now
         self._orders: queue.SimpleQueue[_Order] = queue.SimpleQueue()
         self._until = -1.0
+        self._flat = 0.0
         self._heeded: frozenset[str] | None = None
 
     def listen(self, *, on: bool) -> None:
@@ -117,6 +127,7 @@ class Service:
             except VoiceTrouble as trouble:
                 self._tell(State("ready", str(trouble)))
                 return
+            self._flat = 0.0
             self._tell(State("listening"))
         if on:
             self._until = float("inf")
@@ -128,6 +139,7 @@ class Service:
         try:
             heard = self._ears.read(READS)
             if heard is not None:
+                self._silent(heard[0])
                 hearing.hear(*heard)
         except VoiceTrouble as trouble:
             sentence, self._until = str(trouble), 0.0
@@ -135,5 +147,12 @@ class Service:
             self._until = -1.0
             self._ears.stop()
             hearing.finish(self._now())
-            self._tell(State("ready", sentence))
+            self._tell(State("ready", sentence or (MUTED if self._flat >= FLAT_AT_END else "")))
         return True
+
+    def _silent(self, samples: NDArray[np.float32]) -> None:
+        """How long there was nothing but silence since the ears were opened; NaN once there was a sound."""
+        before = self._flat
+        self._flat = before + len(samples) / RATE if not len(samples) or np.ptp(samples) == 0.0 else math.nan
+        if before < FLAT <= self._flat:
+            self._tell(State("listening", MUTED))

@@ -195,6 +195,7 @@ class InProcess:
                 stderr=subprocess.DEVNULL,
                 text=True,
                 encoding="utf-8",
+                errors="replace",
                 env=environment,
             )
         except OSError as problem:

@@ -121,6 +121,18 @@ def test_stop_is_heard_where_it_is_too_loud_for_anything_else():
     assert any(isinstance(event, Result) for event in said(Judge("stop"), samples=loud))
 
 
+def test_words_that_stand_clear_of_the_noise_count_though_it_was_too_loud_a_moment_ago():
+    told = []
+    hearing = Hearing(GRAMMAR, Judge("pause"), told.append)
+    at = 0.0
+    for part, at in chunks(quiet(9.0, 0.2)):
+        hearing.hear(part, at)
+    hearing.finish(at)
+    for part, now in chunks(np.concatenate((quiet(1.0), voice(0.6), quiet(0.6))), at):
+        hearing.hear(part, now)
+    assert [event.command for event in told if isinstance(event, Result)] == ["pause"]
+
+
 def test_a_close_call_is_looked_at_twice_and_a_clear_one_once():
     clear, close = Written("p ɔ z"), Written("ɡ oʊ t")
     Phonemes(GRAMMAR, clear).judge(voice(0.6), frozenset(COMMANDS))

@@ -7,7 +7,7 @@ import pytest
 
 from app.voice.files import FileEars
 from app.voice.recognizer import Grammar, Result, State, VoiceTrouble
-from app.voice.service import LINGERS, Service
+from app.voice.service import FLAT, LINGERS, MUTED, Service
 from tests.app.voice.sounds import quiet, voice
 from tests.app.voice.test_hearing import GRAMMAR, Judge
 
@@ -91,6 +91,46 @@ def test_what_is_said_while_the_button_is_down_is_understood_after_it_is_up():
     thread.join(5)
     assert [event.command for event in told if isinstance(event, Result)] == ["pause"]
     assert states(told) == ["starting", "ready", "listening", "ready"]
+
+
+class Held(FileEars):
+    """Somebody holds the button until the recording is over, and switches voice off when the ears are closed."""
+
+    service: Service
+
+    def read(self, timeout):
+        heard = super().read(timeout)
+        if heard is None:
+            self.service.listen(on=False)
+        return heard
+
+    def stop(self):
+        super().stop()
+        self.service.stop()
+
+
+def turned(samples):
+    told, ears = [], Held([samples], gap=0.0)
+    ears.service = Service(GRAMMAR, ears, lambda grammar: Judge(), told.append, Clock())
+    ears.service.listen(on=True)
+    ears.service.run()
+    return [(event.word, event.sentence) for event in told if isinstance(event, State)]
+
+
+def test_a_microphone_that_gave_no_sound_at_all_is_said_when_the_button_is_up():
+    assert turned(np.zeros(16000, np.float32))[-1] == ("ready", MUTED)
+    assert turned(np.full(16000, 0.2, np.float32))[-1] == ("ready", MUTED)
+    assert turned(quiet(1.0, 1e-4))[-1] == ("ready", "")
+
+
+def test_hands_free_it_is_said_once_while_the_ears_stay_open():
+    silence = np.zeros(int((FLAT + 4) * 16000), np.float32)
+    assert turned(silence).count(("listening", MUTED)) == 1
+
+
+def test_a_microphone_that_gives_nothing_between_the_words_is_not_muted():
+    gated = np.concatenate((voice(0.3), np.zeros(5 * 16000, np.float32)))
+    assert MUTED not in [sentence for _, sentence in turned(gated)]
 
 
 @pytest.mark.parametrize("times", [1, 3])

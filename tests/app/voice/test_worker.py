@@ -3,6 +3,7 @@
 import io
 import json
 import queue
+import subprocess
 import sys
 import threading
 import time
@@ -25,6 +26,8 @@ grammar = json.loads(sys.stdin.readline())
 say = lambda word, sentence="": print(json.dumps({"event": "State", "word": word, "sentence": sentence}), flush=True)
 say("ready", grammar["language"])
 print("a foreign library prints something", flush=True)
+sys.stdout.buffer.write(b"\\xff and what is no text\\n")
+sys.stdout.flush()
 for line in sys.stdin:
     order = json.loads(line)
     if order.get("heed") == ["crash"]:
@@ -101,6 +104,18 @@ print(json.dumps({"event": "State", "word": "failed", "sentence": "There is no h
     assert [event.sentence for event in words(told, 1)] == ["There is no hama."]
     assert told.empty()
     voice.stop()
+
+
+def test_what_a_foreign_library_prints_breaks_no_event():
+    program = """
+import os
+from app.voice.child import own_line
+events = own_line()
+os.write(1, b"ALSA lib pcm.c: no newline at the end")
+print("stop", file=events, flush=True)
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert (done.stdout, "ALSA" in done.stderr) == ("stop\n", True)
 
 
 def test_to_stop_is_no_crash_and_ends_the_process(voice, told):
