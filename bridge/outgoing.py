@@ -18,7 +18,7 @@ from bridge.msgs.std_msgs import Time
 from bridge.protocol import Op, Reduction, Subscribed, encode, split, to_png
 from bridge.rosbytes import serialize
 
-__all__ = ["Form", "Outgoing", "Reduce", "binary_frame", "ping_frame", "said", "text_frame"]
+__all__ = ["Form", "Outgoing", "Reduce", "ping_frame", "said", "text_frame"]
 
 K = TypeVar("K")
 V = TypeVar("V")
@@ -61,11 +61,6 @@ class Form(NamedTuple):
 def text_frame(text: bytes) -> bytes:
     """`text` as one text message of a server."""
     return _head(_TEXT, len(text)) + text
-
-
-def binary_frame(data: bytes) -> bytes:
-    """`data` as one binary message of a server."""
-    return _head(_BINARY, len(data)) + data
 
 
 def ping_frame(content: bytes) -> bytes:

@@ -160,7 +160,7 @@ class OrderForm(Control, BoxLayout):
     """Nothing is lacking."""
 
     def __init__(self, **kwargs: Any) -> None:
-        self._id, self._edited = 0, False
+        self._id = 0
         self.list = PlaceList()
         """Where places are chosen; over the fields while `picking`."""
         self.dial = HeadingDial(pos_hint={"center_x": 0.5})

@@ -51,11 +51,6 @@ class Reaction:
         return TRIALS + PRACTICE
 
     @property
-    def practising(self) -> bool:
-        """The next press does not count."""
-        return len(self.times) < PRACTICE
-
-    @property
     def mean(self) -> float:
         """Of those that count [s]; NaN before the end."""
         return statistics.fmean(self.times[PRACTICE:]) if len(self.times) >= self.of else math.nan
