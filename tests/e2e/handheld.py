@@ -22,6 +22,8 @@ from tests.bridge.wires import Wire, wire
 
 PATIENCE = 15.0
 """How long a test waits for what must happen [s]; a fault, not a delay, uses it up."""
+LEFT_FREE = 1.0
+"""Control that is free for so long is not about to be taken [s]."""
 DRAWN = 20
 """One frame in so many is drawn: a processor that had to draw them all would have no time left for what is tested."""
 
@@ -68,6 +70,27 @@ class Handheld:
     def one(self, kind: str) -> Any:
         """The visible widget of class `kind`."""
         return self.until(lambda: self.glass.all(kind), f"a {kind}")[0]
+
+    def control(self) -> None:
+        """Wait until this handheld has control.
+
+        It takes it by itself when it connects. A machine that stands still for two seconds loses it to nobody; then it is
+        taken again, as a person would.
+        """
+        free: list[float] = []
+
+        def mine() -> bool:
+            session = self.app.session
+            if session is None or session.control != "free":
+                free.clear()
+            else:
+                free.append(time.monotonic())
+                if free[-1] - free[0] > LEFT_FREE:
+                    free.clear()
+                    session.take_control()
+            return session is not None and bool(session.control == "mine")
+
+        self.until(mine, "control")
 
     def push(self, stick: Widget, left: float, forward: float) -> Finger:
         """Put a finger on the stick and push it out; it stays there."""

@@ -62,7 +62,7 @@ def test_a_finger_leads_the_arm_what_it_does_not_reach_is_said_and_stop_holds_it
     carrier: RobotProcess, told: Armed, tmp_path: Path
 ) -> None:
     with handheld(tmp_path, url=carrier.url, discover=False, screen="drive") as glass:
-        glass.until(lambda: glass.app.session.control == "mine", "control")
+        glass.control()
         glass.tap("Arm", "Segment")
         glass.until(lambda: glass.one("ArmPanel").state == "live", "the arm's state")
         glass.tap("Home", "PoseKey")
@@ -103,7 +103,7 @@ def test_lights_and_the_camera_that_looks_back_have_buttons_by_themselves(
 ) -> None:
     with handheld(tmp_path, url=carrier.url, discover=False, screen="drive") as glass:
         session = glass.app.session
-        glass.until(lambda: session.control == "mine", "control")
+        glass.control()
         glass.tap("More", "QuietButton")
         glass.run(0.6)  # a button whose meaning has just changed takes no press
         glass.tap("Lights", "QuietButton")

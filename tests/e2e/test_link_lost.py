@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 
 import pytest
@@ -22,18 +21,18 @@ SAMPLING = 0.15
 def drive_off(glass: Handheld, witness: Witness) -> None:
     """Push the stick and leave the finger there until the robot is on its way."""
     stick = glass.one("Joystick")
-    glass.until(
-        lambda: glass.app.session.control == "mine" and stick.state == "live", "control and a live stick"
-    )
-    glass.push(stick, 0.0, 0.9)
-    glass.until(lambda: witness.speed() > 0.2, "the robot to drive off")
+    glass.control()
+    glass.until(lambda: stick.state == "live", "a live stick")
+    glass.drive(stick, lambda: witness.speed() > 0.2)
 
 
 def seconds_until_rest(glass: Handheld, witness: Witness) -> float:
-    """From now until the robot stands, as the truth says [s]."""
-    started = time.monotonic()
-    glass.until(lambda: witness.speed() < AT_REST, "the robot to stand", 3.0)
-    return time.monotonic() - started
+    """From now until the robot stands [s, robot clock: it does not go on while the machine stands still]."""
+    since = witness.now
+    glass.until(
+        lambda: witness.speed() < AT_REST and witness.rested(since, AT_REST) >= 0, "the robot to stand"
+    )
+    return witness.rested(since, AT_REST)
 
 
 @pytest.mark.parametrize("how", ["freeze", "cut"])

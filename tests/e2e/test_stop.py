@@ -41,7 +41,7 @@ def test_a_watcher_stops_a_robot_that_somebody_else_drives(
     robot: RobotProcess, witness: Witness, tmp_path: Path
 ) -> None:
     with handheld(tmp_path, url=robot.url, discover=False) as glass:
-        glass.until(lambda: glass.app.session.control == "mine", "control")
+        glass.control()
         glass.app.session.authority.release()
         glass.until(lambda: glass.app.session.control == "free", "free control")
         with somebody_drives(robot.url):
@@ -55,7 +55,7 @@ def test_a_watcher_stops_a_robot_that_somebody_else_drives(
             lambda: glass.app.session.control == "free", "the driver's control to end with its socket"
         )
         glass.app.session.take_control()
-        glass.until(lambda: glass.app.session.control == "mine", "control")
+        glass.control()
         finger = glass.hand.down(stop.to_window(*stop.center))
         glass.until(lambda: stop.phase == "ready", "the release after a hold")
         glass.hand.up(finger)

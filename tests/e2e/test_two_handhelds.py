@@ -87,6 +87,6 @@ def test_a_task_outlives_the_phone_that_started_it_and_the_next_one_knows_everyt
         session.tasking.ask_history()
         answer = glass.until(lambda: getattr(session.outcomes.get("history"), "answer", None), "the history")
         assert (answer.runs[0].order.task, answer.runs[0].id) == ("hold", status.task_id)
-        glass.until(controls(glass, "mine"), "control")
+        glass.control()
         session.command("cancel")
         glass.until(lambda: session.feeds.latest("/task/status").state == "CANCELED", "its end")

@@ -31,7 +31,8 @@ def test_a_patrol_is_planned_started_paused_stopped_and_released_by_two_keys(
 
         glass.settle(glass.one("RobotCard"))
         keys.find(lambda target: target.words.startswith("Connect"), "the robot's card")
-        glass.until(lambda: app.shell is not None and app.session.control == "mine", "the robot's screens")
+        glass.until(lambda: app.shell is not None, "the robot's screens")
+        glass.control()
 
         keys.choose("Mission", within="Screens")
         glass.until(lambda: app.session.feeds.latest("/map") is not None, "a map")
