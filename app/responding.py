@@ -25,6 +25,7 @@ from app.responses_stats import counts
 from app.set_up import set_up
 from app.study import Plan, Prompt, Trials, plan_of, saved
 from app.study_export import SETTINGS, export
+from app.telling import tell
 from app.workload import Workload, Workloads
 from bridge.msgs.pilothouse_msgs import ControlStatus, LightState, TaskStatus
 
@@ -264,7 +265,7 @@ class Responding:
             self.due = self._task
             if self.reminds:
                 over = "The task is over: its workload can be filled in, at Inputs, Log and study."
-                (self._app.shell or self._app.connect).say(over, "info")
+                tell(self._app, over, "info", self.name)
         self._task = state.task if runs else ""
 
     @staticmethod

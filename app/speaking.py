@@ -17,6 +17,7 @@ from app.device import is_android
 from app.intents import Heard
 from app.kept import Kept, known, shown
 from app.switched import Switched
+from app.telling import tell
 from app.voice.phrases import PHRASES
 from app.voice.recognizer import (
     Event,
@@ -462,12 +463,8 @@ class Speaking(Switched):
             self.rest()
 
     def _say(self, sentence: str, level: str = "warn") -> None:
-        if not sentence:
-            return
-        if self._app.shell is not None:
-            self._app.shell.say(f"Voice: {sentence}", level, about=self.name)
-        else:
-            self._app.connect.say(f"Voice: {sentence}", level)
+        if sentence:
+            tell(self._app, f"Voice: {sentence}", level, self.name)
 
 
 def _number(value: float) -> float | None:

@@ -26,6 +26,7 @@ from app.kept import Kept
 from app.link import EVENT, OUTCOME
 from app.response_tracks import LOCAL
 from app.switched import Switched
+from app.telling import tell
 from app.voice.mouth import VOICES, Mouth, mouth_of
 
 __all__ = ["RATES", "Talking", "aloud"]
@@ -257,7 +258,7 @@ class Talking(Switched):
     def _fail(self, sentence: str) -> None:
         self._put_away()
         self.problem = sentence
-        (self._app.shell or self._app.connect).say(f"Talk-back: {sentence}", "warn")
+        tell(self._app, f"Talk-back: {sentence}", about=self.name)
 
     def _put_away(self) -> None:
         mouth, self._mouth = self._mouth, None

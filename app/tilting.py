@@ -15,6 +15,7 @@ from app.kept import Kept, number
 from app.origin import Origin, origins
 from app.press import Press
 from app.switched import Switched
+from app.telling import tell
 from app.tilt import Level, Tilt, TiltSettings, turned
 from widgets.tilt_circle import TiltCircle
 
@@ -346,9 +347,7 @@ class Tilting(Switched):
         return "" if health.fault in ("", "waiting", "paused") else str(health.sentence)
 
     def _say(self, text: str) -> None:
-        shell = self._app.shell
-        if shell is not None:
-            shell.say(text, "warn", about="tilt")
+        tell(self._app, text, about=self.name)
 
 
 def _axes(kept: object) -> Axes | None:

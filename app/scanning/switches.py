@@ -25,6 +25,7 @@ from app.scanning.plan import Planner
 from app.scanning.settings import Key, read
 from app.scanning.tones import Tones
 from app.scanning.usage import Usage
+from app.telling import tell
 
 __all__ = ["Switches"]
 
@@ -335,10 +336,7 @@ class Switches:
             self._app.settings.set(USED, self._usage.save())
 
     def _say(self, text: str, level: str = "warn") -> None:
-        if self._app.shell is not None:
-            self._app.shell.say(text, level, about=self.name)
-        else:
-            self._app.connect.say(text, level)
+        tell(self._app, text, level, self.name)
 
 
 def _listed(keys: tuple[Key, ...]) -> str:

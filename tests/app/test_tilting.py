@@ -330,3 +330,12 @@ def test_without_a_sensor_the_circle_looks_disabled_and_says_why_and_none_is_off
     handheld.run(0.1)
     assert not circle.missing, "a simulated tablet is one"
     assert handheld.hands.tablet
+
+
+def test_what_was_kept_and_is_no_good_is_said_without_a_robot_as_well() -> None:
+    handheld = Handheld({"full": "much"})
+    handheld.shell = None
+    handheld.connect = SimpleNamespace(say=handheld._say)
+    handheld.tilting.start()
+    assert len(handheld.said) == 1
+    assert "much" in handheld.said[0]
