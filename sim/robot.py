@@ -97,7 +97,7 @@ class SimRobot:
         self.info = info_of(self._vehicle, self.simulation.world, camera=camera)
         self.info = msgspec.structs.replace(self.info, payloads=list(payloads))
         """Who it is."""
-        self._mishaps = Mishaps(self._vehicle.parameters.info, self.simulation.world)
+        self._mishaps = Mishaps(self._vehicle.parameters.info, self._vehicle.scene)
         self._cameras = Cameras(self.simulation, number) if camera else None
         self._run.join(self._collect)
 
@@ -162,6 +162,7 @@ class SimRobot:
         in `map`. ValueError with one sentence when there is no room.
         """
         self._vehicle.reset()
+        self._mishaps.end()
         self._excess = ""
         self._unread = deque((entry for entry in self._unread if entry[0] == "/events"), maxlen=UNREAD)
         state, start = self._vehicle.state(), self._vehicle.scene.start
