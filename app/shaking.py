@@ -37,6 +37,8 @@ SNIPPET = 6.0
 """So much of what was measured goes into the log with the operator's consent [s]."""
 NEEDED = LEAST_RATE - 0.4
 """A sensor of 25 Hz is never quite that by its own times [Hz]."""
+LEAST_FOR_STOP = 15.0
+"""A sensor that loses samples is said to be slow, and a STOP that was understood all the same is done [Hz]."""
 
 
 class Shaking(Switched):
@@ -202,9 +204,10 @@ class Shaking(Switched):
         self._recent.append((t, axes))
         self._recogniser.any_shake = self._any and self._moves()
         shake = self._recogniser.feed(t, axes)
-        slow = self._app.sensing.health("acceleration", least=NEEDED).fault == "slow" if shake else False
-        if shake is not None and not slow:
-            self.understood(shake)
+        if shake is not None:
+            least = NEEDED if shake.ended else LEAST_FOR_STOP
+            if self._app.sensing.health("acceleration", least=least).fault != "slow":
+                self.understood(shake)
 
     def understood(self, shake: Shake) -> None:
         """Have it done, felt and said."""

@@ -15,8 +15,9 @@ SETTLING = 1.0
 """For so long gravity is the mean of what came [s]."""
 SMOOTH = 0.02
 """Time constant that takes the edge off a knock [s]."""
-UPRIGHT = 0.85
-"""Where the device's x is up by more than this, its y is to the right."""
+SIDEWAYS, UPRIGHT = (0.6, 1.7), (0.45, 1.2)
+"""Held sideways, with a screen that does not turn along, is what has its x up by so much, and so many times its y; it is upright again
+below the second."""
 
 
 class Ground:
@@ -28,6 +29,7 @@ class Ground:
         self._age = 0.0
         self._gravity: list[float] | None = None
         self._smooth = [0.0, 0.0, 0.0]
+        self._sideways = False
 
     def motion(self, dt: float, x: float, y: float, z: float) -> Motion:
         """What is left of a sample [m/s², axes of the device] that came `dt` after the one before [s, above 0]."""
@@ -49,12 +51,15 @@ class Ground:
         uy = smooth[1] = smooth[1] + share * (y - gy - smooth[1])
         uz = smooth[2] = smooth[2] + share * (z - gz - smooth[2])
         length = math.sqrt(gx * gx + gy * gy + gz * gz) or 1.0
-        return turned(gx / length, gy / length, gz / length, ux, uy, uz)
+        a, b, c = gx / length, gy / length, gz / length
+        least, times = UPRIGHT if self._sideways else SIDEWAYS
+        self._sideways = abs(a) > max(least, times * abs(b))
+        return turned(a, b, c, ux, uy, uz, self._sideways)
 
 
-def turned(a: float, b: float, c: float, x: float, y: float, z: float) -> Motion:
-    """x, y, z of the device seen from where (a, b, c), of length 1, is up."""
-    if abs(a) < UPRIGHT:
+def turned(a: float, b: float, c: float, x: float, y: float, z: float, sideways: bool = False) -> Motion:
+    """x, y, z of the device seen from where (a, b, c), of length 1, is up; its y is to the right where it is held sideways."""
+    if not sideways:
         level = math.sqrt(b * b + c * c) or 1.0
         rx, ry, rz = level, -a * b / level, -a * c / level
     else:

@@ -147,10 +147,10 @@ class Recogniser:
     def feed(self, t: float, axes: Motion) -> Shake | None:
         """One sample, measured at `t` [s], with gravity [m/s², axes of the device]; what cannot be is passed over."""
         dt = t - self._last
-        if dt <= 0.0 or not math.isfinite(axes[0] + axes[1] + axes[2] + t):
+        if -GAP < dt <= 0.0 or not math.isfinite(axes[0] + axes[1] + axes[2] + t):
             return None
         self._last = t
-        if not dt < GAP:
+        if not 0.0 < dt < GAP:
             self._anew()
             self._begun = self._block_since = t
             self._ground.motion(1e-6, *axes)
@@ -248,6 +248,8 @@ class Recogniser:
             for i in line.counts_for:
                 way = self._tuning.ways[i]
                 if halves.count < way.halves or halves.evidence < way.evidence:
+                    continue
+                if halves.pace < way.hasty and halves.mean < way.hard:
                     continue
                 if halves.mean >= max(way.above * background.level, way.beyond * background.loud):
                     best = burst.best.get(i)

@@ -61,6 +61,10 @@ class Way:
     """At least so much of the movement, 0 to 1."""
     straight: float
     """Least share of the direction with most of it, 1/3 to 1: a circle has a half, and one that is drawn long and thin has more."""
+    hasty: float = 0.0
+    """Half cycles that follow each other quicker than that [s] are not how this person shakes,"""
+    hard: float = 0.0
+    """and count only where the mean of their peaks is so much [m/s²]: steps are quick, and who is frightened shakes hard."""
     own: bool = False
     """It is where one person's hand goes, and not where anybody's may."""
 
@@ -142,6 +146,10 @@ UNHURRIED = 0.7
 """Half a cycle that takes longer is slow [s]."""
 BROAD = 0.35
 """Who goes slowly goes far, and so no slower than this [m/s]; somebody who walks sways by less."""
+CLOSE, TRUE = 0.58, 0.75
+"""Whose line is known stays closer to it, and straighter, than anybody does: what the lesson loosens elsewhere is made up for."""
+HASTY, HARD = 0.6, 2.0
+"""Of the person's own gap, and of the usual threshold."""
 SWUNG = 1.4
 """Weight of up-down where the person's own directions are known."""
 LONGEST = 9.0
@@ -177,6 +185,10 @@ def _fitted(way: Way, own: Own | None) -> Way:
         gap=min(max(1.75 * own.gap, 0.6), 1.7),
         weight=SWUNG if way.weight > 1.0 else 1.0,
         outrun=way.outrun + 0.2,
+        share=max(way.share, CLOSE),
+        straight=max(way.straight, TRUE),
+        hasty=HASTY * own.gap,
+        hard=HARD * way.threshold,
         own=True,
     )
     if threshold >= GENTLE * way.threshold and own.gap <= UNHURRIED:

@@ -241,6 +241,24 @@ def test_a_slow_sensor_is_said_and_gives_no_command(hand: Hand) -> None:
     assert hand.heard == []
 
 
+def test_a_sensor_that_is_a_little_slow_still_stops_and_does_nothing_else(hand: Hand) -> None:
+    for axis in AXES:
+        hand.does(motion.trials([motion.made(axis, 0, 0)], 1)[0].take.again(19.0))
+    assert hand.shaking.standing == "19 Hz: too slow"
+    assert hand.intents == ["stop"]
+
+
+def test_samples_that_come_twenty_at_once_and_twice_are_understood(hand: Hand) -> None:
+    take = motion.trials([motion.made("lr", 0, 0)], 1)[0].take
+    for index, axes in enumerate(take.samples.tolist()):
+        hand.t += 1 / take.rate
+        for _ in range(2):
+            hand.source.put("acceleration", hand.t, tuple(axes))
+        if index % 20 == 19:
+            hand.sensing.look(hand.t)
+    assert hand.intents == ["stop"]
+
+
 def test_a_sensor_at_exactly_25_hz_is_quick_enough(hand: Hand) -> None:
     hand.does(motion.trials([motion.made("lr", 0, 0)], 1)[0].take.again(25.0))
     assert hand.shaking.problem == ""

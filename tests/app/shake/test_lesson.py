@@ -99,6 +99,28 @@ def test_who_swings_aslant_is_understood_after_the_lesson() -> None:
     assert sum(said(Recogniser(), trial.take) == ["ud"] for trial in trials) < 6
 
 
+def swung(peak: float, frequency: float, own: Own) -> list[str]:
+    """What one with that of his own for left-right is understood to say by a swing of 1.4 to 4 s."""
+    at = np.arange(int(60 * max(1.4, 2.5 / frequency))) / 60.0
+    values = [0.0] * 300 + (peak * np.sin(math.tau * frequency * at)).tolist() + [0.0] * 120
+    recogniser = Recogniser(fitted(USUAL, {"lr": own}))
+    said = (recogniser.feed(index / 60.0, (value, 0.0, 9.8)) for index, value in enumerate(values))
+    return [shake.axis for shake in said if shake]
+
+
+def test_the_lesson_of_one_who_is_slow_and_gentle_makes_no_stop_of_gentle_steps() -> None:
+    slow = Own((1.0, 0.0, 0.0), 4.0, 0.9)
+    assert swung(4.0, 0.6, slow) == ["lr"], "his own"
+    assert swung(4.0, 1.6, slow) == [], "quick and gentle is how one sets off"
+    assert swung(12.0, 1.6, slow) == ["lr"], "who is frightened shakes quickly, and hard"
+
+
+def test_a_lesson_asks_for_a_straighter_line_closer_to_its_own() -> None:
+    for usual, own in zip(USUAL.ways, fitted(USUAL, dict.fromkeys(AXES, OWN)).ways, strict=True):
+        assert own.share > usual.share
+        assert own.straight > usual.straight
+
+
 def test_nothing_measured_changes_nothing() -> None:
     assert fitted(USUAL, {}) is USUAL
 

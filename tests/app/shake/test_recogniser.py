@@ -83,6 +83,16 @@ def test_however_it_is_held_up_is_up() -> None:
         assert [shake.axis for shake in heard(map(tuple, (take.samples @ turn.T).tolist()))] == ["ud"]
 
 
+@pytest.mark.parametrize("upright", [0.8, 1.0, 1.3])
+def test_held_sideways_with_a_screen_that_stays_left_right_is_stop(upright: float) -> None:
+    """A screen that is locked: what is its own y goes to the right."""
+    still = np.tile([GRAVITY * math.sin(upright), 0.0, GRAVITY * math.cos(upright)], (240, 1))
+    at = np.arange(120) / 60.0
+    shake = still[:120] + np.outer(8.0 * np.sin(math.tau * 1.5 * at), [0.0, 1.0, 0.0])
+    samples = np.concatenate([still, shake, still])
+    assert [shake.axis for shake in heard(map(tuple, samples.tolist()))] == ["lr"]
+
+
 @pytest.mark.parametrize("turn", ["yaw", "roll", "pitch"])
 @pytest.mark.parametrize("by", [-25.0, 25.0])
 def test_a_line_aslant_is_taken_for_the_direction_it_is_nearest_to(turn: str, by: float) -> None:
@@ -109,6 +119,17 @@ def test_samples_that_come_unevenly_and_get_lost_are_enough() -> None:
             recogniser = Recogniser()
             said = [recogniser.feed(t, axes) for t, axes in people.measured(sensor, trial.take, rng)]
             assert [shake.axis for shake in said if shake] == [axis]
+
+
+@pytest.mark.parametrize("person", [0, 3, 4])
+@pytest.mark.parametrize("axis", AXES)
+def test_a_cheap_sensor_is_enough(axis: Axis, person: int) -> None:
+    """One that ends at 2 g, counts in 12 bits, is 0.5 m/s² off and 3 % wrong."""
+    for trial in shaken(axis, person)[:2]:
+        step = 4.0 * GRAVITY / 4096.0
+        felt = trial.take.samples * [1.03, 0.97, 1.02] + [0.5, -0.4, 0.5]
+        felt = np.round(np.clip(felt, -2.0 * GRAVITY, 2.0 * GRAVITY) / step) * step
+        assert [shake.axis for shake in heard(map(tuple, felt.tolist()))] == [axis]
 
 
 # what is no shake
@@ -212,3 +233,26 @@ def test_after_a_gap_it_begins_anew() -> None:
         recogniser.feed(begun + index / 60.0, axes) for index, axes in enumerate(samples[cut : cut + 120])
     ]
     assert not any(said), "nothing is known of the background"
+
+
+def test_a_clock_that_was_set_back_begins_anew_instead_of_making_it_deaf() -> None:
+    trial = shaken("lr")[0]
+    recogniser = Recogniser()
+    samples = list(map(tuple, trial.take.samples.tolist()))
+    for index, axes in enumerate(samples[:120]):
+        recogniser.feed(5000.0 + index / 60.0, axes)
+    said = [recogniser.feed(index / 60.0, axes) for index, axes in enumerate(samples)]
+    assert [shake.axis for shake in said if shake] == ["lr"]
+
+
+@pytest.mark.parametrize("after", [25.0, 100.0])
+def test_a_rate_that_changes_within_the_shake_matters_not(after: float) -> None:
+    for axis in AXES:
+        trial = shaken(axis)[0]
+        middle = (trial.began + trial.ended) / 2
+        recogniser, said = Recogniser(), []
+        for rate, within in ((50.0, (0.0, middle)), (after, (middle, math.inf))):
+            for index, axes in enumerate(map(tuple, trial.take.again(rate).samples.tolist())):
+                if within[0] <= index / rate < within[1]:
+                    said.append(recogniser.feed(index / rate, axes))
+        assert [shake.axis for shake in said if shake] == [axis]
