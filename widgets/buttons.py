@@ -236,7 +236,7 @@ class NavButton(ButtonBehavior, BoxLayout):
         (x, y), (width, height), texture = self.badge_pos, self.badge_size, self.badge_texture
         return x + (width - texture.width) / 2, y + (height - texture.height) / 2
 
-    badge_text_pos = AliasProperty(_badge_text_pos, bind=["badge_pos"], cache=True)
+    badge_text_pos = AliasProperty(_badge_text_pos, bind=["badge_pos", "badge_size"], cache=True)
 
 
 def _button(kind: type[PushButton], **kwargs: Any) -> Callable[[], Widget]:

@@ -105,7 +105,7 @@ class ArtificialHorizon(Glass, Drawing):
         limit = LAST * self.radius
         return min(max(self.rise, -limit), limit)
 
-    horizon = AliasProperty(_horizon, bind=["rise"], cache=True)
+    horizon = AliasProperty(_horizon, bind=["rise", "radius"], cache=True)
     """Where the horizon is drawn [px]: at `rise`, but never off the instrument."""
 
     def __init__(self, **kwargs: Any) -> None:

@@ -100,7 +100,7 @@ class Joystick(Stick):
     def _knob_pos(self) -> tuple[float, float]:
         return self.center_x - self.left * self.reach, self.center_y + self.forward * self.reach
 
-    knob_pos = AliasProperty(_knob_pos, bind=["left", "forward", "reach", "pos"], cache=True)
+    knob_pos = AliasProperty(_knob_pos, bind=["left", "forward", "reach", "pos", "size"], cache=True)
     """The knob's middle [px]."""
 
     def __init__(self, **kwargs: Any) -> None:

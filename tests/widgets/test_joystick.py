@@ -193,3 +193,11 @@ def test_the_caption_goes_away_under_the_knob(stick):
     assert not stick.captioned
     stick.lean(0.5, 0.0)
     assert stick.captioned
+
+
+@pytest.mark.parametrize("before", [(376, 242), (242, 376)])
+def test_at_rest_the_knob_is_in_the_middle_whatever_room_it_had_before(stage, before):
+    stick = stage.show(Joystick(), size=before)
+    assert stick.knob_pos == tuple(stick.center)
+    stick.size = (242, 242)
+    assert stick.knob_pos == tuple(stick.center)
