@@ -53,8 +53,11 @@ class ResetCard(NoticeCard):
             self.tell(msg.text)
 
     def tell(self, mishap: str) -> None:
-        """Offer it, since something has gone wrong."""
-        self.mishap, self.asked, self.sent, self.open = mishap, False, False, True
+        """Offer it, since something has gone wrong; what is being asked or done already is left as it stands."""
+        busy = self.open and (self.asked or self.sent)
+        self.mishap = mishap
+        if not busy:
+            self.asked, self.sent, self.open = False, False, True
 
     def ask(self) -> None:
         """Ask whether it shall be done."""

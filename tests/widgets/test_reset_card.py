@@ -93,3 +93,25 @@ def test_whoever_has_no_control_presses_nothing(stage: Stage, card: Any) -> None
 def test_an_event_that_is_no_alarm_opens_nothing(card: Any) -> None:
     card.show(Event(level="info", kind="robot", text="Cut to 0.7 m/s."))
     assert not card.open
+
+
+def test_a_mishap_that_is_told_again_leaves_a_question_that_is_being_answered(stage: Stage, card: Any) -> None:
+    card.tell("Aqua-1 has sunk.")
+    stage.run_for(0.6)
+    tap(stage, card.go)
+    card.tell("Aqua-1 has sunk.")
+    assert card.headline == "Put Aqua-1 back to where it started?"
+    stage.run_for(0.6)
+    tap(stage, card.go)
+    assert card.heard == ["reset"]
+    card.answer("sent")
+    card.tell("Aqua-1 has sunk.")
+    assert card.sent
+
+
+def test_after_it_was_left_the_next_mishap_is_offered_anew(stage: Stage, card: Any) -> None:
+    card.tell("Aqua-1 has sunk.")
+    card.press()
+    card.close()
+    card.tell("Aqua-1 has left tank.")
+    assert (card.open, card.asked, card.headline) == (True, False, "Aqua-1 has left tank.")
