@@ -12,6 +12,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from app.arrange import Rect
+from app.screens.placing import AWAY
 from widgets.kit import ActionToast, Banner, Toast
 
 __all__ = ["BRIEF", "LONG", "Notices"]
@@ -41,6 +42,11 @@ class Notices(BoxLayout):
         self.above: Rect | None = None
         """What it keeps above of, where it can [px]."""
         self._cover: tuple[Any, Rect | None] = (None, None)
+
+    def add_widget(self, widget: Widget, *args: Any, **kwargs: Any) -> None:
+        """Add it off the glass: it comes with the next layout, and until then nobody sees it as wide as it happened to be, or touches it."""
+        widget.pos, widget.width = (AWAY, 0), self.width
+        super().add_widget(widget, *args, **kwargs)
 
     def place(self, screen: Any) -> None:
         """Stand in the room that `screen` leaves, and let it clear away what would be seen only in part."""
