@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.voice.ctc import Acoustics, Found, Scorer
-from app.voice.denoise import denoised
 from app.voice.endpoint import Endpointer, Segment
+from app.voice.looks import looks
 from app.voice.noise import CLEAR, NoiseMeter
 from app.voice.recognizer import Grammar, Hear, Level, Rejected, Result, State
 from app.voice.spotter import Spotted, Spotter
@@ -19,8 +19,8 @@ __all__ = ["Hearing", "Judge", "Phonemes"]
 
 METERED = 0.1
 """The meter is told so often [s]."""
-UNSURE = (0.02, 0.8)
-"""It is asked again, with less noise in the words, between these confidences."""
+UNSURE = (0.02, 0.9)
+"""It is asked again, by other looks at the words, between these confidences."""
 SAME = 0.35
 """STOP that ends within this of one that was spotted is the same [s]."""
 
@@ -46,17 +46,20 @@ class Phonemes:
         self._scorer, self._spotter = Scorer(grammar, model.tokens), Spotter(grammar, model)
 
     def judge(self, samples: NDArray[np.float32], heeded: Collection[str]) -> Found | None:
-        """By the whole utterance; where that is close to call, by a second look at it with the noise taken out."""
-        first = self._model.hear(samples)
-        found = self._scorer.judge([first], heeded)
+        """By the whole utterance; where that is close to call, by further looks at it (`app.voice.looks`)."""
+        views = [self._model.hear(samples)]
+        found = self._scorer.judge(views, heeded)
         if found is None or not UNSURE[0] < found.confidence < UNSURE[1] or self._urgent(found):
             return found
-        second = self._model.hear(denoised(samples))
-        alone = self._scorer.judge([second], heeded)
-        return alone if self._urgent(alone) else self._scorer.judge([first, second], heeded)
+        for other in looks(samples):
+            views.append(self._model.hear(other))
+            alone = self._scorer.judge(views[-1:], heeded)
+            if self._urgent(alone):
+                return alone
+        return self._scorer.judge(views, heeded)
 
     def _urgent(self, found: Found | None) -> bool:
-        """STOP in either look is STOP."""
+        """STOP in any look is STOP."""
         return found is not None and found.accepted and found.command in self._grammar.urgent
 
     def spot(self, segment: Segment, now: float) -> Spotted | None:
