@@ -17,6 +17,7 @@ from sim.scene import Scene
 from sim.sensors.battery import Battery
 from sim.sensors.bumper import BumperRing
 from sim.sensors.imu import InertialUnit
+from sim.sensors.reckoning import Reckoning, ReckoningParameters
 from sim.shapes import Shape
 from sim.starts import places
 from sim.vehicles.parameters import Parameters
@@ -157,6 +158,14 @@ class Chassis(Generic[P]):
         imu = InertialUnit(parameters.imu, self.scene.generator("imu"))
         self.suite.add("bumper", parameters.bumper.rate, self._tell_bumper)
         self.suite.add("imu", parameters.imu.rate, lambda state, at: [("/imu/data", imu.measure(state, at))])
+
+    def add_reckoning(self, figures: ReckoningParameters) -> None:
+        """Where it believes to be, of what has no wheels, as a sensor."""
+        start = self.scene.start
+        self.odometer = reckoning = Reckoning(
+            figures, (start.x, start.y, start.angle), self.scene.generator("reckoning")
+        )
+        self.suite.add("odometry", figures.rate, lambda state, at: [("/odom", reckoning.measure(state, at))])
 
     def add_power(self) -> None:
         """Motors and battery, as sensors."""

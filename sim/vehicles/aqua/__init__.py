@@ -16,7 +16,6 @@ from sim.motors import Motors
 from sim.scene import Scene
 from sim.sensors.compass import Compass
 from sim.sensors.depth import DepthGauge
-from sim.sensors.reckoning import Reckoning
 from sim.shapes import Shape, from_yaw
 from sim.vehicles.aqua.looks import looks
 from sim.vehicles.aqua.pilot import Pilot
@@ -64,16 +63,10 @@ class Aqua(Chassis[SwimmerParameters]):
 
     def _add_sensors(self) -> None:
         parameters, scene, suite = self.parameters, self.scene, self.suite
-        start = scene.start
         compass = Compass(parameters.compass, scene.generator("compass"))
         depth = DepthGauge(parameters.depth, scene.weather, scene.generator("depth"))
-        self.odometer = reckoning = Reckoning(
-            parameters.reckoning, (start.x, start.y, start.angle), scene.generator("reckoning")
-        )
         self.add_bumper_and_imu()
-        suite.add(
-            "odometry", parameters.reckoning.rate, lambda state, at: [("/odom", reckoning.measure(state, at))]
-        )
+        self.add_reckoning(parameters.reckoning)
         suite.add(
             "compass", parameters.compass.rate, lambda state, at: [("/compass", compass.measure(state, at))]
         )

@@ -14,7 +14,6 @@ from sim.bodies import Floating
 from sim.motors import Motors
 from sim.scene import Scene
 from sim.sensors.height import Height
-from sim.sensors.reckoning import Reckoning
 from sim.shapes import Shape, from_yaw
 from sim.vehicles.ardrone.looks import looks
 from sim.vehicles.ardrone.pilot import Motion, Pilot
@@ -65,17 +64,11 @@ class Ardrone(Chassis[QuadrotorParameters]):
 
     def _add_sensors(self) -> None:
         parameters, scene, suite = self.parameters, self.scene, self.suite
-        start = scene.start
         self._height = Height(
             parameters.range, scene.backend, self.body, scene.weather, scene.generator("range")
         )
-        self.odometer = reckoning = Reckoning(
-            parameters.reckoning, (start.x, start.y, start.angle), scene.generator("reckoning")
-        )
         self.add_bumper_and_imu()
-        suite.add(
-            "odometry", parameters.reckoning.rate, lambda state, at: [("/odom", reckoning.measure(state, at))]
-        )
+        self.add_reckoning(parameters.reckoning)
         suite.add(
             "range",
             parameters.range.rate,

@@ -16,7 +16,6 @@ from sim.motors import Motors
 from sim.scene import Scene
 from sim.sensors.compass import Compass
 from sim.sensors.gps import Gps
-from sim.sensors.reckoning import Reckoning
 from sim.shapes import Shape, from_yaw, yaw_of
 from sim.vehicles.boat import BoatParameters, Drive, Helmsman
 from sim.vehicles.chassis import Chassis
@@ -68,16 +67,10 @@ class Minnow(Chassis[BoatParameters]):
 
     def _add_sensors(self) -> None:
         parameters, scene, suite = self.parameters, self.scene, self.suite
-        start = scene.start
         gps = Gps(parameters.gps, scene.world.datum, scene.generator("gps"))
         compass = Compass(parameters.compass, scene.generator("compass"))
-        self.odometer = reckoning = Reckoning(
-            parameters.reckoning, (start.x, start.y, start.angle), scene.generator("reckoning")
-        )
         self.add_bumper_and_imu()
-        suite.add(
-            "odometry", parameters.reckoning.rate, lambda state, at: [("/odom", reckoning.measure(state, at))]
-        )
+        self.add_reckoning(parameters.reckoning)
         suite.add("gps", parameters.gps.rate, lambda state, at: [("/fix", gps.measure(state, at))])
         suite.add(
             "compass", parameters.compass.rate, lambda state, at: [("/compass", compass.measure(state, at))]
