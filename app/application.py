@@ -14,8 +14,6 @@ from typing import Any
 from kivy.app import App
 from kivy.clock import Clock
 from kivy.core.window import Window
-from kivy.uix.floatlayout import FloatLayout
-from kivy.uix.widget import Widget
 
 from app.acting import Acting
 from app.camera import PICTURE, Camera
@@ -38,6 +36,7 @@ from app.nearby import HELLO, LATENCY, Nearby
 from app.permits import Permits
 from app.pictures import Pictures
 from app.records import Records
+from app.root import Root
 from app.screens.connect import THEMES, ConnectScreen
 from app.screens.dialogs import AddressDialog, Question
 from app.screens.inputs.page import InputsPage
@@ -46,6 +45,7 @@ from app.session import Session
 from app.settings import Settings
 from app.simulating import CHANNEL as SIMULATED
 from app.simulating import Simulating
+from app.telling import tell
 from bridge.frames import Frame
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.network import NetworkThread
@@ -66,25 +66,6 @@ LIST = 0.5
 """Between two looks at the list of robots [s]."""
 SWITCH = 0.001
 """How long one thread may keep the others waiting for Python [s]: drawing must not delay the network."""
-
-
-class Root(FloatLayout):
-    """The whole glass: one page, at times a question over it, and over everything what must always be reached."""
-
-    over: Widget | None = None
-    """Stays on top of whatever is added."""
-
-    def add_widget(self, widget: Widget, *args: Any, **kwargs: Any) -> None:
-        """Put it on top, but below `over`."""
-        super().add_widget(widget, *args, **kwargs)
-        if self.over is not None and widget is not self.over:
-            self.remove_widget(self.over)
-            super().add_widget(self.over)
-
-    def show_page(self, page: Any) -> None:
-        """Put a page in the place of the one before."""
-        self.clear_widgets()
-        self.add_widget(page)
 
 
 class PilothouseApp(App):
@@ -468,7 +449,7 @@ class PilothouseApp(App):
         self._list()
 
     def _say(self, text: str, level: str) -> None:
-        (self.shell or self.connect).say(text, level)
+        tell(self, text, level)
 
     def alarm(self, event: Event) -> None:
         """Something happened that the operator must not miss."""
