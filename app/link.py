@@ -320,7 +320,7 @@ class Link:
         known = await self._renew_offer()
         if not known:
             self._sources.follow(self.offer)
-        if known and not self._serves("/events/get"):
+        if known and self.offer is not None and not self.offer.serves("/events/get"):
             self._events.without_store()
         self._catch_up()
         while not known or self.foreign:
@@ -356,9 +356,6 @@ class Link:
         elif self.commands.stopping:
             self.commands.void_stop()
         self._mailbox.queue(OFFER, offer, self._now())
-
-    def _serves(self, service: str) -> bool:
-        return self.offer is None or self.offer.serves(service)
 
     def _catch_up(self) -> None:
         """Have events asked for where some are missing, unless that is under way."""
