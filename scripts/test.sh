@@ -26,8 +26,8 @@ if [ "${1:-}" = fast ]; then
     ring logic --ignore=tests/sim --ignore=tests/robotside --ignore=tests/clients
 else
     ring logic -n 2 --dist loadscope
-    present 'tests/pixels/test_*.py' && ring pixels tests/pixels
-    present 'tests/e2e/test_*.py' && ring e2e tests/e2e
+    present 'tests/pixels/test_*.py' && ring pixels -n 2 tests/pixels
+    present 'tests/e2e/test_*.py' && ring e2e -n 2 --dist loadfile tests/e2e
 fi
 "$python" scripts/sum_up.py "$reports"
 exit $status
