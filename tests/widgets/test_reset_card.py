@@ -95,7 +95,9 @@ def test_an_event_that_is_no_alarm_opens_nothing(card: Any) -> None:
     assert not card.open
 
 
-def test_a_mishap_that_is_told_again_leaves_a_question_that_is_being_answered(stage: Stage, card: Any) -> None:
+def test_a_mishap_that_is_told_again_leaves_a_question_that_is_being_answered(
+    stage: Stage, card: Any
+) -> None:
     card.tell("Aqua-1 has sunk.")
     stage.run_for(0.6)
     tap(stage, card.go)
