@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from tests.app.test_inputs import ESCAPE, LOSSES, PAD, Hands, hands, press, upright
+from tests.app.pushing import ESCAPE, LOSSES, PAD, Hands, hands, press, upright
 
 __all__ = ["hands", "upright"]
 

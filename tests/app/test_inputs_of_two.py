@@ -10,7 +10,7 @@ import pytest
 
 from app.piloting import Parts, Piloting, Reach
 from bridge.msgs.geometry_msgs import Twist
-from tests.app.test_inputs import PAD, Hands
+from tests.app.pushing import PAD, Hands
 from tests.headless import Stage
 
 

@@ -16,7 +16,7 @@ from app.methods import Methods
 from app.origin import NOBODY, origins
 from app.permits import Permits
 from app.voice.ending import end_aside
-from tests.app.test_inputs import Settings
+from tests.app.pushing import Settings
 from tests.headless import Stage
 
 

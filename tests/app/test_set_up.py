@@ -14,7 +14,7 @@ from app.set_up import set_up
 from app.shaking import Shaking
 from app.speaking import Speaking
 from app.tilting import Tilting
-from tests.app.test_inputs import Settings
+from tests.app.pushing import Settings
 
 
 def test_what_nobody_changed_is_told_as_well_and_can_be_written_as_json() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.mapped import Mapped
 from app.scanning.settings import Options
 from app.screens.helping import help_groups
-from tests.app.test_inputs import Settings
+from tests.app.pushing import Settings
 
 
 def test_the_keys_that_are_switches_are_told_with_the_stop_that_they_hold() -> None:
