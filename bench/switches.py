@@ -4,7 +4,8 @@ The user wants actions as they were drawn from a log with the distribution in `A
 of users yet, so that the list has about the 10.6 presses that were reckoned for such a page) and
 works the very engine of the app: contacts, tree and mark. A press takes 0.35 s; one in twenty goes wrong (a step too many, or a press
 that does not reach the contact), is noticed, and is made good by going round or by a hold back. STOP is one of the actions and is
-both switches together, as everywhere. Runs of the same repeatable action come as such steps do. The other way is one list in the
+both switches together, as everywhere. What B does is done when it is let go and cannot bounce any more: so much longer, 0.23 s, the user
+looks before the next press. Runs of the same repeatable action come as such steps do. The other way is one list in the
 order of the alphabet, the mark back at the first after each action, with the same user and the same errors. Wrong is an action that was not wanted.
 """
 
@@ -18,6 +19,7 @@ from typing import Literal, NamedTuple
 from app.scanning import Mark, Target
 from app.scanning.engine import Engine, Selection
 from app.scanning.plan import Planner
+from app.scanning.presses import Timing
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
 
@@ -59,6 +61,8 @@ PRESS, BETWEEN = 0.15, 0.20
 """A switch is down, and up again until the next press [s]; together 0.35 s."""
 BOTH = 0.35
 """STOP by both switches [s]."""
+SEEN_LATER = PRESS + Timing().debounce
+"""What comes of B is seen so much later than what comes of A [s]; the list, which acts at the press, has none of that."""
 NOTICES = 0.35
 """After an error until the user goes on [s]."""
 ERRORS = 0.05
@@ -153,6 +157,7 @@ class User:
         here = mark is not None and name in {target.name for target in mark.targets}
         if here:
             self._press("B")
+            self._wait(SEEN_LATER)
         elif self.engine.scan.depth and not self._within(name):
             self._press("A", self.engine.contacts.timing.hold_back + 0.05)
         else:
@@ -178,7 +183,7 @@ class User:
     def _down_up(self, switch: Literal["A", "B"], held: float) -> None:
         self.engine.press(switch, switch, self.now)
         self._wait(held)
-        self.engine.release(switch, switch, self.now)
+        self.engine.release(switch, self.now)
         self._wait(BETWEEN)
 
     def _both(self) -> None:
@@ -186,8 +191,8 @@ class User:
         self.engine.press("A", "A", self.now)
         self.engine.press("B", "B", self.now)
         self._wait(BOTH)
-        self.engine.release("A", "A", self.now)
-        self.engine.release("B", "B", self.now)
+        self.engine.release("A", self.now)
+        self.engine.release("B", self.now)
         self._wait(BETWEEN)
 
     def _wait(self, seconds: float) -> None:

@@ -68,8 +68,6 @@ class PadKey:
     """What it does, where its text is short; the text when empty."""
     repeats: bool = False
     """Is pressed several times in a row."""
-    moves: bool = False
-    """Sets something in motion."""
     on: bool = False
     """What it switches is on."""
     able: bool = True
@@ -84,7 +82,6 @@ class PadButton(QuietButton):
     scan_words = StringProperty("")
     """What it does, in words."""
     repeats = BooleanProperty(False)
-    moves = BooleanProperty(False)
     on = BooleanProperty(False)
     """What it switches is on."""
 
@@ -143,7 +140,7 @@ class ScanPad(Outlined, BoxLayout):
     def _label(self, button: PadButton, key: PadKey, high: float) -> None:
         button.text, button.icon, button.on = key.text, key.icon, key.on
         button.scan_words = key.words or key.text
-        button.repeats, button.moves, button.disabled = key.repeats, key.moves, not key.able
+        button.repeats, button.disabled = key.repeats, not key.able
         button.flow = "vertical" if key.icon and key.text else "horizontal"
         button.height, button.size_hint_x = high, key.wide
 
@@ -157,13 +154,13 @@ class ScanPad(Outlined, BoxLayout):
 
 STICK = [
     [
-        PadKey("left", "Left", "arrow_back", repeats=True, moves=True),
-        PadKey("ahead", "Ahead", "arrow_upward", repeats=True, moves=True),
-        PadKey("right", "Right", "arrow_forward", repeats=True, moves=True),
+        PadKey("left", "Left", "arrow_back", repeats=True),
+        PadKey("ahead", "Ahead", "arrow_upward", repeats=True),
+        PadKey("right", "Right", "arrow_forward", repeats=True),
     ],
     [
         PadKey("half", "Slow", "speed", on=True),
-        PadKey("back", "Back", "arrow_downward", repeats=True, moves=True),
+        PadKey("back", "Back", "arrow_downward", repeats=True),
         PadKey("done", "Done", "check"),
     ],
 ]

@@ -8,7 +8,8 @@ last, knows no widget, and asks the `Glass` what there is; the *glass* (`targets
 the mark, and knows nothing of switches. Everything in the UI thread.
 
 STOP is never a target: B held, or A and B together, is STOP on every screen whatever is marked. So nothing may need B to be
-held: what drives is a target that drives for a moment, is pressed again to go on, and rests as soon as the mark moves.
+held: what drives is a target that drives for a moment, is pressed again to go on, and rests as soon as the mark moves. And
+nothing may be done at the press of B, which may become STOP: whatever it does is done when it is let go.
 """
 
 from __future__ import annotations
@@ -37,8 +38,6 @@ class Target:
     """Containers that it is in, outermost first, in words: `("Top bar",)`. Neighbours of one container stay together."""
     fixed: bool = False
     """Its innermost group stays as it is given, in its order and however large, as a row of a keyboard."""
-    on_release: bool = False
-    """Done when B is let go, before it would be STOP; for whatever sets something in motion. Else it is done at the press."""
     weight: float = 1.0
     """How much more likely than its neighbours it is before anything has been learned; above 0."""
     intent: str = ""

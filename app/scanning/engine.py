@@ -36,7 +36,7 @@ class Selection:
     began: float
     """When the press that does it began [s]."""
     ended: float
-    """When it ended; NaN for what is done at the press."""
+    """When it ended [s]."""
     presses: int
     """Since the one before was chosen, or since the switches were woken; holds count once."""
     since: float
@@ -82,10 +82,12 @@ class Engine:
         """When the glass was asked last."""
         self._meant: tuple[str, str, float] = ("", "", -math.inf)
         """Name and words of the target that is marked, and since when it has them after having had others."""
-        self._armed: Target | None = None
-        """Marked when B came down, and done when B comes up."""
-        self._woke = False
-        """The press that is down only woke the scan."""
+        self._armed = False
+        """B is down and may still come to something: when it comes up."""
+        self._stood: Mark | None = None
+        """What stood out when B came down."""
+        self._done_by_a: Literal["", "woke", "stepped", "held"] = ""
+        """What came of the press of A that is down."""
         self._only_stop: set[str] = set()
         """Switches whose last press is somebody else's, but for STOP."""
         self._presses, self._since = 0, math.nan
@@ -109,11 +111,11 @@ class Engine:
         (self._only_stop.add if only_stop else self._only_stop.discard)(means)
         self.contacts.down(means, source, now)
 
-    def release(self, switch: Literal["A", "B"], source: Hashable, now: float) -> None:
-        """It came up."""
+    def release(self, source: Hashable, now: float) -> None:
+        """It came up, whichever it was when it came down."""
         self._now = now
-        for each in (switch, "B"):
-            self.contacts.up(each, source, now)
+        self.contacts.up("A", source, now)
+        self.contacts.up("B", source, now)
 
     def look(self, now: float) -> None:
         """With each heartbeat."""
@@ -123,7 +125,7 @@ class Engine:
             return
         if now - self._seen >= LOOKS:
             self._refresh()
-        if self.scan.look(now, wait=self.contacts.is_down("B")):
+        if self.scan.look(now, wait=self.contacts.is_closed("B")):
             self._step("step" if self.awake else "none")
 
     def wake(self, now: float) -> None:
@@ -136,13 +138,13 @@ class Engine:
     def sleep(self) -> None:
         """Nothing is marked any more; the next press wakes it."""
         self.scan.sleep()
-        self._armed, self._presses, self._since = None, 0, math.nan
+        self._armed, self._presses, self._since = False, 0, math.nan
         self._show()
 
     def lost(self) -> None:
         """Nobody will tell when the switches come up: nothing comes of what is down."""
         self.contacts.lost()
-        self._armed = None
+        self._armed, self._done_by_a = False, ""
 
     def found(self, now: float) -> None:
         """It will be told again; what was down all the while is no new press."""
@@ -151,25 +153,31 @@ class Engine:
     # what the contacts tell
 
     def _hear(self, event: Event) -> None:
+        armed = self._armed
+        if event.switch == "B" or event.what == "stop":
+            self._armed = False
         if event.what == "stop":
-            self._armed = None
             self._desk.stop(event.began)
+            self._take_back()
         elif event.what in ("stuck", "free"):
-            self._armed = None
+            self._done_by_a = ""
             self._desk.stuck(event.switch, event.what == "stuck")
         elif event.switch in self._only_stop:
-            self._armed = None
+            return
         elif event.what == "unsure":
-            self._armed = None
             self._desk.stepped("none", self._shown)
-        elif self.first(event):
-            self._armed = None
-        elif event.what == "down":
+        elif not self.first(event):
+            self._take(event, armed=armed)
+
+    def _take(self, event: Event, *, armed: bool) -> None:
+        if event.what == "down":
             self._count(event)
-            self._pressed_a() if event.switch == "A" else self._pressed_b(event)
+            self._pressed_a() if event.switch == "A" else self._pressed_b()
         elif event.what == "held":
             self._held(event)
-        elif event.switch == "B":
+        elif event.switch == "A":
+            self._done_by_a = ""
+        elif armed:
             self._let_go(event)
 
     def _count(self, event: Event) -> None:
@@ -178,56 +186,50 @@ class Engine:
         self._presses += 1
 
     def _pressed_a(self) -> None:
-        self._woke = not self.awake
+        if not self.awake:
+            self._done_by_a = "woke"
+            self.wake(self._now)
+            return
+        self._done_by_a = "stepped"
         self._refresh()
         self.scan.next(self._now)
-        self._begin_if_woken()
         self._step("step")
 
-    def _pressed_b(self, event: Event) -> None:
-        self._woke = not self.awake
-        if self._woke:
-            self.scan.wake(self._now)
-            self._begin_if_woken()
-            self._step("step")
-            return
-        target = self._marked()
-        if target is not None and target.on_release:
-            self._armed = target
-        else:
-            self._select(event.began, math.nan)
-
-    def _begin_if_woken(self) -> None:
-        if self._woke:
-            self._seen = -math.inf
-            self._refresh()
+    def _pressed_b(self) -> None:
+        self._armed, self._stood = True, self._shown
 
     def _let_go(self, event: Event) -> None:
-        armed, self._armed = self._armed, None
-        target = self._marked()
-        if armed is not None and target is not None and target.name == armed.name:
+        if self.awake:
             self._select(event.began, event.at)
+        else:
+            self.wake(self._now)
 
     def _held(self, event: Event) -> None:
-        if self._woke:
+        if self._done_by_a in ("", "woke"):
             return
-        if event.at - event.began < 2 * self.contacts.timing.hold_back:  # the first of this press
+        if self._done_by_a == "stepped":
             self.scan.undo(self._now)
+        self._done_by_a = "held"
         self.scan.back(self._now)
         self._step("back")
 
-    # what is done
+    def _take_back(self) -> None:
+        """The press of A that has become STOP was meant for no step."""
+        meant, self._done_by_a = self._done_by_a, ""
+        if meant == "woke":
+            self.sleep()
+        elif meant == "stepped":
+            self.scan.undo(self._now)
+            self._show()
 
-    def _marked(self) -> Target | None:
-        mark = self._shown
-        return mark.targets[0] if mark is not None and mark.kind == "item" else None
+    # what is done
 
     def _select(self, began: float, ended: float) -> None:
         """What stood out when B came down, if it is still there and means the same."""
-        before = self._shown
+        before = self._stood
         self._refresh()
         after = self._shown
-        if before is None or after is None or not _same(before, after) or self._settling():
+        if before is None or after is None or not _same(before, after) or began - self._meant[2] < SETTLES:
             self._desk.stepped("none", after)
             return
         target = self.scan.select(self._now)
@@ -239,9 +241,6 @@ class Engine:
         self._desk.do(chosen)
         self._seen = -math.inf  # what was done may have changed everything
         self._step("act")
-
-    def _settling(self) -> bool:
-        return self._now - self._meant[2] < SETTLES
 
     def _refresh(self) -> None:
         """Ask the glass what there is now."""

@@ -155,7 +155,7 @@ class Openings:
             return [[up, down, DONE]], lambda name: _carry(widget, 1 if name == "up" else -1)
         yes = {"slide": ("Slide to " + str(getattr(widget, "text", "")), "chevron_right")}.get(kind)
         text, icon = yes or (_held_words(widget), "lock_open")
-        sure = PadKey("sure", text, icon, moves=True)
+        sure = PadKey("sure", text, icon)
         return [[PadKey("done", "Not now", "close"), sure]], lambda _: self._sure(kind, widget)
 
     def _stick_rows(self, stick: Any) -> list[list[PadKey]]:
@@ -163,7 +163,7 @@ class Openings:
         slow = PadKey("slow", "Slow", "speed", "Full push" if self._slow else "Slow push", on=self._slow)
 
         def push(name: str, icon: str) -> PadKey:
-            return PadKey(name, name.capitalize(), icon, repeats=True, moves=True)
+            return PadKey(name, name.capitalize(), icon, repeats=True)
 
         ahead, back = push("ahead", "arrow_upward"), push("back", "arrow_downward")
         if not aside:

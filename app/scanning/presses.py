@@ -27,6 +27,9 @@ REPEATS = 1.0
 BEYOND = 0.3
 """STOP and going back need a hold that is at least so much longer than what is accepted as a press at all [s]."""
 
+ENDS_FIRST: tuple[Switch, ...] = ("B", "A")
+"""Of two that opened at once B is over first, which was down first: else both together had been STOP."""
+
 
 @dataclass(frozen=True, slots=True)
 class Timing:
@@ -108,10 +111,9 @@ class Contacts:
         """Sources that were down when the focus went."""
         self._repeats_until = -math.inf
 
-    def is_down(self, switch: Switch) -> bool:
-        """It is pressed now, and not stuck."""
-        contact = self._contacts[switch]
-        return contact.closed and bool(contact.sources)
+    def is_closed(self, switch: Switch) -> bool:
+        """A press of it goes on, or ended so shortly ago that it may be bouncing, and it is not stuck."""
+        return self._contacts[switch].closed
 
     def down(self, switch: Switch, source: Hashable, now: float) -> None:
         """A key or button of that switch closed; nothing where it was told so before."""
@@ -120,12 +122,16 @@ class Contacts:
         if source in contact.sources:
             return
         contact.sources.add(source)
+        bounced = not math.isinf(contact.opened)
         contact.opened = contact.ended = math.inf
+        other = self._contacts["A" if switch == "B" else "B"]
+        both = other.closed and bool(other.sources)
         if contact.standing != "up":
+            if both and bounced and contact.closed and contact.told >= 0 and other.told >= 0:
+                self._stop(switch, now)
             return
         contact.began, contact.told = now, 0
-        other = self._contacts["A" if switch == "B" else "B"]
-        if other.closed and other.sources:
+        if both:
             self._stop(switch, now)
         elif now - contact.taken < self.timing.ignore_repeat or self._is_held_over(source, now):
             contact.standing = "void"
@@ -175,14 +181,15 @@ class Contacts:
         return source in self._held_over
 
     def _judge(self, now: float) -> None:
-        for switch in self._contacts:
+        for switch in sorted(ENDS_FIRST, key=lambda one: self._contacts[one].opened):
             self._look(switch, self._contacts[switch], now)
 
     def _look(self, switch: Switch, contact: _Contact, now: float) -> None:
         if contact.standing == "up":
             return
         until = max(min(self._sure(now), contact.ended), contact.began)
-        if contact.standing == "waits" and until - contact.began >= self.timing.acceptance:
+        counts = until - contact.began >= self.timing.acceptance
+        if contact.standing == "waits" and counts and not (switch == "A" and self._b_may_be_over()):
             contact.standing, contact.taken = "down", contact.began
             self._tell("down", switch, contact.began)
         if contact.standing in ("down", "waits", "void") and contact.told >= 0:
@@ -192,6 +199,11 @@ class Contacts:
             self._tell("stuck", switch, until)
         if now - contact.opened >= self.timing.debounce:
             self._end(switch, contact)
+
+    def _b_may_be_over(self) -> bool:
+        """What B does is done before what A does next, and is known a moment after B has opened."""
+        b = self._contacts["B"]
+        return b.standing == "down" and not b.sources
 
     def _held(self, switch: Switch, contact: _Contact, until: float) -> None:
         if switch == "B":

@@ -67,7 +67,7 @@ class Switches:
         """What is marked is being done: touches made for that are no fingers."""
         self._typed = -math.inf
         """When somebody typed or touched the glass last [s]."""
-        self._typed_with: dict[tuple[str, int, str], Press] = {}
+        self._typed_with: set[tuple[str, int, str]] = set()
         """Switches that are down and type: only STOP comes of them."""
         self._asked: Callable[[Key], object] | None = None
         """Takes the next key or button, instead of the scan."""
@@ -205,8 +205,7 @@ class Switches:
     def pressed(self, press: Press) -> bool:
         """Take it, where it is a switch and nobody types with the keyboard that it is on."""
         if self._asked is not None:
-            take, self._asked = self._asked, None
-            take(Key(press.source, press.name, press.device if press.source == "pad" else ""))
+            self._give(press)
             return True
         which = self._which(press)
         if which is None:
@@ -218,25 +217,32 @@ class Switches:
         self._lift(press.at)
         types = press.source == "key" and not self.awake and press.at - self._typed < TYPES and typing()
         if types:
-            self._typed_with[press.same] = press
+            self._typed_with.add(press.same)
         self.engine.press(which, press.same, press.at, only_stop=types)
         return not types
 
     def released(self, press: Press) -> None:
         """It is up."""
-        which = self._which(press)
-        if which is not None and self._engine is not None:
-            self._engine.release(which, press.same, self._app.now())
+        if self._engine is not None:
+            self._engine.release(press.same, self._app.now())
+
+    def _give(self, press: Press) -> None:
+        """To whoever asked for a key; one that is a switch is STOP all the same when it is held."""
+        which, take, self._asked = self._which(press), self._asked, None
+        if which is not None:
+            self.engine.press(which, press.same, press.at, only_stop=True)
+        if take is not None:
+            take(Key(press.source, press.name, press.device if press.source == "pad" else ""))
 
     def _lift(self, now: float) -> None:
         """Switches that typed and are up: who takes no press is not told of its end."""
         if not self._typed_with:
             return
         down = {press.same for press in self._app.inputs.presses.down}
-        for same, press in list(self._typed_with.items()):
+        for same in list(self._typed_with):
             if same not in down:
-                del self._typed_with[same]
-                self.engine.release(self._which(press) or "B", same, now)
+                self._typed_with.discard(same)
+                self.engine.release(same, now)
 
     def _types(self) -> None:
         """Somebody types, or has a finger on the glass: nothing is marked."""

@@ -19,7 +19,6 @@ from app.scanning.ring import Ring
 from app.screens.dialogs import Question
 from bridge.beacon import broadcast_addresses
 from bridge.msgs.pilothouse_msgs import PlaceArray
-from widgets.buttons import PrimaryButton
 from widgets.cards import ActionToast
 from widgets.scan_pad import PadButton, ScanPad
 
@@ -27,8 +26,6 @@ __all__ = ["OnGlass"]
 
 OPENS = ("field", "map", "area", "stick", "fader", "handle", "slide")
 """Kinds that take more than a press."""
-MOVING = ("start", "patrol", "resume", "go_home", "take_off", "land", "surface", "faster", "take_control")
-"""Intents that set something in motion."""
 BARE = ("step", "handle", "fader")
 """Kinds that say nothing of themselves, but beside them something may be said."""
 URGENT = 8.0
@@ -144,7 +141,6 @@ class OnGlass:
             repeatable=kind == "step" or (pad and widget.repeats),
             group=_pad_group(widget) if pad else one.group,
             fixed=pad,
-            on_release=(pad and widget.moves) or intent in MOVING or isinstance(widget, PrimaryButton),
             weight=URGENT if one.group[:1] in (("Asked",), ("Question",)) else 1.0,
             intent=intent,
             key=widget,

@@ -91,11 +91,14 @@ def help_groups(mapped: Mapped, pads: list[str], switches: Options | None = None
 
 
 def _switches(options: Options) -> Rows:
-    following, doing = [key.words for key in options.a[:1]], [key.words for key in options.b[:1]]
+    following = [key.words for key in options.a[:1]] if not options.one else []
+    doing, timing = [key.words for key in options.b[:1]], options.timing
     rows = [
-        (following if not options.one else [], "Next on the glass"),
-        (doing, "Do it"),
-        (doing, f"STOP, held {options.timing.stop:.1f} s"),
+        (following, "Next on the glass"),
+        (doing, "Do it, when let go"),
+        (following, f"Back, held {timing.hold_back:.1f} s"),
+        (doing, f"STOP, held {timing.hold_stop:.1f} s"),
+        (following + doing if following and doing else [], "STOP, both together"),
     ]
     return [(caps, words) for caps, words in rows if caps]
 

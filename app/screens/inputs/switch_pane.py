@@ -42,8 +42,8 @@ FELT: dict[str, tuple[str, str, str]] = {
     "spoken": ("text_fields", "The mark is spoken", "By the voice chosen in Voice."),
 }
 KEYS = {
-    "a": ("skip_next", "Next", "Held 0.6 s: back, or out of the group."),
-    "b": ("check_circle_fill", "Do it", "Held 0.8 s, or both together: STOP."),
+    "a": ("skip_next", "Next"),
+    "b": ("check_circle_fill", "Do it"),
 }
 ASKED = "Press the key, the switch or the button now."
 STOPS = "Escape and the button B of a gamepad stay STOP, and cannot be switches."
@@ -109,7 +109,7 @@ class SwitchPane(BoxLayout):
         self._parts.append((widget, one))
 
     def _key_row(self, name: str) -> ListRow:
-        icon, title, _ = KEYS[name]
+        icon, title = KEYS[name]
         row = self.rows[name] = ListRow(icon=icon, title=title, whole=True)
         row.bind(on_release=lambda _: self._ask(name))
         less = IconButton(icon="delete", bare=True, role="muted", pos_hint={"center_y": 0.5})
@@ -252,9 +252,8 @@ class SwitchPane(BoxLayout):
         listed = ", ".join(key.words for key in keys) or "No key yet"
         asked = self._asked == name
         row.chosen, row.role = asked, "accent" if keys else "warn"
-        row.detail = f"{ASKED} {STOPS}" if asked else self._refused or f"{listed}. {KEYS[name][2]}"
-        if options.one and name == "b" and not asked:
-            row.detail = f"{listed}. Held 0.8 s: STOP."
+        said = self._refused or f"{listed}. {_held(name, options)}"
+        row.detail = f"{ASKED} {STOPS}" if asked else said
 
     def _write_begin(self) -> None:
         phase = self.test.phase
@@ -272,7 +271,16 @@ class SwitchPane(BoxLayout):
     @staticmethod
     def _explained(options: Options) -> str:
         if options.one:
-            return "The mark moves by itself; the switch does what is marked. Held 0.8 s it is STOP."
+            return f"The mark moves by itself; the switch does what is marked. {_held('b', options)}"
         return (
-            "The first switch moves the mark, the second does what is marked. The first press only wakes it."
+            "The first switch moves the mark, the second does what is marked when it is let go. "
+            "The first press only wakes it."
         )
+
+
+def _held(name: str, options: Options) -> str:
+    """What comes of holding the switch `a` or `b`."""
+    if name == "a":
+        return f"Held {options.timing.hold_back:.1f} s: back, or out of the group."
+    both = "" if options.one else ", or both together"
+    return f"Held {options.timing.hold_stop:.1f} s{both}: STOP."

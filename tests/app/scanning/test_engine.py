@@ -27,12 +27,8 @@ class Glass:
         self.asked = 0
         self.there = [self.target(name) for name in names]
 
-    def target(
-        self, name: str, words: str = "", *, on_release: bool = False, repeatable: bool = False
-    ) -> Target:
-        return Target(
-            name, words or name, lambda: self.done.append(name), on_release=on_release, repeatable=repeatable
-        )
+    def target(self, name: str, words: str = "", *, repeatable: bool = False) -> Target:
+        return Target(name, words or name, lambda: self.done.append(name), repeatable=repeatable)
 
     def targets(self) -> Sequence[Target]:
         self.asked += 1
@@ -76,7 +72,7 @@ class Bench:
         self.engine.press(switch, switch, self.now)
 
     def up(self, switch: Literal["A", "B"]) -> None:
-        self.engine.release(switch, switch, self.now)
+        self.engine.release(switch, self.now)
 
     def press(self, switch: Literal["A", "B"], seconds: float = 0.12) -> None:
         self.down(switch)
@@ -97,54 +93,102 @@ def test_the_first_press_of_either_only_shows_where_it_begins() -> None:
         assert (bench.marked, bench.glass.done) == ("a", [])
 
 
-def test_a_steps_and_b_does_it_at_the_press() -> None:
+def test_a_steps_at_the_press_and_b_does_it_when_it_is_let_go() -> None:
     bench = Bench("a", "b", "c")
     bench.press("A")
-    bench.press("A")
-    bench.down("B")
-    assert bench.glass.done == ["b"]
-    assert bench.marked == "a"
-    assert bench.heard == ["step", "step", "act"]
-
-
-def test_what_sets_something_in_motion_is_done_when_b_is_let_go() -> None:
-    bench = Bench()
-    bench.glass.there = [bench.glass.target("start", on_release=True)]
-    bench.press("A")
+    bench.down("A")
+    assert bench.marked == "b"
+    bench.up("A")
+    bench.wait(0.3)
     bench.down("B")
     bench.wait(0.5)
-    assert bench.glass.done == []
+    assert (bench.glass.done, bench.marked) == ([], "b")
     bench.up("B")
     bench.wait(0.15)
-    assert bench.glass.done == ["start"]
+    assert (bench.glass.done, bench.marked) == (["b"], "a")
+    assert bench.heard == ["step", "step", "act"]
     (chosen,) = bench.chosen
     assert chosen.ended - chosen.began == pytest.approx(0.5, abs=TICK)
 
 
-def test_a_hold_of_b_is_stop_and_does_nothing_else() -> None:
-    bench = Bench()
-    bench.glass.there = [bench.glass.target("start", on_release=True)]
-    bench.press("A")
-    bench.press("B", 1.2)
-    assert len(bench.stops) == 1
-    assert bench.glass.done == []
+@pytest.mark.parametrize("one", [False, True], ids=["two switches", "one switch"])
+@pytest.mark.parametrize("marked", ["nothing", "item", "repeatable", "group", "back"])
+@pytest.mark.parametrize("acceptance", [0.0, 0.4])
+def test_a_hold_of_b_is_stop_and_does_nothing_else(acceptance: float, marked: str, one: bool) -> None:
+    bench = Bench(
+        *(f"t{number}" for number in range(16 if marked in ("group", "back") else 2)),
+        pace=Pace(by_itself=one, interval=1.0, first=0.0, loops=9),
+        timing=Timing(acceptance=acceptance),
+    )
+    bench.glass.there[0] = bench.glass.target("t0", repeatable=marked == "repeatable")
+    if marked != "nothing":
+        bench.engine.wake(bench.now)
+    if marked == "back":
+        bench.press("B", acceptance + 0.1)
+        while one and bench.glass.marked is not None and bench.glass.marked.kind != "back":
+            bench.wait(0.3)
+    before, depth = bench.glass.marked, bench.engine.scan.depth
+    bench.press("B", max(0.85, acceptance + 0.35))
+    assert (len(bench.stops), bench.glass.done) == (1, [])
+    assert (bench.marked, bench.engine.scan.depth) == (
+        "" if before is None else "+".join(target.name for target in before.targets),
+        depth,
+    )
 
 
 @pytest.mark.parametrize("awake", [True, False])
-def test_both_together_are_stop_whatever_is_marked(awake: bool) -> None:
-    bench = Bench()
-    bench.glass.there = [bench.glass.target("start", on_release=True), bench.glass.target("other")]
+@pytest.mark.parametrize(("first", "second"), [("A", "B"), ("B", "A")])
+@pytest.mark.parametrize("apart", [0.0, 0.03, 0.3])
+def test_both_together_are_stop_and_leave_the_mark_where_it_was(
+    apart: float, first: Literal["A", "B"], second: Literal["A", "B"], awake: bool
+) -> None:
+    bench = Bench("start", "other")
     if awake:
         bench.press("A")
-    bench.down("B")
-    bench.wait(0.03)
-    bench.down("A")
+    before = bench.marked
+    bench.down(first)
+    bench.wait(apart)
+    bench.down(second)
     assert len(bench.stops) == 1
     bench.wait(0.3)
     bench.up("A")
     bench.up("B")
     bench.wait(0.3)
-    assert bench.glass.done == []
+    assert (bench.glass.done, bench.marked, len(bench.stops)) == ([], before, 1)
+
+
+def test_a_step_follows_what_b_did_however_fast_the_other_hand_is() -> None:
+    bench = Bench("a", "b", "c")
+    bench.press("A")
+    bench.press("A")
+    bench.down("B")
+    bench.wait(0.12)
+    bench.up("B")
+    bench.wait(0.03)
+    bench.press("A")
+    assert (bench.glass.done, bench.marked) == (["b"], "b")
+
+
+def test_b_does_it_though_a_was_let_go_only_just_before() -> None:
+    bench = Bench("a", "b", "c")
+    bench.press("A")
+    bench.down("A")
+    bench.wait(0.06)
+    bench.up("A")
+    bench.wait(0.03)
+    bench.press("B")
+    assert bench.glass.done == ["b"]
+
+
+def test_what_is_there_instead_when_b_is_let_go_is_not_done() -> None:
+    bench = Bench("a", "b")
+    bench.press("A")
+    bench.down("B")
+    bench.glass.there[0] = bench.glass.target("a", "Something else")
+    bench.wait(0.7)
+    bench.up("B")
+    bench.wait(0.2)
+    assert (bench.glass.done, bench.heard[-1]) == ([], "none")
 
 
 def test_stop_needs_nothing_on_the_glass() -> None:
@@ -180,9 +224,8 @@ def test_what_has_just_begun_to_mean_something_else_takes_no_press() -> None:
     bench = Bench("pause", "other")
     bench.press("A")
     bench.glass.there[0] = bench.glass.target("pause", "Resume")
-    bench.down("B")
+    bench.press("B")
     assert (bench.glass.done, bench.heard[-1]) == ([], "none")
-    bench.up("B")
     bench.wait(0.6)
     bench.press("B")
     assert bench.glass.done == ["pause"]
@@ -192,7 +235,7 @@ def test_what_went_from_the_glass_is_not_done_and_nor_is_what_is_there_instead()
     bench = Bench("a", "b")
     bench.press("A")
     bench.glass.there = [bench.glass.target("danger")]
-    bench.down("B")
+    bench.press("B")
     assert bench.glass.done == []
     assert bench.marked == "danger"
 
@@ -210,7 +253,7 @@ def test_with_one_switch_every_key_is_the_one_that_does() -> None:
     bench = Bench("a", "b", pace=Pace(by_itself=True, interval=1.0, first=0.0))
     bench.press("A")
     assert bench.marked == "a"
-    bench.wait(0.7)
+    bench.wait(0.85)
     assert bench.marked == "b"
     bench.press("A")
     assert bench.glass.done == ["b"]
@@ -218,11 +261,22 @@ def test_with_one_switch_every_key_is_the_one_that_does() -> None:
 
 def test_the_mark_does_not_move_by_itself_under_a_switch_that_is_down() -> None:
     bench = Bench(pace=Pace(by_itself=True, interval=0.5, first=0.0))
-    bench.glass.there = [bench.glass.target("start", on_release=True), bench.glass.target("other")]
+    bench.glass.there = [bench.glass.target("start"), bench.glass.target("other")]
     bench.press("B")
     bench.wait(0.1)
     bench.down("B")
     bench.wait(0.7)
+    bench.up("B")
+    bench.wait(0.15)
+    assert bench.glass.done == ["start"]
+
+
+def test_nor_does_it_between_the_end_of_a_press_and_what_comes_of_it() -> None:
+    bench = Bench("start", "other", pace=Pace(by_itself=True, interval=0.5, first=0.0))
+    bench.engine.wake(bench.now)
+    bench.now += 0.49  # a press just before the step, shorter than a frame
+    bench.down("B")
+    bench.now += 0.02
     bench.up("B")
     bench.wait(0.15)
     assert bench.glass.done == ["start"]

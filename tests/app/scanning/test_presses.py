@@ -149,12 +149,56 @@ def test_one_after_the_other_is_no_stop() -> None:
     assert "stop B" not in box.told
 
 
+def test_a_contact_that_opens_for_a_moment_while_the_other_closes_is_both_together_all_the_same() -> None:
+    for bounces, other in (("A", "B"), ("B", "A")):
+        box = Box()
+        box.down(bounces)
+        box.wait(0.03)
+        box.up(bounces)
+        box.wait(0.02)
+        box.down(other)
+        box.wait(0.02)
+        box.down(bounces)
+        assert box.told[-1] == f"stop {bounces}"
+        assert "up B" not in box.told
+        told = len(box.told)
+        box.up(bounces)
+        box.down(bounces)
+        box.wait(0.3)
+        assert len(box.told) == told, "once for both"
+
+
+def test_a_waits_for_the_end_of_a_press_of_b_that_may_still_bounce() -> None:
+    box = Box()
+    box.down("B")
+    box.wait(0.1)
+    box.up("B")
+    box.wait(0.02)
+    box.press("A", 0.03)
+    told = [("down", "B", 0.0), ("up", "B", 0.1), ("down", "A", 0.12), ("up", "A", 0.15)]
+    assert box.heard == told
+
+
+def test_and_is_told_after_it_though_one_frame_was_drawn_meanwhile() -> None:
+    box = Box()
+    box.wait(0.1)
+    box.press("B")
+    box.down("B")
+    box.wait(0.12)
+    box.up("B")
+    box.down("A")
+    box.up("A")
+    box.now += 0.2
+    box.contacts.look(box.now)
+    assert box.told[2:] == ["down B", "up B", "down A", "up A"]
+
+
 def test_a_switch_that_sticks_is_told_and_ignored_until_it_comes_up() -> None:
     box = Box()
     box.down("A")
     box.wait(5.2)
     assert box.told[-1] == "stuck A"
-    assert not box.contacts.is_down("A")
+    assert not box.contacts.is_closed("A")
     told = len(box.told)
     box.wait(3.0)
     assert len(box.told) == told

@@ -309,3 +309,20 @@ def test_chosen_things_are_told_with_their_presses(hand: Hand) -> None:
     hand.press("tab")
     hand.press("enter")
     assert [(one.target.name, one.presses) for one in told] == [("lights", 3)]
+
+
+def test_b_held_is_stop_though_a_key_is_asked_for(hand: Hand) -> None:
+    taken: list[Key] = []
+    hand.switches.ask(taken.append)
+    hand.press("enter", 0.9)
+    assert taken == [Key("key", "enter")]
+    assert [heard.intent for heard, _ in hand.told] == ["stop"]
+
+
+def test_a_key_that_becomes_the_other_switch_while_it_is_down_comes_up_as_the_one_that_it_was(
+    hand: Hand,
+) -> None:
+    hand.switches.ask(lambda key: hand.switches.change(a=(), b=(key,)))
+    hand.press("tab")
+    hand.wait(6.0)
+    assert hand.said == []
