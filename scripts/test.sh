@@ -6,6 +6,8 @@ cd "$(dirname "$0")/.."
 python=${PYTHON:-.venv/bin/python}
 reports=$(mktemp -d)
 trap 'rm -rf "$reports"' EXIT
+# else each process compiles all that it imports anew, and tests start many
+unset PYTHONDONTWRITEBYTECODE
 status=0
 
 ring() {
