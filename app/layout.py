@@ -78,7 +78,7 @@ ACTIONS = (
     *("pause", "lights", "record", "snapshot", "camera", "reset"),
 )
 """What a button or a slide may do: the keys of `app.actions.ACTIONS`, which is known only once Kivy is set up."""
-_TEXTS = {"slot", "widget", "topic", "field", "title", "unit"}
+_TEXTS = {"slot", "widget", "topic", "field", "title", "unit", "plus", "minus"}
 _NUMBERS = {"factor", "digits"}
 _CONTROL_TEXTS = {"slot", "widget", "topic", "title", "forward", "left", "pad", "action", "icon"}
 _PADS = ("left", "right")
@@ -94,13 +94,17 @@ class Instrument:
     """Name in the widget catalogue."""
     topic: str
     field: str = ""
-    """Path of the number that a Readout shows, as in `twist.twist.linear.x`; empty for other widgets."""
+    """Path of the number that a Readout shows, as in `twist.twist.linear.x`, or `linear.xy` for how fast over ground whichever way;
+    empty for other widgets."""
     title: str = ""
     unit: str = ""
     factor: float = 1.0
     """What the number is multiplied by to be in `unit`."""
     digits: int = 1
     """Figures behind the point."""
+    plus: str = ""
+    """What a Readout says of a number above 0 and, in `minus`, below 0, in the place of a sign; both or neither."""
+    minus: str = ""
     also: tuple[str, ...] = ()
     """Further topics that it shows with the first."""
 

@@ -96,9 +96,11 @@ def check_field(where: str, kind: type[Msg], path: str) -> None:
 
 
 def _member(kind: Any, name: str) -> Any:
-    """The type of a field of a message type; None when there is none."""
+    """The type of a field of a message type; None when there is none. Letters of a vector, as in `xy`, are its length that way."""
     if not (isinstance(kind, type) and issubclass(kind, msgspec.Struct)):
         return None
+    if len(name) > 1 and set(name) <= set("xyz"):
+        return float if all(_member(kind, letter) is float for letter in name) else None
     return typing.get_type_hints(kind).get(name)
 
 

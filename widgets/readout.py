@@ -52,7 +52,9 @@ Builder.load_string("""
             role: root.role
             font_size: root.font_size
             unit_size: max(sp(13), root.font_size * .56)
+            room: 0 if root.fitted else max(root.width - aged.width - warning.width - 2 * row.spacing, dp(20))
         Label:
+            id: aged
             text: root.aged
             font_name: theme.font
             font_size: sp(12)
@@ -62,6 +64,7 @@ Builder.load_string("""
             size: (self.texture_size if root.aged else (0, 0))
             pos_hint: {'center_y': .5}
         Icon:
+            id: warning
             name: 'warning'
             role: 'danger'
             font_size: root.font_size * .8
@@ -102,12 +105,17 @@ class Readout(RobotWidget, BoxLayout):
     decimals = NumericProperty(1)
     signed = BooleanProperty(False)
     """A plus before what is above 0."""
+    plus = StringProperty("")
+    """Said behind a value above 0 in the place of the unit, as in `28° port`; empty for a sign."""
+    minus = StringProperty("")
+    """The same of one below 0, which has no sign then."""
     kind = OptionProperty("number", options=["number", "clock"])
     """`clock` shows a `value` [s] as minutes and seconds."""
     words = StringProperty("")
     """Shown instead of `value` when not empty."""
     path = StringProperty("")
-    """Field of the message, as in `twist.twist.linear.x`; a number picks from a list."""
+    """Field of the message, as in `twist.twist.linear.x`; a number picks from a list, and several of a vector's letters, as in
+    `twist.twist.linear.xy`, are how long it is in those directions."""
     scale = NumericProperty(1.0)
     """What the field is multiplied by, as in 57.2958 from radian to degree."""
     font_size = NumericProperty("26sp")
@@ -122,19 +130,29 @@ class Readout(RobotWidget, BoxLayout):
             return self.words
         if self.kind == "clock":
             return clock_figure(self.value)
-        text = figure(self.value, int(self.decimals), signed=self.signed)
+        told = abs(self.value) if self.plus and self.minus else self.value
+        text = figure(told, int(self.decimals), signed=self.signed)
         return text + DEGREE if self.unit == DEGREE and text != DASH else text
 
     text = AliasProperty(
-        _text, bind=["state", "value", "words", "kind", "decimals", "signed", "unit"], cache=True
+        _text,
+        bind=["state", "value", "words", "kind", "decimals", "signed", "unit", "plus", "minus"],
+        cache=True,
     )
     """The figure as written."""
 
     def _unit_after(self) -> str:
-        return "" if self.unit == DEGREE else self.unit
+        unit = "" if self.unit == DEGREE else self.unit
+        if not (self.plus and self.minus):
+            return unit
+        told = figure(self.value, int(self.decimals)) if self.state != "never" else DASH
+        some = any(digit in told for digit in "123456789")
+        return f"{unit} {self.plus if self.value > 0 else self.minus}".strip() if some else unit
 
-    unit_after = AliasProperty(_unit_after, bind=["unit"], cache=True)
-    """The unit where it stands apart from the figure; a degree sign belongs to it."""
+    unit_after = AliasProperty(
+        _unit_after, bind=["unit", "plus", "minus", "value", "decimals", "state"], cache=True
+    )
+    """The unit where it stands apart from the figure, and to which side; a degree sign belongs to the figure."""
 
     def _headed(self) -> tuple[str, float]:
         old = age_text(self.age) if self.state == "stale" else ""
@@ -180,8 +198,17 @@ class Readout(RobotWidget, BoxLayout):
         """Take the field at `path`; AttributeError or IndexError when the message has no such field."""
         found: Any = msg
         for part in self.path.split("."):
-            found = found[int(part)] if part.lstrip("-").isdigit() else getattr(found, part)
+            found = _member(found, part)
         self.value = float(found) * self.scale
+
+
+def _member(found: Any, part: str) -> Any:
+    """What is at one step of a path."""
+    if part.lstrip("-").isdigit():
+        return found[int(part)]
+    if len(part) > 1 and set(part) <= set("xyz"):
+        return math.hypot(*(getattr(found, letter) for letter in part))
+    return getattr(found, part)
 
 
 def samples() -> dict[str, Callable[[], Widget]]:
@@ -203,6 +230,9 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "alarm": speed(state="alarm"),
         "disabled": speed(state="disabled"),
         "signed": lambda: Readout(name="Steer", unit="°", value=-12.0, decimals=0, state="live"),
+        "to a side": lambda: Readout(
+            name="Rudder", unit="°", value=-12.0, decimals=0, plus="port", minus="stbd", state="live"
+        ),
         "clock": lambda: Readout(name="ETA", unit="min", value=190.0, kind="clock", state="live"),
         "words": lambda: Readout(name="Lap", words="2", unit="of 5", state="live"),
         "large": lambda: Readout(name="Next WP", value=7.4, unit="m", font_size="40sp", state="live"),

@@ -132,12 +132,12 @@ class RudderThrottle(Stick, Gauge):
 
     @property
     def rudder_words(self) -> str:
-        """What is commanded, as in `12° left`; `amidships` at rest."""
+        """What is commanded, as in `12° port`; `set amidships` at rest, where the rudder itself may still be on its way."""
         turned = self.left * self.max_steering
         if self._told:
             turned = self.angle if math.isfinite(self.angle) else 0.0
         degrees = round(math.degrees(turned))
-        return f"{abs(degrees)}° {'left' if degrees > 0 else 'right'}" if degrees else "amidships"
+        return f"{abs(degrees)}° {'port' if degrees > 0 else 'starboard'}" if degrees else "set amidships"
 
     @property
     def _told(self) -> bool:
@@ -209,8 +209,8 @@ class RudderThrottle(Stick, Gauge):
         colour = colour if self.state != "disabled" else theme.faint
         size = sp(14)
         if self.roomy:
-            yield Word("THROTTLE", left, top - sp(6), sp(11.5), theme.muted, anchor=(0, 0.5))
-            yield Word("RUDDER", right, top - sp(6), sp(11.5), theme.muted, anchor=(1, 0.5))
+            yield Word("THROTTLE SET", left, top - sp(6), sp(11.5), theme.muted, anchor=(0, 0.5))
+            yield Word("RUDDER SET", right, top - sp(6), sp(11.5), theme.muted, anchor=(1, 0.5))
             top, size = top - sp(18), sp(18)
         throttle, rudder, size = self._fitting(right - left - dp(8), size)
         y = top - size * 0.6
@@ -220,7 +220,10 @@ class RudderThrottle(Stick, Gauge):
     def _fitting(self, room: float, size: float) -> tuple[str, str, float]:
         """What is said of throttle and rudder, and how large [px], so that both fit into `room` [px]."""
         throttle, rudder = self.throttle_words, self.rudder_words
-        brief = throttle.replace("ahead", "").replace("astern", "back"), rudder.replace("amidships", "0°")
+        brief = (
+            throttle.replace("ahead", "").replace("astern", "back"),
+            rudder.replace("set amidships", "set 0°").replace("starboard", "stbd"),
+        )
         least = throttle if self._told else figure(self.forward * self.most * 100, 0) + " %", brief[1]
         for words in ((throttle, rudder), brief, least):
             for height in (size, sp(14), sp(12), sp(10.5)):

@@ -68,6 +68,8 @@ class Instruments:
             path=one.field,
             scale=one.factor,
             decimals=one.digits,
+            plus=one.plus,
+            minus=one.minus,
             fitted=False,
             font_size="21sp",
         )

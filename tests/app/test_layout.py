@@ -176,3 +176,9 @@ def test_a_layout_of_ones_own_is_a_file(tmp_path: Path) -> None:
         load(str(own), WIDGETS)
     with pytest.raises(LayoutError, match=r"none.toml cannot be read: .*No such file"):
         load(str(tmp_path / "none.toml"), WIDGETS)
+
+
+@pytest.mark.parametrize("model", ["ardrone", "minnow"])
+def test_what_air_and_water_carry_is_told_its_speed_over_ground_whichever_way_it_goes(model: str) -> None:
+    (speed,) = (line for line in load(model, CATALOGUE).instruments if line.title == "Speed")
+    assert speed.field == "twist.twist.linear.xy"

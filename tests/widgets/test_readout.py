@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import JointState
 from widgets.readout import Readout, clock_figure, figure
@@ -103,3 +103,35 @@ def test_its_figures_do_not_dance(stage):
 def test_the_name_stays_and_the_age_goes_where_there_is_room(width: int, said: str, behind: str) -> None:
     readout = Readout(name="Speed", fitted=False, state="stale", age=34.0, width=width)
     assert (readout.heading, readout.aged) == (said, behind)
+
+
+@pytest.mark.parametrize(
+    ("path", "text"), [("linear.x", "0.03"), ("linear.xy", "2.75"), ("linear.xyz", "3.41")]
+)
+def test_letters_of_a_vector_are_its_length_that_way(path, text):
+    speed = Readout(path=path, decimals=2, state="live")
+    speed.show(Twist(Vector3(0.03, -2.75, 2.02), Vector3()))
+    assert speed.text == text
+
+
+@pytest.mark.parametrize(
+    ("value", "text", "side"),
+    [(28.0, "28°", "port"), (-28.0, "28°", "stbd"), (0.2, "0°", ""), (-0.2, "0°", ""), (math.nan, "—", "")],
+)
+def test_a_value_to_a_side_has_the_word_for_it_and_no_sign(value, text, side):
+    rudder = Readout(unit="°", decimals=0, plus="port", minus="stbd", state="live", value=value)
+    assert (rudder.text, rudder.unit_after) == (text, side)
+
+
+def test_value_and_unit_stay_within_the_room_that_they_are_given(stage):
+    speed = stage.show(
+        Readout(
+            name="Speed", unit="m/s", decimals=2, fitted=False, font_size="21sp", state="live", value=-12.34
+        )
+    )
+    speed.size_hint, speed.width = (None, None), 70
+    stage.frames(4)
+    assert speed.ids.row.width <= 71  # letters are whole pixels wide
+    for speed.state, speed.age in (("stale", 3.2), ("alarm", 0.0)):
+        stage.frames(4)
+        assert speed.ids.row.width <= 71  # letters are whole pixels wide

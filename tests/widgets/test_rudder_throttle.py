@@ -38,20 +38,20 @@ def test_pushed_ahead_it_orders_the_throttle_that_the_slider_allows(stage, helm)
 def test_pushed_to_the_left_it_lays_the_rudder_to_turn_left(stage, helm):
     hold(stage, helm, across=-1)
     assert helm.orders == [(0.0, 0.6)]
-    assert (helm.throttle_words, helm.rudder_words) == ("idle", "34° left")
+    assert (helm.throttle_words, helm.rudder_words) == ("idle", "34° port")
 
 
 def test_both_go_to_their_ends_in_a_corner(stage, helm):
     hold(stage, helm, across=1, up=-1)
     assert helm.orders == [(-0.8, -0.6)]
-    assert (helm.throttle_words, helm.rudder_words) == ("80 % astern", "34° right")
+    assert (helm.throttle_words, helm.rudder_words) == ("80 % astern", "34° starboard")
 
 
 def test_a_thumb_that_goes_ahead_a_little_aside_steers_straight(stage, helm):
     hold(stage, helm, across=0.06, up=0.5)
     throttle, steering = helm.orders[-1]
     assert throttle > 0.3
-    assert (steering, helm.rudder_words) == (0.0, "amidships")
+    assert (steering, helm.rudder_words) == (0.0, "set amidships")
 
 
 def test_let_go_throttle_and_rudder_come_back_to_zero(stage, helm):
@@ -112,11 +112,11 @@ def test_knob_and_words_stay_inside_at_every_size(stage, side, push):
 
 def test_while_a_task_steers_and_no_hand_does_the_boats_own_throttle_and_rudder_are_told(stage, helm):
     helm.show(RudderState(throttle=0.86, angle=-math.radians(26)))
-    assert (helm.throttle_words, helm.rudder_words) == ("idle", "amidships")
+    assert (helm.throttle_words, helm.rudder_words) == ("idle", "set amidships")
     helm.led = True
-    assert (helm.throttle_words, helm.rudder_words) == ("task 86 %", "26° right")
+    assert (helm.throttle_words, helm.rudder_words) == ("task 86 %", "26° starboard")
     hold(stage, helm, up=1)
-    assert (helm.throttle_words, helm.rudder_words) == ("80 % ahead", "amidships")
+    assert (helm.throttle_words, helm.rudder_words) == ("80 % ahead", "set amidships")
 
 
 def test_what_a_task_steers_fits_where_there_is_little_room(stage, helm):
