@@ -83,6 +83,7 @@ class CourseDial(Grip, Gauge):
 
     def __init__(self, **kwargs: Any) -> None:
         self._came: tuple[float, float] | None = None
+        self._followed = False
         self._catch = Clock.create_trigger(lambda _: self._caught(), HOLD)
         super().__init__(**{"title": "Course", **kwargs})
         self.veil_radius = theme.radius
@@ -94,12 +95,16 @@ class CourseDial(Grip, Gauge):
             return
         follows = msg.kind == "course" and math.isfinite(msg.yaw)
         self.wanted = round(heading_from_yaw(msg.yaw), 1) if follows else math.nan
+        if not follows and self.outcome == "accepted" and self._followed:
+            self.asked, self.outcome = math.nan, ""
+        self._followed = follows
         if abs(shortest_turn(self.wanted, self.asked)) < STEP / 2:
             self.asked, self.outcome = math.nan, ""
 
     def answer(self, outcome: str) -> None:
         """What became of the course that was asked for: `sent`, `accepted`, `refused` or `no_reply`."""
-        self.outcome = outcome
+        followed = outcome == "accepted" and math.isnan(self.asked)  # the robot was faster than its answer
+        self.outcome = "" if followed else outcome
         if outcome in ("refused", "no_reply"):
             self.asked = math.nan
 

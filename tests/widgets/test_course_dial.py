@@ -190,3 +190,18 @@ def test_where_it_is_low_what_became_of_a_course_takes_the_place_of_its_name(sta
     set_course(stage, dial, 120)
     stage.frames(2)
     assert dial.texts[-4:] == ["SENT", "120°", "HEADING", "340°"]
+
+
+def test_an_answer_that_comes_after_the_course_is_followed_leaves_no_word_behind(stage, dial):
+    set_course(stage, dial, 120)
+    dial.show(course(120))
+    dial.answer("accepted")
+    assert dial.course == (120.0, "")
+
+
+def test_when_the_robot_goes_over_to_something_else_what_it_took_is_no_longer_said(stage, dial):
+    dial.show(course(45))
+    set_course(stage, dial, 120)
+    dial.answer("accepted")
+    dial.show(Manoeuvre(kind="hover"))
+    assert (math.isnan(dial.asked), dial.outcome) == (True, "")
