@@ -1,4 +1,4 @@
-"""What STOP leaves a robot doing that nothing drives any more: what flies does not fall, and what swims does not stay below."""
+"""What STOP leaves a robot doing that nothing drives any more: what flies does not fall, what swims does not stay below, what floats drifts."""
 
 from __future__ import annotations
 
@@ -18,4 +18,6 @@ def still_moves(name: str, kind: str, measured: Measured) -> str:
         return f"{name} hovers, on its battery. Hold STOP to release it, then land."
     if is_a.dives and measured.height < -BELOW:
         return f"{name} floats up. Hold STOP to release it, then hold its depth."
+    if is_a.comes_about:
+        return f"{name} drifts with wind and current. Hold STOP to release it, then hold its place."
     return ""

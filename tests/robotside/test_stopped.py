@@ -12,6 +12,8 @@ from robotside.stopped import still_moves
 HOVERS = "Ada hovers, on its battery. Hold STOP to release it, then land."
 FLOATS = "Ada floats up. Hold STOP to release it, then hold its depth."
 
+DRIFTS = "Ada drifts with wind and current. Hold STOP to release it, then hold its place."
+
 
 @pytest.mark.parametrize(
     ("kind", "measured", "said"),
@@ -22,7 +24,7 @@ FLOATS = "Ada floats up. Hold STOP to release it, then hold its depth."
         ("hexapod", Measured(height=-1.2), FLOATS),
         ("hexapod", Measured(height=-0.1), ""),
         ("hexapod", Measured(height=math.nan), ""),
-        ("boat", Measured(height=-1.2), ""),
+        ("boat", Measured(height=-0.1), DRIFTS),
         ("wheels", Measured(height=2.0), ""),
     ],
 )
