@@ -65,6 +65,10 @@ def _ignore(*_: object) -> None:
     """What an owner does who does not care."""
 
 
+def _any(_: str) -> bool:
+    return True
+
+
 class BridgeServer:
     """Serves any number of clients; all methods belong to the event loop it was started in."""
 
@@ -74,6 +78,7 @@ class BridgeServer:
         services: Iterable[Service],
         on_message: Callable[[Session, str, Any, float | None], None],
         topics: Iterable[Topic] = TOPICS,
+        offers: Callable[[str], bool] = _any,
         now: Callable[[], float] = time.time,
         on_gone: Callable[[Session], None] = _ignore,
         on_demand: Callable[[str, bool], None] = _ignore,
@@ -86,6 +91,7 @@ class BridgeServer:
     ) -> None:
         """`now` is the operators' clock [s], told by `/rosapi/get_time`.
 
+        `topics` are the robot's own, which no client may publish on; it `offers` those of them that `rosapi` tells of.
         `on_message(session, topic, msg, stamp)` hears what clients publish on topics to the robot; `stamp` is
         when the sender meant it [s], operators' clock, None when it does not say. `on_gone(session)` hears that a
         client left. `on_demand(topic, wanted)` hears that the first one came who wants a topic, or that the
@@ -104,7 +110,7 @@ class BridgeServer:
         acts = {action.name: action for action in actions}
         exchange = Exchange(by_name, acts)
         self._clients: dict[Session, Client] = {}
-        who = Who(self._switchboard, by_name, acts, exchange, self._clients)
+        who = Who(self._switchboard, by_name, acts, exchange, self._clients, offers)
         self._reducing = Reducing()
         self._offer = Offer(
             switchboard=self._switchboard,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from bridge.exchange import Exchange, Party
 from bridge.offer import Action, Service, Session
@@ -22,20 +22,26 @@ class Who:
         actions: Mapping[str, Action],
         exchange: Exchange,
         clients: Mapping[Session, Party],
+        offers: Callable[[str], bool],
     ) -> None:
-        """All are looked at again for every answer."""
+        """All are looked at again for every answer; of the table's topics only those are told that the robot `offers`."""
         self._switchboard = switchboard
         self._services = services
         self._actions = actions
         self._exchange = exchange
         self._clients = clients
+        self._offers = offers
 
     def graph(self) -> Graph:
         """How `rosapi` asks."""
         return Graph(self._topics, self._service_types, self._action_types, self._nodes)
 
     def _topics(self) -> dict[str, str]:
-        return {channel.name: channel.type for channel in self._switchboard.channels.values()}
+        return {
+            channel.name: channel.type
+            for channel in self._switchboard.channels.values()
+            if channel.entry is None or self._offers(channel.name)
+        }
 
     def _service_types(self) -> dict[str, str]:
         own = {name: service.type for name, service in self._services.items()}
@@ -48,7 +54,7 @@ class Who:
         return own | {name: party.remembered.actions[name].type for name, party in offered}
 
     def _nodes(self) -> dict[str, Node]:
-        topics = self._switchboard.topics.values()
+        topics = [topic for topic in self._switchboard.topics.values() if self._offers(topic.name)]
         robot = Node(
             [topic.name for topic in topics if topic.to == "handheld"],
             [topic.name for topic in topics if topic.to == "robot"],

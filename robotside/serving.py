@@ -20,6 +20,7 @@ from robotside.apart import Apart
 from robotside.clock import RobotClock
 from robotside.goals import actions
 from robotside.http import site
+from robotside.offered import Offered
 from robotside.orders import listener, services
 from robotside.pictures import Pictures
 from robotside.reduce import reduce
@@ -86,6 +87,7 @@ class Serving:
             services=offered,
             on_message=listener(station),
             topics=(*TOPICS, *self._apart.topics),
+            offers=Offered(station.info, station.bus, simulated=station.robot.resettable),
             now=station.clock,
             on_gone=station.gone,
             on_demand=self._want,

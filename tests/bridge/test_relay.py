@@ -211,3 +211,17 @@ async def test_a_published_message_need_not_be_advertised_where_the_topic_is_the
         await ear.settled()
         await talker.say(op="publish", topic="/chatter", msg={"data": "hello"})
         assert (await ear.hear())["msg"] == {"data": String("hello").data}
+
+
+async def test_a_topic_that_the_robot_does_not_offer_is_not_told_of_and_stays_its_own():
+    async with server(offers=lambda topic: topic != "/arm") as robot, peer(robot) as foreign:
+        told = (await foreign.call("/rosapi/topics"))["values"]["topics"]
+        assert "/odom" in told
+        assert "/arm" not in told
+        node = (await foreign.call("/rosapi/node_details", args={"node": "/pilothouse"}))["values"]
+        assert "/odom" in node["publishing"]
+        assert "/arm" not in node["publishing"]
+        await foreign.say(op="subscribe", topic="/arm", type="pilothouse_msgs/ArmState")
+        await foreign.say(op="advertise", topic="/arm", type="pilothouse_msgs/ArmState")
+        assert "own topic" in (await foreign.hear())["msg"]
+        assert "/arm" not in (await foreign.call("/rosapi/topics"))["values"]["topics"]
