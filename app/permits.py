@@ -74,17 +74,15 @@ class Permits:
         changed.setdefault(method, {})[intent] = allowed
         self._keep(changed)
 
-    def reset(self) -> None:
-        """As usual again."""
-        self._keep({})
+    def reset(self, method: str) -> None:
+        """What that method may do is as usual again; the others stay as they were set."""
+        self._keep({name: row for name, row in self._changed.items() if name != method})
 
-    @property
-    def usual(self) -> bool:
-        """Nothing was changed."""
+    def usual(self, method: str) -> bool:
+        """Nothing was changed of what that method may do."""
+        forbidden = FORBIDDEN.get(method, ())
         return all(
-            allowed == (intent not in FORBIDDEN.get(method, ()))
-            for method, row in self._changed.items()
-            for intent, allowed in row.items()
+            allowed == (intent not in forbidden) for intent, allowed in self._changed.get(method, {}).items()
         )
 
     def _keep(self, changed: dict[str, dict[str, bool]]) -> None:

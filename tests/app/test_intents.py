@@ -240,13 +240,16 @@ def test_a_shake_may_not_start_anything_until_it_is_allowed(stage: Stage) -> Non
     assert Stage(stage.settings).say("start", "shake") == "asks", "it is not remembered"
 
 
-def test_what_is_forbidden_stays_so_until_it_is_as_usual_again(stage: Stage) -> None:
-    stage.permits.allow("voice", "pause", False)
-    assert not stage.permits.usual
+def test_what_is_forbidden_stays_so_until_that_method_is_as_usual_again(stage: Stage) -> None:
+    for method in ("voice", "shake"):
+        stage.permits.allow(method, "pause", False)
+        assert not stage.permits.usual(method)
     assert stage.say("pause") == "not allowed"
-    stage.permits.reset()
-    assert stage.permits.usual
+    stage.permits.reset("voice")
+    assert stage.permits.usual("voice")
     assert stage.say("pause") == "acted"
+    assert not stage.permits.usual("shake")
+    assert stage.say("pause", "shake") == "not allowed"
 
 
 @pytest.mark.parametrize("method", [method for method in SAYS if SAYS[method]])

@@ -43,7 +43,7 @@ class TablePane(BoxLayout):
         self._column = Column(spacing="6dp")
         roll = Roll()
         roll.add_widget(self._column)
-        self.usual = QuietButton(text="As usual again", icon="undo")
+        self.usual = QuietButton(icon="undo")
         self.usual.bind(on_release=lambda _: self._reset())
         for widget in (self.choice, roll):
             self.add_widget(widget)
@@ -63,7 +63,8 @@ class TablePane(BoxLayout):
         for intent, row in self.rows.items():
             row.switch.active = table.allowed(self.method, intent)
             row.faded = not row.switch.active
-        self.usual.disabled = table.usual
+        self.usual.disabled = table.usual(self.method)
+        self.usual.text = f"{PANES[self.method][1]}: as usual again"
         self.remark.text = table.problem or "What is forbidden is answered with a sentence and not done."
 
     def _fill(self, *_: object) -> None:
@@ -87,7 +88,7 @@ class TablePane(BoxLayout):
         self.tick()
 
     def _reset(self) -> None:
-        self.app.intents.table.reset()
+        self.app.intents.table.reset(self.method)
         self.tick()
 
 
