@@ -222,6 +222,7 @@ async def test_a_topic_that_the_robot_does_not_offer_is_not_told_of_and_stays_it
         assert "/odom" in node["publishing"]
         assert "/arm" not in node["publishing"]
         await foreign.say(op="subscribe", topic="/arm", type="pilothouse_msgs/ArmState")
+        await foreign.say(op="set_level", level="error")
         await foreign.say(op="advertise", topic="/arm", type="pilothouse_msgs/ArmState")
         assert "own topic" in (await foreign.hear())["msg"]
         assert "/arm" not in (await foreign.call("/rosapi/topics"))["values"]["topics"]
