@@ -45,6 +45,8 @@ AHEAD = 0.16
 """A burst began so long before it was seen to [s]."""
 SURE_AT = 2.0
 """Half cycles and evidence of so many times what is needed are as sure as can be."""
+WEIGHTLESS, FALLING = 1.5, 0.2
+"""What weighs no more [m/s²] for so long [s] falls: it is caught or it bounces, and neither is a command."""
 STEP = 8.0
 """From here on what goes up and down may be somebody who begins to run [m/s², mean of the peaks]."""
 STRONG = 12.0
@@ -138,6 +140,7 @@ class Recogniser:
         self._block_since = math.nan
         self._background: _Background | None = None
         self._burst: _Burst | None = None
+        self._light_since = self._fell = -math.inf
 
     @property
     def busy(self) -> bool:
@@ -155,6 +158,10 @@ class Recogniser:
             self._begun = self._block_since = t
             self._ground.motion(1e-6, *axes)
             return None
+        if axes[0] * axes[0] + axes[1] * axes[1] + axes[2] * axes[2] > WEIGHTLESS * WEIGHTLESS:
+            self._light_since = t
+        elif t - self._light_since > FALLING:
+            self._fell = t
         motion = self._ground.motion(dt, *axes)
         self._add(dt, *motion)
         x, y, z = motion
@@ -293,7 +300,7 @@ class Recogniser:
         i = max(range(3), key=scores.__getitem__)
         if i not in burst.best or not self._fits(i, spread, scores, background):
             return None
-        if i and background.level > tuning.rough:
+        if i and (background.level > tuning.rough or self._fell > burst.began - AHEAD):
             return None
         return self._told(i, t, burst, spread, scores, ended=True)
 

@@ -89,7 +89,7 @@ class Tuning:
     """Share of the background's velocity that is taken off, 0 to 1."""
     round: float = 0.5
     """Most that a movement may go round, 0 to 1, however quick: an ellipse a quarter as wide as long."""
-    round_of_pace: float = 0.058
+    round_of_pace: float = 0.065
     """And so much of its pace [s]: who draws a circle is slower than who shakes, so that what is slow has to be the purer for it."""
     ahead: float = 1.3
     """For STOP left-right is so many times either other direction, squared."""
@@ -131,7 +131,7 @@ class Own:
 
 # the evidence of one half cycle is its peak over the threshold, so that four gentle ones count like three strong ones
 _LEFT_RIGHT = Way((1.0, 0.0, 0.0), 2.3, 0.75, 3, 4.2, 2.6, 1.2, 0.2, 2.3, 1.0, 0.42, 0.62)
-_UP_DOWN = Way((0.0, 1.0, 0.0), 2.5, 0.75, 3, 4.2, 2.2, 1.2, 0.2, 2.0, 1.4, 0.5, 0.7)
+_UP_DOWN = Way((0.0, 1.0, 0.0), 2.5, 0.75, 3, 4.2, 2.2, 1.2, 0.2, 2.0, 1.4, 0.5, 0.77)
 _FORWARD_BACK = Way((0.0, 0.0, 1.0), 2.7, 0.8, 3, 4.0, 2.2, 1.2, 0.2, 2.0, 1.0, 0.5, 0.7)
 USUAL = Tuning((_LEFT_RIGHT, _UP_DOWN, _FORWARD_BACK))
 """For anybody."""

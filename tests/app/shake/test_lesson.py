@@ -118,7 +118,7 @@ def test_the_lesson_of_one_who_is_slow_and_gentle_makes_no_stop_of_gentle_steps(
 def test_a_lesson_asks_for_a_straighter_line_closer_to_its_own() -> None:
     for usual, own in zip(USUAL.ways, fitted(USUAL, dict.fromkeys(AXES, OWN)).ways, strict=True):
         assert own.share > usual.share
-        assert own.straight > usual.straight
+        assert own.straight >= max(usual.straight, 0.7)
 
 
 def test_nothing_measured_changes_nothing() -> None:

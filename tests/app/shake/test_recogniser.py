@@ -189,6 +189,16 @@ def test_a_knock_and_a_fall_are_nothing() -> None:
     assert heard([*still, *knock, *still, *fall, *still]) == []
 
 
+@pytest.mark.parametrize("high", [0.3, 0.45])
+def test_what_falls_and_is_caught_is_no_command(high: float) -> None:
+    """It swings in the hand that catches it, up and down."""
+    at = np.arange(60) / 60.0
+    caught = GRAVITY + 45.0 * np.exp(-at / 0.12) * np.sin(math.tau * 4.0 * at)
+    for fall, said in ((high, []), (0.0, ["ud"])):
+        up = [GRAVITY] * 240 + [0.0] * int(fall * 60) + caught.tolist() + [GRAVITY] * 120
+        assert [shake.axis for shake in heard((0.0, 0.3, value) for value in up)] == said
+
+
 def test_one_stroke_is_nothing_and_neither_is_one_there_and_back() -> None:
     for halves in (1, 2):
         at = np.arange(60) / 60.0
