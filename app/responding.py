@@ -292,7 +292,7 @@ class Responding:
             return ""
         if heard.intent == "stop" and self._app.intents.possible("stop"):
             return ""
-        return f"{INTENTS[heard.intent].words}."
+        return f"Understood: {INTENTS[heard.intent].words}. Nothing is done."
 
     def _asked(self) -> Asked:
         trials = self.trials
@@ -340,10 +340,12 @@ class Responding:
         done = self.trials is None or self.trials.stage == "done"
         self.keep("plan", None if done or self.trials is None else saved(self.trials))
 
-    def fill(self, form: str, answers: dict[str, int], order: list[str], seconds: dict[str, float]) -> float:
-        """Keep a form and give its score; ValueError where it cannot be scored."""
+    def fill(
+        self, form: str, answers: dict[str, int], order: list[str], seconds: dict[str, float], task: str = ""
+    ) -> float:
+        """Keep a form about `task`, or about the study, and give its score; ValueError where it cannot be scored."""
         trials = self.trials
-        about = {"task": self.due}
+        about = {"task": task}
         if trials is not None and trials.stage in ("tlx", "sus"):
             block = trials.now_block
             about = {"user": trials.plan.user, "task": "prompts"}

@@ -292,7 +292,7 @@ class Switches:
             verdict = self._app.intents.choose(heard, target.act)
         finally:
             self._doing = False
-        if verdict.what != "acted":
+        if verdict.what not in ("acted", "practised"):
             self._say(verdict.sentence)
 
     def stepped(self, sound: str, mark: Mark | None) -> None:

@@ -74,8 +74,8 @@ class Wishes:
         """What is done or cancelled is said; what waits has its card."""
         if heard.method in FELT and verdict.what in ("acted", "waits", "asks"):
             vibrate(BUZZ)
-        if not verdict.done or not verdict.sentence or verdict.what == "cancelled":
-            return  # its card goes, and whoever said no is told so
+        if not verdict.done or not verdict.sentence or verdict.what in ("cancelled", "practised"):
+            return  # its card goes, and whoever said no is told so; the study's own card says what was understood
         done = verdict.what == "acted"
         if done and (heard.method in PRESSED or heard.intent in LOOKS):
             if heard.method == self._refused:  # what was refused before is not about this one

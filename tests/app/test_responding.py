@@ -182,7 +182,10 @@ def test_in_the_study_answers_are_counted_and_nothing_is_done(running):
     while running.log.trials.stage != "tlx":
         prompt = running.next()
         said = "pause" if prompt.intent == "resume" else prompt.intent
-        assert running.hear(said).what == "practised"
+        verdict = running.hear(said)
+        assert verdict.what == "practised"
+        assert verdict.sentence.startswith("Understood: ")
+        assert verdict.sentence.endswith(". Nothing is done.")
         answers += 1
     assert (answers, running.acts.done) == (5, [])
     found = rates(running.kept())["voice", ""]

@@ -255,6 +255,45 @@ def test_back_closes_a_form_and_then_leaves_the_rest_to_the_screen(bench):
     assert not bench.pane.back()
 
 
+def test_a_form_that_is_left_by_back_keeps_its_answers_and_is_gone_on_with(bench):
+    bench.log.due = "patrol"
+    bench.pane.choice.choose("load")
+    view = bench.pane.view
+    assert view.load.text == "Fill in the workload (TLX)"
+    view.form.sheet.rows["effort"].answer(35)
+    bench.log.due = "go_home"  # the next task is over meanwhile
+    assert bench.pane.back()
+    assert (view.load.text, view.use.text) == ("Go on with the workload (TLX)", "Fill in the usability (SUS)")
+    view.load.dispatch("on_release")
+    assert view.form.sheet.answers == {"effort": 35}
+    for scale in view.form.sheet.rows.values():
+        scale.answer(30)
+    view.form.hand_in.dispatch("on_release")
+    assert [one.task for one in bench.log.workloads.kept] == ["patrol"]
+    assert bench.log.due == "go_home"
+    assert view.load.text == "Fill in the workload (TLX)"
+
+
+def test_answers_are_thrown_away_only_by_a_second_press_soon_after_the_first(bench):
+    bench.pane.choice.choose("load")
+    view = bench.pane.view
+    view.load.dispatch("on_release")
+    form = view.form
+    form.sheet.rows["effort"].answer(35)
+    form.skip.dispatch("on_release")
+    assert (view.form, form.skip.text) == (form, "Press again: its answers go")
+    bench.time += 10
+    view.tick()
+    assert form.skip.text == "Leave it out"
+    for _ in range(2):
+        form.skip.dispatch("on_release")
+    assert (view.form, bench.log.workloads.kept) == (None, [])
+    view.load.dispatch("on_release")
+    assert view.form.sheet.answers == {}
+    view.form.skip.dispatch("on_release")
+    assert view.form is None, "an empty one is left at once"
+
+
 def test_figures_without_a_bar_are_sentences(bench):
     kept = [
         Response(kind="armed", method="shake", seconds=7200.0),

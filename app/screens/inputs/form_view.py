@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
-from app.screens.inputs.log_view import BESIDE
+from kivy.uix.widget import Widget
+
+from app.screens.inputs.log_view import BESIDE, SURE
 from widgets import SusForm, TlxScales
 from widgets.kit import Column, PrimaryButton, QuietButton, Remark
 
@@ -16,6 +19,10 @@ WORDS = {
     "sus": "How is the app? Answer at once, without thinking long.",
 }
 
+LEAVE = "Leave it out"
+GAP = "18dp"
+"""Beside the room between two buttons: what hands in and what throws away are not pressed for each other."""
+
 
 class FormView(Column):
     """Dispatches `on_done(score)` with the score, NaN where it was left out."""
@@ -23,18 +30,39 @@ class FormView(Column):
     __events__ = ("on_done",)
 
     def __init__(self, form: str, log: Any, now: Callable[[], float], **kwargs: Any) -> None:
-        """`form` is `tlx` or `sus`; `log` is the app's `Responding`."""
+        """`form` is `tlx` or `sus`; `log` is the app's `Responding`; `now` is our clock [s]."""
         super().__init__(spacing="10dp", padding=BESIDE, **kwargs)
-        self.form, self._log = form, log
+        self.form, self._log, self._now = form, log, now
+        self.task: str = log.due
+        """What it is about, where it is no study; empty for nothing that has just ended."""
+        self._sure = -math.inf
         self.sheet = TlxScales(now) if form == "tlx" else SusForm(now)
         self.said = Remark(role="warn", font_size="15sp")
         self.hand_in = PrimaryButton(text="Hand it in", icon="check")
         self.hand_in.bind(on_release=lambda _: self._done())
-        self.skip = QuietButton(text="Leave it out", icon="close")
-        self.skip.bind(on_release=lambda _: self.dispatch("on_done", float("nan")))
-        words = Remark(text=WORDS[form], font_size="15sp")
-        for widget in (words, self.sheet, self.said, self.hand_in, self.skip):
+        self.skip = QuietButton(text=LEAVE, icon="close")
+        self.skip.bind(on_release=lambda _: self._leave())
+        words, gap = Remark(text=WORDS[form], font_size="15sp"), Widget(size_hint_y=None, height=GAP)
+        for widget in (words, self.sheet, self.said, self.hand_in, gap, self.skip):
             self.add_widget(widget)
+
+    @property
+    def begun(self) -> bool:
+        """It has an answer that would be lost."""
+        return bool(self.sheet.answers)
+
+    def tick(self) -> None:
+        """Ask no longer whether it shall be left out, after a while."""
+        sure = self._now() - self._sure < SURE
+        self.skip.text = "Press again: its answers go" if sure else LEAVE
+
+    def _leave(self) -> None:
+        """With answers the first press asks, the second one leaves it out."""
+        if self.begun and self._now() - self._sure >= SURE:
+            self._sure = self._now()
+            self.tick()
+        else:
+            self.dispatch("on_done", math.nan)
 
     def _done(self) -> None:
         lacking = self.sheet.miss()
@@ -42,7 +70,8 @@ class FormView(Column):
             what = ", ".join(lacking)
             self.said.text = f"No answer yet: {what if self.form == 'tlx' else 'number ' + what}."
             return
-        score = self._log.fill(self.form, self.sheet.answers, self.sheet.order, self.sheet.seconds)
+        sheet = self.sheet
+        score = self._log.fill(self.form, sheet.answers, sheet.order, sheet.seconds, self.task)
         self.dispatch("on_done", score)
 
     def on_done(self, score: float) -> None:

@@ -26,9 +26,10 @@ class LoadView(Column):
         self._log, self._now = log, now
         self.form: FormView | None = None
         """The form that is open; None for none."""
+        self._begun: dict[str, FormView] = {}
+        """Forms that were closed with answers in them: they are gone on with."""
         self.said = Remark(role="ok", font_size="15sp")
-        self.load = QuietButton(text="Fill in the workload (TLX)", icon="edit")
-        self.use = QuietButton(text="Fill in the usability (SUS)", icon="edit")
+        self.load, self.use = QuietButton(icon="edit"), QuietButton(icon="edit")
         self.load.bind(on_release=lambda _: self.open("tlx"))
         self.use.bind(on_release=lambda _: self.open("sus"))
         self.asks, self.reminds = switch_row(
@@ -50,17 +51,22 @@ class LoadView(Column):
         self._lay()
 
     def open(self, form: str) -> None:
-        """Show a form, `tlx` or `sus`."""
-        self.form = FormView(form, self._log, self._now)
-        self.form.bind(on_done=lambda _, score: self._done(form, score))
+        """Show a form, `tlx` or `sus`: the one that was begun, else an empty one."""
+        begun = self._begun.pop(form, None)
+        self.form = begun or FormView(form, self._log, self._now)
+        if begun is None:
+            self.form.bind(on_done=lambda _, score: self._done(form, score))
         self._lay()
 
     def back(self) -> bool:
-        """Close the form that is open; False where none is."""
+        """Close the form that is open, which keeps its answers; False where none is."""
         if self.form is None:
             return False
+        if self.form.begun:
+            self._begun[self.form.form] = self.form
         self.form = None
         self._lay()
+        self.tick()
         return True
 
     def enter(self) -> None:
@@ -75,13 +81,21 @@ class LoadView(Column):
     def tick(self) -> None:
         """Bring up to date what was filled in."""
         self.reminds.active = self._log.reminds
+        for button, form, words in (
+            (self.load, "tlx", "workload (TLX)"),
+            (self.use, "sus", "usability (SUS)"),
+        ):
+            button.text = f"Go on with the {words}" if form in self._begun else f"Fill in the {words}"
+        if self.form is not None:
+            self.form.tick()
         kept = self._log.workloads.kept
         for history, form in ((self.loads, "tlx"), (self.uses, "sus")):
             history.scores = [(_name(one), one.score) for one in kept if one.form == form]
 
     def _done(self, form: str, score: float) -> None:
-        self.form = None
-        self._log.due = ""
+        about, self.form = self.form, None
+        if about is not None and about.task == self._log.due:
+            self._log.due = ""
         if math.isfinite(score):
             self.said.text = f"{'Workload' if form == 'tlx' else 'Usability'} {score:.1f} of 100, kept."
         self._lay()

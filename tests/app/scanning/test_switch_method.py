@@ -147,6 +147,7 @@ def test_a_study_only_sees_what_was_chosen(hand: Hand) -> None:
     hand.press("enter")
     assert hand.did == []
     assert [(heard.intent, what) for heard, what in hand.told] == [("pause", "practised")]
+    assert hand.said == []
 
 
 def test_after_a_choice_a_finger_takes_the_mark_away_again(hand: Hand) -> None:

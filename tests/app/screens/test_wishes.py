@@ -47,6 +47,11 @@ def test_a_stop_that_was_pressed_is_told_by_its_button(around: Around) -> None:
     assert taken(around, "stop", "keyboard", "acted", "STOP.", said="space") == ""
 
 
+@pytest.mark.parametrize("method", ["voice", "shake", "keyboard"])
+def test_what_a_study_took_as_an_answer_is_told_by_its_own_card(around: Around, method: str) -> None:
+    assert taken(around, "pause", method, "practised", "Understood: Pause. Nothing is done.") == ""
+
+
 def test_a_success_takes_away_what_was_refused_to_the_same_method(around: Around) -> None:
     why = "No task runs that could be paused."
     assert taken(around, "pause", "keyboard", "not now", why) == f"Pause: {why}"
