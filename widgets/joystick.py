@@ -11,14 +11,12 @@ from collections.abc import Callable
 from typing import Any, ClassVar
 
 import numpy as np
-from kivy.graphics.texture import Texture
-from kivy.lang import Builder
-from kivy.metrics import dp, sp
-from kivy.properties import AliasProperty, NumericProperty, StringProperty
+from kivy.metrics import dp
+from kivy.properties import AliasProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import Twist
-from widgets.base import text_texture
+from widgets.caption import Captioned
 from widgets.ink import tint
 from widgets.shapes import Shapes
 from widgets.stick import DEAD, Stick
@@ -29,25 +27,8 @@ __all__ = ["DEAD", "Joystick"]
 BELOW = 0.6
 """From the middle down to the caption, of the radius: on the inner ring, between the knob at rest and the arrow."""
 
-Builder.load_string("""
-<Joystick>:
-    canvas.after:
-        Color:
-            rgba: theme.surface if root.captioned else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
-            pos: root.words_pos[0] - dp(4), root.words_pos[1] + dp(1)
-            size: root.words_size[0] + dp(8), root.words_size[1] - dp(2)
-            radius: [dp(4)]
-        Color:
-            rgba: theme.muted if root.captioned else (0, 0, 0, 0)
-        Rectangle:
-            texture: root.words
-            size: root.words_size
-            pos: root.words_pos
-""")
 
-
-class Joystick(Stick):
+class Joystick(Captioned, Stick):
     """Dispatches `on_command(twist)` at every change. It follows the finger that came down on it and no other."""
 
     sends = (Twist,)
@@ -58,33 +39,10 @@ class Joystick(Stick):
     max_yaw_rate = NumericProperty(1.0)
     """Yaw rate at the rim [rad/s], 0 or more."""
 
-    caption = StringProperty("")
-    """What pushing it means, where that is not to drive and to turn, as in `climb · turn`."""
-
-    def _captioned(self) -> bool:
-        return bool(self.caption) and self.forward >= 0
-
-    captioned = AliasProperty(_captioned, bind=["caption", "forward"], cache=True)
-    """The caption is on the glass: not while the knob is pulled over it."""
-
-    def _words(self) -> Texture:
-        return text_texture(self.caption, sp(13), theme.font)
-
-    words = AliasProperty(_words, bind=["caption"], cache=True)
-    """The caption."""
-
-    def _words_size(self) -> tuple[float, float]:
-        return self.words.size  # type: ignore[no-any-return]
-
-    words_size = AliasProperty(_words_size, bind=["words"], cache=True)
-    """[px]; kv does not see a texture's size change."""
-
-    def _words_pos(self) -> tuple[float, float]:
-        down = BELOW * min(self.size) / 2
-        return self.center_x - self.words.width / 2, self.center_y - down - self.words.height / 2
-
-    words_pos = AliasProperty(_words_pos, bind=["words", "pos", "size"], cache=True)
-    """[px]"""
+    @property
+    def caption_drop(self) -> float:
+        """On the inner ring."""
+        return float(BELOW * min(self.size) / 2)
 
     def _reach(self) -> float:
         return max(1.0, min(self.size) / 2 - self.knob_radius - dp(6))

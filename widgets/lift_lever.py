@@ -15,6 +15,7 @@ from kivy.properties import NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
+from widgets.caption import Captioned
 from widgets.ink import tint
 from widgets.shapes import Shapes
 from widgets.stick import DEAD, Stick
@@ -23,7 +24,7 @@ from widgets.theme import theme
 __all__ = ["LiftLever"]
 
 
-class LiftLever(Stick):
+class LiftLever(Captioned, Stick):
     """Dispatches `on_command(twist)` at every change: a climb and nothing else."""
 
     sends = (Twist,)
@@ -39,6 +40,11 @@ class LiftLever(Stick):
 
     def _round_veil(self, *_: object) -> None:
         self.veil_radius = self.width / 2
+
+    @property
+    def caption_drop(self) -> float:
+        """Between the knob at rest and the arrow."""
+        return float((self.knob_radius + self.height / 2 - dp(16)) / 2)
 
     @property
     def order(self) -> Twist:
@@ -105,6 +111,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "at rest": make(),
         "up": make(0.7),
         "down": make(-1.0),
+        "captioned": make(caption="climb"),
         "disabled": make(state="disabled"),
         "small": make(size=("60dp", "120dp")),
     }

@@ -19,7 +19,7 @@ from app.layout import SAYS, SLIDER, Control, Layout
 from app.link import OFFER, OUTCOME
 from app.piloting import Parts, Piloting, Reach
 from app.screens.arm_hand import ARM, ArmHand
-from app.screens.in_vain import InVain
+from app.screens.in_vain import InVain, landed
 from app.screens.speed_card import SpeedCard, allowed
 from app.screens.tilt_hand import TILT, TiltHand
 from app.session import Session
@@ -63,6 +63,7 @@ class Hands(EventDispatcher):
         """What the controls mean at the end of their way now."""
         self.arm = ArmHand(session, dashboard, in_vain)
         super().__init__()
+        self._names_all = len({one.slot for one in layout.controls if _drives(one)}) > 1
         for one in layout.controls:
             self._add(one)
         self.tablet = False
@@ -142,8 +143,7 @@ class Hands(EventDispatcher):
             widget.bind(on_in_vain=lambda _: self._in_vain.tell())
         if isinstance(widget, Stick):
             self._sticks.append((widget, one))
-            if one.forward != "ahead" and hasattr(widget, "caption"):
-                widget.caption = " · ".join(one.says)
+            self._caption(widget, one, grounded=False)
             widget.bind(on_command=lambda stick, said: self._pushed(stick, said, one))
         else:
             self._asking.append((widget, one))
@@ -251,8 +251,10 @@ class Hands(EventDispatcher):
     def tick(self) -> None:
         """Bring up to date what may be used."""
         session = self._session
-        for stick, _ in self._sticks:
-            stick.state = "live" if session.may_drive else "disabled"
+        grounded = landed(session)
+        for stick, one in self._sticks:
+            stick.state = "live" if session.may_drive and not grounded else "disabled"
+            self._caption(stick, one, grounded=grounded and session.may_drive)
         able = {action.name: action for action in self._actions.slides()}
         asked = session.may_ask and not session.stop_latched
         for widget, one in self._asking:
@@ -267,6 +269,13 @@ class Hands(EventDispatcher):
             widget.kin = [other.text for other in slides if other is not widget]
         self._tell_driven()
         self.arm.tick()
+
+    def _caption(self, stick: Any, one: Control, *, grounded: bool) -> None:
+        """What pushing it means, where that is not to drive; while the robot stands on the ground what has to be done before."""
+        if not hasattr(stick, "caption"):
+            return
+        usual = " · ".join(one.says) if one.forward != "ahead" or self._names_all else ""
+        stick.caption = "take off first" if grounded else usual
 
     def _tell_driven(self) -> None:
         """Slider and lever mean the hand alone: while a task drives, its own speed stands there."""
@@ -345,6 +354,10 @@ class Hands(EventDispatcher):
     def _retake(self) -> None:
         """A finger that rests on a stick drives on, and shall do so by what the glass says now."""
         self.piloting.retake({stick: self._meant(stick, stick.order, one) for stick, one in self._sticks})
+
+
+def _drives(one: Control) -> bool:
+    return one.widget != SLIDER and issubclass(getattr(widgets, one.widget), Stick)
 
 
 def _within(words: str) -> str:

@@ -7,17 +7,29 @@ from typing import Any
 
 from app.screens.control_cards import ABOUT as AUTHORITY
 from app.session import Session
+from bridge.msgs.pilothouse_msgs import FlightState
 
-__all__ = ["InVain", "why_not"]
+__all__ = ["InVain", "landed", "why_not"]
 
 ABOUT = "stick"
 """What the sentences tell of."""
 
 
+LANDED = "It stands on the ground: take off first."
+
+
+def landed(session: Session) -> bool:
+    """The robot says now that it stands on the ground and flies otherwise: no stick moves it there."""
+    told: FlightState | None = session.feeds.latest("/flight")
+    return told is not None and told.phase == "landed" and session.feeds.state("/flight") == "live"
+
+
 def why_not(session: Session) -> str:
     """Why the robot cannot be driven from here, as a sentence; empty where it can, or where that is said already."""
-    if session.may_drive or not session.connected:
+    if not session.connected:
         return ""
+    if session.may_drive:
+        return LANDED if landed(session) else ""
     if session.foreign:
         return "" if session.local_stop.latched else "This robot has no topic to drive it by."
     if session.stop_latched:
@@ -55,7 +67,8 @@ class InVain:
     def tick(self) -> None:
         """Take it away when it is true no longer."""
         now = why_not(self._session)
-        if self._said and (self._session.may_drive or (now and now != self._said)):
+        drives = self._session.may_drive and not now
+        if self._said and (drives or (now and now != self._said)):
             for toast in self._toasts():
                 if toast.text == self._said:
                     self._app.shell.notices.remove_widget(toast)

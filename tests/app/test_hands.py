@@ -16,6 +16,7 @@ from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import FlightState, Limits, RobotInfo, TaskOrder, TaskStatus
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
+from tests.app.test_dive import AQUA as SWIMMER
 from tests.app.test_profiles import BOAT, DRONE, TRUCK
 
 SLOW: dict[str, tuple[float, Callable[[Any], float]]] = {
@@ -109,6 +110,29 @@ def test_the_slide_that_lands_never_ends_a_landing(
     driving.until(lambda: "/task/resume" in robot.services(), "the landing does not go on")
     driving.until(lambda: down.outcome == "accepted", "the slide does not say what became of it")
     assert "/task/cancel" not in robot.services()
+
+
+def test_what_stands_on_the_ground_takes_no_push_and_says_what_to_do_first(
+    meet: Callable[..., Any], driving: Glass
+) -> None:
+    screen, _ = meet(DRONE)
+    (left, _), (right, _) = screen.sticks
+    hear(screen, "/flight", FlightState(phase="landed"))
+    screen.tick()
+    assert (left.state, right.state, left.caption) == ("disabled", "disabled", "take off first")
+    right.dispatch("on_in_vain")
+    assert driving.banners() == ["It stands on the ground: take off first."]
+    for phase in ("taking_off", "flying", "landing"):
+        hear(screen, "/flight", FlightState(phase=phase))
+        screen.tick()
+        assert (left.state, right.state, left.caption) == ("live", "live", "climb · turn"), phase
+    assert driving.banners() == []
+
+
+def test_of_several_sticks_each_says_what_it_does(meet: Callable[..., Any]) -> None:
+    screen, _ = meet(SWIMMER)
+    (stick,), (lift,) = screen.hands.places["stick"], screen.hands.places["lift"]
+    assert (stick.caption, lift.caption) == ("ahead · turn", "climb")
 
 
 def test_while_a_task_drives_slider_and_lever_say_so_and_how_fast(meet: Callable[..., Any]) -> None:

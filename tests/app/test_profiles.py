@@ -106,6 +106,7 @@ def test_a_boat_of_any_model_has_a_lever_and_a_course(
     dial.show(Compass(heading=10.0))
     screen.tick()
     assert dial.state == "live"
+    dial.asked = 45.0
     dial.dispatch("on_course", math.radians(45))
     driving.until(lambda: orders(robot), "no course")
     order = orders(robot)[-1]
