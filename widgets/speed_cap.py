@@ -23,6 +23,8 @@ SLOW = 0.2
 """From this round trip on the robot goes slower [s]."""
 NOTICED = 0.99
 """A cap above this share is nothing that anybody would notice, and would be told as `100 %`."""
+SLOWEST, CRAWL = 0.4, 0.15
+"""From this round trip on it goes no slower [s], at this share of its speed; as docs/bridge.md has it."""
 
 
 class SpeedCap(NoticeCard):
@@ -48,11 +50,20 @@ class SpeedCap(NoticeCard):
             return "Slow link"
         figure = f"{self.rtt * 1000:.0f} ms"
         return (
-            f"Slow link, {figure}" if self.rtt >= SLOW else f"The robot measured a slow link; here {figure}"
+            f"Slow link, {figure}"
+            if self.rtt >= SLOW
+            else f"The robot itself measured {self.measured} a moment ago"
         )
 
-    why = AliasProperty(_why, bind=["rtt", "driver"], cache=True)
-    """As in `Slow link, 320 ms`, without a figure before there is one; the robot judges by what it measures itself."""
+    why = AliasProperty(_why, bind=["rtt", "driver", "share"], cache=True)
+    """As in `Slow link, 320 ms`, without a figure before there is one; where it is fast here, what the robot measured, which judges."""
+
+    @property
+    def measured(self) -> str:
+        """The round trip that such a share comes from, as in `320 ms`."""
+        part = 1.0 - (self.share - CRAWL) / (1.0 - CRAWL)
+        figure = f"{(SLOW + min(1.0, max(0.0, part)) * (SLOWEST - SLOW)) * 1000:.0f} ms"
+        return f"{figure} or more" if part >= 1.0 else figure
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(icon="speed", role="warn", **kwargs)
@@ -79,11 +90,13 @@ class SpeedCap(NoticeCard):
         self.sent = outcome == "sent"
 
     def _write(self, *_: object) -> None:
+        if self.follows and self.share >= NOTICED:
+            return  # it is about to go, and goes as it was
         if self.follows:
             self.headline, self.said = f"{self.share * 100:.0f} % speed", f"{self.why}."
         else:
             self.headline = "Full speed always"
-            self.said = f"{self.why}." if "," in self.why else "On a slow link as well."
+            self.said = f"{self.why}." if self.rtt >= SLOW and not self.driver else "On a slow link as well."
         self.relabel(*(("Full speed", "link_off") if self.follows else ("Follow link", "link")))
         self.switch.meaning = self.switch.text
         self.switch.disabled = self.blocked or self.sent

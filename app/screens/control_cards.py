@@ -45,6 +45,7 @@ class ControlCards:
         self.handover.bind(on_command=lambda _, name: self._answer(name))
         self.mode.bind(on_command=lambda _, name: self._choose(name))
         self.paused.bind(on_command=lambda _, name: self._resume(name))
+        self.cap.bind(open=lambda card, is_open: None if is_open else notices.keep(card, shown=False))
         self.cap.bind(on_command=lambda _, value: session.command("setting", name="follow_link", value=value))
         session.authority.on_news = self._tell
         session.authority.on_past = lambda: notices.unsay(ABOUT)

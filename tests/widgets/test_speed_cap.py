@@ -3,6 +3,7 @@ from __future__ import annotations
 import pytest
 
 from bridge.msgs.pilothouse_msgs import ControlStatus
+from robotside.pace import share
 from widgets.speed_cap import SpeedCap
 
 SLOW = ControlStatus(speed_cap=0.4)
@@ -33,7 +34,7 @@ def test_share_and_why_are_said(cap):
     cap.show(SLOW)
     assert (cap.open, cap.headline, cap.said) == (True, "40 % speed", "Slow link, 320 ms.")
     cap.rtt = 0.05  # the share rises slowly after the link has healed
-    assert cap.said == "The robot measured a slow link; here 50 ms."
+    assert cap.said == "The robot itself measured 341 ms a moment ago."
     cap.driver = "Anna"
     assert cap.said == "Slow link of Anna."
 
@@ -73,7 +74,9 @@ def test_who_does_not_drive_cannot_switch_it(stage, cap):
 def test_a_link_that_is_fast_here_is_said_to_be_slow_as_the_robot_measures_it(cap):
     cap.show(ControlStatus(speed_cap=0.2))
     cap.rtt = 0.063
-    assert cap.said == "The robot measured a slow link; here 63 ms."
+    assert cap.said == "The robot itself measured 388 ms a moment ago."
+    cap.show(ControlStatus(speed_cap=0.15))
+    assert cap.said == "The robot itself measured 400 ms or more a moment ago."
     cap.show(ControlStatus(follows_link=False))
     assert cap.said == "On a slow link as well."
 
@@ -81,3 +84,18 @@ def test_a_link_that_is_fast_here_is_said_to_be_slow_as_the_robot_measures_it(ca
 def test_a_cap_that_nobody_would_notice_is_not_said_as_100_percent(cap):
     cap.show(ControlStatus(speed_cap=0.996))
     assert not cap.open
+
+
+@pytest.mark.parametrize("rtt", [0.21, 0.25, 0.3, 0.39])
+def test_the_robots_figure_is_the_one_that_its_share_comes_from(cap, rtt):
+    cap.rtt = 0.01
+    cap.show(ControlStatus(speed_cap=share(rtt)))
+    assert cap.measured == f"{rtt * 1000:.0f} ms"
+
+
+def test_a_card_that_goes_never_says_full_speed_as_if_it_were_a_limit(cap):
+    cap.rtt = 0.01
+    cap.show(SLOW)
+    cap.show(ControlStatus(speed_cap=1.0))
+    cap.rtt = 0.02
+    assert (cap.open, cap.headline) == (False, "40 % speed")
