@@ -58,7 +58,7 @@ class Health:
     rate: float = math.nan
     """Samples in a second [Hz]; NaN before a second is over."""
     age: float = math.inf
-    """Since the last sample was handed over [s]; infinite before the first."""
+    """Since the last sample came that was handed over, or that waits for it [s]; infinite before the first."""
 
 
 class Judge:
@@ -74,8 +74,8 @@ class Judge:
         self._same_since = math.nan
         self._seen: dict[Fault, float] = {}
 
-    def take(self, t: float, axes: Axes, now: float) -> bool:
-        """Whether that sample, measured at `t`, may be handed on."""
+    def take(self, t: float, axes: Axes, now: float, came: float) -> bool:
+        """Whether that sample, measured at `t`, which came at `came` [s], may be handed on."""
         if not all(math.isfinite(value) for value in (t, *axes)):
             self._seen["broken"] = now
             return False
@@ -86,7 +86,7 @@ class Judge:
             return False
         if self._last is None or axes != self._last[1]:
             self._same_since = t
-        self._last, self._heard = (t, axes), now
+        self._last, self._heard = (t, axes), came
         self._times.append(t)
         while self._times[0] < t - WINDOW:
             self._times.popleft()
@@ -113,18 +113,22 @@ class Judge:
             return math.nan
         return (len(times) - 1) / (times[-1] - times[0])
 
-    def health(self, now: float, least: float) -> Health:
-        """How they come at `now`, for one who needs `least` in a second [Hz]."""
-        fault = self._fault(now, least)
-        return Health(fault, self._words(fault, least), self.rate, now - self._heard)
+    def health(self, now: float, least: float, waits: float = -math.inf) -> Health:
+        """How they come at `now`, for one who needs `least` in a second [Hz].
 
-    def _fault(self, now: float, least: float) -> Fault:
+        `waits` is when the newest came that is yet to be taken [s]; -inf without one.
+        """
+        heard = max(self._heard, waits)
+        fault = self._fault(now, least, heard)
+        return Health(fault, self._words(fault, least), self.rate, now - heard)
+
+    def _fault(self, now: float, least: float, heard: float) -> Fault:
         recent = [name for name, at in self._seen.items() if now - at < LONG]
-        if self._heard == -math.inf and not recent:
+        if heard == -math.inf and not recent:
             return "waiting" if now - self._begun < FIRST else "silent"
         if recent:
             return "broken" if "broken" in recent else recent[0]
-        if now - self._heard > SILENT:
+        if now - heard > SILENT:
             return "silent"
         if self._last is not None and self._last[0] - self._same_since > FROZEN:
             return "frozen"
@@ -155,7 +159,11 @@ class Sensing:
     def __init__(self, source: MotionSource, now: Callable[[], float] = time.monotonic) -> None:
         self._source, self._now = source, now
         self._kinds = {kind: _Kind(Judge(kind, now())) for kind in KINDS}
-        self._queue: deque[tuple[Kind, float, Axes]] = deque(maxlen=QUEUE)
+        self._queue: deque[tuple[Kind, float, Axes, float]] = deque(maxlen=QUEUE)
+        """Kind, when it was measured, axes, and when it came [s]."""
+        self._came: dict[Kind, float] = {}
+        """When the newest of each kind came [s]: a glass that is slow to look makes no sensor silent."""
+        self._looked = -math.inf
         self._running: frozenset[Kind] = frozenset()
         self._refused: dict[Kind, str] = {}
         """What the system does not hand out, and why."""
@@ -202,10 +210,11 @@ class Sensing:
     def look(self, now: float | None = None) -> None:
         """Hand on what came since the last look."""
         now = self._now() if now is None else now
+        self._looked = now
         for _ in range(len(self._queue)):
-            kind, t, axes = self._queue.popleft()
+            kind, t, axes, came = self._queue.popleft()
             one = self._kinds[kind]
-            if kind in self._running and one.judge.take(t, axes, now):
+            if kind in self._running and one.judge.take(t, axes, now, came):
                 for feed in tuple(one.feeds):
                     feed(t, axes)
 
@@ -219,7 +228,9 @@ class Sensing:
             return Health("paused", "The sensors rest while the app is in the background.")
         if kind not in self._running:
             return Health()
-        return self._kinds[kind].judge.health(self._now() if now is None else now, least)
+        came = self._came.get(kind, -math.inf)
+        waits = came if came > self._looked else -math.inf
+        return self._kinds[kind].judge.health(self._now() if now is None else now, least, waits)
 
     def pause(self) -> None:
         """The app is in the background: every sensor is off."""
@@ -282,9 +293,12 @@ class Sensing:
     def _stop(self) -> None:
         self._source.stop()
         self._queue.clear()
+        self._came.clear()
         self._running = frozenset()
         self._refused.clear()
 
     def _hear(self, kind: Kind, t: float, axes: Axes) -> None:
-        """In any thread; a deque's own append needs no lock."""
-        self._queue.append((kind, t, axes))
+        """In any thread; neither a deque's own append nor a dict's needs a lock."""
+        came = self._now()
+        self._queue.append((kind, t, axes, came))
+        self._came[kind] = came

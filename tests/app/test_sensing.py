@@ -113,6 +113,43 @@ def test_silence_is_told_after_a_third_of_a_second(phone: Phone) -> None:
     assert phone.fault() == "silent"
 
 
+def test_a_glass_that_is_slow_to_look_makes_no_sensor_silent(phone: Phone) -> None:
+    phone.listen().run(1.0)
+    for n in range(40):  # it builds a screen meanwhile
+        phone.now += 0.02
+        phone.source.put("acceleration", phone.now, (0.0, 0.1 * n, GRAVITY))
+        assert phone.fault() == ""
+    phone.sensing.look()
+    assert phone.fault() == ""
+    phone.now += 0.31
+    assert phone.fault() == "silent"
+
+
+def test_nor_one_that_began_meanwhile(phone: Phone) -> None:
+    phone.listen()
+    phone.now += 2.0
+    phone.source.put("acceleration", phone.now, (0.0, 0.0, GRAVITY))
+    assert phone.fault() == ""
+
+
+def test_what_came_before_a_slow_look_and_nothing_since_is_silence(phone: Phone) -> None:
+    phone.listen().run(1.0)
+    phone.now += 0.02
+    phone.source.put("acceleration", phone.now, (0.0, 0.0, GRAVITY))
+    phone.now += 0.4
+    phone.sensing.look()
+    assert phone.fault() == "silent"
+
+
+def test_a_sensor_whose_samples_are_all_of_no_use_is_silent(phone: Phone) -> None:
+    phone.listen().run(1.0)
+    for _ in range(20):
+        phone.now += 0.02
+        phone.source.put("acceleration", phone.now - 60.0, (0.0, 0.0, GRAVITY))
+        phone.sensing.look()
+    assert phone.fault() == "silent"
+
+
 def test_a_sensor_that_never_says_anything_is_waited_for_and_then_silent(phone: Phone) -> None:
     phone.listen()
     assert phone.fault() == "waiting"
