@@ -386,6 +386,8 @@ def load(world: str | Path) -> World:
     Raises WorldError when there is no such world, or naming the line, the key and the reason when its file is wrong.
     """
     path = Path(world) if str(world).endswith(".toml") else _FOLDER / f"{world}.toml"
+    if path.parent != _FOLDER and Path(world).is_dir():
+        raise WorldError(f"{world} is a directory; a world is one file, as in {Path(world, 'lake.toml')}.")
     if path.parent == _FOLDER and path.stem not in WORLDS:
         raise WorldError(f"There is no world {str(world)!r}; there is {', '.join(WORLDS)}.")
     try:

@@ -263,3 +263,10 @@ def test_a_start_may_be_under_what_hangs_and_above_what_lies_deep():
     arch = "[[blocks]]\nx = 0.0\ny = 0.0\nz = {z}\nlength = 2.0\nwidth = 2.0\nheight = 1.0\n"
     assert parse(TEXT + arch.format(z=2.0), "own.toml").blocks
     assert parse(TEXT + arch.format(z=-4.0) + "[water]\ndepth = 4.0\n", "own.toml").blocks
+
+
+def test_a_directory_is_no_world_and_that_is_said(tmp_path):
+    (tmp_path / "dunes.toml").mkdir()
+    for world in (tmp_path, tmp_path / "dunes.toml"):
+        with pytest.raises(WorldError, match=f"{world} is a directory; a world is one file"):
+            load(world)
