@@ -124,6 +124,8 @@ class Assignments:
             )
         order = _tidy(order)
         self._check_height(order.height)
+        if self._situation.flight == "turned_over":
+            raise Refusal(f"{self._info.name} has turned over; put it upright first.")
         return replace(make(order), order=order, by=by)
 
     def home(self) -> Waypoint | None:

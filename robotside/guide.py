@@ -160,7 +160,7 @@ class Guide:
         self.going.measured = height
 
     def flies(self, phase: str) -> None:
-        """What it does in the air, of a robot that flies: landed, taking_off, flying or landing."""
+        """What it does in the air, of a robot that flies, as its `FlightState` says."""
         self.going.aloft = phase in ("flying", "landing")
 
     @property

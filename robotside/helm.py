@@ -123,9 +123,10 @@ class Helm:
 
     def _grounded(self, order: Order) -> str:
         """Why `order` starts no rotors: that takes a task, which nobody gives by brushing against a stick; empty when it need not."""
-        info = self._robot.info
+        info, measured = self._robot.info, self._measured()
         twist = order if isinstance(order, Twist) else order.twist
-        if not kind_of(info.kind).flies or not self._measured().landed or not twist.linear.z > 0:
+        stands = measured.landed and not measured.overturned  # of that it is told why nothing moves it
+        if not (kind_of(info.kind).flies and stands and twist.linear.z > 0):
             return ""
         return f"{info.name} stands on the ground: sticks start no rotors, the task take_off does."
 

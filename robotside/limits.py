@@ -63,7 +63,9 @@ class Measured:
     sure: bool = True
     """The robot holds the pose for right."""
     landed: bool = False
-    """It says itself that it stands on the ground; False for one that does not fly."""
+    """It says itself that it is on the ground, rotors off; False for one that does not fly."""
+    overturned: bool = False
+    """It says itself that it lies there on its back."""
 
 
 class Clamped(NamedTuple):
@@ -84,7 +86,8 @@ class Kept(NamedTuple):
 
 def turned_over(measured: Measured, kind: str) -> bool:
     """A robot of this `kind` lies on its side or its back, as only a swimmer may."""
-    return not kind_of(kind).dives and math.cos(measured.roll) * math.cos(measured.pitch) < UPSIDE_DOWN
+    over = math.cos(measured.roll) * math.cos(measured.pitch) < UPSIDE_DOWN
+    return not kind_of(kind).dives and (over or measured.overturned)
 
 
 class Keeper:

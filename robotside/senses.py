@@ -73,7 +73,11 @@ class Senses:
             turned = msg.orientation
             self._measured = replace(self._measured, roll=turned.roll, pitch=turned.pitch)
         elif isinstance(msg, FlightState):
-            self._measured = replace(self._measured, landed=msg.phase == "landed")
+            self._measured = replace(
+                self._measured,
+                landed=msg.phase in ("landed", "turned_over"),
+                overturned=msg.phase == "turned_over",
+            )
 
     def measured(self, pose: Pose2 | None, *, spread: float = 0.0, sure: bool = True) -> Measured:
         """All of it, with the pose in `map` that was made of it, and how sure that is."""

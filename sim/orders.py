@@ -12,8 +12,11 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 __all__ = ["check", "cut"]
 
 
-def check(order: Manoeuvre) -> None:
-    """Raise ValueError when a part of `order` that must be a number is none, or one that may be NaN is infinite."""
+def check(order: Manoeuvre, info: RobotInfo) -> None:
+    """Raise ValueError when a part of `order` that must be a number is none, or one that may be NaN is infinite.
+
+    So it does when what flies is sent below the ground, or the water, which are at 0.
+    """
     linear, angular = order.twist.linear, order.twist.angular
     needed = {
         "twist": (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z),
@@ -26,10 +29,17 @@ def check(order: Manoeuvre) -> None:
     wrong += [name for name, value in free.items() if math.isinf(value)]
     if wrong:
         raise ValueError(f"The {wrong[0]} of an order must be a number; the robot goes on as before.")
+    if order.kind in _TO_HEIGHTS and order.height < 0 and "take_off" in info.manoeuvres:
+        raise ValueError(f"{order.height:.3g} m is below the ground; {info.name} goes on as before.")
 
 
-def cut(order: Manoeuvre, info: RobotInfo) -> tuple[Manoeuvre, str]:
-    """`order` as the robot follows it, within all its limits, and one sentence where something was too much."""
+def cut(
+    order: Manoeuvre, info: RobotInfo, heights: tuple[float, float] = (-math.inf, math.inf)
+) -> tuple[Manoeuvre, str]:
+    """`order` as the robot follows it, within all its limits, and one sentence where something was too much.
+
+    `heights` are the lowest and the highest to which it can be told to go [m]; a height that is left out, NaN, stays so.
+    """
     linear, angular = order.twist.linear, order.twist.angular
     asked = math.hypot(linear.x, linear.y)
     share = min(1.0, info.max_speed / asked) if asked else 1.0
@@ -44,8 +54,9 @@ def cut(order: Manoeuvre, info: RobotInfo) -> tuple[Manoeuvre, str]:
         steering=_within(order.steering, info.max_steering or math.inf),
         roll=_within(order.roll, info.max_tilt or math.inf),
         pitch=_within(order.pitch, info.max_tilt or math.inf),
+        height=order.height if math.isnan(order.height) else min(max(order.height, heights[0]), heights[1]),
     )
-    return followed, _excess(order, asked, info)
+    return followed, _excess(order, asked, info) or _beyond(order, info, heights)
 
 
 def _excess(order: Manoeuvre, speed: float, info: RobotInfo) -> str:
@@ -64,10 +75,20 @@ def _excess(order: Manoeuvre, speed: float, info: RobotInfo) -> str:
     return ""
 
 
+def _beyond(order: Manoeuvre, info: RobotInfo, heights: tuple[float, float]) -> str:
+    """What is too high or too low of an `order` that goes to a height; empty when nothing is."""
+    lowest, highest = heights
+    if order.kind not in _TO_HEIGHTS or not (order.height < lowest or order.height > highest):
+        return ""
+    way, most = ("higher", highest) if order.height > highest else ("lower", lowest)
+    return f"{info.name} goes no {way} than {most:.3g} m; {order.height:.3g} m was asked for."
+
+
 def _within(value: float, most: float) -> float:
     """NaN for NaN."""
     return value if math.isnan(value) else max(-most, min(most, value))
 
 
+_TO_HEIGHTS = ("course", "hover", "take_off")
 _EXACT = 1 + 1e-9
 """What is above a limit by rounding is not."""

@@ -133,8 +133,8 @@ class SimRobot:
         What is beyond its limits is cut to them, which is said on `/events`. ValueError with one sentence for what it
         cannot do or what is no number; it then goes on as before.
         """
-        check(order)
-        order, excess = cut(order, self.info)
+        check(order, self.info)
+        order, excess = cut(order, self.info, self.heights)
         self._vehicle.manoeuvre(order)
         if excess and not self._excess:
             self._unread.append(("/events", Event(level="info", kind="robot", text=excess)))

@@ -87,7 +87,7 @@ class HeightTape(Gauge):
     @property
     def hovers(self) -> bool:
         """It is in the air, and STOP is pressed."""
-        return self.stopped and self.phase not in ("", "landed")
+        return self.stopped and self.phase not in ("", "landed", "turned_over")
 
     def _span(self) -> float:
         known = 0.0 if math.isnan(self.own_height) else self.own_height

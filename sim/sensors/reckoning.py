@@ -64,26 +64,32 @@ class Reckoning:
         """Believe to be at x, y [m], yaw [rad] in `odom`, wherever it was until now."""
         self.pose, self._stamp, self._way, self._time = pose, None, 0.0, 0.0
 
-    def measure(self, state: State, stamp: float) -> Odometry:
-        """The belief at `stamp` [s] of a body in `state`, `odom` to `base_link`."""
+    def measure(self, state: State, stamp: float, *, stands: bool = False) -> Odometry:
+        """The belief at `stamp` [s] of a body in `state`, `odom` to `base_link`.
+
+        One that knows that it `stands` goes by that: it has no speed, and nothing adds up.
+        """
         period = 0.0 if self._stamp is None else stamp - self._stamp
         u, v, w = (
             part * self._scale + error.step()
             for part, error in zip(rotate_back(state.rotation, state.velocity), self._errors, strict=True)
         )
+        drift = self._drift
+        if stands:
+            u = v = w = drift = 0.0
         turning = rotate_back(state.rotation, state.turning)
         x, y, yaw = self.pose
         true_yaw = Quaternion(*state.rotation).yaw
         if self._stamp is not None:
             last = Quaternion(*self._rotation).yaw
-            yaw += math.remainder(true_yaw - last, math.tau) + self._drift * period
+            yaw += math.remainder(true_yaw - last, math.tau) + drift * period
         self._stamp, self._rotation = stamp, state.rotation
         tilted = compose(from_yaw(yaw - true_yaw), state.rotation)
         dx, dy, _ = rotate(tilted, (u, v, w))
         self.pose = (x + dx * period, y + dy * period, yaw)
         self._way += math.hypot(u, v) * period
         height = state.position[2] + self._noise.normal(self._parameters.height_noise)
-        self._time += period
+        self._time += 0.0 if stands else period
         variance = self._variance()
         covariance = [0.0] * 36
         covariance[0] = covariance[7] = variance

@@ -21,7 +21,7 @@ from sim.sensors.reckoning import Reckoning, ReckoningParameters
 from sim.shapes import Shape
 from sim.starts import places
 from sim.vehicles.parameters import Parameters
-from sim.vehicles.suite import Measurement, Suite, as_odometry
+from sim.vehicles.suite import Measure, Measurement, Suite, as_odometry
 from sim.world import Start
 
 __all__ = ["Chassis"]
@@ -119,6 +119,15 @@ class Chassis(Generic[P]):
             return iter((scene.start,))
         return places(scene.world, scene.start, radius, height)
 
+    def held(self) -> Manoeuvre:
+        """What it moves by, with the heading and the height that it keeps where the order names none."""
+        return self.order
+
+    @property
+    def stands(self) -> bool:
+        """It knows that it stands on the ground, motors off: whatever its log of speed says is nothing."""
+        return False
+
     def halt(self) -> None:
         """Let wheels, fins, propellers and rotors stand still at once, as they never do by themselves."""
         raise NotImplementedError
@@ -165,7 +174,10 @@ class Chassis(Generic[P]):
         self.odometer = reckoning = Reckoning(
             figures, (start.x, start.y, start.angle), self.scene.generator("reckoning")
         )
-        self.suite.add("odometry", figures.rate, lambda state, at: [("/odom", reckoning.measure(state, at))])
+        self.suite.add("odometry", figures.rate, self._reckon(reckoning))
+
+    def _reckon(self, reckoning: Reckoning) -> Measure:
+        return lambda state, at: [("/odom", reckoning.measure(state, at, stands=self.stands))]
 
     def add_power(self) -> None:
         """Motors and battery, as sensors."""
@@ -190,4 +202,4 @@ class Chassis(Generic[P]):
         yield "/bumper", self.bumper.message(stamp)
 
     def _tell_order(self, state: State, stamp: float) -> Iterator[Measurement]:
-        yield "/manoeuvre", msgspec.structs.replace(self.order, header=Header(Time.at(stamp), "map"))
+        yield "/manoeuvre", msgspec.structs.replace(self.held(), header=Header(Time.at(stamp), "map"))

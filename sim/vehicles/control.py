@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["given", "towards", "within"]
+from msgspec.structs import replace
+
+from bridge.msgs.pilothouse_msgs import Manoeuvre
+
+__all__ = ["filled", "given", "towards", "within"]
 
 
 def towards(now: float, goal: float, most: float) -> float:
@@ -20,3 +24,8 @@ def within(value: float, most: float) -> float:
 def given(value: float, otherwise: float) -> float:
     """`value`, or `otherwise` where it is NaN."""
     return otherwise if math.isnan(value) else value
+
+
+def filled(order: Manoeuvre, yaw: float, height: float = math.nan) -> Manoeuvre:
+    """`order` with the heading [rad] and the height [m] that are kept where it names none; NaN for what is not kept."""
+    return replace(order, yaw=given(order.yaw, yaw), height=given(order.height, height))

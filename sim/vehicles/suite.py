@@ -20,7 +20,7 @@ from sim.backend_bullet import State
 from sim.schedule import Schedule
 from sim.shapes import rotate_back
 
-__all__ = ["Measurement", "Suite", "as_odometry"]
+__all__ = ["Measure", "Measurement", "Suite", "as_odometry"]
 
 Measurement = tuple[str, Msg]
 """A topic and what is said on it."""

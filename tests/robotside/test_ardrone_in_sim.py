@@ -100,3 +100,18 @@ def test_a_height_that_it_does_not_reach_is_refused(run: Run, task: str, height:
     said = "The height of Ardrone-1 in parking_lot must be from 0.3 to 30 m, not"
     with pytest.raises(AssertionError, match=f"{said} {re.escape(f'{height:g}')} m"):
         run.order(task, height=height)
+
+
+def test_on_its_back_it_takes_no_task_and_no_stick_moves_it_and_that_is_said(run: Run) -> None:
+    vehicle = run.robot.simulation.vehicle
+    x, y, z = vehicle.state().position
+    vehicle.scene.backend.place(vehicle.body, (x, y, z + 0.05), (1.0, 0.0, 0.0, 0.0))
+    run.wait(1.0)
+    with pytest.raises(AssertionError, match="Ardrone-1 has turned over; put it upright first"):
+        run.order("take_off", height=1.5)
+    assert rotors(run) == 0.0
+    run.ask("/robot/reset", CommandRequest())
+    run.wait(0.5)
+    run.order("take_off", height=1.5)
+    run.finish()
+    assert run.task.reason == "In the air."

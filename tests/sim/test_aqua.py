@@ -239,3 +239,18 @@ def test_its_legs_swing_against_each_other_and_warm_with_their_load(aqua):
     assert max(motors.torques) <= torque * FINS.amplitude + 1e-9
     spent = (PARAMETERS.battery.charge - aqua.simulation.vehicle.battery.charge) * 14.0 * 3600 * 28.8
     assert spent > 60.0 * PARAMETERS.battery.idle * 1.2
+
+
+@pytest.mark.parametrize("kind", ["hover", "course"])
+def test_it_tells_the_depth_and_the_heading_that_it_took_when_it_was_told_to_keep_them(aqua, kind):
+    aqua.drive(Twist(Vector3(0.0, 0.0, -0.2), Vector3(0.0, 0.0, 0.3)))
+    until(aqua, 3.0)
+    taken, yaw = height(aqua), angles(body(aqua))[2]
+    aqua.manoeuvre(Manoeuvre(kind=kind))
+    for _ in range(2):
+        told = [message for topic, message in until(aqua, 3.0) if topic == "/manoeuvre"][-1]
+        assert told.kind == kind
+        assert (told.height, told.yaw) == pytest.approx((taken, yaw))
+    aqua.manoeuvre(Manoeuvre(kind=kind, height=-2.0, yaw=1.0))
+    told = [message for topic, message in until(aqua, 0.2) if topic == "/manoeuvre"][-1]
+    assert (told.height, told.yaw) == (-2.0, 1.0)

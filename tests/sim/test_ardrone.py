@@ -283,7 +283,8 @@ def test_tumbled_it_cuts_its_rotors_and_does_not_start_again():
     assert motion(robot).upright < 0.3
     assert vehicle.pilot.phase == "landed"
     assert max(vehicle.rotors.speeds) < 1.0
-    robot.manoeuvre(Manoeuvre(kind="take_off"))
+    with pytest.raises(ValueError, match="has turned over"):
+        robot.manoeuvre(Manoeuvre(kind="take_off"))
     until(robot, 2.0)
     robot.close()
     assert vehicle.pilot.phase == "landed"
@@ -299,3 +300,52 @@ def test_the_raft_that_it_stands_on_in_the_water_is_no_obstacle():
     assert told
     assert not any(message.pressed for message in told)
     assert (stands, bumps) == (True, 0)
+
+
+def test_it_tells_the_height_and_the_heading_that_it_keeps(drone):
+    drone.manoeuvre(Manoeuvre(kind="take_off"))
+    told = [message for topic, message in until(drone, 0.2) if topic == "/manoeuvre"][-1]
+    assert told.height == pytest.approx(1.05, abs=0.01)
+    until(drone, 4.0)
+    drone.drive(Twist(Vector3(0.0, 0.0, 0.5), Vector3(0.0, 0.0, 0.5)))
+    until(drone, 2.0)
+    yaw = motion(drone).angles[2]
+    drone.manoeuvre(Manoeuvre(kind="hover"))
+    braking, *_, held = [message for topic, message in until(drone, 4.0) if topic == "/manoeuvre"]
+    assert math.isnan(braking.height)
+    assert held.height == pytest.approx(motion(drone).position[2], abs=0.05)
+    assert held.yaw == pytest.approx(yaw, abs=1e-6)
+
+
+def test_on_its_back_it_says_so_and_refuses_to_take_off():
+    robot = alone(ARDRONE, plain())
+    vehicle = robot.simulation.vehicle
+    vehicle.scene.backend.place(vehicle.body, (0.0, 0.0, 0.1), (1.0, 0.0, 0.0, 0.0))
+    told = [message for topic, message in until(robot, 1.0) if topic == "/flight"]
+    assert told[-1].phase == "turned_over"
+    with pytest.raises(
+        ValueError, match="Ardrone-1 has turned over: its rotors do not start; put it upright"
+    ):
+        robot.manoeuvre(Manoeuvre(kind="take_off"))
+    robot.reset()
+    told = [message for topic, message in until(robot, 0.5) if topic == "/flight"]
+    assert told[-1].phase == "landed"
+    robot.manoeuvre(Manoeuvre(kind="take_off"))
+    robot.close()
+
+
+def test_landed_it_has_no_speed_whatever_its_log_says_and_carried_it_has():
+    robot = alone(ARDRONE, plain(), noise=True)
+    vehicle = robot.simulation.vehicle
+    told = [message for topic, message in until(robot, 5.0) if topic == "/odom"]
+    assert {(way.x, way.y, way.z) for way in (message.twist.twist.linear for message in told)} == {(0, 0, 0)}
+    assert {message.pose.pose.position.x for message in told} == {0.0}
+    fly(robot)
+    told = [message for topic, message in until(robot, 1.0) if topic == "/odom"]
+    assert all(message.twist.twist.linear.x for message in told)
+    robot.manoeuvre(Manoeuvre(kind="land"))
+    until(robot, 10.0)
+    vehicle.scene.backend.throw(vehicle.body, (0.3, 0.0, 0.0), (0.0, 0.0, 0.0))
+    told = [message for topic, message in until(robot, 0.1) if topic == "/odom"]
+    robot.close()
+    assert told[0].twist.twist.linear.x > 0.05

@@ -289,3 +289,13 @@ def test_dead_reckoning_follows_the_true_way_and_drifts_with_noise():
 def test_it_needs_water():
     with pytest.raises(ValueError, match="minnow needs water, and there is none in room"):
         alone(MINNOW, plain())
+
+
+def test_it_tells_the_course_that_it_took_when_it_was_told_to_keep_it(boat):
+    boat.manoeuvre(Manoeuvre(kind="steer", throttle=0.8, steering=0.4))
+    until(boat, 4.0)
+    yaw = boat.simulation.pose()[2]
+    boat.manoeuvre(Manoeuvre(kind="course", throttle=0.5))
+    told = [message for topic, message in until(boat, 3.0) if topic == "/manoeuvre"][-1]
+    assert told.yaw == pytest.approx(yaw)
+    assert math.isnan(told.height)

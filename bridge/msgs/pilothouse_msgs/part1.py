@@ -367,7 +367,7 @@ class FlightState(Msg, frozen=True, gc=False):
     header: Header = Header()
     """Frame map."""
     phase: str = ""
-    """landed, taking_off, flying, landing."""
+    """landed, taking_off, flying, landing; turned_over: it lies on its back, rotors off."""
     height: float = math.nan
     """Above the ground right under it, as its ultrasound has it [m]; NaN when that is out of reach."""
     climb: float = 0.0

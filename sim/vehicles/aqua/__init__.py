@@ -87,6 +87,10 @@ class Aqua(Chassis[SwimmerParameters]):
         self.dynamics.look(self.scene.weather.current)
         self._pilot.begin(order, self.dynamics, fresh=order.kind != self.order.kind)
 
+    def held(self) -> Manoeuvre:
+        """What it moves by, with the heading and the depth that it took when it was told to keep them."""
+        return self._pilot.held
+
     def halt(self) -> None:
         """Let the fins stand still at once."""
         self.fins.amplitudes = [0.0] * len(LEGS)

@@ -8,7 +8,7 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.units import wrap
 from sim.backend_bullet import GRAVITY, STEPS_PER_SECOND
 from sim.shapes import Vec3
-from sim.vehicles.control import given, within
+from sim.vehicles.control import filled, given, within
 from sim.vehicles.sixdof import SixDof
 from sim.vehicles.swimmer import SwimmerParameters
 
@@ -65,6 +65,12 @@ class Pilot:
         elif order.kind == "tilt":
             self._roll, self._pitch = within(order.roll, limit), within(order.pitch, limit)
         self._order = order
+
+    @property
+    def held(self) -> Manoeuvre:
+        """The order, with what it took for the heading and the height that are not named in it."""
+        order = self._order
+        return filled(order, self._yaw, self._height) if order.kind in ("course", "hover") else order
 
     def wants(self, body: SixDof, wet: float) -> tuple[tuple[float, float], Vec3]:
         """Force ahead and up [N] and torque [N m] that the fins should give."""

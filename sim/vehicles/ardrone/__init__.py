@@ -14,9 +14,9 @@ from sim.bodies import Floating
 from sim.motors import Motors
 from sim.scene import Scene
 from sim.sensors.height import Height
-from sim.shapes import Shape, from_yaw
+from sim.shapes import Shape, from_yaw, rotate
 from sim.vehicles.ardrone.looks import looks
-from sim.vehicles.ardrone.pilot import Motion, Pilot
+from sim.vehicles.ardrone.pilot import LOWEST, TUMBLED, Motion, Pilot
 from sim.vehicles.chassis import Chassis
 from sim.vehicles.control import within
 from sim.vehicles.model import Model
@@ -32,6 +32,8 @@ PARAMETERS: QuadrotorParameters = load(Path(__file__).parent / "ardrone.toml", Q
 
 WORK_STEPS = STEPS_PER_SECOND // 20
 FLIGHT_RATE = 10.0
+STANDS = 0.02
+"""Carried faster than this its inertial unit tells that it does not stand [m/s]."""
 LAST = 0.05
 """With less charge than this it lands by itself."""
 
@@ -81,16 +83,29 @@ class Ardrone(Chassis[QuadrotorParameters]):
 
     @property
     def heights(self) -> tuple[float, float]:
-        """From where it stood to its ceiling above that [m]."""
+        """From just over where it stood to its ceiling above that [m]."""
         floor = self._home[0][2]
-        return floor, floor + self.parameters.limits.height
+        return floor + LOWEST, floor + self.parameters.limits.height
 
     def begin(self, order: Manoeuvre) -> None:
         """Take up a twist, a course, a tilt; hover, take off or land. At rest in the air it hovers."""
         self.dynamics.look((0.0, 0.0, 0.0))
+        motion = self.motion()
+        if order.kind == "take_off" and motion.upright < TUMBLED:
+            name = self.parameters.info.name
+            raise ValueError(f"{name} has turned over: its rotors do not start; put it upright first.")
         if self.battery.charge < LAST and self.pilot.phase == "landing":
             order = Manoeuvre(kind="land")  # nobody keeps it in the air until it falls
-        self.pilot.begin(order, self.motion())
+        self.pilot.begin(order, motion)
+
+    def held(self) -> Manoeuvre:
+        """What it moves by, with the heading and the height that it keeps where the order names none."""
+        return self.pilot.held
+
+    @property
+    def stands(self) -> bool:
+        """It stands on the ground, rotors off, and nobody carries it."""
+        return self.pilot.phase == "landed" and self.grounded and math.hypot(*self.state().velocity) < STANDS
 
     def reset(self) -> None:
         """Stand where it started."""
@@ -139,8 +154,10 @@ class Ardrone(Chassis[QuadrotorParameters]):
                 self.manoeuvre(Manoeuvre(kind="land"))
 
     def _tell_flight(self, state: State, stamp: float) -> Iterator[Measurement]:
-        header = Header(Time.at(stamp), "map")
-        yield "/flight", FlightState(header, self.pilot.phase, self._height.last, state.velocity[2])
+        header, phase = Header(Time.at(stamp), "map"), self.pilot.phase
+        if phase == "landed" and rotate(state.rotation, (0.0, 0.0, 1.0))[2] < TUMBLED:
+            phase = "turned_over"
+        yield "/flight", FlightState(header, phase, self._height.last, state.velocity[2])
 
 
 ARDRONE = Model(Ardrone, PARAMETERS, looks, "air")

@@ -9,10 +9,10 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.units import wrap
 from sim.backend_bullet import GRAVITY, STEPS_PER_SECOND
 from sim.shapes import Vec3
-from sim.vehicles.control import given, within
+from sim.vehicles.control import filled, given, within
 from sim.vehicles.quadrotor import QuadrotorParameters
 
-__all__ = ["Motion", "Pilot"]
+__all__ = ["LOWEST", "TUMBLED", "Motion", "Pilot"]
 
 STEP = 1 / STEPS_PER_SECOND
 PLACE = 1.2
@@ -32,6 +32,8 @@ DOWN, STILL = 0.05, 0.25
 [m/s]."""
 LOW = 0.15
 """Lower than this above where it started it does not stay in the air to rest [m]."""
+LOWEST = 0.1
+"""It can be told to fly so low above where it started, and no lower [m]."""
 TUMBLED = 0.3
 """Less upright than this it cuts its rotors."""
 _SUM_MOST = 3.0
@@ -85,6 +87,14 @@ class Pilot:
             if not math.isnan(order.height):
                 self._place[2], self._holds[2] = self._allowed(order.height), True
 
+    @property
+    def held(self) -> Manoeuvre:
+        """The order, with what it took for the heading and the height that are not named in it; NaN while it brakes to one."""
+        order, height = self._order, self._place[2] if self._holds[2] else math.nan
+        if self.phase == "landed" or order.kind not in ("course", "hover", "take_off"):
+            return order
+        return filled(order, self._yaw if order.kind != "take_off" else order.yaw, height)
+
     def _nearly_down(self, order: Manoeuvre, now: Motion) -> bool:
         """Told to come to rest so low it does not hover, but sets down."""
         return order.kind == "rest" and now.position[2] - self._floor < LOW
@@ -125,7 +135,7 @@ class Pilot:
         self._sums = [0.0, 0.0, 0.0]
 
     def _allowed(self, height: float) -> float:
-        return min(max(height, self._floor), self._floor + self._limits.height)
+        return min(max(height, self._floor + LOWEST), self._floor + self._limits.height)
 
     def _turn(self, now: Motion) -> float:
         """Turn rate that is wanted [rad/s]."""

@@ -19,7 +19,7 @@ from sim.sensors.gps import Gps
 from sim.shapes import Shape, from_yaw, yaw_of
 from sim.vehicles.boat import BoatParameters, Drive, Helmsman
 from sim.vehicles.chassis import Chassis
-from sim.vehicles.control import given
+from sim.vehicles.control import filled, given
 from sim.vehicles.hull import Hull, HullParameters, inertia_of
 from sim.vehicles.minnow.looks import looks
 from sim.vehicles.model import Model
@@ -88,6 +88,11 @@ class Minnow(Chassis[BoatParameters]):
             self._course = present
         if order.kind in ("course", "hover"):
             self._course = given(order.yaw, self._course)
+
+    def held(self) -> Manoeuvre:
+        """What it moves by, with the course that it took when it was told to keep it."""
+        order = self.order
+        return filled(order, self._course) if order.kind in ("course", "hover") else order
 
     def halt(self) -> None:
         """Let propeller and rudder stand still at once."""
