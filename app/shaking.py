@@ -56,6 +56,7 @@ class Shaking(Switched):
         self._recent: deque[tuple[float, Motion]] = deque(maxlen=1024)
         self.lesson: Lesson | None = None
         """What is being measured; None outside of a lesson. While there is one nothing is understood."""
+        self._trying = False
         self.last: Shake | None = None
         """What was understood last."""
         self.said = ""
@@ -122,7 +123,7 @@ class Shaking(Switched):
     @property
     def problem(self) -> str:
         """Why it does not work though it is on, as one sentence; empty when it is well."""
-        if not self._on and self.lesson is None:
+        if not self._on and not self.busy:
             return self.mistaken
         health = self._app.sensing.health("acceleration", least=NEEDED)
         return self.mistaken if health.fault in ("", "waiting") else str(health.sentence)
@@ -146,8 +147,8 @@ class Shaking(Switched):
             self._forget = self._app.sensing.listen("acceleration", self.feed)
 
     def stop(self) -> None:
-        """Rest, and leave a lesson that was begun."""
-        self.lesson = None
+        """Rest, and leave a lesson or a try that was begun."""
+        self.lesson, self._trying = None, False
         self._rest()
 
     def close(self) -> None:
@@ -190,6 +191,26 @@ class Shaking(Switched):
         if not self._on:
             self._rest()
 
+    # the try
+
+    def try_out(self, *, on: bool) -> None:
+        """Try what is understood, until it is told to end: nothing is done but STOP, and the sensor runs though it is switched off."""
+        self._trying = on
+        if on:
+            self.start()
+        elif not self._on:
+            self._rest()
+
+    @property
+    def trying(self) -> bool:
+        """It is being tried out."""
+        return self._trying
+
+    @property
+    def busy(self) -> bool:
+        """The sensor runs for it though it may be off: for the lesson, or to be tried out."""
+        return self._trying or self.lesson is not None
+
     # what comes of a sample
 
     def feed(self, t: float, axes: Motion) -> None:
@@ -218,6 +239,9 @@ class Shaking(Switched):
             self.said = f"{WORDS[shake.axis]} means nothing."
             return
         vibrate(FELT_STOP if stops else FELT)
+        if self._trying and not (stops and self._app.intents.possible("stop")):
+            self.said = "Understood; while it is tried out nothing is done."
+            return
         ended = shake.told if shake.ended else math.nan
         verdict = self._app.intents.take(
             Heard(

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from app.device.motion import NoMotion
-from app.screens.inputs.shake_pane import LESSON, ShakePane
+from app.screens.inputs.shake_pane import LESSON, TRY, ShakePane
 from tests.app.test_shaking import Hand
 
 
@@ -27,3 +27,25 @@ def test_without_a_sensor_no_lesson_begins_and_its_place_says_why(monkeypatch: p
     pane._teach()
     assert hand.shaking.lesson is None
     assert pane.roll.parent is pane
+
+
+def test_it_says_that_a_shake_acts_here_and_is_tried_out_by_a_button_until_the_pane_is_left(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hand: Any = Hand(monkeypatch, on=True)
+    hand.shaking.start()
+    hand.app.methods = SimpleNamespace(get=lambda _: hand.shaking)
+    hand.app.now = lambda: hand.t
+    pane = ShakePane(hand.app)
+    pane.enter()
+    assert "acts here as anywhere" in pane.standing.text
+    pane.trial.dispatch("on_release")
+    assert pane.standing.text == TRY
+    assert pane.trial.text == "End the try"
+    hand.shakes("ud")
+    pane.tick()
+    assert pane.standing.text.endswith("Understood; while it is tried out nothing is done.")
+    pane.leave()
+    assert not hand.shaking.trying
+    hand.shakes("ud")
+    assert hand.intents == ["pause"]

@@ -32,13 +32,13 @@ class Hand:
         monkeypatch.setattr(module, "vibrate", self.felt.append)
         self.source = source or SimulatedMotion(now=lambda: self.t)
         self.sensing = Sensing(self.source, lambda: self.t)
-        self.rests = True
+        self.rests = self.stoppable = True
         self.app = SimpleNamespace(
             settings=SimpleNamespace(
                 get=lambda name, default=None: self.kept.get(name, default), set=self.kept.__setitem__
             ),
             sensing=self.sensing,
-            intents=SimpleNamespace(take=self._take),
+            intents=SimpleNamespace(take=self._take, possible=lambda _: self.stoppable),
             session=SimpleNamespace(
                 feeds=SimpleNamespace(latest=lambda _: SimpleNamespace(at_rest=self.rests))
             ),
@@ -269,3 +269,34 @@ def test_a_sensor_that_falls_silent_is_said(hand: Hand) -> None:
     hand.shakes("ud")
     hand.t += 2.0
     assert hand.shaking.problem == "The motion sensor is silent."
+
+
+def test_while_it_is_tried_out_nothing_is_done_but_stop(hand: Hand) -> None:
+    hand.shaking.try_out(on=True)
+    hand.shakes("ud")
+    assert (hand.intents, hand.shaking.last and hand.shaking.last.axis) == ([], "ud")
+    assert hand.shaking.said == "Understood; while it is tried out nothing is done."
+    hand.shakes("lr")
+    assert hand.intents == ["stop"]
+    hand.stoppable = False
+    hand.shakes("lr")
+    assert hand.intents == ["stop"], "there is nothing that it could stop"
+    hand.shaking.try_out(on=False)
+    hand.shakes("ud")
+    assert hand.intents == ["stop", "pause"]
+
+
+def test_it_is_tried_out_though_it_is_off_and_the_sensor_rests_after_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hand = Hand(monkeypatch)
+    hand.shaking.try_out(on=True)
+    hand.shakes("fb")
+    assert hand.shaking.last is not None
+    assert hand.shaking.busy
+    hand.shaking.try_out(on=False)
+    assert not hand.source.running
+    hand.shaking.try_out(on=True)
+    hand.shaking.stop()
+    assert not hand.shaking.trying
+    assert not hand.source.running

@@ -23,6 +23,8 @@ HOW = (
     "Hold the device and shake it three times to and fro. Left and right is STOP and acts while you shake; "
     "the others act when you have stopped."
 )
+ACTS = "Listening, and a shake acts here as anywhere. What is understood is said here."
+TRY = "Shake: what was understood is said here, and nothing is done but STOP."
 LESSON = "Ten seconds: left and right, up and down, forward and back, as you would do it."
 FRESH = 6.0
 """For so long what was understood last is shown as new [s]."""
@@ -44,7 +46,10 @@ class ShakePane(BoxLayout):
         self.lists: dict[Axis, MeaningList] = {}
         self.roll = Roll()
         column = Column(spacing="6dp")
+        self.trial = QuietButton(text="Try it", icon="mobile_vibrate", size_hint_y=None)
+        self.trial.bind(on_release=lambda _: self._try())
         column.add_widget(self.standing)
+        column.add_widget(self.trial)
         column.add_widget(Remark(text=HOW, font_size="15sp"))
         column.add_widget(group_label("What it means"))
         for axis in AXES:
@@ -96,8 +101,9 @@ class ShakePane(BoxLayout):
         self.tick()
 
     def leave(self) -> None:
-        """Leave the glass, and a lesson with it."""
+        """Leave the glass, and a lesson or a try with it."""
         self.back()
+        self.shaking.try_out(on=False)
 
     def back(self) -> bool:
         """From the lesson or a choice back to the list; False where it is there."""
@@ -128,9 +134,11 @@ class ShakePane(BoxLayout):
         return f"{WORDS[shake.axis]}, {shake.count} half cycles{sure}. {self.shaking.said}"
 
     def _usual(self) -> str:
+        if self.shaking.trying:
+            return TRY
         if not self.shaking.on:
-            return "Off: nothing is measured. Switch it on in the list of inputs."
-        return "Listening: shake, and what was understood is said here."
+            return "Off: nothing is measured. Switch it on in the list of inputs, or try it here."
+        return ACTS
 
     def _follow_lesson(self, now: float) -> None:
         lesson = self.shaking.lesson
@@ -166,7 +174,9 @@ class ShakePane(BoxLayout):
     def _write_lesson(self) -> None:
         """No lesson begins that could not be heard: its place says why."""
         sensing, shaking = self._app.sensing, self.shaking
-        self.teach.disabled = not sensing.has("acceleration")
+        self.teach.disabled = self.trial.disabled = not sensing.has("acceleration")
+        self.trial.text = "End the try" if shaking.trying else "Try it"
+        self.trial.icon = "close" if shaking.trying else "mobile_vibrate"
         if self.teach.disabled:
             self.learnt.text, self.learnt.role = str(sensing.health("acceleration").sentence), "warn"
         else:
@@ -186,6 +196,10 @@ class ShakePane(BoxLayout):
     def _chosen(self, name: str) -> None:
         self.shaking.mean(self._asked, name)
         self.back()
+
+    def _try(self) -> None:
+        self.shaking.try_out(on=not self.shaking.trying)
+        self.tick()
 
     def _teach(self) -> None:
         if self.teach.disabled:
