@@ -170,6 +170,12 @@ class Methods:
         """Names of those that are on, and are a way to give commands."""
         return [name for name, method in self._all.items() if method.on and name in METHODS]
 
+    @property
+    def hearing(self) -> list[str]:
+        """Names of those that a command could come from now: they are on and well, and have something to work with."""
+        idle = self.idle()
+        return [name for name, well in self.standing() if well and name not in idle]
+
     def standing(self) -> list[tuple[str, bool]]:
         """Name of each that is on, and whether it is well."""
         return [(name, not self.get(name).problem) for name in self.armed]

@@ -54,7 +54,8 @@ class Responding:
         self.folder, self.exports = folder / FOLDER, folder / "exports"
         self.log, self.workloads = ResponseLog(self.folder), Workloads(self.folder)
         self._given: Counter[str] = Counter()
-        self._count = 0
+        self._count = self.lines = 0
+        """Commands, and lines of whatever kind, that were kept in this run."""
         self._drive: tuple[str, float, float] | None = None
         """Method, begin and last instant of the driving that goes on; None for none."""
         self.tracks = Tracks(self._put, now=app.now, wall=wall, new_id=lambda: uuid.uuid4().hex[:12])
@@ -175,9 +176,8 @@ class Responding:
         if self._app.session is not self._session:
             self._follow(self._app.session)
         since, self._looked = now - self._looked, now
-        for name in self._app.methods.armed:
-            if name in METHODS and 0 < since < 1:
-                self._listening[name] += since
+        for name in self._app.methods.hearing if 0 < since < 1 else ():
+            self._listening[name] += since
         if now - self._saved >= SAVE_EVERY:
             self._saved = now
             self._save_listening()
@@ -306,6 +306,7 @@ class Responding:
     def _put(self, response: Response) -> None:
         if self.on:
             self.log.put(response)
+            self.lines += 1
             self._count += response.kind == "command"
             self._given.update(counts([response]))
 

@@ -58,7 +58,9 @@ class ScoreHistory(Gauge):
                 yield Word(str(value), left - dp(6), at(value), sp(12), theme.muted, anchor=(1, 0.5))
         if not self.scores:
             said = first_fitting((self.nothing, "Nothing yet"), sp(14), right - left - dp(12))
-            word = Word(said, (left + right) / 2, at(37.5), sp(14), theme.muted)
+            word = Word(
+                said, (left + right) / 2, at(62.5 if self.baseline < 50 else 37.5), sp(14), theme.muted
+            )
             ground(shapes, word, theme.surface)
             yield word
         yield from self._compared(shapes, (left, right), at(self.baseline))

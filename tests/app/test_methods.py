@@ -174,6 +174,16 @@ def test_what_is_on_and_does_not_work_is_said_with_the_next_heartbeat(make: Any)
     assert app.said == ["Voice: There is no microphone."]
 
 
+class Unplugged(Made):
+    idle = True
+
+
+def test_a_command_could_come_from_what_is_on_and_well_and_has_something_to_work_with(make: Any) -> None:
+    app = make(voice=Made, shake=Deaf, gamepad=Unplugged)
+    assert app.methods.armed == ["voice", "shake", "gamepad"]
+    assert app.methods.hearing == ["voice"]
+
+
 def test_settings_that_mean_nothing_are_said_of_each_that_reads_them(monkeypatch: pytest.MonkeyPatch) -> None:
     class Mistaken(Made):
         mistaken = "In the settings of talking rate is from 0.5 to 2, not 9: as usual again."

@@ -50,7 +50,7 @@ class Acts:
 class Ways:
     """The methods of the app: of the log alone it is told that it is switched on or off."""
 
-    armed = ("voice",)
+    hearing: tuple[str, ...] = ("voice",)
 
     def __init__(self, made) -> None:
         self.get = made.get

@@ -39,7 +39,7 @@ class Acts:
 class Ways:
     """The methods of the app: the log, and a shake that is off."""
 
-    armed = ("shake",)
+    hearing = ("shake",)
 
     def __init__(self) -> None:
         self.all = {"shake": SimpleNamespace(on=False, meaning={"ud": "pause", "fb": "resume"}, set_to={})}
@@ -125,6 +125,51 @@ def test_what_was_kept_is_read_beside_the_glass_and_drawn(bench):
     assert view.chart.times[0][:4] == ("STOP", "mic", "Voice", pytest.approx(0.6))
     view.choice.choose("study")
     assert view.chart.times == []
+
+
+def test_until_it_is_read_nothing_is_said_to_be_missing(bench):
+    charts = bench.pane.view.success, bench.pane.view.chart
+    assert [chart.nothing for chart in charts] == ["Reading …", "Reading …"]
+    bench.settle()
+    assert [chart.nothing for chart in charts] == [
+        "Nothing has been tried yet.",
+        "No response has been timed yet.",
+    ]
+
+
+def test_what_comes_while_the_log_is_looked_at_is_read_a_moment_later(bench):
+    bench.settle()
+    view = bench.pane.view
+    bench.log._put(Response(id="new", session="s", method="shake", recognised="stop", t_sent=2.0))
+    bench.time += 1.0
+    view.tick()
+    assert not view._busy
+    bench.time += 1.5
+    view.tick()
+    bench.settle()
+    assert [rate[1] for rate in view.success.rates] == ["Voice", "Shake"]
+
+
+def test_nothing_is_read_in_the_place_of_a_zip_that_is_being_written(bench):
+    bench.settle()
+    view = bench.pane.view
+    view.export.dispatch("on_release")
+    bench.log.lines += 1
+    bench.time += 10.0
+    view.tick()
+    bench.settle()
+    assert view.said.text.startswith("Written: ")
+
+
+def test_it_is_said_when_the_log_cannot_be_read(bench, monkeypatch):
+    def fail():
+        raise PermissionError(13, "Permission denied")
+
+    bench.settle()
+    monkeypatch.setattr(bench.log, "read", fail)
+    bench.pane.view.enter()
+    bench.settle()
+    assert bench.pane.view.said.text == "The log could not be read: Permission denied."
 
 
 def test_no_thread_is_left_when_the_pane_is(bench):

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 
 import pytest
+from kivy.metrics import sp
 
 from tests.headless import Stage
 from widgets.score_history import ScoreHistory
+from widgets.shapes import Shapes
 from widgets.sus_form import ITEMS, SusForm
 from widgets.tlx_scales import SCALES, TlxScales
 
@@ -119,5 +121,8 @@ def test_of_many_scores_the_newest_are_shown_without_words_over_each_other():
     assert not any(text.startswith("run") for text in history.texts)
 
 
-def test_without_scores_that_is_said():
-    assert "Nothing has been filled in yet." in drawn(scores=[], baseline=34.2).texts
+@pytest.mark.parametrize("baseline", [34.2, 68.0, math.nan])
+def test_without_scores_that_is_said_beside_what_they_would_be_compared_with(baseline):
+    words = {one.text: one.y for one in drawn(scores=[], baseline=baseline).marks(Shapes())}
+    said, low, high = words["Nothing has been filled in yet."], words["0"], words["100"]
+    assert math.isnan(baseline) or abs(said - low - (high - low) * baseline / 100) > sp(14)

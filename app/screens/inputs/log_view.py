@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import Any, Literal
 
 from kivy.properties import StringProperty
 from kivy.uix.boxlayout import BoxLayout
@@ -26,12 +26,15 @@ from widgets.kit import Column, QuietButton, Remark, Segmented, Toggle
 from widgets.response_chart import ResponseChart
 from widgets.success_bars import SuccessBars
 
-__all__ = ["BESIDE", "LogView", "facts", "look_of"]
+__all__ = ["LogView", "facts", "look_of"]
 
 LOOKS = {"button": ("touch_app", "Buttons"), "map": ("map", "Map")}
 UNTIL = [("sent", "Until sent"), ("ack", "Until answered"), ("effect", "Until done")]
 BESIDE = ("0dp", "0dp", "6dp", "0dp")
 """Room at the right of what scrolls, for the bar that shows how far."""
+READING = "Reading …"
+AGAIN = 2.0
+"""What comes while it is looked at is read no more often [s]."""
 SURE = 4.0
 """A second press on what erases counts within so long [s]."""
 
@@ -75,10 +78,14 @@ class LogView(Column):
 
     def __init__(self, log: Any, ask: Callable[..., None], now: Callable[[], float], **kwargs: Any) -> None:
         """`log` is the app's `Responding`; `ask(job, then)` has a job done elsewhere and its result told."""
-        super().__init__(spacing="10dp", padding=BESIDE, **kwargs)
+        super().__init__(spacing="10dp", **kwargs)
         self._log, self._ask, self._now = log, ask, now
         self._responses: list[Response] = []
-        self._sure, self._erasing, self._problem = -math.inf, False, ""
+        self._sure, self._problem = -math.inf, ""
+        self._busy: Literal["", "read", "export", "erase"] = ""
+        """What is asked for elsewhere, of which only the newest is done."""
+        self._known, self._since = -1, -math.inf
+        """Lines of this run that were kept when it was read last, and when that was asked for [s]."""
         self.choice = Segmented(options=[("use", "In use"), ("study", "In the study")], value=self.source)
         self.choice.bind(on_choose=lambda _, value: setattr(self, "source", value))
         self.success = SuccessBars(state="live")
@@ -86,6 +93,9 @@ class LogView(Column):
         self.ends.bind(on_choose=lambda _, value: setattr(self, "until", value))
         self.chart = ResponseChart(state="live")
         self.facts, self.said = Remark(font_size="15sp"), Remark(role="text", font_size="15sp")
+        self._nothing = [(chart, chart.nothing) for chart in (self.success, self.chart)]
+        for chart, _ in self._nothing:
+            chart.nothing = READING
         self._fill()
         self.bind(source=self._show, until=self._show)
 
@@ -120,15 +130,21 @@ class LogView(Column):
 
     def enter(self) -> None:
         """Come onto the glass: what is kept is read."""
-        self._erasing = False
-        self._ask(self._log.read, self._read)
+        self._busy = ""
+        self._ask_for_lines()
         self.tick()
+
+    def _ask_for_lines(self) -> None:
+        self._busy, self._known, self._since = "read", self._log.lines, self._now()
+        self._ask(self._log.read, self._read)
 
     def leave(self) -> None:
         """Leave the glass."""
 
     def tick(self) -> None:
-        """Bring the switches up to date."""
+        """Bring the switches up to date, and what has come since it was read."""
+        if not self._busy and self._log.lines != self._known and self._now() - self._since >= AGAIN:
+            self._ask_for_lines()
         self.keeps.active, self.agrees.active = self._log.on, self._log.snippets
         sure = self._now() - self._sure < SURE
         self.erase.text = "Press again: erase" if sure else "Erase all"
@@ -138,9 +154,17 @@ class LogView(Column):
         self._problem = problem
 
     def _read(self, result: Any) -> None:
+        self._busy = ""
+        for chart, nothing in self._nothing:
+            chart.nothing = nothing
         if isinstance(result, list):
             self._responses = result
             self._show()
+        else:
+            self.said.text, self.said.role = (
+                f"The log could not be read: {result.strerror or result}.",
+                "warn",
+            )
 
     def _show(self, *_: object) -> None:
         study = self.source == "study"
@@ -173,12 +197,14 @@ class LogView(Column):
         self.facts.text = facts(shown)
 
     def _export(self) -> None:
-        if self._erasing:
-            return  # of what is asked for elsewhere only the newest is done
+        if self._busy == "erase":
+            return
+        self._busy = "export"
         self.said.text, self.said.role = "Writing …", "muted"
         self._ask(self._log.export, self._exported)
 
     def _exported(self, result: Any) -> None:
+        self._busy = ""
         if isinstance(result, OSError):
             self.said.text, self.said.role = f"It could not be written: {result.strerror or result}.", "warn"
         else:
@@ -188,15 +214,15 @@ class LogView(Column):
         """The first press asks, the second one erases."""
         if self._now() - self._sure >= SURE:
             self._sure = self._now()
-        elif not self._erasing:
-            self._sure, self._erasing = -math.inf, True
+        elif self._busy != "erase":
+            self._sure, self._busy = -math.inf, "erase"
             self._log.forget()
             self.said.text, self.said.role = "Erasing …", "muted"
             self._ask(self._log.erase, self._erased)
         self.tick()
 
     def _erased(self, result: Any) -> None:
-        self._erasing = False
+        self._busy = ""
         if isinstance(result, OSError):
             said = f"It is not erased: {result.strerror or result}."
             self.said.text, self.said.role = said, "warn"
