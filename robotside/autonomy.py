@@ -43,6 +43,8 @@ from robotside.robot import Robot
 from robotside.senses import needed
 from robotside.sonars import Sonars
 from robotside.tasks import TO_CHARGE, Engine
+from robotside.telling import Telling
+from robotside.touching import AGAIN
 from robotside.watch import Watch
 from robotside.whereabouts import Whereabouts
 
@@ -99,7 +101,7 @@ class Autonomy:
         self._sonars, self._movers = Sonars(), Movers()
         self._points: Points = np.empty((0, 2))
         self._swept: Pose2 | None = None
-        self._bumped = False
+        self._bumped, self._let_go = False, -math.inf
         self.battery = math.nan
         """0 empty to 1 full; NaN while unknown."""
         self._records = records
@@ -111,6 +113,8 @@ class Autonomy:
             self._take_map(chart)
         self.situation = Situation()
         self.watch = Watch(self.whereabouts.track, info.camera_fov, bus.publish, self._found)
+        self.telling = Telling(records, lambda status: bus.publish("/task/status", status), clock)
+        """Tells everybody how the task is."""
         self.engine = self._engine(clock)
         self.assignments = Assignments(
             self.guide,
@@ -328,12 +332,16 @@ class Autonomy:
         was, self._bumped = self._bumped, msg.pressed
         self.situation.touched = msg.pressed
         self.whereabouts.take_bumper(msg)
+        if was and not msg.pressed:
+            self._let_go = self._now
         if not msg.pressed or was or self.engine.status.phase == "docking":
+            return
+        self.engine.pause("Paused: the bumper touched something.", "alarm")
+        if self._now - self._let_go < AGAIN:
             return
         pose = self.whereabouts.pose
         at = (pose.x, pose.y) if pose else None
         self._events.say("contact", f"The bumper touched something {_side(msg.bearing)}.", "alarm", at=at)
-        self.engine.pause("Paused: the bumper touched something.", "alarm")
 
     def _found(self, intruder: Intruder) -> None:
         x, y = intruder.position.x, intruder.position.y
@@ -349,7 +357,7 @@ class Autonomy:
 
     def _show_status(self, status: TaskStatus) -> None:
         self._demand.set(CAMERA, "task", status.state == "RUNNING")
-        self._bus.publish("/task/status", status)
+        self.telling.show(status)
 
     def _show_plan(self, path: Points) -> None:
         header = Header(Time.at(self._now), "map")

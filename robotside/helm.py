@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 from bridge.liveness import LAPSE
@@ -19,6 +20,7 @@ from robotside.limits import Measured, turned_over
 from robotside.manoeuvres import BY_STICK, Order, settled
 from robotside.safe_state import Act, SafeState
 from robotside.tasks import Engine
+from robotside.touching import AGAIN, kept_off
 
 __all__ = ["FOLLOW_LINK", "LOST_LINK_STOPS_TASK", "Helm", "Options"]
 
@@ -82,6 +84,7 @@ class Helm:
         self._measured, self._go_home = measured, go_home
         self._excesses = Excesses(robot.info, say, clock)
         self._ran = self._returned = False
+        self._pushed = -math.inf
         self._done: Act | None = None
 
     def step(self, now: float) -> None:
@@ -118,8 +121,18 @@ class Helm:
         engine.pause(f"Paused: {self._controls.name(client)} took the stick.", "warn")
         self._excesses.look(client.id, order)
         self._ran = self._returned = False
-        self._robot.follow(settled(ruling.order, self._robot.info))
+        self._robot.follow(self._kept_off(settled(ruling.order, self._robot.info)))
         return ""
+
+    def _kept_off(self, order: Order) -> Order:
+        """`order` without what pushes into a thing that is in touch, which is said when that begins."""
+        left = kept_off(order, self._robot.info, self._measured())
+        if left is order:
+            return order
+        before, self._pushed = self._pushed, self._clock()
+        if self._pushed - before > AGAIN:
+            self._say("control", "It touches something there: no stick pushes it on. Drive it away.", "warn")
+        return left
 
     def _grounded(self, order: Order) -> str:
         """Why `order` starts no rotors: that takes a task, which nobody gives by brushing against a stick; empty when it need not."""

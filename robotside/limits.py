@@ -66,6 +66,8 @@ class Measured:
     """It says itself that it is on the ground, rotors off; False for one that does not fly."""
     overturned: bool = False
     """It says itself that it lies there on its back."""
+    touched: float | None = None
+    """Bearing in `base_link` of what its bumper touches [rad]; None for nothing, and where it cannot tell."""
 
 
 class Clamped(NamedTuple):

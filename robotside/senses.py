@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from bridge.msgs import Msg
 from bridge.msgs.nav_msgs import Odometry
-from bridge.msgs.pilothouse_msgs import FlightState
+from bridge.msgs.pilothouse_msgs import Bumper, FlightState
 from bridge.msgs.sensor_msgs import Imu
 from robotside.kinds import kind_of
 from robotside.limits import Measured
@@ -72,6 +72,9 @@ class Senses:
         elif isinstance(msg, Imu) and msg.orientation_covariance[0] >= 0:
             turned = msg.orientation
             self._measured = replace(self._measured, roll=turned.roll, pitch=turned.pitch)
+        elif isinstance(msg, Bumper):
+            felt = msg.pressed and math.isfinite(msg.bearing)
+            self._measured = replace(self._measured, touched=msg.bearing if felt else None)
         elif isinstance(msg, FlightState):
             self._measured = replace(
                 self._measured,

@@ -13,6 +13,8 @@ __all__ = ["BumperRing"]
 
 HOLD = STEPS_PER_SECOND // 10
 """Steps that the ring stays pressed after the last contact: a body pushed against a wall chatters."""
+OVER = 0.05
+"""What it touches in the mean nearer to its middle than this is over or under it, which no bearing tells [m]."""
 SEPARATE = STEPS_PER_SECOND // 2
 """Steps without contact after which touching the same thing again is another bump."""
 
@@ -49,8 +51,9 @@ class BumperRing:
                 self.bumps += 1
             self._touched[contact.body] = step
         self._last = step
+        middle = (sum(places) / len(contacts) for places in zip(*(c.position for c in contacts), strict=True))
+        x, y, z = (there - here for there, here in zip(middle, state.position, strict=True))
+        ahead, left, _ = rotate_back(state.rotation, (x, y, z))
+        self._bearing = math.atan2(left, ahead) if math.hypot(ahead, left) > OVER else math.nan
         if not self._pressed:
-            offset = zip(contacts[0].position, state.position, strict=True)
-            x, y, z = (there - here for there, here in offset)
-            ahead, left, _ = rotate_back(state.rotation, (x, y, z))
-            self._pressed, self._bearing, self.changed = True, math.atan2(left, ahead), True
+            self._pressed, self.changed = True, True

@@ -89,7 +89,7 @@ def test_a_task_whose_wheels_turn_in_vain_is_paused(tmp_path: Path) -> None:
 
 
 def push(run: Run, speed: float, seconds: float) -> None:
-    """Hold the stick there."""
+    """Drive on whatever is there."""
     for _ in range(round(seconds / 0.1)):
-        run.station.hear(run.anna, "/cmd_vel", Twist.planar(speed, 0.0), None)
+        run.station.robot.drive(Twist.planar(speed, 0.0))  # as a program would: a stick pushes into nothing
         run.wait(0.1)
