@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from kivy.clock import Clock
 from kivy.lang import Builder
-from kivy.metrics import Metrics
-from kivy.properties import BooleanProperty, OptionProperty, StringProperty
+from kivy.metrics import Metrics, dp
+from kivy.properties import BooleanProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
 import widgets.battery
@@ -16,7 +17,9 @@ import widgets.link_quality  # noqa: F401 - their rules draw what is used here
 from app.screens import standing
 from app.screens.inputs.chip import InputsChip  # noqa: F401 - its rule draws what is used here
 from app.session import Session
+from widgets.base import text_texture
 from widgets.frames import EdgedBox
+from widgets.theme import theme
 
 __all__ = ["TopBar"]
 
@@ -28,8 +31,8 @@ STACKED = ("link", "battery")
 """From the upper one down."""
 HIGH = 34.0
 """Height of a chip that is not stacked [dp]."""
-ROOMY = 840.0
-"""A phone's side narrower than this has no room for the satellites [dp]."""
+LEAST_NAME = 60.0
+"""Of a name that is cut short, this much at least is read [dp]."""
 
 Builder.load_string("""
 #:import fitting_size widgets.base.fitting_size
@@ -50,12 +53,12 @@ Builder.load_string("""
         text: root.robot_name
         bold: True
         font_size: theme.size_title if root.form != 'tall' else fitting_size([self.text], sp(16), self.width - dp(8), bold=True)
-        shorten: root.form == 'tall'
+        shorten: root.form == 'tall' or root.name_room > 0
         shorten_from: 'right'
         pos_hint: {'center_y': .5}
         size_hint_x: 1 if root.form == 'tall' else None
-        text_size: (self.width, None) if root.form == 'tall' else (None, None)
-        width: self.texture_size[0]
+        text_size: (self.width, None) if root.form == 'tall' else (root.name_room or None, None)
+        width: root.name_room or self.texture_size[0]
     Chip:
         id: mode
         icon: root.mode_icon if root.form != 'tall' else ''
@@ -108,6 +111,10 @@ class TopBar(EdgedBox):
 
     form = OptionProperty("wide", options=["wide", "short", "tall"])
     """Shape of the window, as in `app.arrange.form`."""
+    name_room = NumericProperty(0)
+    """What is left for the name of the robot where all of it would push the last chip off the glass [px]; 0 where it has room."""
+    crowded = BooleanProperty(False)
+    """There is no room for the satellites."""
     robot_name = StringProperty("")
     mode_text = StringProperty("—")
     mode_icon = StringProperty("help")
@@ -129,20 +136,39 @@ class TopBar(EdgedBox):
         )
         for name in PARTS:  # kv holds ids weakly, and the narrow bar takes some of them out
             self.ids[name] = self.ids[name].__self__
-        self.fbind("located", lambda *_: self.arrange(self.form))
+        for name in ("located", "crowded"):
+            self.fbind(name, lambda *_: self.arrange(self.form))
+        self._fit = Clock.create_trigger(lambda _: self._fitted(), -1)
+        for name in ("mode", "battery", "link", "satellites", "inputs", "control"):
+            self.ids[name].bind(width=self._fit)
+        for name in ("width", "form", "robot_name", "located"):
+            self.fbind(name, self._fit)
 
     def arrange(self, form: str) -> None:
         """Take the shape of the window; the narrow bar leaves out what is said elsewhere."""
         self.form = form
         self._stack_up(stacked=form == "tall")
         wanted = list(NARROW if form == "tall" else PARTS)
-        if (form == "short" and self.width < ROOMY * Metrics.density) or not self.located:
+        if self.crowded or not self.located:
             wanted = [name for name in wanted if name != "satellites"]
         shown = [self.ids[name] for name in wanted]
         if list(reversed(self.children)) != shown:
             self.clear_widgets()
             for widget in shown:
                 self.add_widget(widget)
+
+    def _fitted(self) -> None:
+        """Leave out the satellites, and then the end of the name, so that who has control is always read whole."""
+        if self.form == "tall":
+            self.crowded, self.name_room = False, 0
+            return
+        chips = [self.ids[name] for name in PARTS if name not in ("name", "gap", "satellites")]
+        around = self.padding[0] + self.padding[2] + self.spacing * (len(chips) + 1)
+        left = self.width - around - sum(chip.width for chip in chips)
+        name = text_texture(self.robot_name, self.ids.name.font_size, theme.font, bold=True).width
+        fix = self.ids.satellites.width + self.spacing
+        self.crowded = name + fix > left
+        self.name_room = max(left, dp(LEAST_NAME)) if name > left else 0
 
     def _stack_up(self, *, stacked: bool) -> None:
         """Battery and link come into the stack, or out of it."""

@@ -49,3 +49,26 @@ def test_what_has_no_satellites_to_tell_of_has_no_chip_for_them(stage: Any) -> N
     assert bar.ids.satellites in bar.children
     bar.located = False
     assert bar.ids.satellites not in bar.children
+
+
+@pytest.mark.parametrize("width", [800, 892, 1280])
+@pytest.mark.parametrize("name", ["Scout-1", "Commander-1", "The old tractor of the third orchard"])
+def test_across_who_has_control_is_read_whole_and_the_name_is_cut_before(
+    stage: Any, width: int, name: str
+) -> None:
+    bar = TopBar()
+    stage.show(bar, size=(width, 56))
+    bar.robot_name, bar.mode_text, bar.control_text = name, "PAUSED · patrol", "you"
+    bar.fix_text = "±1.2 m"
+    bar.arrange("short")
+    bar.ids.battery.state = bar.ids.link.state = "live"
+    bar.ids.battery.show(BatteryState(percentage=0.62))
+    bar.ids.link.rtt = 0.288
+    stage.frames(6)
+    assert bar.ids.control.right <= bar.right
+    assert bar.ids.name.right <= bar.ids.mode.x
+    bar.mode_text = "AUTO"
+    stage.frames(6)
+    if width == 1280 and name == "Scout-1":
+        assert bar.ids.satellites in bar.children
+        assert bar.ids.name.width == bar.ids.name.texture_size[0]
