@@ -1,4 +1,4 @@
-"""Whether the check list is unfolded: by itself until the robot first moves, afterwards as a finger wants it."""
+"""Whether the check list is unfolded: by itself until the robot first moves, afterwards as a finger wants it; and whether it is over."""
 
 from __future__ import annotations
 
@@ -35,6 +35,13 @@ class Checks:
     def open(self) -> bool:
         """Its sentences are to be read."""
         return not (self.ready or self._moved) if self._chosen is None else self._chosen
+
+    @property
+    def over(self) -> bool:
+        """The robot has moved and nothing on the list is bad: it need not lie over a picture any longer."""
+        told: Checklist | None = self._feeds.latest("/checklist")
+        bad = told is not None and any(check.state == "bad" for check in told.checks)
+        return self._moved and not bad and not self._chosen
 
     def choose(self, unfold: bool) -> None:
         """A finger folded or unfolded it."""

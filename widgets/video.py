@@ -59,7 +59,7 @@ class Video(Drawing):
 
     accepts: ClassVar = (Detection2DArray,)
     drawn_from: ClassVar = (
-        "frame_size", "taken_size", "fit", "boxes", "rate", "latency", "age", "show_chip", "corner", "insets",
+        "frame_size", "taken_size", "fit", "boxes", "rate", "latency", "age", "show_chip", "chip_room", "corner", "insets",
         "below", "marks", "field_of_view",
     )  # fmt: skip
 
@@ -79,6 +79,8 @@ class Video(Drawing):
     """Frames a second [Hz]; NaN when not known."""
     latency = NumericProperty(math.nan)
     """From the exposure to the glass [s]; NaN when not known."""
+    chip_room = NumericProperty(math.inf)
+    """How wide the chip may be [px]: what is not needed to drive by is left out of a narrower one."""
     show_chip = BooleanProperty(True)
     """Say size, rate and latency in the corner."""
     corner = NumericProperty("12dp")
@@ -281,13 +283,18 @@ class Video(Drawing):
         return self.latency > LATE
 
     def chip_text(self) -> str:
-        """Size, rate and latency of the picture in words; what is not known is left out."""
+        """Size, rate and latency of the picture in words; what is not known is left out, and what there is no room for."""
         parts = [f"{self.frame_size[0]}×{self.frame_size[1]}"] if all(self.frame_size) else []
         if not math.isnan(self.rate):
             parts.append(f"{self.rate:.0f} fps")
         if not math.isnan(self.latency):
             parts.append(f"{self.latency * 1000:.0f} ms{' late' if self.late else ''}")
+        while len(parts) > 1 and self._chip_wide(" · ".join(parts)) > self.chip_room:
+            parts.pop(0)
         return " · ".join(parts)
+
+    def _chip_wide(self, text: str) -> float:
+        return float(text_texture(text, round(sp(12.5), 1), theme.font).width + dp(14))
 
     def _draw_chip(self) -> None:
         text = self.chip_text() if self.show_chip and self.state != "stale" else ""

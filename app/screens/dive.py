@@ -126,7 +126,7 @@ class DiveScreen(Driving):
             lids.append(unfolded)
         below = self.video.top - strip.y if self.senses.shown else 0
         self.video.insets = [self.arranged["corner"].right - self.video.x, 0, 0, below]
-        self.hide_chip(lids)
+        self.hide_chip([*lids, *self.checks_place])
         for slot in HIDES:
             place = self.arranged[slot]
             hidden = any(lid.overlaps(place) for lid in lids)

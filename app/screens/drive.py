@@ -158,7 +158,7 @@ class DriveScreen(Driving):
         if figures is not None and figures.overlaps(Rect(*self.low.pos, *self.low.size)):
             self.low.opacity, self.low.disabled = 0.0, True
         lids += [figures] if figures is not None else []
-        self.hide_chip(lids)
+        self.hide_chip([*lids, *self.checks_place, self.arranged["badge"]])
         for slot, place in left.items():
             for widget in self.places.get(slot, ()):
                 widget.opacity = 0 if place is None else 1

@@ -30,8 +30,8 @@ from widgets.stick import Stick
 
 __all__ = ["Driving"]
 
-CHIP = 170, 24
-"""Room of the picture's size and rate at its upper edge [dp]."""
+CHIP = 96, 24
+"""Least room for how late the picture is, at its upper edge, and its height [dp]."""
 
 
 class Driving(FloatLayout):
@@ -49,6 +49,7 @@ class Driving(FloatLayout):
         session, app = self.session, self.app
         self.arranged: dict[str, Rect] = {}
         """Places by name since the last arranging; empty before."""
+        self._over = False
         self.cover: Rect | None = None
         """Where something is said over the screen; None where nothing is."""
         self.notice = Rect(0, 0, 1, 1)
@@ -150,6 +151,9 @@ class Driving(FloatLayout):
         self.senses.tick()
         self.in_vain.tick()
         self.checks.tick()
+        if self.session.checks.over != self._over:
+            self._over = self.session.checks.over
+            self._cover_up()
         self.hands.tick()
 
     def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
@@ -170,18 +174,29 @@ class Driving(FloatLayout):
         self.checks.wide, self.checks.room = min(low.width, 340 * unit), top - 8 * unit - low.y
 
     def hide_checks(self) -> bool:
-        """Take the checks away where something is said over them, or sensors unfolded; whether they are away."""
+        """Take the checks away once they are over, or where something is said over them, or sensors unfolded; whether they are away."""
         lids = [self.cover, self.arranged["senses_open"] if self.senses.covers else None]
         low = Rect(*self.low.pos, *self.low.size)
-        under = any(lid.overlaps(low) for lid in lids if lid is not None)
+        under = self.session.checks.over or any(lid.overlaps(low) for lid in lids if lid is not None)
         self.low.opacity, self.low.disabled = float(not under), under
         return under
 
+    @property
+    def checks_place(self) -> list[Rect]:
+        """Where the checks are; nothing while they are away."""
+        wide, low = self.checks.shown_width, self.low
+        if low.disabled or not wide:
+            return []
+        x = low.right - wide if "right" in self.checks.pos_hint else low.center_x - wide / 2
+        return [Rect(x, low.y, wide, low.height)]
+
     def hide_chip(self, lids: list[Rect]) -> None:
-        """The picture's own words are away where they would be seen only in part."""
+        """The picture's own words end before the first of `lids` beside them, and are away where that leaves too little."""
         left, top = self.video.x + self.video.insets[0] + dp(8), self.video.top - self.video.insets[3] - dp(8)
-        chip = Rect(left, top - dp(CHIP[1]), dp(CHIP[0]), dp(CHIP[1]))
-        self.video.show_chip = not any(lid.overlaps(chip) for lid in lids)
+        row = Rect(left, top - dp(CHIP[1]), max(self.video.right - left, 1.0), dp(CHIP[1]))
+        ends = min((max(lid.x - dp(8), left) for lid in lids if lid.overlaps(row)), default=self.video.right)
+        self.video.chip_room = ends - left
+        self.video.show_chip = bool(self.video.chip_room >= dp(CHIP[0]))
 
     def _cover_up(self, *_: object) -> None:
         if self.arranged:

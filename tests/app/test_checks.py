@@ -76,3 +76,23 @@ def test_what_a_finger_unfolded_folds_when_all_becomes_good(robot):
     robot.checks.choose(True)
     robot.tell("ok")
     assert robot.checks.open
+
+
+def test_it_is_over_once_the_robot_has_moved_and_nothing_on_it_is_bad(robot):
+    robot.tell("ok", "unknown")
+    assert not robot.checks.over
+    robot.drive(x=0.2)
+    assert robot.checks.over
+    robot.tell("ok", "bad")
+    assert not robot.checks.over
+    robot.tell("ok", "ok")
+    assert robot.checks.over
+
+
+def test_what_a_finger_unfolds_stays_until_it_folds_it(robot):
+    robot.tell("ok", "unknown")
+    robot.drive(x=0.2)
+    robot.checks.choose(True)
+    assert not robot.checks.over
+    robot.checks.choose(False)
+    assert robot.checks.over

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from app.feeds import Post
 from app.rects import Rect
+from bridge.msgs.geometry_msgs import Twist, TwistWithCovariance
+from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import Check, Checklist, RobotInfo
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
@@ -33,3 +36,30 @@ def test_what_is_wrong_with_a_drone_is_read_upright_without_anything_seen_only_i
     driving.stage.frames(3)
     assert screen.low.top > screen.arranged["top"].y
     assert (tape.right < 0, screen.video.show_chip) == (True, False)
+
+
+def test_the_picture_says_how_late_it_is_beside_what_lies_there_and_leaves_the_rest_out(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    before = driving.app.screens["drive"]
+    robot.publish("/robot/info", DRONE)
+    driving.until(lambda: driving.app.screens["drive"] is not before, "the screen of before")
+    screen = driving.app.screens["drive"]
+    video = screen.video
+    video.frame_size, video.rate, video.latency = (640, 480), 3.0, 0.657
+    screen.session.checks.choose(False)
+    robot.publish("/checklist", Checklist(checks=[Check("stop", "unknown", "STOP was not tested.")]))
+    driving.until(lambda: screen.checks.height > 0, "no checks")
+    screen.arrange(Rect(0, 60, 412, 774), "tall", 1.0)
+    driving.stage.frames(2)
+    (beside,) = screen.checks_place
+    assert video.chip_text() == "3 fps · 657 ms late"
+    assert video.show_chip
+    assert video.x + video.insets[0] + 8 + video.chip_room < beside.x
+
+    way = Odometry(twist=TwistWithCovariance(Twist.planar(1.0, 0.0)))
+    screen.session.feeds.put("/odom", Post(way, screen.session.now(), 1))
+    screen.tick()
+    driving.stage.frames(2)
+    assert screen.checks_place == [], "it has moved, and nothing is bad"
+    assert video.chip_text() == "640×480 · 3 fps · 657 ms late"
