@@ -33,15 +33,14 @@ class History:
         self._due = 0.0
 
     def hear(self, _: str, msg: Msg) -> None:
-        """Take one message of `/task/status` or `/task/progress`."""
+        """Take one message of `/task/progress`."""
         if isinstance(msg, TaskProgress):
             self._distance = msg.distance_driven
             if self._clock() >= self._due and msg.task_id == self._run.id:
                 self._keep(self._run)
-        elif isinstance(msg, TaskStatus):
-            self._note(msg)
 
-    def _note(self, status: TaskStatus) -> None:
+    def note(self, status: TaskStatus) -> None:
+        """Keep what is new of a task; that it began or ended is waited for (`Job.binding`)."""
         if status.task_id > self._runs.last and status.task:
             self._begin(status)
         if not self._run.id or status.task_id != self._run.id or self._run.ended.seconds > 0:

@@ -131,6 +131,7 @@ class Station:
         self._mind(partial(self.helm.step, now))
         self._pass_on(self.robot.read(now))
         self._mind_trouble()
+        self.autonomy.telling.look()
         self._mind(lambda: self.autonomy.check(now))
         if not self._ending:
             self._mind(lambda: self.agenda.step(now))
@@ -246,6 +247,11 @@ class Station:
         return self._at_rest()
 
     @property
+    def done(self) -> bool:
+        """The robot stands, and everybody was told what became of the task."""
+        return self.at_rest and self.autonomy.telling.all_told
+
+    @property
     def stop_doubt(self) -> str:
         """Why a STOP that is pressed may not have reached the robot, as one sentence; empty when it has."""
         return "" if self.at_rest else self._unheard or self.robot.trouble
@@ -278,8 +284,8 @@ class Station:
             self.events.say("stop", f"STOP, pressed by {by} before the restart, is still pressed.", "alarm")
         engine.recall(self.records.runs.last, self.records.runs.newest)
         history = History(self.records.runs, engine, self.clock)
-        for topic in ("/task/status", "/task/progress"):
-            self.bus.subscribe(topic, history.hear)
+        self.bus.subscribe("/task/progress", history.hear)
+        self.autonomy.telling.note = history.note
         return Interrupted(cut, engine) if cut else None
 
     def _show_beginning(self) -> None:

@@ -97,7 +97,7 @@ class Together(Generic[S]):
         self._patience = self._wall() + BRAKING
 
     async def _tick(self) -> None:
-        """Drive the stations until told to end and all stand still."""
+        """Drive the stations until told to end and all stand still and have said so."""
         loop = asyncio.get_running_loop()
         due = look = loop.time()
         while self._wall() < self._patience and not self._done():
@@ -113,7 +113,7 @@ class Together(Generic[S]):
             await asyncio.sleep(max(0.0, due - loop.time()))
 
     def _done(self) -> bool:
-        return self._patience < math.inf and all(each.station.at_rest for each in self._servings)
+        return self._patience < math.inf and all(each.station.done for each in self._servings)
 
 
 class _Faults:
