@@ -96,7 +96,7 @@ Builder.load_string("""
             radius: [theme.corner]
         Color:
             rgba: theme.text[:3] + [.12 if root.state == 'down' else 0]
-        SmoothRoundedRectangle:
+        RoundedRectangle:
             pos: self.pos
             size: self.size
             radius: [theme.corner]

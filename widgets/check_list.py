@@ -99,6 +99,7 @@ Builder.load_string("""
         size_hint_y: None
         height: root.unfolded
         opacity: 1 if root.unfolded else 0
+        bar_margin: dp(4)
         Column:
             id: lines
             spacing: dp(8)

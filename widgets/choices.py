@@ -77,7 +77,7 @@ Builder.load_string("""
             size: dp(24), dp(24)
         Color:
             rgba: theme.surface[:3] + [.62 if root.disabled else 0]
-        SmoothRoundedRectangle:
+        RoundedRectangle:
             pos: self.track_pos
             size: dp(54), dp(31)
             radius: [dp(15.5)]

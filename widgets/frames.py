@@ -36,7 +36,7 @@ Builder.load_string("""
     canvas.before:
         Color:
             rgba: theme.roles[self.press_role][:3] + [self.press_share if self.state == 'down' else 0]
-        SmoothRoundedRectangle:
+        RoundedRectangle:
             pos: self.pos
             size: self.size
             radius: [self.corner]
@@ -58,7 +58,7 @@ Builder.load_string("""
     canvas.before:
         Color:
             rgba: theme.glass if self.card else (0, 0, 0, 0)
-        SmoothRoundedRectangle:
+        RoundedRectangle:  # the smooth one draws its edge beyond a roll that it is cut off by, unless it is opaque
             pos: self.pos
             size: self.size
             radius: [self.card_corner]

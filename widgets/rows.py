@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from kivy.effects.scroll import ScrollEffect
 from kivy.lang import Builder
-from kivy.properties import BooleanProperty, NumericProperty, StringProperty
+from kivy.properties import BooleanProperty, NumericProperty, ObjectProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.scrollview import ScrollView
 from kivy.uix.widget import Widget
@@ -30,7 +31,7 @@ Builder.load_string("""
     canvas.before:
         Color:
             rgba: theme.accent[:3] + [.16 if root.chosen else 0]
-        SmoothRoundedRectangle:
+        RoundedRectangle:
             pos: self.pos
             size: self.size
             radius: [self.corner]
@@ -80,6 +81,7 @@ Builder.load_string("""
 <Roll>:
     do_scroll_x: False
     bar_width: dp(3)
+    bar_margin: dp(-6)
     bar_color: theme.faint
     bar_inactive_color: theme.line
 
@@ -170,7 +172,17 @@ class DragHandle(Icon):
 
 
 class Roll(ScrollView):
-    """A column that scrolls, but not under a finger that came down on something to be dragged."""
+    """A column that scrolls, but not under a finger that came down on something to be dragged.
+
+    Its bar is beside it, where it hides nothing of what it scrolls.
+    """
+
+    effect_cls = ObjectProperty(ScrollEffect, allownone=True)
+    """It stops at its ends: Kivy's own spring swings ever further when frames are few."""
+
+    def on_scroll_y(self, _: Roll, at: float) -> None:
+        """Stay within what there is."""
+        self.scroll_y = min(max(at, 0.0), 1.0)
 
     def on_touch_down(self, touch: Any) -> bool:
         """Hand a finger at once to what it drags."""

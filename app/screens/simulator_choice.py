@@ -53,7 +53,6 @@ Builder.load_string("""
                 size_hint_y: None
                 height: self.minimum_height if root.offered else 0
                 opacity: 1 if root.offered else 0
-                padding: 0, 0, dp(7), 0
                 spacing: dp(8)
                 SectionLabel:
                     title: 'Robots'

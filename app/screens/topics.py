@@ -82,7 +82,7 @@ Builder.load_string("""
             radius: [dp(2)]
         Color:
             rgba: theme.text[:3] + [.14 if root.state == 'down' else 0]
-        SmoothRoundedRectangle:
+        RoundedRectangle:
             pos: self.x, self.y + dp(4)
             size: self.width, self.height - dp(8)
             radius: [theme.corner]

@@ -8,7 +8,7 @@ from typing import Any
 
 from kivy.uix.widget import Widget
 
-from app.screens.inputs.log_view import BESIDE, SURE
+from app.screens.inputs.zip_row import SURE
 from widgets import SusForm, TlxScales
 from widgets.kit import Column, PrimaryButton, QuietButton, Remark
 
@@ -31,7 +31,7 @@ class FormView(Column):
 
     def __init__(self, form: str, log: Any, now: Callable[[], float], **kwargs: Any) -> None:
         """`form` is `tlx` or `sus`; `log` is the app's `Responding`; `now` is our clock [s]."""
-        super().__init__(spacing="10dp", padding=BESIDE, **kwargs)
+        super().__init__(spacing="10dp", **kwargs)
         self.form, self._log, self._now = form, log, now
         self.task: str = log.due
         """What it is about, where it is no study; empty for nothing that has just ended."""

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 from app.screens.inputs.form_view import FormView
-from app.screens.inputs.log_view import BESIDE, look_of
+from app.screens.inputs.log_view import look_of
 from app.screens.inputs.setting_row import switch_row
 from app.workload import BASELINE, SUS_ABOVE
 from widgets.kit import Column, QuietButton, Remark
@@ -22,7 +22,7 @@ class LoadView(Column):
 
     def __init__(self, log: Any, now: Callable[[], float], **kwargs: Any) -> None:
         """`log` is the app's `Responding`."""
-        super().__init__(spacing="10dp", padding=BESIDE, **kwargs)
+        super().__init__(spacing="10dp", **kwargs)
         self._log, self._now = log, now
         self.form: FormView | None = None
         """The form that is open; None for none."""

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from pathlib import Path
 from typing import Any, Literal
 
 from kivy.properties import StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
+from app.device.sharing import Sharing
 from app.intents import INTENTS, METHODS
 from app.responses import Response
 from app.responses_stats import (
@@ -22,6 +24,7 @@ from app.responses_stats import (
 )
 from app.screens.inputs import PANES
 from app.screens.inputs.setting_row import switch_row
+from app.screens.inputs.zip_row import SURE, ZipRow
 from widgets.kit import Column, QuietButton, Remark, Segmented, Toggle
 from widgets.response_chart import ResponseChart
 from widgets.success_bars import SuccessBars
@@ -30,13 +33,9 @@ __all__ = ["LogView", "facts", "look_of"]
 
 LOOKS = {"button": ("touch_app", "Buttons"), "map": ("map", "Map")}
 UNTIL = [("sent", "Until sent"), ("ack", "Until answered"), ("effect", "Until done")]
-BESIDE = ("0dp", "0dp", "6dp", "0dp")
-"""Room at the right of what scrolls, for the bar that shows how far."""
 READING = "Reading …"
 AGAIN = 2.0
 """What comes while it is looked at is read no more often [s]."""
-SURE = 4.0
-"""A second press on what erases counts within so long [s]."""
 
 
 def look_of(method: str) -> tuple[str, str]:
@@ -76,14 +75,25 @@ class LogView(Column):
     until = StringProperty("sent")
     """To what response times go, as of `responses_stats.seconds`."""
 
-    def __init__(self, log: Any, ask: Callable[..., None], now: Callable[[], float], **kwargs: Any) -> None:
-        """`log` is the app's `Responding`; `ask(job, then)` has a job done elsewhere and its result told."""
+    def __init__(
+        self,
+        log: Any,
+        ask: Callable[..., None],
+        now: Callable[[], float],
+        sharing: Sharing | None = None,
+        **kwargs: Any,
+    ) -> None:
+        """`log` is the app's `Responding`; `ask(job, then)` has a job done elsewhere and its result told.
+
+        `sharing` hands a zip to another app; None where its folder can be looked into.
+        """
         super().__init__(spacing="10dp", **kwargs)
+        self._sharing = sharing
         self._log, self._ask, self._now = log, ask, now
         self._responses: list[Response] = []
         self._sure, self._problem = -math.inf, ""
-        self._busy: Literal["", "read", "export", "erase"] = ""
-        """What is asked for elsewhere, of which only the newest is done."""
+        self._busy: Literal["", "read", "file"] = ""
+        """What is asked for elsewhere, of which only the newest is done: nothing takes the place of work on files."""
         self._known, self._since = -1, -math.inf
         """Lines of this run that were kept when it was read last, and when that was asked for [s]."""
         self.choice = Segmented(options=[("use", "In use"), ("study", "In the study")], value=self.source)
@@ -121,6 +131,9 @@ class LogView(Column):
         row.add_widget(self.export)
         row.add_widget(self.erase)
         self.add_widget(row)
+        self.zips = ZipRow(self._now, None if self._sharing is None else self._sharing.where)
+        self.zips.bind(on_share=lambda _: self._share(), on_delete=lambda _: self._discard())
+        self.add_widget(self.zips)
         self.add_widget(self.said)
 
     def _switch(self, icon: str, title: str, detail: str, turn: Callable[[bool], object]) -> Toggle:
@@ -132,6 +145,7 @@ class LogView(Column):
         """Come onto the glass: what is kept is read."""
         self._busy = ""
         self._ask_for_lines()
+        self.zips.show(self._log.zips())
         self.tick()
 
     def _ask_for_lines(self) -> None:
@@ -145,6 +159,7 @@ class LogView(Column):
         """Bring the switches up to date, and what has come since it was read."""
         if not self._busy and self._log.lines != self._known and self._now() - self._since >= AGAIN:
             self._ask_for_lines()
+        self.zips.tick()
         self.keeps.active, self.agrees.active = self._log.on, self._log.snippets
         sure = self._now() - self._sure < SURE
         self.erase.text = "Press again: erase" if sure else "Erase all"
@@ -196,37 +211,57 @@ class LogView(Column):
         ]
         self.facts.text = facts(shown)
 
-    def _export(self) -> None:
-        if self._busy == "erase":
+    def _work(self, said: str, job: Callable[[], Any], done: Callable[[Any], str], failed: str) -> None:
+        """Have it done, unless something of the kind is; `done` says what came of it, `failed` begins what did not."""
+        if self._busy == "file":
             return
-        self._busy = "export"
-        self.said.text, self.said.role = "Writing …", "muted"
-        self._ask(self._log.export, self._exported)
+        if self._busy == "read":
+            self._known = -1  # what was to be read is so afterwards
+        self._busy = "file"
+        self.said.text, self.said.role = said, "muted"
 
-    def _exported(self, result: Any) -> None:
-        self._busy = ""
-        if isinstance(result, OSError):
-            self.said.text, self.said.role = f"It could not be written: {result.strerror or result}.", "warn"
-        else:
-            self.said.text, self.said.role = f"Written: {result}", "ok"
+        def then(result: Any) -> None:
+            self._busy = ""
+            if isinstance(result, OSError):
+                why = str(result.strerror or result).rstrip(".")
+                self.said.text, self.said.role = f"{failed}: {why}.", "warn"
+            else:
+                self.said.text, self.said.role = done(result), "ok"
+            self.zips.show(self._log.zips())
+
+        self._ask(job, then)
+
+    def _export(self) -> None:
+        self._work("Writing …", self._log.export, self._exported, "It could not be written")
+
+    def _exported(self, path: Path) -> str:
+        return f"Written: {path if self._sharing is None else path.name}"
+
+    def _share(self) -> None:
+        sharing, zips = self._sharing, self._log.zips()
+        if sharing is not None and zips:
+            said = f"{zips[-1].name}: its copy is in {sharing.where}."
+            self._work("Copying …", lambda: sharing.share(zips[-1]), lambda _: said, "It is not shared")
+
+    def _discard(self) -> None:
+        def job() -> str:
+            if self._sharing is not None:
+                self._sharing.forget()
+            return str(self._log.discard())
+
+        self._work("Deleting …", job, str, "They are not deleted")
 
     def _erase(self) -> None:
         """The first press asks, the second one erases."""
         if self._now() - self._sure >= SURE:
             self._sure = self._now()
-        elif self._busy != "erase":
-            self._sure, self._busy = -math.inf, "erase"
+        elif self._busy != "file":
+            self._sure = -math.inf
             self._log.forget()
-            self.said.text, self.said.role = "Erasing …", "muted"
-            self._ask(self._log.erase, self._erased)
+            self._work("Erasing …", self._log.erase, self._erased, "It is not erased")
         self.tick()
 
-    def _erased(self, result: Any) -> None:
-        self._busy = ""
-        if isinstance(result, OSError):
-            said = f"It is not erased: {result.strerror or result}."
-            self.said.text, self.said.role = said, "warn"
-            return
+    def _erased(self, said: str) -> str:
         self._responses = []
         self._show()
-        self.said.text, self.said.role = result, "text"
+        return said

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from app.screens.inputs.log_view import BESIDE, look_of
+from app.screens.inputs.log_view import look_of
 from app.screens.inputs.setting_row import number_row, switch_row
 from app.study import COMMANDS, POSTURES, TRIGGERS, Plan
 from widgets.kit import Column, PrimaryButton, Remark, SectionLabel, Segmented, Toggle
@@ -38,7 +38,7 @@ class SetupView(Column):
     __events__ = ("on_begin",)
 
     def __init__(self, app: Any, **kwargs: Any) -> None:
-        super().__init__(spacing="8dp", padding=BESIDE, **kwargs)
+        super().__init__(spacing="8dp", **kwargs)
         self._app = app
         self.person, self.triggers = 1, TRIGGERS
         row, self.number = number_row(

@@ -8,7 +8,7 @@ from kivy.properties import BooleanProperty
 
 from app.intents import INTENTS, Heard
 from app.origin import origins
-from app.screens.inputs.log_view import BESIDE, look_of
+from app.screens.inputs.log_view import look_of
 from app.study import Trials
 from widgets.kit import Column, Grid, PrimaryButton, QuietButton, Remark
 from widgets.prompt_card import PromptCard
@@ -36,7 +36,7 @@ class TrialView(Column):
     """There is too little height for prompt and buttons one below the other."""
 
     def __init__(self, app: Any, trials: Trials, **kwargs: Any) -> None:
-        super().__init__(spacing="10dp", padding=BESIDE, **kwargs)
+        super().__init__(spacing="10dp", **kwargs)
         self._app, self._trials, self._laid = app, trials, ""
         self.card, self.remark = PromptCard(), Remark(role="text", font_size="16sp")
         self.go = PrimaryButton(text="Begin", icon="play_arrow")

@@ -1,0 +1,37 @@
+"""What scrolls is seen within its list and nowhere else."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from kivy.uix.floatlayout import FloatLayout
+
+from widgets.column import Column
+from widgets.rows import ListRow, Roll
+from widgets.score_history import ScoreHistory
+
+
+@pytest.mark.parametrize("at", [0, 0.5, 1])
+@pytest.mark.parametrize(
+    "kind",
+    [
+        lambda: ScoreHistory(state="live", size_hint_y=None, height=90),
+        lambda: ListRow(title="Patrol", chosen=True),
+        lambda: ListRow(title="Patrol", state="down"),
+    ],
+    ids=["chart", "chosen row", "pressed row"],
+)
+def test_no_edge_of_what_scrolls_is_drawn_beyond_the_list(stage, kind, at):
+    roll, column = Roll(size_hint=(None, None), size=(240, 100), pos=(20, 100)), Column(spacing=10)
+    for _ in range(5):
+        column.add_widget(kind())
+    roll.add_widget(column)
+    whole = FloatLayout()
+    whole.add_widget(roll)
+    stage.show(whole, size=(300, 300))
+    roll.pos = 20, 100
+    roll.scroll_y = at
+    stage.frames(3)
+    seen = stage.pixels(whole)[..., :3].max(-1) > 8
+    assert seen[105:195].any()
+    assert not np.concatenate([seen[:99], seen[201:]]).any()
