@@ -6,17 +6,21 @@
 from __future__ import annotations
 
 import json
+import logging
 import os
 import sys
 import threading
+import traceback
+from collections.abc import Callable
 from pathlib import Path
 from typing import TextIO
 
 from app.voice.files import FileEars, read
 from app.voice.microphone import Ears, Microphone
 from app.voice.recognizer import Event, State, VoiceTrouble
+from app.voice.running import NOTED
 from app.voice.service import Service, judge_of
-from app.voice.wire import event_line, read_grammar
+from app.voice.wire import THERE, event_line, read_grammar
 
 __all__ = ["main", "own_line"]
 
@@ -28,9 +32,15 @@ def main(arguments: list[str], orders: TextIO, events: TextIO) -> int:
     if not first:
         return 0
 
+    lock = threading.Lock()
+
+    def say(line: str) -> None:
+        with lock:  # an answer may come from the thread that takes the orders
+            events.write(line + "\n")
+            events.flush()
+
     def tell(event: Event) -> None:
-        events.write(event_line(event) + "\n")
-        events.flush()
+        say(event_line(event))
 
     try:
         ears: Ears = FileEars([read(Path(one)) for one in recordings]) if recordings else Microphone()
@@ -38,16 +48,20 @@ def main(arguments: list[str], orders: TextIO, events: TextIO) -> int:
         tell(State("failed", str(trouble)))
         return 0
     service = Service(read_grammar(json.loads(first)), ears, lambda grammar: judge_of(name, grammar), tell)
-    threading.Thread(target=_obey, args=(service, orders), name="voice orders", daemon=True).start()
+    threading.Thread(
+        target=_obey, args=(service, orders, lambda: say(THERE)), name="voice orders", daemon=True
+    ).start()
     service.run()
     return 0
 
 
-def _obey(service: Service, orders: TextIO) -> None:
+def _obey(service: Service, orders: TextIO, there: Callable[[], object]) -> None:
     for line in orders:
         order = json.loads(line)
         if "listen" in order:
             service.listen(on=bool(order["listen"]))
+        elif "there" in order:
+            service.ask(there)
         elif "heed" in order:
             heeded = order["heed"]
             service.heed(None if heeded is None else frozenset(heeded))
@@ -61,5 +75,19 @@ def own_line() -> TextIO:
     return events
 
 
+def _alone() -> None:
+    """End without the interpreter's own end: that waits for the thread which reads the orders, or breaks over it and hides why."""
+    code = 1
+    logging.basicConfig(format=f"{NOTED}%(message)s")
+    try:
+        code = main(sys.argv[1:], sys.stdin, own_line())
+    except BaseException:  # noqa: BLE001 - the last line of it is what the app tells as the reason
+        traceback.print_exc()
+    finally:
+        logging.shutdown()
+        sys.stderr.flush()
+        os._exit(code)
+
+
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:], sys.stdin, own_line()))
+    _alone()

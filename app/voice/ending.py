@@ -14,7 +14,7 @@ import time
 __all__ = ["ENDS", "end", "end_aside", "wait_for_ends"]
 
 ENDS = 2.0
-"""A process that does not end by itself in so long is ended, and a thread is left [s]."""
+"""A process that does not end by itself in so long is ended, and a thread that waits for one is left after twice as long [s]."""
 _ending: set[threading.Thread] = set()
 
 
@@ -46,7 +46,7 @@ def _end_both(process: subprocess.Popen[str] | None, reader: threading.Thread | 
         if process is not None:
             end(process)
         if reader is not None:
-            reader.join(ENDS)
+            reader.join(2 * ENDS)
     finally:
         _ending.discard(threading.current_thread())
 

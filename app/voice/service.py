@@ -74,6 +74,7 @@ class Service:
         self._until = -1.0
         self._flat = 0.0
         self._heeded: frozenset[str] | None = None
+        self._loading = True
 
     def listen(self, *, on: bool) -> None:
         """Open or close the ears."""
@@ -83,6 +84,13 @@ class Service:
         """Count only these from now on."""
         self._orders.put(_Order("heed", commands))
 
+    def ask(self, answer: Callable[[], object]) -> None:
+        """Have `run` answer, so that whoever asks knows that it does not hang; while it loads it is answered here and now."""
+        if self._loading:
+            answer()
+        else:
+            self._orders.put(_Order("ask", answer))
+
     def stop(self) -> None:
         """Have `run` end."""
         self._orders.put(_Order("stop"))
@@ -90,12 +98,14 @@ class Service:
     def run(self) -> None:
         """Until `stop`. After a fault it may be run again, and goes on as it was told before."""
         listens, self._until = self._until == float("inf"), -1.0
+        self._loading = True
         self._tell(State("starting"))
         try:
             hearing = Hearing(self._grammar, self._make(self._grammar), self._tell)
         except VoiceTrouble as trouble:
             self._tell(State("failed", str(trouble)))
             return
+        self._loading = False
         hearing.heed(self._heeded)
         self._tell(State("ready"))
         try:
@@ -118,6 +128,8 @@ class Service:
             hearing.heed(order.value)
         elif order.do == "listen":
             self._listen(hearing, on=order.value)
+        elif order.do == "ask":
+            order.value()
         return order.do != "stop"
 
     def _listen(self, hearing: Hearing, *, on: bool) -> None:

@@ -9,8 +9,10 @@ from typing import Any
 
 from app.voice.recognizer import Event, Grammar, Level, Partial, Rejected, Result, State
 
-__all__ = ["event_line", "grammar_fields", "read_event", "read_grammar"]
+__all__ = ["THERE", "event_line", "grammar_fields", "read_event", "read_grammar"]
 
+THERE = '{"there": true}'
+"""An order that asks whether it is there, and the line that answers it."""
 KINDS: dict[str, type[Event]] = {kind.__name__: kind for kind in (Partial, Result, Rejected, Level, State)}
 
 

@@ -3,34 +3,37 @@
     voice = recognizer("phonemes")      # or "sphinx"
     voice.start(Grammar(COMMANDS), hear)
 
-A process keeps the user interface smooth, and a fault in foreign code takes nothing with it: it is said, and the process is
-started again once.
+A process keeps the user interface smooth, and a fault in foreign code takes nothing with it: a process that crashes or hangs is said, and
+started again once within ten minutes (`app.voice.breakdown`). A thread that hangs cannot be ended.
 """
 
 from __future__ import annotations
 
 import importlib.util
 import json
+import logging
 import os
-import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 from typing import Any
 
-from app.voice.ending import end, end_aside
+from app.voice.breakdown import BEAT, Breakdowns, Signs, reason
+from app.voice.ending import end_aside
 from app.voice.microphone import Ears, Microphone
 from app.voice.recognizer import Grammar, Hear, Result, State, VoiceRecognizer, VoiceTrouble
+from app.voice.running import Running
 from app.voice.service import Service, judge_of
-from app.voice.wire import grammar_fields, read_event
+from app.voice.wire import THERE, grammar_fields, read_event
 
 __all__ = ["PACKAGES", "InProcess", "InThread", "recognizer"]
 
+log = logging.getLogger(__name__)
+
 PACKAGES = {"phonemes": "hama", "sphinx": "pocketsphinx"}
 """What each judge needs."""
-AGAIN = "Voice recognition crashed and is started again."
-OVER = "Voice recognition crashed twice and is off. Switch it on again, or command by touch."
 ROOT = Path(__file__).parents[2]
 
 
@@ -73,9 +76,14 @@ class InThread:
 
     languages: tuple[str, ...] = ("en",)
 
-    def __init__(self, name: str, ears: Callable[[], Ears] = Microphone) -> None:
+    def __init__(
+        self,
+        name: str,
+        ears: Callable[[], Ears] = Microphone,
+        now: Callable[[], float] = time.monotonic,
+    ) -> None:
         """`name` is one of `PACKAGES`."""
-        self.name, self._ears = name, ears
+        self.name, self._ears, self._now = name, ears, now
         self._service: Service | None = None
         self._thread: threading.Thread | None = None
         self._over = threading.Event()
@@ -116,11 +124,15 @@ class InThread:
         end_aside(None, thread)
 
     def _run(self, service: Service, hear: Hear) -> None:
-        for sentence in (AGAIN, OVER):
+        breakdowns, again = Breakdowns(), True
+        while again:
             try:
                 service.run()
-            except Exception:  # noqa: BLE001 - whatever a foreign library raises, it is said and the app goes on
-                hear(State("starting" if sentence == AGAIN else "failed", sentence))
+            except Exception as problem:
+                why = reason(f"{type(problem).__name__}: {problem}")
+                again, sentence = breakdowns.sentence("crashed", why, self._now())
+                log.warning("%s", sentence, exc_info=problem)
+                hear(State("starting" if again else "failed", sentence))
             else:
                 return
 
@@ -130,9 +142,15 @@ class InProcess:
 
     languages: tuple[str, ...] = ("en",)
 
-    def __init__(self, name: str, recordings: Sequence[Path] = (), command: Sequence[str] = ()) -> None:
+    def __init__(
+        self,
+        name: str,
+        recordings: Sequence[Path] = (),
+        command: Sequence[str] = (),
+        now: Callable[[], float] = time.monotonic,
+    ) -> None:
         """`recordings` are heard in place of the microphone; `command` is run in place of `app.voice.child`."""
-        self.name = name
+        self.name, self._now = name, now
         self._command = list(command) or [
             sys.executable,
             "-m",
@@ -141,8 +159,8 @@ class InProcess:
             *map(str, recordings),
         ]
         self._lock = threading.Lock()
-        self._process: subprocess.Popen[str] | None = None
-        self._reader: threading.Thread | None = None
+        self._process: Running | None = None
+        self._life: threading.Thread | None = None
         self._said: dict[str, dict[str, Any]] = {}
         self._over = threading.Event()
 
@@ -156,13 +174,13 @@ class InProcess:
         _checked(self.name, grammar, self.languages)
         self._over, self._said = threading.Event(), {}
         process = self._spawn(grammar, self._over)
-        self._reader = threading.Thread(
-            target=self._read,
+        self._life = threading.Thread(
+            target=self._live,
             args=(process, grammar, _until(self._over, hear), self._over),
             name="voice",
             daemon=True,
         )
-        self._reader.start()
+        self._life.start()
 
     def listen(self, *, on: bool) -> None:
         """Open or close the ears."""
@@ -177,10 +195,12 @@ class InProcess:
         with self._lock:
             self._over.set()
             process, self._process = self._process, None
-        reader, self._reader = self._reader, None
-        end_aside(process, reader)
+        if process is not None:
+            process.wake()
+        life, self._life = self._life, None
+        end_aside(None, life)
 
-    def _spawn(self, grammar: Grammar, over: threading.Event) -> subprocess.Popen[str]:
+    def _spawn(self, grammar: Grammar, over: threading.Event) -> Running:
         paths = [str(ROOT), os.environ.get("PYTHONPATH", "")]
         environment = os.environ | {
             "PYTHONPATH": os.pathsep.join(filter(None, paths)),
@@ -188,16 +208,7 @@ class InProcess:
         }
         environment |= dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"), "1")
         try:
-            process = subprocess.Popen(
-                self._command,
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.DEVNULL,
-                text=True,
-                encoding="utf-8",
-                errors="replace",
-                env=environment,
-            )
+            process = Running(self._command, environment)
         except OSError as problem:
             raise VoiceTrouble(f"The voice process cannot be started: {problem}.") from problem
         with self._lock:  # nobody's order may overtake the grammar, nor what it was told before
@@ -214,38 +225,46 @@ class InProcess:
             if self._process is not None:
                 self._send(self._process, {key: value})
 
-    def _send(self, process: subprocess.Popen[str], fields: dict[str, Any]) -> None:
-        try:
-            if process.stdin is not None:
-                process.stdin.write(json.dumps(fields) + "\n")
-                process.stdin.flush()
-        except (OSError, ValueError):
-            pass  # it has just ended, which the reader says
+    def _send(self, process: Running, fields: dict[str, Any]) -> None:
+        process.order(json.dumps(fields))
 
-    def _read(
-        self, process: subprocess.Popen[str], grammar: Grammar, hear: Hear, over: threading.Event
-    ) -> None:
-        for sentence in (AGAIN, OVER):
-            failed = self._events(process, grammar, hear, over)
-            end(process)
+    def _live(self, process: Running, grammar: Grammar, hear: Hear, over: threading.Event) -> None:
+        """The thread that cares for the process: tells its events, and starts it again where that helps."""
+        breakdowns = Breakdowns()
+        while True:
+            signs = Signs(self._now())
+            failed = self._events(process, signs, grammar, hear, over)
+            if not signs.hangs:
+                process.end()
             if failed or over.is_set():
+                process.end()
                 return
-            hear(State("starting" if sentence == AGAIN else "failed", sentence))
-            if sentence == AGAIN:
-                try:
-                    process = self._spawn(grammar, over)
-                except VoiceTrouble as trouble:
-                    hear(State("failed", str(trouble)))
-                    return
+            word, why = ("hung", signs.why) if signs.hangs else ("crashed", process.last_words)
+            again, sentence = breakdowns.sentence(word, why, self._now())
+            log.warning("%s", sentence)
+            hear(State("starting" if again else "failed", sentence))
+            process.end(hangs=True)
+            if not again or over.is_set():
+                return
+            try:
+                process = self._spawn(grammar, over)
+            except VoiceTrouble as trouble:
+                hear(State("failed", str(trouble)))
+                return
 
     def _events(
-        self, process: subprocess.Popen[str], grammar: Grammar, hear: Hear, over: threading.Event
+        self, process: Running, signs: Signs, grammar: Grammar, hear: Hear, over: threading.Event
     ) -> bool:
-        """Until the process ends; whether it had said that it fails."""
+        """Until the process ends or hangs; whether it had said that it fails."""
         failed = False
-        for line in process.stdout or ():
-            if over.is_set():
-                break
+        while (line := process.line(BEAT)) is not None and not over.is_set():
+            if line:
+                signs.heard(self._now())
+            signs.beat(self._now())
+            if signs.hangs:
+                return False
+            if signs.asks():
+                process.order(THERE)
             try:
                 event = read_event(line)
             except ValueError:
@@ -253,5 +272,6 @@ class InProcess:
             if isinstance(event, Result) and event.command not in grammar.phrases:
                 continue  # nobody asked for that
             failed = isinstance(event, State) and event.word == "failed"
+            signs.loading = isinstance(event, State) and event.word == "starting"
             hear(event)
         return failed

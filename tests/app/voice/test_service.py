@@ -157,3 +157,21 @@ def test_run_again_after_a_fault_it_listens_and_heeds_as_it_was_told(monkeypatch
     service.run()
     assert states(told) == ["starting", "ready", "listening"] * 2
     assert heeded == [None, {"stop"}, {"stop"}]
+
+
+def test_it_answers_at_once_while_it_loads_and_between_two_orders_when_it_is_ready():
+    answers, told = [], []
+
+    def make(grammar):
+        service.ask(lambda: answers.append(len(told)))
+        return Judge()
+
+    service = Service(GRAMMAR, FileEars([]), make, told.append, Clock())
+    service.stop()
+    service.run()
+    assert (answers, states(told)) == ([1], ["starting", "ready"])
+    service.ask(lambda: answers.append("later"))
+    assert answers == [1], "a loop that hangs gives no answer"
+    service.stop()
+    service.run()
+    assert answers == [1, 3, "later"]
