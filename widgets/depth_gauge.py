@@ -176,15 +176,16 @@ class DepthGauge(Gauge):
             shapes.polygon([(tip, y), (tip - dp(16), y + dp(9)), (tip - dp(16), y - dp(9))], theme.accent)
 
     def _brief(self) -> Iterator[Word]:
-        """As in `4.2 m depth`."""
+        """As in `4.2 m depth`, or `4.2 m, holds 4.5` where one is to be held."""
         y, room = self.center_y, self.width - 2 * self.edge
         size = min(sp(26), self.height * 0.55)
-        tail = " depth" if self.words == DASH else " m, floats up" if self.rises else " m depth"
         behind = max(size * 0.56, sp(12))
-        if wide(self.words, size, bold=True) + wide(tail, behind) > room and self.rises:
-            tail = " m, rises"
-        if wide(self.words, size, bold=True) + wide(tail, behind) > room:
-            tail = " m" if self.words != DASH else ""
+
+        def fits(tail: str) -> bool:
+            return wide(self.words, size, bold=True) + wide(tail, behind) <= room
+
+        tails = self._tails()
+        tail = next((one for one in tails if fits(one)), tails[-1])
         size = min(size, size * room / (wide(self.words, size, bold=True) + wide(tail, behind)))
         long = wide(self.words, size, bold=True) + wide(tail, behind)
         left = self.center_x - long / 2
@@ -197,6 +198,17 @@ class DepthGauge(Gauge):
             theme.text,
             anchor=(0, 0.5),
         )
+
+    def _tails(self) -> tuple[str, ...]:
+        """What is said behind the depth in one line, the longest first."""
+        if self.words == DASH:
+            return (" depth", "")
+        if self.rises:
+            return (" m, floats up", " m, rises", " m")
+        if math.isfinite(self.wanted) and self.wanted > 0:
+            told = figure(self.wanted, 1)
+            return (f" m, holds {told}", f" m → {told}", f" → {told}")
+        return (" m, held", " held") if self.held else (" m depth", " m")
 
 
 def _waves(left: float, right: float, y: float) -> Points:
@@ -235,6 +247,8 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "large never": made(nan, nan, size=(326, 228)),
         "tall": made(size=(160, 330), state="live"),
         "low": made(size=(128, 40), state="live"),
+        "low no target": made(wanted=nan, size=(128, 40), state="live"),
+        "low held": made(wanted=nan, held=True, size=(128, 40), state="live"),
         "low never": made(nan, nan, size=(128, 40)),
         "narrow": made(size=(72, 54), state="live", card=False),
         "stale": made(state="stale", age=2.0),

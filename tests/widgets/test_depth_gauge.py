@@ -121,3 +121,24 @@ def test_what_is_stopped_below_the_surface_floats_up(stage, size, words):
     gauge.show(ControlStatus())
     stage.frames(2)
     assert not words & set(gauge.texts)
+
+
+@pytest.mark.parametrize(
+    ("order", "tail"),
+    [
+        (Manoeuvre(kind="hover", height=-1.2), " m, holds 1.2"),
+        (Manoeuvre(kind="hover"), " m, held"),
+        (Manoeuvre(kind="twist"), " m depth"),
+        (Manoeuvre(kind="surface"), " m depth"),
+    ],
+)
+def test_in_a_line_it_is_said_as_well_which_depth_is_held(stage, order, tail):
+    gauge = stage.show(DepthGauge(state="live"), size=(128, 40))
+    gauge.show(at(0.3))
+    gauge.show(order)
+    stage.frames(2)
+    assert gauge.texts == ["0.3", tail]
+    if math.isfinite(order.height):
+        gauge.width = 112
+        stage.frames(2)
+        assert gauge.texts == ["0.3", " m → 1.2"]
