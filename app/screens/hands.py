@@ -19,7 +19,7 @@ from app.layout import SAYS, SLIDER, Control, Layout
 from app.link import OFFER, OUTCOME
 from app.piloting import Parts, Piloting, Reach
 from app.screens.arm_hand import ARM, ArmHand
-from app.screens.in_vain import InVain, landed
+from app.screens.in_vain import InVain, grounded
 from app.screens.speed_card import SpeedCard, allowed
 from app.screens.tilt_hand import TILT, TiltHand
 from app.session import Session
@@ -33,6 +33,13 @@ __all__ = ["Hands"]
 
 FIRST = 0.6
 """Share of the robot's greatest speed that the slider begins with."""
+CAPTIONS = {"landed": "take off first", "turned_over": "on its back"}
+"""What stands on a stick in a phase of a flight in which it moves nothing."""
+VAIN = {
+    "landed": ("task.land",),
+    "flying": ("task.take_off",),
+    "turned_over": ("task.land", "task.take_off"),
+}
 OWN = Reach()
 """What the controls mean where the robot does not say what it can."""
 
@@ -143,7 +150,7 @@ class Hands(EventDispatcher):
             widget.bind(on_in_vain=lambda _: self._in_vain.tell())
         if isinstance(widget, Stick):
             self._sticks.append((widget, one))
-            self._caption(widget, one, grounded=False)
+            self._caption(widget, one)
             widget.bind(on_command=lambda stick, said: self._pushed(stick, said, one))
         else:
             self._asking.append((widget, one))
@@ -251,16 +258,16 @@ class Hands(EventDispatcher):
     def tick(self) -> None:
         """Bring up to date what may be used."""
         session = self._session
-        grounded = landed(session)
+        phase = grounded(session)
         for stick, one in self._sticks:
-            stick.state = "live" if session.may_drive and not grounded else "disabled"
-            self._caption(stick, one, grounded=grounded and session.may_drive)
+            stick.state = "live" if session.may_drive and not phase else "disabled"
+            self._caption(stick, one, phase if session.may_drive else "")
         able = {action.name: action for action in self._actions.slides()}
         asked = session.may_ask and not session.stop_latched
         for widget, one in self._asking:
             action = able.get(one.action)
             may = (action is not None and action.able) if one.action else asked
-            may = may and (not one.action or one.action != self._vain())
+            may = may and (not one.action or one.action not in self._vain())
             widget.state = "live" if may else "disabled"
             if action is not None and not one.title and hasattr(widget, "text"):
                 widget.text = _within(action.text)
@@ -270,12 +277,12 @@ class Hands(EventDispatcher):
         self._tell_driven()
         self.arm.tick()
 
-    def _caption(self, stick: Any, one: Control, *, grounded: bool) -> None:
+    def _caption(self, stick: Any, one: Control, phase: str = "") -> None:
         """What pushing it means, where that is not to drive; while the robot stands on the ground what has to be done before."""
         if not hasattr(stick, "caption"):
             return
         usual = " · ".join(one.says) if one.forward != "ahead" or self._names_all else ""
-        stick.caption = "take off first" if grounded else usual
+        stick.caption = CAPTIONS.get(phase, usual)
 
     def _tell_driven(self) -> None:
         """Slider and lever mean the hand alone: while a task drives, its own speed stands there."""
@@ -297,12 +304,12 @@ class Hands(EventDispatcher):
         way = told.twist.twist.linear
         return f"{math.hypot(way.x, way.y, way.z):.1f}\u00a0m/s"
 
-    def _vain(self) -> str:
-        """The action that is done already: what flies need not take off, and what stands need not land."""
+    def _vain(self) -> tuple[str, ...]:
+        """The actions that do nothing: what flies need not take off, what stands need not land, what lies on its back can neither."""
         flight: FlightState | None = self._session.feeds.latest("/flight")
         if flight is None or self._session.feeds.state("/flight") != "live":
-            return ""
-        return {"landed": "task.land", "flying": "task.take_off"}.get(flight.phase, "")
+            return ()
+        return VAIN.get(flight.phase, ())
 
     def take_limits(self) -> None:
         """The slider's range is the robot's; where it stood is kept."""

@@ -9,19 +9,24 @@ from app.screens.control_cards import ABOUT as AUTHORITY
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import FlightState
 
-__all__ = ["InVain", "landed", "why_not"]
+__all__ = ["InVain", "grounded", "why_not"]
 
 ABOUT = "stick"
 """What the sentences tell of."""
 
 
-LANDED = "It stands on the ground: take off first."
+GROUNDED = {
+    "landed": "It stands on the ground: take off first.",
+    "turned_over": "It lies on its back, its rotors off.",
+}
+"""In which phase of a flight no stick moves it, and why."""
 
 
-def landed(session: Session) -> bool:
-    """The robot says now that it stands on the ground and flies otherwise: no stick moves it there."""
+def grounded(session: Session) -> str:
+    """Which phase of `GROUNDED` a robot that flies says now that it is in; empty for none."""
     told: FlightState | None = session.feeds.latest("/flight")
-    return told is not None and told.phase == "landed" and session.feeds.state("/flight") == "live"
+    known = told is not None and told.phase in GROUNDED and session.feeds.state("/flight") == "live"
+    return told.phase if told is not None and known else ""
 
 
 def why_not(session: Session) -> str:
@@ -29,7 +34,7 @@ def why_not(session: Session) -> str:
     if not session.connected:
         return ""
     if session.may_drive:
-        return LANDED if landed(session) else ""
+        return GROUNDED.get(grounded(session), "")
     if session.foreign:
         return "" if session.local_stop.latched else "This robot has no topic to drive it by."
     if session.stop_latched:

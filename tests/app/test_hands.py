@@ -127,6 +127,10 @@ def test_what_stands_on_the_ground_takes_no_push_and_says_what_to_do_first(
         screen.tick()
         assert (left.state, right.state, left.caption) == ("live", "live", "climb · turn"), phase
     assert driving.banners() == []
+    hear(screen, "/flight", FlightState(phase="turned_over"))
+    screen.tick()
+    assert (left.state, right.state, left.caption) == ("disabled", "disabled", "on its back")
+    assert [slide.state for slide in screen.hands.places["confirm"]] == ["disabled", "disabled"]
 
 
 def test_of_several_sticks_each_says_what_it_does(meet: Callable[..., Any]) -> None:
