@@ -271,7 +271,7 @@ def _two_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
     chosen = Rect(left, low + high + gap, slider.right - left, SWITCH * scale)
     actions = Rect(left, (chosen.top if switch else low + high) + gap, across, 52 * scale)
     spare = body.top - actions.top - 2 * gap - 260 * scale
-    picture = min(body.width * 0.75, max(body.height * 0.23, spare))
+    picture = min(body.width * 0.75, max(body.height * 0.28, spare))
     video = Rect(body.x, body.top - picture, body.width, picture)
     cards = between(left, actions.top + gap, left + across, video.y - gap)
     figures = min(116 * scale, across * 0.3)
