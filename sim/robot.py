@@ -19,7 +19,7 @@ from sim.cameras import CAMERA_TOPIC, Cameras
 from sim.mishaps import Mishaps
 from sim.occupancy import occupancy
 from sim.orders import check, cut
-from sim.payloads import PAYLOADS, mount
+from sim.payloads import PAYLOADS, laden, mount
 from sim.run import Run
 from sim.simulation import Simulation
 from sim.starts import starts
@@ -265,7 +265,8 @@ def make(
     names of `PAYLOADS` that are mounted on it.
     Raises ValueError with one sentence for an unknown name or a faulty file.
     """
-    simulation = Simulation(load(world), model_of(robot), seed=seed, noise=noise, gui=gui)
+    model = laden(model_of(robot), payloads)
+    simulation = Simulation(load(world), model, seed=seed, noise=noise, gui=gui)
     try:
         return SimRobot(simulation, camera=camera, payloads=payloads)
     except ValueError:
@@ -293,10 +294,11 @@ def make_several(
     entries = [(entry, None) if isinstance(entry, str) else entry for entry in robots]
     if not entries:
         raise ValueError("A world needs one robot at least.")
+    carried = payloads or [()] * len(entries)
     models = numbered([model_of(name) for name, _ in entries])
+    models = [laden(model, names) for model, names in zip(models, carried, strict=True)]
     placed = zip(models, starts(loaded, models, [start for _, start in entries]), strict=True)
     run = Run(Simulation(loaded, *placed, seed=seed, gui=gui, noise=noise))
-    carried = payloads or [()] * len(models)
     made: list[SimRobot] = []
     try:
         for number, names in zip(range(len(models)), carried, strict=True):

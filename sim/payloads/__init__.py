@@ -8,6 +8,7 @@ A payload that is not mounted is not made: it costs nothing and says nothing.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 from sim.payloads.arm import ArmParameters, MountedArm
@@ -31,10 +32,10 @@ from sim.payloads.simple import (
     MountedUltrasound,
 )
 from sim.tables import read, text_of
-from sim.vehicles.model import Vehicle
+from sim.vehicles.model import Model, Vehicle
 from sim.vehicles.parameters import Table
 
-__all__ = ["PAYLOADS", "Figures", "load", "mount"]
+__all__ = ["PAYLOADS", "Figures", "laden", "load", "mount"]
 
 
 class Figures(Table, frozen=True, kw_only=True):
@@ -59,8 +60,24 @@ def load(path: Path = Path(__file__).parent / "payloads.toml") -> Figures:
     return read(text_of(path), Figures, path.name)
 
 
+def laden(model: Model, names: Iterable[str], figures: Figures | None = None) -> Model:
+    """`model` with the weight of these payloads; names that there are not are left to `mount`.
+
+    ValueError with one sentence when that is more than it can carry.
+    """
+    carried = [name for name in names if name in PAYLOADS]
+    if not carried:
+        return model
+    figures = figures or load()
+    loads = [getattr(figures, name).load(model.parameters) for name in carried]
+    return replace(model, parameters=model.parameters.laden(loads))
+
+
 def mount(vehicle: Vehicle, names: Iterable[str], figures: Figures | None = None) -> dict[str, Mounted]:
-    """Put these payloads on `vehicle`, before it first measures; ValueError with one sentence when one cannot be."""
+    """Put these payloads on `vehicle`, before it first measures; ValueError with one sentence when one cannot be.
+
+    They weigh what its model was made `laden` with: a body in the physics does not change its mass.
+    """
     figures = figures or load()
     mounted: dict[str, Mounted] = {}
     for name in names:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Protocol
 
 from bridge.msgs import Msg
-from sim.shapes import Shape
-from sim.vehicles.parameters import Positive, Table
+from sim.shapes import Shape, Vec3
+from sim.vehicles.load import Load
+from sim.vehicles.parameters import Parameters, Positive, Table
 
 __all__ = [
     "CameraMount",
@@ -46,8 +47,17 @@ class Mount(Table, frozen=True, kw_only=True):
 
     at: tuple[float, float, float]
     """On its vehicle's deck [m]."""
+    mass: Positive
+    """With cables and what holds it [kg]."""
+    centre: Vec3 = (0.0, 0.0, 0.0)
+    """Of its mass, from there [m]."""
     power: Positive
     """[W]"""
+
+    def load(self, parameters: Parameters) -> Load:
+        """What a vehicle of these numbers carries with it."""
+        x, y, z = (sum(parts) for parts in zip(parameters.deck, self.at, self.centre, strict=True))
+        return Load(self.mass, (x, y, z))
 
 
 class LaserMount(Mount, frozen=True, kw_only=True):
@@ -111,6 +121,10 @@ class LineMount(Mount, frozen=True, kw_only=True):
     bright: float
     mismatch: float
     noise: float
+
+    def load(self, parameters: Parameters) -> Load:
+        """It hangs under the bow."""
+        return Load(self.mass, (parameters.radius, 0.0, 0.0))
 
 
 class TagReaderMount(Mount, frozen=True, kw_only=True):

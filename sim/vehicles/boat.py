@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import Self
+
+from msgspec.structs import replace
 
 from bridge.units import wrap
 from sim.backend_bullet import STEPS_PER_SECOND
@@ -12,6 +16,7 @@ from sim.sensors.reckoning import ReckoningParameters
 from sim.shapes import Vec3
 from sim.vehicles.control import towards, within
 from sim.vehicles.hull import HullParameters
+from sim.vehicles.load import Load, loaded, mass_of
 from sim.vehicles.parameters import CameraParameters, Parameters, Part, Positive, Table
 
 __all__ = ["BoatParameters", "Drive", "Helmsman", "Propeller", "Rudder"]
@@ -71,6 +76,14 @@ class BoatParameters(Parameters, frozen=True, kw_only=True):
     def deck(self) -> tuple[float, float, float]:
         """Where payloads are mounted, in `base_link` [m]."""
         return (0.0, 0.0, self.hull.depth - self.hull.draft)
+
+    def laden(self, loads: Sequence[Load]) -> Self:
+        """Heavier: it lies deeper, drags more water, and heels towards what it carries."""
+        hull = self.hull
+        mass, centre, inertia = loaded(hull.mass, hull.centre_of_mass, hull.inertia, loads)
+        heavier = replace(hull, mass=mass, centre_of_mass=centre, inertia=inertia, load=mass_of(loads))
+        middle = tuple(sum(load.mass * load.at[axis] for load in loads) / heavier.load for axis in range(3))
+        return replace(self, hull=replace(heavier, load_at=middle))
 
     @property
     def cameras(self) -> tuple[CameraParameters, ...]:

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Self
+
+from msgspec.structs import replace
+
 from bridge.msgs.geometry_msgs import Twist
 from sim.backend_bullet import STEPS_PER_SECOND, Bullet, Wheeled
 from sim.sensors.odometry import OdometryParameters
 from sim.shapes import Shape
 from sim.vehicles.control import towards
+from sim.vehicles.load import Load, loaded
 from sim.vehicles.parameters import CameraParameters, Limits, Parameters, Positive, Table
 
 __all__ = ["DifferentialDrive", "DifferentialLimits", "DifferentialParameters", "Wheels", "body_of"]
@@ -25,6 +31,8 @@ class Body(Table, frozen=True, kw_only=True):
     """Of its bottom above the ground [m]."""
     centre_of_mass: Positive
     """Above the ground [m]."""
+    ahead: float = 0.0
+    """Of its centre of mass, from the axle [m]."""
     inertia: tuple[Positive, Positive, Positive]
     """About x, y and z through the centre of mass [kg m2]."""
     friction: Positive
@@ -98,6 +106,15 @@ class DifferentialParameters(Parameters, frozen=True, kw_only=True):
         """Where payloads are mounted, in `base_link` [m]."""
         return (0.0, 0.0, self.body.height)
 
+    def laden(self, loads: Sequence[Load]) -> Self:
+        """Heavier, and higher or farther ahead in its balance."""
+        body = self.body
+        mass, (x, _, z), inertia = loaded(
+            body.mass, (body.ahead, 0.0, body.centre_of_mass), body.inertia, loads
+        )
+        heavier = replace(body, mass=mass, ahead=x, centre_of_mass=z, inertia=inertia)
+        return replace(self, body=heavier)
+
     @property
     def cameras(self) -> tuple[CameraParameters, ...]:
         """It has one."""
@@ -162,7 +179,7 @@ def body_of(parameters: DifferentialParameters) -> Wheeled:
         shell=Shape("cylinder", (2 * body.radius, 2 * body.radius, height), (0.0, 0.0, middle)),
         mass=body.mass,
         inertia=body.inertia,
-        centre_of_mass=(0.0, 0.0, body.centre_of_mass),
+        centre_of_mass=(body.ahead, 0.0, body.centre_of_mass),
         wheels=((0.0, wheels.base / 2, wheels.radius), (0.0, -wheels.base / 2, wheels.radius)),
         wheel_radius=wheels.radius,
         wheel_mass=wheels.mass,

@@ -22,7 +22,11 @@ class HullParameters(Table, frozen=True, kw_only=True):
     """The hull; its origin lies in the waterline at half its length. Linear damping is what a unit of speed costs."""
 
     mass: Positive
-    """[kg]"""
+    """With all that it carries [kg]."""
+    load: float = 0.0
+    """Of that, what it carries: its draft, stability and damping are those without [kg]."""
+    load_at: Vec3 = (0.0, 0.0, 0.0)
+    """Where that is [m]."""
     length: Positive
     """[m]"""
     beam: Positive
@@ -84,12 +88,16 @@ class Hull:
         water = weather.density * GRAVITY
         self._stiffness = water * parameters.waterplane
         across, along = parameters.metacentric
-        self._righting = (parameters.mass * GRAVITY * across, parameters.mass * GRAVITY * along)
+        own = parameters.mass - parameters.load
+        self._righting = (own * GRAVITY * across, own * GRAVITY * along)
         half = parameters.length / 2
         gauss = [(side * half * at, half * weight) for side in (-1, 1) for at, weight in _GAUSS]
         drag = weather.density / 2 * parameters.draft * parameters.cross_drag
         self._stations = [(at, drag * length) for at, length in stations or gauss]
-        self._sink = parameters.mass * GRAVITY / self._stiffness
+        self._sink = own * GRAVITY / self._stiffness
+        self._load = parameters.load * GRAVITY
+        deeper = self._load / self._stiffness
+        self._drag = parameters.damping[0] * (1 + deeper / parameters.draft)
         self.wet = 1.0
         """How far it lies in the water, 0 out of it to 1 as it floats."""
 
@@ -99,7 +107,7 @@ class Hull:
         p, q, r = body.turning
         lift, k, m = self._buoyancy(body)
         wet, parameters = self.wet, self._parameters
-        dx, dy, dz = parameters.damping
+        dx, (_, dy, dz) = self._drag, parameters.damping
         dp, dq, dr = parameters.rotary_damping
         y = n = 0.0
         for station, strength in self._stations:
@@ -110,12 +118,15 @@ class Hull:
         windy, blow = self._wind(body)
         ux, uy, uz = body.axes[6:]
         n -= dr * r + parameters.yaw_quadratic * abs(r) * r
+        load, (ax, ay, az) = self._load, parameters.load_at
         force = (
-            lift * ux - wet * dx * u + windy,
-            lift * uy + wet * (y - dy * v) + blow,
-            lift * uz - wet * dz * w,
+            (lift - load) * ux - wet * dx * u + windy,
+            (lift - load) * uy + wet * (y - dy * v) + blow,
+            (lift - load) * uz - wet * dz * w,
         )
-        return force, (k - wet * dp * p, m - lift * parameters.flotation * uz - wet * dq * q, wet * n)
+        k, m, n = k - load * (ay * uz - az * uy), m - load * (az * ux - ax * uz), wet * n
+        n -= load * (ax * uy - ay * ux)
+        return force, (k - wet * dp * p, m - lift * parameters.flotation * uz - wet * dq * q, n)
 
     def _buoyancy(self, body: SixDof) -> tuple[float, float, float]:
         """Buoyancy less weight [N], upward, and the righting moments [N m] on the sea as it is round the hull."""

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, TypeVar
+from typing import Annotated, Self, TypeVar
 
 import msgspec
 
 from sim.sensors.battery import BatteryParameters
 from sim.sensors.imu import ImuParameters
 from sim.tables import read, text_of
+from sim.vehicles.load import Load
 
 __all__ = [
     "CameraParameters",
@@ -110,6 +112,10 @@ class Parameters(Table, frozen=True, kw_only=True):
     @property
     def deck(self) -> tuple[float, float, float]:
         """Where payloads are mounted, in `base_link` [m]."""
+        raise NotImplementedError
+
+    def laden(self, loads: Sequence[Load]) -> Self:
+        """The numbers of the same vehicle carrying `loads`; ValueError with one sentence when that is too much for it."""
         raise NotImplementedError
 
     @property

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import Self
+
+from msgspec.structs import replace
 
 from sim.backend_bullet import GRAVITY
 from sim.sensors.compass import CompassParameters
@@ -10,6 +14,7 @@ from sim.sensors.depth import DepthParameters
 from sim.sensors.reckoning import ReckoningParameters
 from sim.shapes import Vec3
 from sim.vehicles.fins import FinParameters
+from sim.vehicles.load import Load, about, mass_of
 from sim.vehicles.parameters import CameraParameters, Limits, Parameters, Positive, Table
 from sim.vehicles.sixdof import Inertia, SixDof
 from sim.weather import Weather
@@ -74,6 +79,21 @@ class SwimmerParameters(Parameters, frozen=True, kw_only=True):
     def deck(self) -> tuple[float, float, float]:
         """Where payloads are mounted, in `base_link` [m]."""
         return (0.0, 0.0, self.body.height / 2)
+
+    def laden(self, loads: Sequence[Load]) -> Self:
+        """Heavier, and as light in the water as before: a load under water is trimmed with as much foam beside it.
+
+        So its weight bears on nothing, its middle stays the centre of mass, and what it costs is inertia.
+        """
+        body = self.body
+        mass = body.mass + mass_of(loads)
+        lift, arm = body.mass * body.buoyancy, body.mass * body.buoyancy * body.lift_arm
+        buoyancy = (lift + mass_of(loads)) / mass
+        inertia = about((0.0, 0.0, 0.0), body.inertia, loads)
+        heavier = replace(
+            body, mass=mass, inertia=inertia, buoyancy=buoyancy, lift_arm=arm / (mass * buoyancy)
+        )
+        return replace(self, body=heavier)
 
     @property
     def cameras(self) -> tuple[CameraParameters, ...]:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Self
+
+from msgspec.structs import replace
 
 from bridge.msgs.arrays import Float64Array
 from bridge.msgs.pilothouse_msgs import AckermannState, Manoeuvre
@@ -21,6 +23,7 @@ from sim.shapes import from_yaw
 from sim.vehicles.ackermann import AckermannBody, AckermannDrive, AckermannLimits, Axles, body_of
 from sim.vehicles.commander.looks import looks
 from sim.vehicles.control import given
+from sim.vehicles.load import Load, loaded
 from sim.vehicles.model import Model
 from sim.vehicles.parameters import CameraParameters, Parameters, load
 from sim.vehicles.suite import Measurement
@@ -59,6 +62,11 @@ class CommanderParameters(Parameters, frozen=True, kw_only=True):
     def deck(self) -> tuple[float, float, float]:
         """Where payloads are mounted, in `base_link` [m]."""
         return (self.body.ahead - self.body.length * 0.33, 0.0, self.body.height)
+
+    def laden(self, loads: Sequence[Load]) -> Self:
+        """Heavier, and higher in its balance."""
+        mass, centre, inertia = loaded(self.body.mass, self.body.centre_of_mass, self.body.inertia, loads)
+        return replace(self, body=replace(self.body, mass=mass, centre_of_mass=centre, inertia=inertia))
 
     @property
     def cameras(self) -> tuple[CameraParameters, ...]:
