@@ -379,6 +379,17 @@ class Responding:
         }
         return export(self.folder, self.exports, settings, self._wall())
 
+    def zips(self) -> list[Path]:
+        """What was exported and is still there, the oldest first."""
+        return sorted(self.exports.glob("*.zip"))
+
+    def discard(self) -> str:
+        """Delete what was exported; one sentence. OSError when that fails."""
+        zips = self.zips()
+        for zip_ in zips:
+            zip_.unlink(missing_ok=True)
+        return "The zip was deleted." if len(zips) == 1 else f"{len(zips)} zips were deleted."
+
     def forget(self) -> None:
         """What is followed and counted just now is no part of the log any more, nor what is yet to be written of it."""
         self.tracks.forget()
@@ -395,7 +406,7 @@ class Responding:
         self.workloads.erase()
         if self.workloads.problem:
             raise OSError(self.workloads.problem)
-        left = len(list(self.exports.glob("*.zip")))
+        left = len(self.zips())
         remain = "1 zip that was exported remains" if left == 1 else f"{left} zips that were exported remain"
         return f"Everything was erased. {remain} in {self.exports}." if left else "Everything was erased."
 

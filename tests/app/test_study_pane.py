@@ -214,6 +214,78 @@ def test_a_zip_is_written_and_told_where(bench):
     assert len(list(bench.log.exports.glob("*.zip"))) == 1
 
 
+def test_the_folder_of_what_was_exported_is_said_and_it_is_deleted_only_by_a_second_press(bench):
+    bench.settle()
+    view = bench.pane.view
+    assert view.zips.children == []
+    view.export.dispatch("on_release")
+    bench.settle()
+    assert view.zips.remark.text == f"1 zip lies in {bench.log.exports}."
+    assert view.zips.share.parent is None, "a file manager finds it"
+    view.zips.away.dispatch("on_release")
+    assert view.zips.away.text == "Press again: delete"
+    bench.time += 10
+    view.tick()
+    assert view.zips.away.text == "Delete the zip"
+    for _ in range(2):
+        view.zips.away.dispatch("on_release")
+    bench.settle()
+    assert (bench.log.zips(), view.said.text, view.zips.children) == ([], "The zip was deleted.", [])
+
+
+class Out:
+    """Another app, on a phone."""
+
+    where = "Download/Pilothouse"
+
+    def __init__(self) -> None:
+        self.shared: list[str] = []
+        self.forgot = False
+
+    def share(self, path):
+        if self.shared:
+            raise OSError("Android does not share it: no room.")
+        self.shared.append(path.name)
+
+    def forget(self):
+        self.forgot = True
+
+
+def test_on_a_phone_the_newest_is_handed_to_another_app_and_its_copy_goes_with_it(bench, monkeypatch):
+    out = Out()
+    monkeypatch.setattr("app.screens.inputs.study_pane.sharing", lambda: out)
+    bench.pane._views.clear()
+    bench.log.exports.mkdir(parents=True, exist_ok=True)
+    for name in ("study_2.zip", "study_1.zip"):
+        (bench.log.exports / name).write_bytes(b"PK")
+    bench.pane._show()
+    bench.settle()
+    view = bench.pane.view
+    assert view.zips.remark.text.startswith("2 zips lie in the app's own folder")
+    view.zips.share.dispatch("on_release")
+    bench.settle()
+    assert out.shared == ["study_2.zip"]
+    assert view.said.text == "study_2.zip: its copy is in Download/Pilothouse."
+    view.zips.share.dispatch("on_release")
+    bench.settle()
+    assert view.said.text == "It is not shared: Android does not share it: no room."
+    for _ in range(2):
+        view.zips.away.dispatch("on_release")
+    bench.settle()
+    assert (out.forgot, bench.log.zips()) == (True, [])
+
+
+def test_what_was_to_be_read_is_read_after_a_zip_was_written_in_its_place(bench):
+    view = bench.pane.view
+    view._busy = "read"
+    view.export.dispatch("on_release")
+    bench.settle()
+    bench.time += 5.0
+    view.tick()
+    bench.settle()
+    assert view.success.rates
+
+
 def test_a_shake_is_asked_only_for_what_its_directions_mean(bench):
     assert commands_of("shake", bench.app) == ("stop", "pause", "resume")
     assert commands_of("voice", bench.app) == COMMANDS

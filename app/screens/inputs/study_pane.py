@@ -11,6 +11,7 @@ from kivy.metrics import dp
 from kivy.properties import ObjectProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
+from app.device.sharing import sharing
 from app.screens.inputs.form_view import FormView
 from app.screens.inputs.load_view import LoadView
 from app.screens.inputs.log_view import LogView
@@ -147,8 +148,9 @@ class StudyPane(BoxLayout):
 
     def _made(self, part: str) -> Any:
         if part not in self._views:
-            now = self.app.now
-            self._views[part] = LogView(self.log, self.ask, now) if part == "log" else LoadView(self.log, now)
+            now, log = self.app.now, self.log
+            is_log = part == "log"
+            self._views[part] = LogView(log, self.ask, now, sharing()) if is_log else LoadView(log, now)
         return self._views[part]
 
     def _study(self) -> Any:
