@@ -18,7 +18,7 @@ LOOKS = 10
 EVERY = STEPS_PER_SECOND // LOOKS
 """Steps between two looks."""
 PATIENCE, DROWNING = LOOKS // 2, 4 * LOOKS
-"""Looks for which it must last, and for which it must be under water: a sea that breaks over a boat passes."""
+"""Looks for which it must last, and for which a boat must be under water: a sea that breaks over it passes."""
 OVER = 2 * LOOKS
 """Looks without it after which it has ended, so that it may be told anew."""
 OUTSIDE = 3.0
@@ -57,6 +57,7 @@ class Mishaps:
         """A robot in `scene`; of the kinds that may lie anyhow, or dive, that is not told."""
         self._name, self._world, self._weather = info.name, scene.world, scene.weather
         self._may_turn_over = self._may_dive = info.kind == "hexapod"
+        self._drowning = DROWNING if info.kind == "boat" else PATIENCE
         self._signs: dict[str, _Sign] = {}
 
     def due(self, steps: int) -> bool:
@@ -81,6 +82,6 @@ class Mishaps:
             over = rotate(state.rotation, (0.0, 0.0, 1.0))[2] < _UPSIDE_DOWN
             yield f"{name} has turned over.", PATIENCE, over
         if self._world.water and not self._may_dive:
-            yield f"{name} has sunk.", DROWNING, self._weather.surface(x, y) - z > _SUNK
+            yield f"{name} has sunk.", self._drowning, self._weather.surface(x, y) - z > _SUNK
         gone = abs(x) > ground.length / 2 + OUTSIDE or abs(y) > ground.width / 2 + OUTSIDE
         yield f"{name} has left {self._world.name}.", PATIENCE, gone
