@@ -74,12 +74,18 @@ class Tilting(Switched):
         return "hold the circle to drive" if not self.simulated else "simulated: arrow keys lean it"
 
     @property
+    def fault(self) -> str:
+        """Why no circle can be led by leaning this device, on or off; empty where one can."""
+        sensing = self._app.sensing
+        return "" if sensing.possible else str(sensing.sentence)
+
+    @property
     def problem(self) -> str:
         """Why it does not work though it is on; empty when it is well."""
         if not self.on:
             return ""
-        if not self._app.sensing.possible:
-            return str(self._app.sensing.sentence)
+        if self.fault:
+            return self.fault
         return self._unwell() if self._forgets else ""
 
     def start(self) -> None:
@@ -289,8 +295,7 @@ class Tilting(Switched):
         if self.tilt.why and self.tilt.why != self._said:
             self._say(self.tilt.why)
         self._said = self.tilt.why
-        sensing = self._app.sensing
-        circle.missing = "" if sensing.possible else str(sensing.sentence)
+        circle.missing = self.fault
         circle.dead = self.settings.share
         circle.clutched = self._clutched
         circle.opened = self.tilt.why.partition(":")[0]

@@ -84,6 +84,18 @@ def test_only_where_there_is_no_sensor_a_tablet_is_simulated(shown: tuple[Handhe
     assert rows(pane)[-1] == "Simulate a tablet"
 
 
+def test_without_a_sensor_the_circle_invites_to_nothing(shown: tuple[Handheld, TiltPane]) -> None:
+    handheld, pane = shown
+    handheld.on().run(0.5)
+    pane.tick()
+    assert (pane.circle.state, pane.circle.missing) == ("live", "")
+    handheld.source.kinds, handheld.source.possible = frozenset(), False  # type: ignore[misc]
+    handheld.source.sentence = "No sensor here."  # type: ignore[misc]
+    pane.tick()
+    assert (pane.circle.state, pane.circle.missing) == ("disabled", "No sensor here.")
+    assert "hold it to tilt" not in " ".join(pane.circle.texts)
+
+
 def test_what_is_wrong_with_the_sensor_is_said(shown: tuple[Handheld, TiltPane]) -> None:
     handheld, pane = shown
     handheld.on().run(0.5)

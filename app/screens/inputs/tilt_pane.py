@@ -160,7 +160,8 @@ class TiltPane(BoxLayout):
     def tick(self) -> None:
         """Bring up to date how it stands."""
         tilting, settings = self.tilting, self.tilting.settings
-        self.circle.state = "live" if tilting.on else "disabled"
+        self.circle.missing = tilting.fault
+        self.circle.state = "live" if tilting.on and not tilting.fault else "disabled"
         for name, amount in AMOUNTS.items():
             self.steppers[name].value = round(getattr(settings, name) * amount.scale, 3)
         values = settings.save() | {
