@@ -87,7 +87,7 @@ Builder.load_string("""
             on_release: root.ask('home')
     BoxLayout:
         size_hint_y: None
-        height: dp(22)
+        height: dp(22) if root.brief else max(dp(22), said.height)
         opacity: 1 if root.sentence else 0
         spacing: dp(8)
         Icon:
@@ -96,9 +96,10 @@ Builder.load_string("""
             font_size: sp(19)
             pos_hint: {'center_y': .5}
         Text:
+            id: said
             text: root.sentence
             font_size: sp(14)
-            shorten: True
+            shorten: root.brief
             shorten_from: 'right'
             role: 'text' if root.outcome in ('refused', 'no_reply') else 'muted'
             pos_hint: {'center_y': .5}
@@ -274,6 +275,9 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "paused": make("PAUSED", ("pause", "accepted", "", 0.024)),
         "refused": make(
             answer=("start", "refused", "The mission has no points; set at least 1."), width="420dp"
+        ),
+        "refused, in two lines": make(
+            answer=("start", "refused", "Home is not set; set it on the map first."), width="316dp"
         ),
         "no reply": make("RUNNING", ("home", "no_reply")),
         "disabled": make("RUNNING", state="disabled"),

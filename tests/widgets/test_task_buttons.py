@@ -152,8 +152,10 @@ def test_with_stop_pressed_only_what_ends_or_pauses_can_be_asked(stage, panel):
     assert panel.asked == ["stop", "pause", "stop"]
 
 
-def test_the_buttons_stay_where_they_are_whatever_it_says(stage, panel):
-    heights = set()
+@pytest.mark.parametrize("brief", [False, True])
+def test_the_buttons_stay_where_they_are_whatever_it_says(stage, panel, brief):
+    places = set()
+    panel.brief = brief
     for reason in (
         "",
         "Paused.",
@@ -161,8 +163,19 @@ def test_the_buttons_stay_where_they_are_whatever_it_says(stage, panel):
     ):
         panel.answer("start", "refused" if reason else "none", reason)
         stage.frames(3)
-        heights.add(panel.height)
-    assert len(heights) == 1
+        places.add(panel.height if brief else round(panel.top - buttons(panel)[0].y, 3))
+    assert len(places) == 1
+
+
+def test_a_refusal_is_told_to_its_end_with_what_to_do_about_it(stage):
+    panel = TaskButtons(size_hint=(None, None), width=316)
+    stage.show(panel)
+    panel.answer("start", "refused", "Home is not set; set it on the map or let the robot be its home.")
+    stage.frames(3)
+    said = panel.ids.said
+    assert not said.shorten
+    assert panel.height >= buttons(panel)[0].height + said.texture_size[1]
+    assert said.texture_size[1] > 1.8 * said.font_size
 
 
 def test_a_command_that_there_is_not_is_an_error(panel):
