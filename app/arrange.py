@@ -31,6 +31,10 @@ __all__ = [
 
 SELECTION = 310
 """Width of the bar for what is selected on a phone's map [dp]."""
+WIDEST = 720
+"""Width from which a row's switch is too far from its words [dp]."""
+STRIP = 190
+"""A strip beside STOP that is narrower has no room for a sentence [dp]."""
 
 
 def form(width: float, height: float, dp: float = 1.0) -> str:
@@ -221,8 +225,24 @@ def tasks(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
 
 
 def inputs(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
-    """Of the inputs screen: as `topics`, without a strip."""
-    return {name: place for name, place in topics(body, shape, dp).items() if name != "strip"}
+    """Of the inputs screen: as `topics`; what is said stands in the strip beside STOP, where nothing is operated.
+
+    A phone on its side has a narrower STOP for it. A detail is no wider than its rows are read across.
+    """
+    places, gap = topics(body, shape, dp), 12 * dp
+    stop, strip, detail = places["stop"], places.pop("strip"), places["detail"]
+    if shape == "short":
+        width = 190 * dp
+        stop = stop_place(Rect(stop.right - width, stop.y, width, stop.height), body, dp)
+        strip = Rect(strip.x, strip.y, stop.left - gap - strip.x, strip.height)
+        places |= {"stop": stop, "notice": strip}
+    elif strip.width >= STRIP * dp:
+        places["notice"] = strip
+    return places | {"detail": _readable(detail, dp)}
+
+
+def _readable(detail: Rect, dp: float) -> Rect:
+    return Rect(detail.x, detail.y, min(detail.width, WIDEST * dp), detail.height)
 
 
 def inputs_alone(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
@@ -235,7 +255,7 @@ def inputs_alone(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
     left = min(max(420 * dp, 0.3 * body.width) if shape == "wide" else 320 * dp, body.width * 0.42)
     listed = Rect(whole.x, body.y + gap, left, body.height - 2 * gap)
     x = listed.right + gap
-    return {"list": listed, "detail": Rect(x, low, whole.right - x, whole.height)}
+    return {"list": listed, "detail": _readable(Rect(x, low, whole.right - x, whole.height), dp)}
 
 
 CORNER = 88

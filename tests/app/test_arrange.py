@@ -13,6 +13,8 @@ from app.arrange import (
     connect_columns,
     drive,
     form,
+    inputs,
+    inputs_alone,
     mission,
     shell,
     topics,
@@ -34,12 +36,15 @@ def screens(width: int, height: int) -> dict[str, dict[str, Rect]]:
         "two": two_sticks(body, shape),
         "two_switch": two_sticks(body, shape, switch=True),
         "topics": topics(body, shape),
+        "inputs": inputs(body, shape),
     }
 
 
 DRIVES = ("drive", "switch", "two", "two_switch")
 CASES = [(size, name) for size in SIZES for name in ("mission", *DRIVES)]
 NOTICES = [(size, name) for size in SIZES for name in ("mission", "sheet", *DRIVES, "topics")]
+INPUTS = [(412, 892), (892, 412), (1280, 800), (1920, 1200), (800, 1280)]
+"""In smaller windows there is no room beside STOP for a sentence."""
 
 
 @pytest.mark.parametrize(("size", "name"), CASES)
@@ -67,6 +72,32 @@ def test_a_notice_covers_nothing_that_can_be_touched(size: tuple[int, int], name
     touched = {"stop", "stick", "slider", "actions", "modes", "tools", "panel", "tasks"}
     for key in (touched | {"switch", "right_stick", "confirm"}) & places.keys():
         assert not places["notice"].overlaps(places[key]), key
+
+
+@pytest.mark.parametrize("crowd", [False, True])
+@pytest.mark.parametrize("size", INPUTS)
+def test_what_is_said_while_inputs_are_set_up_lies_beside_stop_on_nothing(
+    size: tuple[int, int], crowd: bool
+) -> None:
+    inside = shell(*size, talks=True)["body"]
+    body = Body(inside.x, inside.y, inside.width, inside.height, crowd)
+    places = inputs(body, form(*size))
+    said, stop = places["notice"], places["stop"]
+    assert isinstance(stop, StopPlace)
+    assert body.holds(said)
+    assert not said.overlaps(stop)
+    assert stop.other is None or not said.overlaps(stop.other)
+    assert (said.width >= 190, said.height >= 60) == (True, True)
+    assert not said.overlaps(places["list"])
+    assert not said.overlaps(places["detail"])
+    assert stop.width * stop.height >= 190 * 53 or crowd
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_switch_stands_near_its_words(size: tuple[int, int]) -> None:
+    body, shape = shell(*size)["body"], form(*size)
+    assert inputs(body, shape)["detail"].width <= 720 or shape == "tall"
+    assert inputs_alone(body, shape)["detail"].width <= 720 or shape == "tall"
 
 
 @pytest.mark.parametrize("name", DRIVES)
