@@ -1,4 +1,4 @@
-"""The network of the package `hama` by numpy: what its engine computes, in a fifth of the time, and where it has no engine at all.
+"""The network of the package `hama` by numpy: what its engine computes, in a fraction of its time, and where it has no engine at all.
 
 log mel spectrum, 80 bands each 10 ms (window 25 ms) ─ convolution to a frame each 20 ms ─ 4 conformer blocks of 144 ─ 191 signs
 
@@ -23,8 +23,13 @@ Floats: TypeAlias = NDArray[np.float32]
 
 WINDOW, HOP = 400, 160
 """Of the spectrum: 25 ms and 10 ms [samples]."""
-BLOCKS, WIDTH, HEADS, REACH = 4, 144, 4, 31
-"""Conformer blocks, numbers a frame, heads of the attention, frames of the convolution."""
+BANDS, BLOCKS, WIDTH, HEADS, REACH = 80, 4, 144, 4, 31
+"""Bands of the spectrum, conformer blocks, numbers a frame, heads of the attention, frames of the convolution."""
+WIDE = 4 * WIDTH
+"""Numbers a frame in the middle of a feed-forward."""
+MODEL = "acoustic_model.model."
+CONVOLVED, MULTIPLIED = "onnx::Conv_", "onnx::MatMul_"
+"""What lost its name when the network was written has a number behind this; the order is left."""
 KINDS = ("<f4", "<f2")
 ALIGNED = 16
 QUIETEST = 1e-10
@@ -53,7 +58,7 @@ def unpacked(packed: bytes) -> dict[str, Floats]:
             .astype(np.float32)
             for name, kind, shape, place, size in heads
         }
-    except (struct.error, IndexError, ValueError) as problem:
+    except (struct.error, IndexError, OverflowError, ValueError) as problem:
         raise ValueError(f"these weights cannot be read: {problem}") from problem
 
 
@@ -146,25 +151,23 @@ class _Block:
 
 
 class Conformer:
-    """The whole network, of one utterance at a time."""
+    """The whole network, of one utterance at a time; from any number of threads, since nothing is kept between two."""
 
     def __init__(self, weights: dict[str, Floats]) -> None:
-        """ValueError for weights of another network."""
-        try:
-            self._spectrum = np.concatenate(
-                [weights[f"stft_{part}_kernel"][:, 0].T for part in ("real", "imag")], axis=1
-            )
-            self._bands = weights["mel_fb"]
-            convolved, products = _numbered(weights, "onnx::Conv_"), _numbered(weights, "onnx::MatMul_")
-            stem = convolved[0].transpose(2, 1, 0).reshape(-1, WIDTH)
-            self._stem = _Linear(np.ascontiguousarray(stem), convolved[1])
-            self._blocks = [
-                _block(weights, place, products[6 * place :], convolved[2 + 2 * place :])
-                for place in range(BLOCKS)
-            ]
-            self._signs = _pointwise(weights, "acoustic_model.model.proj")
-        except (KeyError, IndexError) as problem:
-            raise ValueError(f"these are weights of another network: {problem}") from problem
+        """ValueError for weights of another network: one layer more or another width would compute nonsense in silence."""
+        convolved, products = _numbered(weights, CONVOLVED), _numbered(weights, MULTIPLIED)
+        _checked(weights, [one.shape for one in convolved], [one.shape for one in products])
+        self._spectrum = np.concatenate(
+            [weights[f"stft_{part}_kernel"][:, 0].T for part in ("real", "imag")], axis=1
+        )
+        self._bands = weights["mel_fb"]
+        stem = convolved[0].transpose(2, 1, 0).reshape(-1, WIDTH)
+        self._stem = _Linear(np.ascontiguousarray(stem), convolved[1])
+        self._blocks = [
+            _block(weights, place, products[6 * place :], convolved[2 + 2 * place :])
+            for place in range(BLOCKS)
+        ]
+        self._signs = _pointwise(weights, f"{MODEL}proj")
 
     def __call__(self, wave: Floats) -> Floats:
         """Log probability of each sign in each frame of 20 ms: frames x signs. Samples at 16 kHz, -1 to 1; at least 25 ms."""
@@ -192,9 +195,53 @@ class Conformer:
         return np.concatenate([around[first : first + 2 * count - 1 : 2] for first in range(3)], axis=1)
 
 
+def _shapes(signs: int) -> dict[str, tuple[int, ...]]:
+    """Of all that has a name, for so many signs."""
+    half = WINDOW // 2 + 1
+    shapes: dict[str, tuple[int, ...]] = {
+        "stft_real_kernel": (half, 1, WINDOW),
+        "stft_imag_kernel": (half, 1, WINDOW),
+        "mel_fb": (half, BANDS),
+        f"{MODEL}proj.weight": (signs, WIDTH, 1),
+        f"{MODEL}proj.bias": (signs,),
+    }
+    for place in range(BLOCKS):
+        block: dict[str, tuple[int, ...]] = {
+            "attn.in_proj_bias": (3 * WIDTH,),
+            "attn.out_proj.bias": (WIDTH,),
+            "conv.pointwise1.weight": (2 * WIDTH, WIDTH, 1),
+            "conv.pointwise1.bias": (2 * WIDTH,),
+            "conv.pointwise2.weight": (WIDTH, WIDTH, 1),
+            "conv.pointwise2.bias": (WIDTH,),
+        }
+        for norm in ("attn_norm", "conv.norm", "ffn1.norm", "ffn2.norm", "norm"):
+            block |= {f"{norm}.weight": (WIDTH,), f"{norm}.bias": (WIDTH,)}
+        for forward in ("ffn1", "ffn2"):
+            block |= {f"{forward}.fc1.bias": (WIDE,), f"{forward}.fc2.bias": (WIDTH,)}
+        shapes |= {f"{MODEL}blocks.{place}.{name}": shape for name, shape in block.items()}
+    return shapes
+
+
+def _checked(
+    weights: dict[str, Floats], convolved: list[tuple[int, ...]], products: list[tuple[int, ...]]
+) -> None:
+    """ValueError where a tensor is missing, is one too many, or has another shape."""
+    signs = weights.get(f"{MODEL}proj.bias", np.zeros(0)).size
+    wanted = _shapes(signs)
+    found = {name: one.shape for name, one in weights.items() if not name.startswith((CONVOLVED, MULTIPLIED))}
+    other = [name for name in wanted | found if wanted.get(name) != found.get(name)]
+    if convolved != [(WIDTH, BANDS, 3), (WIDTH,), *[(WIDTH, 1, REACH), (WIDTH,)] * BLOCKS]:
+        other.append(CONVOLVED)
+    forward = [(WIDTH, WIDE), (WIDE, WIDTH)]
+    if products != [*forward, (WIDTH, 3 * WIDTH), (WIDTH, WIDTH), *forward] * BLOCKS:
+        other.append(MULTIPLIED)
+    if other:
+        raise ValueError(f"these are weights of another network: {', '.join(other[:3])} not as expected")
+
+
 def _block(weights: dict[str, Floats], place: int, products: list[Floats], convolved: list[Floats]) -> _Block:
     """`products` and `convolved` have lost their names, not their order."""
-    name = f"acoustic_model.model.blocks.{place}."
+    name = f"{MODEL}blocks.{place}."
 
     def norm(of: str) -> _Norm:
         return _Norm(weights[f"{name}{of}.weight"], weights[f"{name}{of}.bias"])
@@ -229,8 +276,11 @@ def _pointwise(weights: dict[str, Floats], name: str) -> _Linear:
 
 def _numbered(weights: dict[str, Floats], name: str) -> list[Floats]:
     """Those whose name is a number, in its order."""
-    numbers = sorted(int(one.removeprefix(name)) for one in weights if one.startswith(name))
-    return [weights[f"{name}{number}"] for number in numbers]
+    names = [one for one in weights if one.startswith(name)]
+    try:
+        return [weights[one] for one in sorted(names, key=lambda one: int(one.removeprefix(name)))]
+    except ValueError as problem:
+        raise ValueError(f"these are weights of another network: {problem}") from problem
 
 
 def _sigmoid(x: Floats) -> Floats:

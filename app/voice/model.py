@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import importlib
+import logging
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -16,6 +17,8 @@ from app.voice.conformer import Conformer, unpacked
 from app.voice.recognizer import VoiceTrouble
 
 __all__ = ["HamaModel", "chosen", "one_core"]
+
+log = logging.getLogger(__name__)
 
 Floats: TypeAlias = NDArray[np.float32]
 Way: TypeAlias = Callable[[Floats], Floats]
@@ -38,10 +41,18 @@ class HamaModel:
             from hama.vocab import Vocabulary
 
             self.tokens: Sequence[str] = [*Vocabulary.load(None).decoder, "<wb>", "<blank>"]
-        except (ImportError, RuntimeError, OSError, KeyError, ValueError) as problem:
+        except (
+            ImportError,
+            RuntimeError,
+            OSError,
+            LookupError,
+            ValueError,
+            TypeError,
+            AttributeError,
+        ) as problem:
             raise VoiceTrouble(f"The phoneme recogniser cannot be loaded: {problem}.") from problem
         one_core()
-        self._hear = chosen(_ours, _engine)
+        self._hear = chosen(_ours, _engine, len(self.tokens))
 
     def hear(self, samples: Floats) -> NDArray[np.float64]:
         """Log probability of each sign in each frame of 20 ms."""
@@ -51,17 +62,21 @@ class HamaModel:
         return self._hear(wave).astype(np.float64)
 
 
-def chosen(ours: Callable[[], Way], theirs: Callable[[], Way]) -> Way:
-    """The cheaper of two ways that say the same; theirs where they do not, or where ours fails; ours where they have none.
+def chosen(ours: Callable[[], Way], theirs: Callable[[], Way], signs: int) -> Way:
+    """The cheaper of two ways that say the same of so many signs; theirs where they do not, or where ours fails, which the log tells
+    in one line; ours where they have none.
 
     `VoiceTrouble` where neither can be had."""
     wave = (0.1 * np.random.default_rng(0).standard_normal(4000)).astype(np.float32)
-    mine, _ = _tried(ours, wave)
-    engine, worse = _tried(theirs, wave)
-    if mine is not None and (engine is None or (_alike(mine.said, engine.said) and mine.cost < engine.cost)):
-        return mine.way
+    mine, why = _tried(ours, wave, signs)
+    engine, worse = _tried(theirs, wave, signs)
     if engine is None:
-        raise VoiceTrouble(f"The phoneme recogniser cannot be loaded: {worse}.") from worse
+        if mine is None:
+            raise VoiceTrouble(f"The phoneme recogniser cannot be loaded: {worse}.") from worse
+        return mine.way
+    if mine is not None and _alike(mine.said, engine.said):
+        return mine.way if mine.cost < engine.cost else engine.way
+    log.warning("The model is run by the engine of its package: %s", why or "by numpy it says something else")
     return engine.way
 
 
@@ -86,7 +101,7 @@ class _Tried:
     """When it is not the first time [s of this thread]."""
 
 
-def _tried(make: Callable[[], Way], wave: Floats) -> tuple[_Tried | None, Exception | None]:
+def _tried(make: Callable[[], Way], wave: Floats, signs: int) -> tuple[_Tried | None, Exception | None]:
     """The way and what it says; or why it does not work."""
     try:
         way, costs = make(), []
@@ -94,7 +109,9 @@ def _tried(make: Callable[[], Way], wave: Floats) -> tuple[_Tried | None, Except
             began = time.thread_time()
             said = way(wave)
             costs.append(time.thread_time() - began)
-    except (ImportError, RuntimeError, OSError, KeyError, ValueError, AttributeError) as problem:
+        if said.ndim != 2 or said.shape[1] != signs or not np.isfinite(said).all():
+            raise ValueError(f"it does not give a probability of each of {signs} signs")
+    except Exception as problem:  # noqa: BLE001 - foreign weights, a foreign library: there may be the other way
         return None, problem
     return _Tried(way, said, min(costs)), None
 

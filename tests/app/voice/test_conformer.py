@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import struct
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
-from app.voice.conformer import Conformer, unpacked
+from app.voice.conformer import Conformer, _shapes, unpacked
 from app.voice.model import _engine, _ours
 from app.voice.noise import RATE
 from tests.app.voice.sounds import quiet, voice
@@ -71,6 +72,72 @@ def test_a_broken_file_is_a_value_error(broken):
         unpacked(broken)
 
 
-def test_weights_of_another_network_are_a_value_error():
+def test_sizes_that_no_file_has_are_a_value_error():
+    head = b"HAMAPK\x01\x02" + struct.pack("<IH", 1, 1) + b"a" + struct.pack("<BBI", 0, 1, 4)
+    for place, size in ((2**64 - 1, 16), (0, 2**64 - 1), (2**40, 16)):
+        with pytest.raises(ValueError, match="weights"):
+            unpacked(head + struct.pack("<QQ", place, size) + bytes(64))
+
+
+@pytest.fixture(scope="module")
+def weights():
+    """Nothing but ones, in the shapes of the network."""
+    forward = [(144, 576), (576, 144)]
+    shapes = {
+        **_shapes(191),
+        **{
+            f"onnx::MatMul_{10 + number}": shape
+            for number, shape in enumerate([*forward, (144, 432), (144, 144), *forward] * 4)
+        },
+        **{
+            f"onnx::Conv_{number}": shape
+            for number, shape in enumerate([(144, 80, 3), (144,), *[(144, 1, 31), (144,)] * 4])
+        },
+    }
+    return {name: np.full(shape, 0.01, np.float32) for name, shape in shapes.items()}
+
+
+def test_weights_of_this_network_are_taken(weights):
+    assert Conformer(weights)(quiet(0.1)).shape == (6, 191)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"acoustic_model.model.blocks.4.norm.bias": (144,)},
+        {"onnx::MatMul_99": (144, 576)},
+        {"onnx::Conv_99": (144,)},
+        {"mel_fb": (201, 40)},
+        {"stft_real_kernel": (201, 400)},
+        {"acoustic_model.model.blocks.1.ffn1.fc1.bias": (1,)},
+        {"onnx::MatMul_12": (144, 288)},
+        {"acoustic_model.model.proj.bias": (190,)},
+        {"onnx::Conv_4": (144, 1, 15)},
+        {"onnx::Conv_last": (144,)},
+        {"mel_fb": None},
+        {"onnx::Conv_0": None},
+    ],
+    ids=str,
+)
+def test_weights_of_another_network_are_a_value_error(weights, change):
+    other = dict(weights)
+    for name, shape in change.items():
+        other.pop(name, None)
+        if shape is not None:
+            other[name] = np.ones(shape, np.float32)
     with pytest.raises(ValueError, match="another network"):
-        Conformer({"mel_fb": np.ones((201, 80), np.float32)})
+        Conformer(other)
+
+
+def test_weights_that_are_none_are_a_value_error():
+    with pytest.raises(ValueError, match="another network"):
+        Conformer({})
+
+
+def test_two_threads_hear_the_same_as_one(weights):
+    network = Conformer(weights)
+    waves = [quiet(0.2 + 0.01 * number) for number in range(8)]
+    alone = [network(wave) for wave in waves]
+    with ThreadPoolExecutor(2) as pool:
+        together = list(pool.map(network, waves))
+    assert all(np.array_equal(one, other) for one, other in zip(alone, together, strict=True))

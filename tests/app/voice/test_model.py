@@ -6,8 +6,14 @@ import numpy as np
 import pytest
 
 from app.voice import model as module
-from app.voice.model import HamaModel, chosen
+from app.voice.model import HamaModel
 from app.voice.recognizer import VoiceTrouble
+
+SIGNS = 2
+
+
+def chosen(ours, theirs):
+    return module.chosen(ours, theirs, SIGNS)
 
 
 class Clock:
@@ -20,7 +26,7 @@ class Clock:
     def way(self, takes: float, probability: float = 0.5):
         def hear(wave):
             self.at += takes
-            return np.log(np.full((3, 2), probability, np.float32))
+            return np.log(np.full((3, SIGNS), probability, np.float32))
 
         return lambda: hear
 
@@ -37,23 +43,48 @@ def fails(problem):
     return make
 
 
-def test_the_cheaper_of_two_that_say_the_same_is_taken(clock):
+def test_the_cheaper_of_two_that_say_the_same_is_taken(clock, caplog):
     cheap, dear = clock.way(1.0), clock.way(5.0)
     assert chosen(cheap, dear) is cheap()
     assert chosen(dear, cheap) is cheap()
+    assert not caplog.messages
 
 
-def test_the_engine_is_taken_where_ours_says_something_else(clock):
+def test_the_engine_is_taken_where_ours_says_something_else(clock, caplog):
     ours, engine = clock.way(1.0, 0.5), clock.way(5.0, 0.6)
     assert chosen(ours, engine) is engine()
+    assert caplog.messages == [
+        "The model is run by the engine of its package: by numpy it says something else"
+    ]
 
 
 @pytest.mark.parametrize(
-    "problem", [ValueError("other weights"), OSError("no file"), ImportError("no numpy")]
+    "problem",
+    [
+        ValueError("other weights"),
+        OSError("no file"),
+        ImportError("no numpy"),
+        TypeError("another kind"),
+        IndexError("one axis less"),
+        MemoryError("no room"),
+    ],
 )
-def test_the_engine_is_taken_where_ours_cannot_be_had(clock, problem):
+def test_the_engine_is_taken_where_ours_cannot_be_had(clock, problem, caplog):
     engine = clock.way(5.0)
     assert chosen(fails(problem), engine) is engine()
+    assert caplog.messages == [f"The model is run by the engine of its package: {problem}"]
+
+
+@pytest.mark.parametrize(
+    "said",
+    [np.zeros((3, SIGNS + 1)), np.full((3, SIGNS), np.nan), np.zeros(SIGNS)],
+    ids=["other signs", "no numbers", "no frames"],
+)
+def test_a_way_that_says_nonsense_is_none(clock, said):
+    engine = clock.way(5.0)
+    assert chosen(lambda: lambda wave: said, engine) is engine()
+    with pytest.raises(VoiceTrouble, match="a probability of each of 2 signs"):
+        chosen(lambda: lambda wave: said, lambda: lambda wave: said)
 
 
 def test_ours_is_taken_where_there_is_no_engine_for_this_machine(clock):
