@@ -36,6 +36,8 @@ class ControlCards:
         self._unknown = False
         self.yields = False
         """There is no room now for what can wait."""
+        self.alone = False
+        """There is room for one card, as on a phone: the others wait until it is answered or gone."""
         self.handover = HandoverCard(me=session.client_id)
         self.mode, self.paused, self.cap = ModeCard(), PausedCard(), SpeedCap()
         self._closed = self._pause_asked = False
@@ -96,10 +98,15 @@ class ControlCards:
         paused = self.paused.open and not (
             self._closed or self._pause_asked or other or self._session.stop_latched
         )
+        paused, capped = free and paused and screen in TASKLESS, free and self.cap.open and screen in DRIVING
+        if self.alone:
+            chosen = chosen and not asked
+            paused = paused and not (asked or chosen)
+            capped = capped and not (asked or chosen or paused)
         self._notices.keep(self.handover, shown=asked, first=True)
         for card, shown in (
-            (self.cap, free and self.cap.open and screen in DRIVING),
-            (self.paused, free and paused and screen in TASKLESS),
+            (self.cap, capped),
+            (self.paused, paused),
             (self.mode, chosen and not (tight and asked)),
         ):  # below the hand-over, which stays where it is under a finger
             self._notices.keep(card, shown=shown, first=True, under=self.handover)

@@ -296,7 +296,12 @@ class Shell(FloatLayout):
         self.bar.show_methods(self.app.methods.standing(), self.app.methods.idle())
         self._dashboard.tick()
         self._tick_question()
-        self.cards.yields = self.wishes.tight = self.form == "short" and self.wishes.card.parent is not None
+        self.wishes.tight = self.form == "short" and self.wishes.card.parent is not None
+        self.cards.alone = self.form != "wide"
+        others = self.question, self.reset.card
+        self.cards.yields = self.wishes.tight or (
+            self.cards.alone and any(card.parent is not None for card in others)
+        )
         self.cards.tick(self.screen)
         self.reset.tick()
         self._show_stop()

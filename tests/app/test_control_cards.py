@@ -326,3 +326,28 @@ def test_the_age_of_the_map_does_not_stick_out_from_under_a_card(driving: Glass,
     x, y = map_.badge_pos
     driving.app.screens["mission"].clear(Rect(x - 50, y + 5, 200, 90))
     assert not map_.says_age
+
+
+def test_on_a_phone_one_card_at_a_time_is_shown_and_what_cannot_wait_comes_first(
+    driving: Glass, robot: FakeRobot
+) -> None:
+    shell = driving.app.shell
+    for size, alone in (((412, 892), True), ((892, 412), True), ((1280, 800), False)):
+        driving.app.root.size = size
+        driving.stage.run_for(0.3, COARSE)
+        tell(robot, speed_cap=0.4, requested_by="", requested_by_id="")
+        driving.until(lambda: shell.cards.cap.parent is not None, "no word of the slow link")
+        shell.cards.mode.open = True
+        driving.stage.run_for(0.3, COARSE)
+        assert (shell.cards.cap.parent is None) == alone, size
+        assert shell.cards.mode.parent is not None
+        anna_asks(driving, robot)
+        driving.stage.run_for(0.3, COARSE)
+        assert (shell.cards.mode.parent is None) == alone, size
+        shell.reset.card.tell("Patrol-1 has turned over.")
+        shell.cards.mode.open = False
+        tell(robot, speed_cap=0.4, requested_by="", requested_by_id="")
+        driving.until(lambda: shell.cards.handover.parent is None, "still asked")
+        driving.stage.run_for(0.3, COARSE)
+        assert (shell.cards.cap.parent is None) == (alone and shell.reset.card.parent is not None), size
+        shell.reset.card.close()
