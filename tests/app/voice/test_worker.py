@@ -13,7 +13,7 @@ import pytest
 
 from app.voice import child
 from app.voice.ending import wait_for_ends
-from app.voice.files import read
+from app.voice.files import FileEars, read
 from app.voice.lexicon import COMMANDS
 from app.voice.recognizer import Grammar, Level, State, VoiceTrouble
 from app.voice.wire import THERE, event_line, grammar_fields, read_event
@@ -476,3 +476,12 @@ def test_a_fault_in_the_real_process_gives_its_reason(told, monkeypatch):
     wait_for_ends()
     assert [event.word for event in events] == ["starting", "starting", "starting", "failed"]
     assert "is started again: ZeroDivisionError: division by zero." in events[1].sentence
+
+
+def test_the_process_answers_when_it_is_asked_whether_it_is_there(monkeypatch):
+    monkeypatch.setattr(child, "judge_of", lambda name, grammar: None)
+    monkeypatch.setattr(child, "Microphone", lambda: FileEars([]))
+    orders = io.StringIO("\n".join((json.dumps(grammar_fields(GRAMMAR)), THERE, "")))
+    events = io.StringIO()
+    assert child.main(["phonemes"], orders, events) == 0
+    assert THERE in events.getvalue().splitlines()
