@@ -8,7 +8,12 @@ from typing import Any
 
 __all__ = ["GamepadMethod", "KeyboardMethod"]
 
-STANDING = {"ready": "ready", "drives": "drives", "silent": "silent: drives nothing"}
+STANDING = {
+    "ready": "ready",
+    "drives": "drives",
+    "silent": "silent: drives nothing",
+    "let go": "pushed: drives once it was let go",
+}
 
 
 class GamepadMethod:

@@ -68,12 +68,14 @@ class Gamepads:
 
     @property
     def standing(self) -> str:
-        """What the stick shows: `none`, `ready`, `drives` or `silent`."""
+        """What the stick shows: `none`, `ready`, `drives`, `silent`, or `let go` for one that is pushed and may not drive."""
         if not self._known:
             return "none"
         if self._driver is not None:
             return "drives"
-        return "silent" if any(known.told_silent for known in self._known.values()) else "ready"
+        if any(known.told_silent for known in self._known.values()):
+            return "silent"
+        return "let go" if any(self._pushed(known) for known in self._known.values()) else "ready"
 
     @property
     def states(self) -> list[PadState]:

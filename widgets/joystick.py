@@ -143,5 +143,6 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "gamepad there": make(gamepad="ready"),
         "gamepad drives": make(0.7, 0.2, gamepad="drives"),
         "gamepad silent": make(gamepad="silent"),
+        "gamepad must be let go": make(gamepad="let go"),
         "small": lambda: Joystick(size_hint=(None, None), size=("140dp", "140dp")),
     }

@@ -33,6 +33,7 @@ GAMEPAD = {
     "ready": ("muted", "sports_esports"),
     "drives": ("accent", "sports_esports_fill"),
     "silent": ("warn", "link_off"),
+    "let go": ("warn", "block"),
     "keys": ("accent", "keyboard"),
 }
 """What is known of a gamepad, which is also the word beside its sign, to the role and the icon of that; `keys` push it instead."""
@@ -79,7 +80,8 @@ class Stick(Grip, Drawing):
     """How far it is pushed to the left, -1 to 1."""
 
     gamepad = OptionProperty("none", options=list(GAMEPAD))
-    """A gamepad drives the stick too: `none`, `ready`, `drives`, or `silent`, which commands nothing; `keys` where keys drive it."""
+    """A gamepad drives the stick too: `none`, `ready`, `drives`, `silent`, which commands nothing, or `let go`, which is pushed and
+    commands nothing before it was let go; `keys` where keys drive it."""
 
     def _sign(self) -> Texture:
         return text_texture(icon(GAMEPAD[self.gamepad][1] or "sports_esports"), sp(20), theme.icons)

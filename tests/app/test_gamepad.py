@@ -154,9 +154,10 @@ def test_forbidden_while_pushed_it_must_be_let_go_before_it_drives(desk: Desk) -
     desk.pass_time(0.5)
     desk.pads.forbid()
     desk.pass_time(1.0)
-    assert desk.lean is None
+    assert (desk.lean, desk.pads.standing) == (None, "let go")
     desk.push(0.0)
     desk.pass_time(BEAT)
+    assert desk.pads.standing == "ready"
     desk.push(0.5)
     desk.pass_time(BEAT)
     assert desk.lean is not None

@@ -179,10 +179,10 @@ def test_a_finger_takes_the_stick_from_a_gamepad_and_the_gamepad_does_not_take_i
 
 def test_what_a_gamepad_does_is_told_by_sign_and_word_and_not_by_colour_alone(stick):
     looks = {}
-    for what in ("ready", "drives", "silent"):
+    for what in ("ready", "drives", "silent", "let go"):
         stick.gamepad = what
         looks[what] = stick.sign, stick.sign_word
-    assert len({id(sign) for sign, _ in looks.values()}) == len({id(word) for _, word in looks.values()}) == 3
+    assert len({id(sign) for sign, _ in looks.values()}) == len({id(word) for _, word in looks.values()}) == 4
     assert stick.sign_pos[0] + stick.sign_size[0] <= stick.right
 
 
