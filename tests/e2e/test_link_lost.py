@@ -14,16 +14,18 @@ AT_REST = 0.02
 """A robot slower than this stands [m/s]."""
 SOON = 0.5
 """A lost link has the robot at rest within this [s], its watchdog's 0.3 s included."""
+STEADY, FAST = 0.3, 0.4
+"""A robot that was on average this fast [m/s] for so long [s] does what the stick says: it neither starts nor brakes."""
 SAMPLING = 0.15
 """What the truth lags behind, at 20 Hz and over three of its poses [s]."""
 
 
 def drive_off(glass: Handheld, witness: Witness) -> None:
-    """Push the stick and leave the finger there until the robot is on its way."""
+    """Push the stick and leave the finger there until the robot is at the speed that it asks for."""
     stick = glass.one("Joystick")
     glass.control()
     glass.until(lambda: stick.state == "live", "a live stick")
-    glass.drive(stick, lambda: witness.speed() > 0.2)
+    glass.drive(stick, lambda: stick.finger is not None and witness.fast(STEADY) > FAST)
 
 
 def seconds_until_rest(glass: Handheld, witness: Witness) -> float:
