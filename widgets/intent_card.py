@@ -35,6 +35,9 @@ Builder.load_string("""
         Rectangle:
             pos: self.pos
             size: self.width * root.left, self.height
+
+<IntentCard>:
+    padding: dp(14), dp(9) if root.tiny else dp(13)
 """)
 
 
@@ -90,7 +93,8 @@ class IntentCard(NoticeCard):
 
     def _write(self, *_: object) -> None:
         self.role = "warn" if self.question else "accent"
-        self.headline = f"{self.words}?" if self.question else f"{self.words} in {self.seconds:.0f} s"
+        left = f" · {self.seconds:.0f} s" if self.seconds else ""
+        self.headline = f"{self.words}?{left}" if self.question else f"{self.words} in {self.seconds:.0f} s"
         self.said = self.heard
         for question, buttons in self._rows.items():
             row = buttons[0].parent
