@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, ClassVar
 
 from kivy.clock import Clock
 from kivy.lang import Builder
@@ -79,8 +79,13 @@ Builder.load_string("""
 """)
 
 
-def free_room(whole: Rect, kept: Sequence[Rect], gap: float) -> Rect:
-    """The largest part of `whole` beside, above or below all of `kept`, `gap` away from them; all of it without any [px]."""
+def free_room(
+    whole: Rect, kept: Sequence[Rect], gap: float, wanted: tuple[float, float] = (0.0, 0.0)
+) -> Rect:
+    """The largest part of `whole` beside, above or below all of `kept`, `gap` away from them; all of it without any [px].
+
+    One that holds what is `wanted`, width and height, is preferred, and no more of either than there is at all.
+    """
     if not kept:
         return whole
     left, right = min(one.x for one in kept) - gap, max(one.right for one in kept) + gap
@@ -91,7 +96,12 @@ def free_room(whole: Rect, kept: Sequence[Rect], gap: float) -> Rect:
         Rect(right, whole.y, whole.right - right, whole.height),
         Rect(whole.x, whole.y, whole.width, low - whole.y),
     )
-    return max(parts, key=lambda part: max(0.0, part.width) * max(0.0, part.height))
+    wide, high = min(wanted[0], whole.width), min(wanted[1], whole.height)
+
+    def worth(part: Rect) -> tuple[bool, float]:
+        return part.width >= wide and part.height >= high, max(0.0, part.width) * max(0.0, part.height)
+
+    return max(parts, key=worth)
 
 
 class Question(FloatLayout):
@@ -106,6 +116,8 @@ class Question(FloatLayout):
     """x, y, width and height of STOP, where there is no shade [px]."""
     room = ListProperty([0, 0, 1, 1])
     """x, y, width and height of where the card may be [px]: STOP and STOP ALL are elsewhere."""
+    wanted: ClassVar[tuple[float, float]] = (0.0, 0.0)
+    """Width and height that the card is best read at, with what is round it [dp]; 0 where more is better."""
 
     def __init__(self, **kwargs: Any) -> None:
         self._stops: list[Any] = []
@@ -135,7 +147,8 @@ class Question(FloatLayout):
         self.hole = [kept[0].x, kept[0].y, kept[0].width, kept[0].height] if kept else [0, 0, 0, 0]
         over = self._over.children if self._over is not None else ()
         kept += [Rect(*one.pos, *one.size) for one in over if isinstance(one, StopAll)]
-        room = free_room(Rect(*self.pos, *self.size), kept, dp(8))
+        wide, high = self.wanted
+        room = free_room(Rect(*self.pos, *self.size), kept, dp(8), (dp(wide), dp(high)))
         self.room = [room.x, room.y, room.width, room.height]
 
     def close(self) -> None:
@@ -163,6 +176,7 @@ class AddressDialog(Question):
     """Asks for an address; `on_answer` may raise ValueError, whose sentence is shown, and what was typed stays."""
 
     problem = StringProperty("")
+    wanted = (468.0, 300.0)
 
     def __init__(self, on_answer: Callable[[str], object], **kwargs: Any) -> None:
         super().__init__(**kwargs)

@@ -39,6 +39,35 @@ def test_its_room_is_the_largest_beside_stop(stop: Rect, room: Rect) -> None:
     assert free_room(WHOLE, [stop], 8) == room
 
 
+@pytest.mark.parametrize(
+    ("wanted", "room"),
+    [
+        ((468, 300), Rect(0, 408, 412, 484)),
+        ((0, 0), Rect(0, 0, 232, 892)),
+        ((468, 600), Rect(0, 0, 232, 892)),
+    ],
+)
+def test_a_phones_card_lies_above_a_tall_stop_where_that_holds_it(
+    wanted: tuple[float, float], room: Rect
+) -> None:
+    assert free_room(Rect(0, 0, 412, 892), [Rect(240, 200, 160, 200)], 8, wanted) == room
+
+
+def test_the_address_has_room_for_all_its_figures_on_a_phone(driving: Glass, stage: Stage) -> None:
+    app, before = driving.app, tuple(stage.window.size)
+    stage.window.size = app.root.size = (412, 892)
+    try:
+        app.show("drive")
+        dialog = AddressDialog(lambda _: None)
+        app.root.add_widget(dialog)
+        stage.frames(6)
+        assert dialog.ids.card.width >= 380
+    finally:
+        dialog.close()
+        stage.window.size = app.root.size = before
+        stage.frames(3)
+
+
 def test_stop_acts_under_every_question_at_every_shape_of_the_glass(driving: Glass, stage: Stage) -> None:
     app, before = driving.app, tuple(stage.window.size)
     stop, pressed = app.shell.stop, []
