@@ -137,7 +137,8 @@ class ShakePane(BoxLayout):
         if self.shaking.trying:
             return TRY
         if not self.shaking.on:
-            return "Off: nothing is measured. Switch it on in the list of inputs, or try it here."
+            here = "" if self.trial.disabled else ", or try it here"
+            return f"Off: nothing is measured. Switch it on in the list of inputs{here}."
         return ACTS
 
     def _follow_lesson(self, now: float) -> None:
