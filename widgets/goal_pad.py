@@ -380,12 +380,20 @@ class GoalPad(Grip, Gauge):
                 sign, ink = icon("my_location") if column == 0 else "", theme.text
                 yield Word(sign, left + width / 2, low + height / 2, sp(24), ink, font=theme.icons)
                 continue
-            y, step = low + height - sp(9), (height - sp(18)) / 3
+            y, step = low + height - sp(9), (height - sp(20)) / 3
             most = sp(15 if height >= dp(68) else 12)
-            yield Word(name, left + width / 2, y, sp(10), colour, bold=True)
-            for row, (axis, text) in enumerate(zip(AXIS_NAMES, self._figures(place), strict=True), 1):
-                at = y - row * step
-                size = fitting_size([text], most, width - dp(18), bold=True)
+            figures, roomy, told = self._figures(place), width > dp(66), name
+            if column == 2 and not place:  # until there is a goal it says what a press does
+                told, figures = "STEP", (f"{self.step:g}", f"{self.step:g}", f"{math.degrees(TURN):.0f}°")
+            unit = " m" if roomy and (place or told == "STEP") else ""
+            shown = [text if text.endswith("°") else text + unit for text in figures]
+            size = fitting_size(shown, most, width - dp(20), bold=True)
+            aside = dp(6) if column == 0 and roomy else 0
+            if aside:
+                yield Word(icon("my_location"), left + dp(11), y, sp(12), theme.text, font=theme.icons)
+            yield Word(told, left + width / 2 + aside, y, sp(10), colour, bold=True)
+            for row, (axis, text) in enumerate(zip(AXIS_NAMES, shown, strict=True), 1):
+                at = y - row * step + sp(1)
                 if axis != "yaw" or width > dp(66):  # the degree says it too
                     yield Word(axis, left + dp(5), at, sp(11), theme.muted, anchor=(0, 0.5))
                 yield Word(text, left + width - dp(4), at, size, theme.text, bold=True, anchor=(1, 0.5))

@@ -25,7 +25,7 @@ LEAST = 88
 """Width that a button in a row needs [dp]."""
 ICON = 32
 """Taken by the icon beside the words [dp]."""
-SMALLEST = 11.0
+SMALLEST = 13.5
 """How things stand is said behind the words where both can be as large as this [sp]."""
 FIRST = 8.0
 """So long after the last turn the first ones are on the glass again [s]."""

@@ -297,7 +297,8 @@ def test_a_pose_that_is_no_number_is_not_known(stage, pad):
     pad.show(pose(math.nan, 1.0))
     stage.frames(2)
     assert pad.actual == []
-    assert pad.texts.count("–") == 6
+    assert pad.texts.count("–") == 3
+    assert {"STEP", "15°"} <= set(pad.texts), "while there is no goal it says what a press does"
 
 
 def test_no_goal_is_farther_than_a_map_can_be(pad):
@@ -346,3 +347,10 @@ def test_low_buttons_have_their_icon_only(stage):
     pad.show(pose(1.0, 2.0))
     stage.frames(2)
     assert not {"Go", "ROBOT", "x+"} & set(pad.texts)
+
+
+def test_figures_in_the_corners_of_a_phones_pad_have_a_unit_and_one_size(stage, pad):
+    pad.size = 260, 260
+    pad.show(pose(-12.54, -2.0))
+    stage.frames(2)
+    assert {"−12.54 m", "−2.00 m", "0.25 m", "STEP"} <= set(pad.texts)
