@@ -174,12 +174,14 @@ class Keeper:
         """`order` as it may be done now, of any kind; as a twist where the robot does not know the kind."""
         if isinstance(order, Twist):
             return Kept(*self.clamp(order, measured))
-        own = self._own
+        own, asked = self._own, order.height
         order = levelled(order, self._deepest, self._height, measured.height)
+        cut = _level_cut(asked, order.height)
         if order.kind == "tilt" and (roll := self._rolled(order.roll, measured)) != order.roll:
             order = msgspec.structs.replace(order, roll=roll)
         leads = leads_to(order, own, measured)
         may, why = self.clamp(leads, measured)
+        why = why or cut
         if self._back and order.kind not in BY_ITSELF:
             return Kept(may, why)
         if order.kind not in own.manoeuvres or turned_over(measured, own.kind):
@@ -354,6 +356,13 @@ def _highest(settings: LimitSettings) -> float:
     """[m] above the map's origin; a least depth is one below it."""
     shallowest = -settings.min_depth if settings.min_depth is not None else math.inf
     return min(settings.max_height if settings.max_height is not None else math.inf, shallowest)
+
+
+def _level_cut(asked: float, allowed: float) -> str:
+    """What is to be said of a height that was asked for and of the one that it goes to; empty where that is the same."""
+    if math.isnan(asked) or asked == allowed:
+        return ""
+    return f"The robot goes no {'higher' if asked > allowed else 'deeper'} than {_level_words(allowed)}."
 
 
 def _level_words(height: float) -> str:

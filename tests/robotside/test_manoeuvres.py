@@ -250,3 +250,24 @@ def test_one_that_has_turned_over_does_nothing(order: Manoeuvre | Twist) -> None
 def test_a_swimmer_may_lie_on_its_back() -> None:
     order = tilt(throttle=0.5)
     assert keep(AQUA, order, Measured(HERE, roll=math.pi)).order is order
+
+
+@pytest.mark.parametrize("kind", ["take_off", "hover", "course"])
+@pytest.mark.parametrize(
+    ("height", "goes", "why"),
+    [
+        (900.0, 10.0, "The robot goes no higher than 10 m."),
+        (8.0, 8.0, ""),
+        (math.nan, math.nan, ""),
+    ],
+)
+def test_a_height_beyond_the_limit_is_cut_to_it_and_that_is_said(
+    kind: str, height: float, goes: float, why: str
+) -> None:
+    info = RobotInfo(kind="quadrotor", max_speed=4.0, manoeuvres=["take_off", "hover", "course"])
+    flying = Measured(Pose2(0.0, 0.0, 0.0), height=2.0)
+    done, said = keep(info, Manoeuvre(kind=kind, height=height), flying, max_height=10.0)
+    assert isinstance(done, Manoeuvre)
+    if math.isfinite(goes) or kind != "take_off":
+        assert done.height == pytest.approx(goes, nan_ok=True)
+    assert said == why
