@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from app.feeds import Post
 from app.rects import Rect
+from app.screens.driving import CHIP
 from bridge.msgs.geometry_msgs import Twist, TwistWithCovariance
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import Check, Checklist, RobotInfo
@@ -34,8 +35,8 @@ def test_what_is_wrong_with_a_drone_is_read_upright_without_anything_seen_only_i
     screen.session.checks.choose(True)
     screen.tick()
     driving.stage.frames(3)
-    assert screen.low.top > screen.arranged["top"].y
-    assert (tape.right < 0, screen.video.show_chip) == (True, False)
+    assert screen.low.top < tape.y, "the picture has room for both"
+    assert (tape.right > 0, screen.video.show_chip) == (True, False)
 
 
 def test_the_picture_says_how_late_it_is_beside_what_lies_there_and_leaves_the_rest_out(
@@ -53,9 +54,13 @@ def test_the_picture_says_how_late_it_is_beside_what_lies_there_and_leaves_the_r
     screen.arrange(Rect(0, 60, 412, 774), "tall", 1.0)
     driving.stage.frames(2)
     (beside,) = screen.checks_place
+    chip = video.top - video.insets[3] - 8 - CHIP[1]
+    screen.hide_chip([Rect(beside.x, chip, beside.width, beside.height)])
     assert video.chip_text() == "3 fps · 657 ms late"
     assert video.show_chip
     assert video.x + video.insets[0] + 8 + video.chip_room < beside.x
+    screen.hide_chip([Rect(60, chip, beside.width, beside.height)])
+    assert not video.show_chip, "there is no room for the least of it"
 
     way = Odometry(twist=TwistWithCovariance(Twist.planar(1.0, 0.0)))
     screen.session.feeds.put("/odom", Post(way, screen.session.now(), 1))
