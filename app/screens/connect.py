@@ -123,12 +123,13 @@ Builder.load_string("""
         EdgedBox:
             size_hint_y: None
             height: dp(56)
-            padding: dp(16), 0
-            spacing: dp(12)
+            padding: dp(16) if root.columns > 1 else dp(12), 0
+            spacing: dp(12) if root.columns > 1 else dp(7)
             Text:
+                id: title
                 text: 'Pilothouse'
                 bold: True
-                font_size: theme.size_title
+                font_size: min(theme.size_title, self.width / 5.6)
                 pos_hint: {'center_y': .5}
             Chip:
                 icon: 'wifi_find'
