@@ -17,7 +17,7 @@ from app.screens.inputs.form_view import FormView
 from app.screens.inputs.log_view import facts
 from app.screens.inputs.setup_view import SetupView, commands_of
 from app.screens.inputs.study_pane import StudyPane
-from app.screens.inputs.trial_view import TrialView
+from app.screens.inputs.trial_view import PRACTICE, TrialView
 from app.settings import Settings
 from app.study import COMMANDS
 
@@ -333,6 +333,8 @@ def test_a_study_by_buttons_runs_through_to_its_forms(bench):
     for _ in COMMANDS:
         prompt = bench.prompt()
         assert pane.view.card.words.lower().replace(" ", "_") == prompt.intent
+        assert pane.view.card.how == "Buttons: press it among these"
+        assert [part.title for part in pane.view.pad.children if hasattr(part, "title")] == [PRACTICE]
         pane.view._press(prompt.intent)
     bench.tick()
     assert isinstance(pane.view, FormView)
@@ -418,3 +420,20 @@ def test_figures_without_a_bar_are_sentences(bench):
     ]
     assert facts(kept) == "Shake: 0.5 false activations an hour, in 2.0 h."
     assert facts([]) == ""
+
+
+def test_on_a_phones_side_prompt_and_buttons_begin_beside_each_other(bench):
+    pane = bench.pane
+    pane.size = 468, 258
+    pane.choice.choose("study")
+    for method, switch in pane.view.switches.items():
+        switch.active = method == "button"
+    pane.view.begin.dispatch("on_release")
+    bench.tick()
+    pane.view.go.dispatch("on_release")
+    for _ in range(3):
+        bench.tick()
+    view = pane.view
+    assert view.low
+    assert view.card.to_window(0, view.card.top)[1] == pytest.approx(view.pad.to_window(0, view.pad.top)[1])
+    assert view.pad.height <= 258

@@ -5,24 +5,26 @@ from __future__ import annotations
 from typing import Any
 
 from kivy.properties import BooleanProperty
+from kivy.uix.boxlayout import BoxLayout
 
 from app.intents import INTENTS, Heard
 from app.origin import origins
 from app.screens.inputs.log_view import look_of
 from app.study import Trials
-from widgets.kit import Column, Grid, PrimaryButton, QuietButton, Remark
+from widgets.kit import Column, Grid, PrimaryButton, QuietButton, Remark, SectionLabel
 from widgets.prompt_card import PromptCard
 
 __all__ = ["TrialView"]
 
 HOW = {
-    "button": "Buttons: press it below",
+    "button": "Buttons: press it among these",
     "voice": "Voice: say it",
     "shake": "Shake the device",
-    "switches": "Switches: choose it below",
+    "switches": "Switches: choose it among these",
     "gamepad": "Gamepad: press its button",
     "keyboard": "Keyboard: press its key",
 }
+PRACTICE = "Practice, moves nothing"
 PRESSING = ("button", "switches")
 """Methods that need something to press on the glass."""
 
@@ -46,6 +48,10 @@ class TrialView(Column):
         self.end = QuietButton(text="Leave the study", icon="close")
         self.end.bind(on_release=lambda _: self.dispatch("on_leave"))
         self.buttons = Grid(cols=2, spacing="10dp")
+        self.pad = Column(spacing="4dp")
+        """The buttons under a name that tells their STOP from the one that stops the robot."""
+        self.pad.add_widget(SectionLabel(title=PRACTICE))
+        self.pad.add_widget(self.buttons)
         self.tick()
 
     def tick(self) -> None:
@@ -94,26 +100,28 @@ class TrialView(Column):
 
     def _asking(self) -> list[Any]:
         """The prompt, what is pressed, and the break; side by side where it is low."""
-        for widget in (self.card, self.wait, self.buttons):
+        for widget in (self.card, self.wait, self.pad):
             if widget.parent is not None:
                 widget.parent.remove_widget(widget)
         if self._trials.now_block.method not in PRESSING:
             return [self.card, self.wait]
         self._fill_buttons()
         if not self.low:
-            return [self.card, self.buttons, self.wait]
-        left, both = Column(spacing="10dp"), Grid(cols=2, spacing="10dp")
+            return [self.card, self.pad, self.wait]
+        left, both = Column(spacing="10dp"), BoxLayout(spacing="10dp", size_hint_y=None)
         left.add_widget(self.card)
         left.add_widget(self.wait)
-        both.add_widget(left)
-        both.add_widget(self.buttons)
+        both.bind(minimum_height=both.setter("height"))
+        for part in (left, self.pad):
+            part.pos_hint = {"top": 1}
+            both.add_widget(part)
         return [both]
 
     def _fill_buttons(self) -> None:
         """In the order of the intents, not in that of the prompts."""
-        prompts = set(self._trials.now_block.prompts)
+        prompts, high = set(self._trials.now_block.prompts), "64dp" if self.low else "72dp"
         for name in (name for name in INTENTS if name in prompts):
-            button = QuietButton(text=INTENTS[name].words, icon=INTENTS[name].icon, height="72dp")
+            button = QuietButton(text=INTENTS[name].words, icon=INTENTS[name].icon, height=high)
             button.bind(on_release=lambda _, name=name: self._press(name))
             self.buttons.add_widget(button)
 
