@@ -25,6 +25,8 @@ __all__ = ["Bar", "BarRows", "Group", "nice_step"]
 
 ROW, HEAD, FOOT, TITLE = 30, 26, 24, 24
 """Heights of a row, of a group's name, of the scale below and of the title above [dp]."""
+MANY = 6
+"""More rows than these have the scale above them as well, as one end of a chart may be off a phone's glass."""
 STEPS = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0)
 MOST_STEPS = 5
 LEAST_WITH_NAMES = 330
@@ -98,7 +100,8 @@ class BarRows(Gauge):
         groups = self.groups()
         rows = sum(len(group.bars) for group in groups)
         heads = sum(bool(group.name) for group in groups)
-        inner = rows * dp(ROW) + heads * dp(HEAD) + dp(FOOT if rows else 44)
+        scales = FOOT * (2 if rows > MANY else 1)
+        inner = rows * dp(ROW) + heads * dp(HEAD) + dp(scales if rows else 44)
         self.wanted = self.height = 2 * dp(12) + dp(TITLE) + inner
         self.redraw()
 
@@ -114,7 +117,9 @@ class BarRows(Gauge):
             yield Word(said, self.center_x, (self.y + top) / 2, size, theme.muted)
             return
         span = self._span(bars)
-        yield from self._lines(shapes, span, top)
+        twice = len(bars) > MANY
+        top -= dp(FOOT) if twice else 0
+        yield from self._lines(shapes, span, top, twice=twice)
         for group in groups:
             if group.name:
                 yield self._heading(shapes, group.name, top - dp(HEAD) * 0.55)
@@ -152,7 +157,7 @@ class BarRows(Gauge):
     def _names(self) -> bool:
         return bool(self.width >= dp(LEAST_WITH_NAMES))
 
-    def _lines(self, shapes: Shapes, span: tuple[float, float], top: float) -> Iterator[Word]:
+    def _lines(self, shapes: Shapes, span: tuple[float, float], top: float, *, twice: bool) -> Iterator[Word]:
         (left, right), (full, step) = span, self.scale()
         low = self.y + self.edge + dp(FOOT)
         every = 1 if (right - left) / max(full / step, 1) >= dp(46) else 2
@@ -160,7 +165,8 @@ class BarRows(Gauge):
             x = left + (right - left) * number * step / full
             shapes.segments(np.array([[x, low]]), np.array([[x, top]]), dp(1), tint(theme.muted, 0.45))
             if number % every == 0:
-                yield Word(self.tick(number * step), x, low - dp(10), sp(12), theme.muted)
+                for y in (low - dp(10), top + dp(9)) if twice else (low - dp(10),):
+                    yield Word(self.tick(number * step), x, y, sp(12), theme.muted)
 
     def _row(self, shapes: Shapes, bar: Bar, span: tuple[float, float], y: float) -> Iterator[Word]:
         left, right = span

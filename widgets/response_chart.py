@@ -29,8 +29,9 @@ class ResponseChart(BarRows):
 
     legends: ClassVar[tuple[str, ...]] = (
         "median · how many; line: the middle half",
-        "median · how many",
-        "median",
+        "median, line: the middle half",
+        "median, line: middle half",
+        "line: middle half",
     )
 
     times = ListProperty()

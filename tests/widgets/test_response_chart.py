@@ -41,6 +41,19 @@ def test_a_narrow_chart_leaves_the_names_to_the_icons_and_keeps_the_figures():
     assert "0.52 s · 10" in chart.texts
 
 
+@pytest.mark.parametrize("width", [360, 388, 412, 600])
+def test_it_says_what_the_line_on_a_bar_is_on_a_phone_too(width):
+    chart = drawn(ResponseChart(times=TIMES, state="live", size_hint=(None, None), width=width))
+    assert any("middle half" in text for text in chart.texts)
+
+
+@pytest.mark.parametrize(("rows", "scales"), [(3, 1), (9, 2)])
+def test_a_long_chart_has_its_scale_at_both_ends(rows, scales):
+    times = (TIMES * 3)[:rows]
+    chart = drawn(ResponseChart(times=times, state="live", size_hint=(None, None), width=388))
+    assert chart.texts.count("0 s") == scales
+
+
 def test_it_grows_with_what_it_shows():
     chart = ResponseChart(size_hint=(None, None), width=600)
     empty = chart.height
