@@ -51,6 +51,7 @@ DEAF = "The app itself was speaking."
 TRIES_AGAIN = 5.0
 """Where it is to listen all the time and the microphone gives nothing, it is opened anew so often [s]."""
 DEAF_NOW = "STOP by voice is not heard now; the microphone is tried again by itself."
+MUTED_NOW = "STOP by voice is not heard now."
 HEARS = "The microphone works again."
 CLIPS = "The microphone is overdriven: speak more softly, or farther away from it."
 CLIPPED = 1.0
@@ -183,27 +184,28 @@ class Speaking(Switched):
     @property
     def _fault(self) -> str:
         """Why nothing is understood; what is overdriven is only understood badly."""
+        if self._deaf_now:
+            return f"{self._state.sentence} {MUTED_NOW if self._state.word == 'muted' else DEAF_NOW}"
         if self.loud and self._voice is not None:
             return self._state.sentence or "Too loud here for voice."
-        if self._deaf_now:
-            return f"{self._state.sentence} {DEAF_NOW}"
         wrong = self._state.word in ("failed", "ready") and self._state.sentence
         return self.mistaken or (self._state.sentence if wrong else "")
 
     @property
     def _deaf_now(self) -> bool:
-        """It is to listen all the time, and the microphone gives nothing."""
-        return self._hands_free and self._state.word == "ready" and bool(self._state.sentence)
+        """The ears are open and the microphone is muted; or they are to be open all the time, and it is gone."""
+        gone = self._hands_free and self._state.word == "ready" and bool(self._state.sentence)
+        return gone or self._state.word == "muted"
 
     @property
     def standing(self) -> str:
         """How it stands, in a few words."""
         if not self._on:
             return "off"
-        if self.loud:
-            return "too loud"
         if self._deaf_now:
             return "deaf"
+        if self.loud:
+            return "too loud"
         if self._state.word == "listening":
             return "listening"
         return {"starting": "gets ready", "ready": "hold to talk"}.get(self._state.word, "does not work")
@@ -213,7 +215,7 @@ class Speaking(Switched):
         """The same for the button to talk: `ready`, `listening`, `loud` or `wrong`; empty while it is off."""
         if not self._on:
             return ""
-        if self.loud:
+        if self.loud and not self._deaf_now:
             return "loud"
         return "wrong" if self._fault else "listening" if self._listening else "ready"
 
@@ -397,9 +399,10 @@ class Speaking(Switched):
             self.loud = True
         elif state.word == "listening" and state.sentence:  # told only where it had been too loud
             self.loud = False
+        news = state.sentence not in ("", told)
         if deaf and state.word == "listening":
             self._say(HEARS, "info")
-        elif self.loud != before or (state.sentence not in ("", told) and not self.loud and not before):
+        elif self.loud != before or (news and (self._deaf_now or not (self.loud or before))):
             self._say(self._fault or state.sentence, "warn" if state.word != "listening" else "info")
         if state.word == "ready" and state.sentence:  # the microphone is gone: who wants it opens it anew
             self._listening = False

@@ -117,7 +117,8 @@ class State:
     """How the recogniser stands."""
 
     word: str
-    """`starting`, `ready` (it hears nothing now; the sentence says why, if it should), `listening`, `too loud`, `failed` (it has ended)."""
+    """`starting`, `ready` (it hears nothing now; the sentence says why, if it should), `listening`, `muted` (the ears are open, and nothing
+    comes in but silence; `listening` follows with the first sound), `too loud`, `failed` (it has ended)."""
     sentence: str = ""
     """Why, for the operator; empty where there is nothing to say."""
 

@@ -167,4 +167,6 @@ class Service:
         before = self._flat
         self._flat = before + len(samples) / RATE if not len(samples) or np.ptp(samples) == 0.0 else math.nan
         if before < FLAT <= self._flat:
-            self._tell(State("listening", MUTED))
+            self._tell(State("muted", MUTED))
+        elif before >= FLAT and math.isnan(self._flat):
+            self._tell(State("listening"))

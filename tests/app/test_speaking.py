@@ -18,11 +18,13 @@ from app.speaking import (
     EARLIER,
     HEARS,
     LONGEST,
+    MUTED_NOW,
     TAP_LASTS,
     TRIES_AGAIN,
     Speaking,
 )
 from app.voice.recognizer import Grammar, Level, Rejected, Result, State, VoiceTrouble
+from app.voice.service import MUTED
 from tests.headless import Stage
 
 
@@ -82,7 +84,7 @@ class Desk:
     """A handheld with such a recogniser, on a clock that the test moves."""
 
     def __init__(self, recogniser: Recogniser | None = None, **kept: Any) -> None:
-        self.t, self.said, self.unheard = 100.0, [], []
+        self.t, self.said, self.levels, self.unheard = 100.0, [], [], []
         self.kept = {"voice": {"on": True, **kept}}
         self.recogniser = recogniser or Recogniser()
         settings = SimpleNamespace(
@@ -96,7 +98,7 @@ class Desk:
             now=lambda: self.t,
             session=None,
             shell=None,
-            connect=SimpleNamespace(say=lambda text, level: self.said.append(text)),
+            connect=SimpleNamespace(say=self.say),
             talk=SimpleNamespace(speaking=False, spoke=-math.inf),
             inputs=SimpleNamespace(meanings=SimpleNamespace(held={"talk": []})),
             methods=SimpleNamespace(get=lambda _: SimpleNamespace(on=True, tracks=tracks)),
@@ -106,6 +108,10 @@ class Desk:
         self.speaking = Speaking(self.app, lambda: self.recogniser)
         self.speaking.start()
         self.wait(0.0)
+
+    def say(self, sentence: str, level: str) -> None:
+        self.said.append(sentence)
+        self.levels.append(level)
 
     def wait(self, seconds: float) -> None:
         self.t += seconds
@@ -378,6 +384,36 @@ def test_hands_free_a_microphone_pulled_out_is_opened_anew_until_it_works() -> N
     desk.wait(0.1)
     assert desk.recogniser.orders == [True, True, True]
     assert (desk.speaking.problem, desk.said[-1]) == ("", f"Voice: {HEARS}")
+
+
+def test_hands_free_a_muted_microphone_is_a_problem_until_there_is_a_sound() -> None:
+    desk = Desk(hands_free=True)
+    desk.recogniser.hear(State("muted", MUTED))
+    for _ in range(3):
+        desk.wait(TRIES_AGAIN)
+        assert (desk.speaking.standing, desk.speaking.sign) == ("deaf", "wrong")
+        assert desk.speaking.problem == f"{MUTED} {MUTED_NOW}"
+    assert not desk.speaking.ready
+    assert (desk.said, desk.levels) == ([f"Voice: {MUTED} {MUTED_NOW}"], ["warn"])
+    assert desk.recogniser.orders == [True], (
+        "its ears are open: it hears by itself when it is not muted any more"
+    )
+    desk.recogniser.hear(State("listening"))
+    desk.wait(0.0)
+    assert (desk.speaking.standing, desk.speaking.sign) == ("listening", "listening")
+    assert (desk.speaking.problem, desk.said[1:], desk.levels[1:]) == ("", [f"Voice: {HEARS}"], ["info"])
+
+
+def test_a_microphone_that_is_muted_where_it_was_too_loud_is_said_and_makes_nothing_quiet() -> None:
+    desk = Desk(hands_free=True)
+    for state in (State("too loud", "Too loud here for voice."), State("muted", MUTED)):
+        desk.recogniser.hear(state)
+        desk.wait(0.0)
+    assert (desk.speaking.standing, desk.speaking.sign, desk.speaking.loud) == ("deaf", "wrong", True)
+    assert (desk.said[-1], desk.levels) == (f"Voice: {MUTED} {MUTED_NOW}", ["warn", "warn"])
+    desk.recogniser.hear(State("listening"))
+    desk.wait(0.0)
+    assert (desk.speaking.standing, desk.speaking.problem) == ("too loud", "Too loud here for voice.")
 
 
 def test_an_overdriven_microphone_is_a_problem_for_as_long_as_it_is_and_still_listens(desk: Desk) -> None:

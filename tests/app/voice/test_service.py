@@ -109,8 +109,8 @@ class Held(FileEars):
         self.service.stop()
 
 
-def turned(samples):
-    told, ears = [], Held([samples], gap=0.0)
+def turned(samples=(), ears=None):
+    told, ears = [], ears or Held([samples], gap=0.0)
     ears.service = Service(GRAMMAR, ears, lambda grammar: Judge(), told.append, Clock())
     ears.service.listen(on=True)
     ears.service.run()
@@ -125,7 +125,37 @@ def test_a_microphone_that_gave_no_sound_at_all_is_said_when_the_button_is_up():
 
 def test_hands_free_it_is_said_once_while_the_ears_stay_open():
     silence = np.zeros(int((FLAT + 4) * 16000), np.float32)
-    assert turned(silence).count(("listening", MUTED)) == 1
+    assert turned(silence)[-2:] == [("muted", MUTED), ("ready", MUTED)]
+    assert turned(silence).count(("muted", MUTED)) == 1
+
+
+def test_a_muted_microphone_that_is_heard_after_all_listens_again():
+    samples = np.concatenate((np.zeros(int((FLAT + 1) * 16000), np.float32), voice(0.3)))
+    assert turned(samples)[-3:] == [("muted", MUTED), ("listening", ""), ("ready", "")]
+
+
+def test_a_microphone_that_was_heard_once_and_is_muted_at_the_next_press_is_said():
+    class Twice(Held):
+        presses = 0
+
+        def start(self):
+            super().start()
+            self.presses += 1
+            self._left = voice(0.3) if self.presses == 1 else np.zeros(16000, np.float32)
+
+        def stop(self):
+            FileEars.stop(self)
+            if self.presses == 1:
+                self.service.listen(on=True)
+            else:
+                self.service.stop()
+
+    assert turned(ears=Twice([]))[2:] == [
+        ("listening", ""),
+        ("ready", ""),
+        ("listening", ""),
+        ("ready", MUTED),
+    ]
 
 
 def test_a_microphone_that_gives_nothing_between_the_words_is_not_muted():
