@@ -26,6 +26,7 @@ SETTLES = 0.5
 """A button whose meaning has changed takes no finger for so long [s]: that finger meant what it did before."""
 
 Builder.load_string("""
+#:import fitting_size widgets.base.fitting_size
 <PushButton>:
     size_hint_y: None
     height: theme.target
@@ -123,7 +124,7 @@ Builder.load_string("""
     Label:
         text: root.text
         font_name: theme.font
-        font_size: sp(12.5)
+        font_size: fitting_size([root.text], sp(12.5), root.width - dp(6))
         color: theme.roles[root.tint or ('text' if root.active else 'muted')]
         disabled_color: self.color
 """)
@@ -222,13 +223,13 @@ class NavButton(ButtonBehavior, BoxLayout):
 
     def _badge_size(self) -> tuple[float, float]:
         width, height = self.badge_texture.size
-        return max(width + dp(9), height + dp(3)), height + dp(3)
+        return max(width + dp(6), height + dp(3)), height + dp(3)
 
     badge_size = AliasProperty(_badge_size, bind=["badge_texture"], cache=True)
 
     def _badge_pos(self) -> tuple[float, float]:
         width, height = self.badge_size
-        return min(self.center_x + dp(5), self.right - width), self.top - dp(4) - height
+        return min(self.center_x + dp(9), self.right - width), self.top - dp(4) - height
 
     badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "pos", "size"], cache=True)
 

@@ -85,3 +85,21 @@ def test_an_upright_window_has_a_row_for_it_while_it_is_there() -> None:
     silent, talking = (arrange.shell(412, 892, talks=talks) for talks in (False, True))
     assert talking["nav"].height - silent["nav"].height >= 60
     assert talking["body"].y == talking["nav"].top
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_every_word_stays_off_the_edges_of_its_button(stage: Stage, form: str) -> None:
+    made = rail(stage, form, "")
+    for button in made.buttons:
+        if button.parent is made:
+            label = next(part for part in button.children if type(part) is Label)
+            assert label.texture_size[0] <= button.width - 4, button.text
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_count_of_two_figures_leaves_most_of_its_icon_to_be_seen(stage: Stage, form: str) -> None:
+    made = rail(stage, form, "")
+    button = made.ids.tasks
+    button.count = 16
+    assert button.badge_pos[0] >= button.center_x + 6
+    assert button.badge_pos[0] + button.badge_size[0] <= button.right
