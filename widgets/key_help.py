@@ -149,11 +149,12 @@ class KeyHelp(Control, BoxLayout):
     def _build(self, *_: object) -> None:
         """Groups one below the other, column after column, all about as high."""
         self._count = self._columns()
-        columns = []
+        columns, before = [], ""
         for groups in flow(self.groups, self._count):
             columns.append(Column(spacing=dp(2), pos_hint={"top": 1}))
             for title, rows in groups:
-                columns[-1].add_widget(group_label(title))
+                columns[-1].add_widget(group_label(f"{title}, continued" if title == before else title))
+                before = title
                 for caps, words in rows:
                     columns[-1].add_widget(HelpRow(caps, words=words, grave=words == "STOP"))
         self.ids.columns.clear_widgets()

@@ -27,7 +27,8 @@ Builder.load_string("""
         size_hint: None, None
         width: min(dp(1180), root.room[2] - dp(28))
         height: min(theme.target + help.whole + 2 * dp(12) + dp(8), root.room[3] - dp(20))
-        pos: root.room[0] + (root.room[2] - self.width) / 2, root.room[1] + (root.room[3] - self.height) / 2
+        x: max(root.room[0] + dp(10), min(root.center_x - self.width / 2, root.room[0] + root.room[2] - self.width - dp(10)))
+        y: root.room[1] + (root.room[3] - self.height) / 2
         padding: dp(18), dp(12)
         spacing: dp(8)
         BoxLayout:

@@ -6,6 +6,7 @@ from typing import Any
 
 from tests.headless import Stage
 from widgets.key_help import KeyCap, KeyHelp, flow
+from widgets.labels import SectionLabel
 
 GROUPS: list[Any] = [
     ("STOP", [(["Esc", "Space"], "STOP")]),
@@ -55,3 +56,11 @@ def test_a_long_group_goes_on_in_the_next_column_so_that_none_is_empty() -> None
 def test_it_says_how_high_it_would_be_without_scrolling(stage: Stage) -> None:
     help_ = shown(stage, 340)
     assert help_.whole == help_.ids.columns.height > 200
+
+
+def test_a_group_that_goes_on_in_the_next_column_says_so(stage: Stage) -> None:
+    help_ = shown(stage, 600)
+    help_.groups = [("Robot", [([str(number)], "acts") for number in range(12)])]
+    stage.frames(2)
+    titles = [one.title for one in help_.walk() if isinstance(one, SectionLabel)]
+    assert sorted(titles) == ["Robot", "Robot, continued"]
