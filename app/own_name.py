@@ -15,7 +15,7 @@ import msgspec
 
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskStatus
 
-__all__ = ["OwnName", "like"]
+__all__ = ["OwnName"]
 
 PATIENCE = 1.0
 """What happened so long before this handheld came is not about it [s]: clocks differ a little."""
@@ -33,18 +33,13 @@ SAYS = {
 PRESSED_STOP = "STOP pressed by {}."
 
 
-def like(client_name: str) -> re.Pattern[str]:
-    """What a robot may call a handheld of that name: another one of the same name came before it."""
-    return re.compile(rf"{re.escape(client_name)}(?: \(\d+\))?")
-
-
 class OwnName:
     """The name of one handheld at one robot. Everything here happens in the UI thread."""
 
     def __init__(self, client_id: str, client_name: str, now: Callable[[], float]) -> None:
         """`client_name` is what it calls itself; `now` is our clock [s]."""
         self._id, self._now, self._since = client_id, now, now()
-        name = like(client_name).pattern
+        name = rf"{re.escape(client_name)}(?: \(\d+\))?"
         self._like = {
             re.compile(re.escape(said).replace(re.escape("{}"), f"({name})")): words
             for said, words in SAYS.items()

@@ -98,7 +98,7 @@ class Session:
         self.ever_connected = False
         self._settings, self._now = settings, now
         self._state_since = now()
-        self._stopping = Stopping(now, lambda name: bool(name) and name == self.own_name.known)
+        self._stopping = Stopping(now, client_id)
         self._stopping.reach(self.connected)
         self._asked_control = False
         self._chosen = ""

@@ -15,7 +15,6 @@ from typing import Any, Protocol, TypeVar
 from app.commands import Commands, Outcome
 from app.local_stop import LocalStop
 from app.offer import DRIVE, NOTHING, Offer, ask
-from app.own_name import like
 from app.stopping import Stopping
 from bridge.choice import drive_message
 from bridge.client import BridgeClient, LinkState, Phase
@@ -117,8 +116,7 @@ class StopLane:
         self._zero = LocalStop(now)
         self._wanted, self._done = asyncio.Event(), asyncio.Event()
         self._identity: tuple[str, str, Time] | None = None
-        own = like(client_name)
-        self._stopping = Stopping(now, lambda name: own.fullmatch(name) is not None)
+        self._stopping = Stopping(now, client_id)
         self._stopping.reach(False)
         self._reached = False
         self._offer: Offer | None = None

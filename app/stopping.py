@@ -120,9 +120,9 @@ def silence(seconds: float) -> str:
 class Stopping:
     """Notes what is heard of the STOP of a robot that has one, over whatever link."""
 
-    def __init__(self, now: Callable[[], float], ours: Callable[[str], bool] = lambda _: False) -> None:
-        """`now` is our clock [s]; `ours` says whether a name is the one that the robot calls this handheld by."""
-        self._now, self._ours = now, ours
+    def __init__(self, now: Callable[[], float], client_id: str) -> None:
+        """`now` is our clock [s]; `client_id` is who this handheld is to the robot."""
+        self._now, self._id = now, client_id
         self._status: ControlStatus | None = None
         self._asked_at = self._taken_at = self._moves_since = self._reached_at = self._lost_at = math.nan
         self._refusal = self._why = ""
@@ -202,6 +202,13 @@ class Stopping:
         self._reached, self._why, self._hopeless = reached, why, hopeless
 
     @property
+    def _other(self) -> str:
+        """Who else pressed it."""
+        if self._status is None or (self._id and self._status.stopped_by_id == self._id):
+            return ""
+        return self._status.stopped_by
+
+    @property
     def _known(self) -> Known:
         status = self._status
         return Known(
@@ -210,7 +217,7 @@ class Stopping:
             refusal=self._refusal,
             latched=None if status is None else status.stopped,
             at_rest=self.rests,
-            by="" if status is None or self._ours(status.stopped_by) else status.stopped_by,
+            by=self._other,
             moves_since=self._moves_since,
             released=self._released,
             reached=self._reached,

@@ -54,6 +54,8 @@ class Controls(Authority):
         self._stopped = False
         self.stopped_by = ""
         """Who pressed STOP; empty when it is not pressed."""
+        self.stopped_by_id = ""
+        """The id of who pressed it, as of `id`; empty when it is not pressed and for whoever has none."""
         self.dropped = 0
         """Drive commands that were not obeyed since the start."""
 
@@ -79,15 +81,15 @@ class Controls(Authority):
             self._giver = None
         return super().gone(client)
 
-    def stop(self, name: str) -> None:
-        """Latch STOP; from anyone, any time. A stick that is held meanwhile has to come to rest before it counts."""
+    def stop(self, name: str, client_id: str = "") -> None:
+        """Latch STOP; from anyone, any time, whether or not they have an id. A stick that is held meanwhile has to come to rest before it counts."""
         if not self._stopped:
-            self._stopped, self.stopped_by = True, name or SOMEBODY
+            self._stopped, self.stopped_by, self.stopped_by_id = True, name or SOMEBODY, client_id
         self.halt()
 
     def release_stop(self) -> None:
         """Unlatch STOP; nothing moves by that alone."""
-        self._stopped, self.stopped_by = False, ""
+        self._stopped, self.stopped_by, self.stopped_by_id = False, "", ""
 
     def drive(
         self,

@@ -104,7 +104,8 @@ class _Orders:
 
     def stop(self, client: Operator, _: CommandRequest) -> str:
         """Latch STOP; it is not done while the robot cannot be reached, so that whoever pressed it goes on asking."""
-        self._station.press_stop(self._station.controls.name(client))
+        controls = self._station.controls
+        self._station.press_stop(controls.name(client), controls.id(client))
         doubt = self._station.stop_doubt
         if doubt:
             raise Refusal(f"STOP is pressed, but {doubt[0].lower()}{doubt[1:]}")

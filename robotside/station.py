@@ -162,10 +162,10 @@ class Station:
         self._mind(partial(self.helm.gone, client, self.now))
         self.show_control()
 
-    def press_stop(self, name: str) -> None:
-        """Latch STOP, bring the robot to rest and hold the task; `name` pressed it."""
+    def press_stop(self, name: str, client_id: str = "") -> None:
+        """Latch STOP, bring the robot to rest and hold the task; `name` pressed it, whose `client_id` is empty without one."""
         fresh = not self.controls.stopped
-        self.controls.stop(name)  # before all that may fail
+        self.controls.stop(name, client_id)  # before all that may fail
         self._unheard = ""
         self._press(self.robot.stop if self._ending else self.robot.press_stop)
         if fresh:
@@ -412,6 +412,7 @@ class Station:
             driver_id=driver.client_id if driver else "",
             stopped=self.controls.stopped,
             stopped_by=self.controls.stopped_by,
+            stopped_by_id=self.controls.stopped_by_id,
             at_rest=at_rest,
             stop_tested=self.readiness.stop_tested,
             requested_by=asker.name if asker else "",

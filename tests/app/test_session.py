@@ -125,6 +125,14 @@ def test_a_robot_side_that_cannot_reach_its_robot_has_not_stopped_it(watch: Watc
     assert watch.session.stop_phase == "stopped"
 
 
+def test_who_else_pressed_stop_is_said_though_it_has_the_same_name(tmp_path: Path) -> None:
+    watch = Watch(tmp_path, "tablet")
+    for client_id, said in (("other", "Pressed by tablet."), ("me", "")):
+        status = ControlStatus(stopped=True, stopped_by="tablet", stopped_by_id=client_id)
+        watch.session.deliver("/control/status", Post(status, watch.clock.time, 1))
+        assert watch.session.stop_sentence == said
+
+
 def test_stop_can_be_let_go_before_it_was_done_and_is_asked_for_no_longer(watch: Watch) -> None:
     watch.outcome("no_reply", UNREACHED)
     watch.told(at_rest=False)

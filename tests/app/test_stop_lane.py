@@ -33,7 +33,7 @@ class Robot:
         self.silently = False
         """It stops and its answer is lost."""
         self.refusal = ""
-        self.by = "Anna"
+        self.by, self.by_id = "Anna", "anna"
         self.topics = {"/cmd_vel": "geometry_msgs/Twist", "/odom": "nav_msgs/Odometry"}
         self.asked: list[tuple[float, str]] = []
         self.zeros: list[tuple[str, Any]] = []
@@ -87,7 +87,9 @@ class Robot:
         return CommandResponse(success=not self.refusal, message=self.refusal)
 
     def tell(self, *, stopped: bool, at_rest: bool) -> None:
-        self.status = ControlStatus(stamp=Time(7, 1), stopped=stopped, at_rest=at_rest, stopped_by=self.by)
+        self.status = ControlStatus(
+            stamp=Time(7, 1), stopped=stopped, at_rest=at_rest, stopped_by=self.by, stopped_by_id=self.by_id
+        )
         if "/control/status" in self.heard:
             self.heard["/control/status"](self.status, now())
 
@@ -304,7 +306,11 @@ async def test_who_pressed_is_said_of_another_and_not_of_oneself(robot: Robot) -
     async with pressed(robot) as lane:
         await asyncio.sleep(0.5)
         assert lane.report.sentence == "Pressed by Anna."
-        robot.by = "tablet (2)"
+        robot.by, robot.by_id = "tablet (2)", "another of the same name"
+        robot.tell(stopped=True, at_rest=True)
+        await asyncio.sleep(0.2)
+        assert lane.report.sentence == "Pressed by tablet (2)."
+        robot.by_id = "me"
         robot.tell(stopped=True, at_rest=True)
         await asyncio.sleep(0.2)
         assert (lane.report.phase, lane.report.sentence) == ("stopped", "")

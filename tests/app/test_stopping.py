@@ -69,7 +69,7 @@ class Watch:
 
     def __init__(self) -> None:
         self.clock = Clock()
-        self.stopping = Stopping(self.clock)
+        self.stopping = Stopping(self.clock, "me")
 
     def told(self, *, stopped: bool = True, at_rest: bool = True) -> None:
         self.stopping.hear(ControlStatus(stopped=stopped, at_rest=at_rest))
@@ -96,6 +96,27 @@ def test_a_robot_that_is_slow_to_rest_is_not_obeyed_only_after_its_time(watch: W
     assert watch.phase == "moves"
     watch.told()
     assert watch.phase == "stopped"
+
+
+@pytest.mark.parametrize(
+    ("client_id", "said"),
+    [
+        ("me", ""),
+        ("another of the same name", "Pressed by tablet."),
+        ("", "Pressed by tablet."),
+    ],
+)
+def test_who_pressed_it_is_known_by_the_id_and_not_by_the_name(
+    watch: Watch, client_id: str, said: str
+) -> None:
+    watch.stopping.hear(ControlStatus(stopped=True, stopped_by="tablet", stopped_by_id=client_id))
+    assert watch.stopping.verdict == Verdict("stopped", said)
+
+
+def test_a_handheld_without_an_id_takes_nobodys_stop_for_its_own() -> None:
+    stopping = Stopping(Clock(), "")
+    stopping.hear(ControlStatus(stopped=True, stopped_by="a browser"))
+    assert stopping.verdict.sentence == "Pressed by a browser."
 
 
 def test_pressing_again_while_it_is_sent_puts_no_doubt_off(watch: Watch) -> None:

@@ -333,9 +333,11 @@ def test_a_stick_at_rest_is_not_scolded_while_stopped(controls: Controls, anna: 
 
 
 def test_the_first_who_pressed_stop_is_remembered(controls: Controls) -> None:
-    controls.stop("Bert")
-    controls.stop("Anna")
-    assert controls.stopped_by == "Bert"
+    controls.stop("Bert", "b")
+    controls.stop("Anna", "a")
+    assert (controls.stopped_by, controls.stopped_by_id) == ("Bert", "b")
+    controls.release_stop()
+    assert (controls.stopped_by, controls.stopped_by_id) == ("", "")
 
 
 def test_a_stick_at_rest_does_not_disturb_a_robot_that_drives_itself(

@@ -46,10 +46,11 @@ def test_stop_is_obeyed_from_anyone_and_latched(scene: Scene) -> None:
     scene.ask("/control/acquire")
     scene.drive(Twist.planar(0.3, 0.0))
     bert = scene.client("bert")
-    answer = scene.ask("/stop", CommandRequest(client_name="Bert"), bert)
+    answer = scene.ask("/stop", CommandRequest(client_id="b", client_name="Bert"), bert)
     assert answer.success
     assert scene.robot.commands[-1] is None
     assert (scene.control.mode, scene.control.stopped_by) == ("STOPPED", "Bert")
+    assert scene.control.stopped_by_id == "b"
     scene.drive(Twist.planar(0.3, 0.0))
     assert scene.robot.commands[-1] is None
     assert "STOP is pressed" in scene.events("command")[-1]

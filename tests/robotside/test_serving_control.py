@@ -46,6 +46,7 @@ async def test_anybody_stops_the_robot_over_http(tmp_path: Path) -> None:
         assert (answer.status_code, answer.text) == (200, "Stopped.\n")
         assert robot.at_rest
         assert serves.station.controls.stopped_by == "Fred"
+        assert serves.station.controls.stopped_by_id == ""
         assert (await web.post("/stop")).status_code == 200
         asked = await web.get("/stop")
         assert (asked.status_code, asked.headers["allow"]) == (405, "POST")

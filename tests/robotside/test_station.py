@@ -200,9 +200,11 @@ def test_what_others_call_things_is_cut_wherever_it_is_kept(scene: Scene) -> Non
 
 
 def test_stop_is_still_pressed_after_the_computer_died_and_says_so(scene: Scene, tmp_path: Path) -> None:
-    scene.ask("/stop", CommandRequest(client_name="Anna"))
+    scene.ask("/stop", CommandRequest(client_id="a", client_name="Anna"))
+    assert scene.control.stopped_by_id == "a"
     again = Scene(FakeRobot(), tmp_path)
     assert (again.control.mode, again.control.stopped_by) == ("STOPPED", "Anna")
+    assert again.control.stopped_by_id == "", "only the name is kept"
     assert again.since_start() == ["STOP, pressed by Anna before the restart, is still pressed."]
     again.run(4.0)
     again.drive(Twist.planar(0.3, 0.0))

@@ -249,6 +249,7 @@ class ControlStatus(Msg, frozen=True, gc=False):
         "string",
         "bool",
         "string",
+        "string",
         "bool",
         "string",
         "string",
@@ -270,6 +271,8 @@ class ControlStatus(Msg, frozen=True, gc=False):
     """STOP is latched: nothing moves until it is released."""
     stopped_by: str = ""
     """Who pressed STOP."""
+    stopped_by_id: str = ""
+    """The client_id of who pressed it; empty when it gave none, or before the robot's last start."""
     at_rest: bool = True
     """The wheels stand still, as measured."""
     requested_by: str = ""
