@@ -10,7 +10,7 @@ import pytest
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from bridge.topics import TOPICS
 from robotside.bus import Bus
-from robotside.offered import FITTED, Offered
+from robotside.offered import Offered
 from robotside.orders import services
 from robotside.station import Station
 from sim.robot import ROBOTS, home_of, make
@@ -19,8 +19,30 @@ from tests.robotside.scene import records_at
 
 NAMES = {entry.name for entry in TOPICS}
 MADE = {
-    name for name in NAMES - FITTED if not name.startswith("/sonar/") and not name.endswith("/compressed")
+    "/robot/info",
+    "/pose",
+    "/detections",
+    "/intruders",
+    "/plan",
+    "/mission",
+    "/task/status",
+    "/task/progress",
+    "/task/queue",
+    "/control/status",
+    "/schedule",
+    "/places",
+    "/limits",
+    "/checklist",
+    "/events",
+    "/diagnostics",
+    "/tf",
+    "/sim/ground_truth",
+    "/cmd_vel",
+    "/cmd_manoeuvre",
+    "/goal_pose",
+    "/initialpose",
 }
+"""What a robot side has for any simulated robot with a camera, whatever else that is equipped with."""
 CAMERA, REAR, DOWN = (f"/camera/{name}image/compressed" for name in ("", "rear/", "down/"))
 ALL = {"/odom", "/imu/data", "/bumper", "/battery_state", "/motors", "/manoeuvre", "/map"} | {CAMERA}
 EQUIPMENT = {
