@@ -64,6 +64,20 @@ def test_a_boat_under_water_has_sunk_and_that_is_said_once_wherever_the_surface_
     assert said == ["Minnow-1 has sunk."]
 
 
+def test_a_sea_that_breaks_over_a_boat_passes_and_what_stays_under_water_for_four_seconds_has_sunk(afloat):
+    vehicle = afloat.simulation.vehicle
+    mishaps = Mishaps(vehicle.parameters.info, vehicle.scene)
+
+    def under(seconds):
+        level = afloat.simulation.weather.surface(0.0, 0.0)
+        vehicle.scene.backend.place(vehicle.body, (0.0, 0.0, level - 0.6), from_yaw(0.0))
+        times = round(seconds * LOOKS)
+        return [event.text for _ in range(times) for event in mishaps.look(vehicle.state())]
+
+    assert under(3.9) == []
+    assert under(0.1) == ["Minnow-1 has sunk."]
+
+
 def test_what_passes_is_not_told(looks):
     assert looks(PATIENCE - 1, rotation=ON_ITS_BACK) == []
     assert looks(1) == []
