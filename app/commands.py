@@ -62,6 +62,10 @@ STOP_TRY, STOP_PAUSE = 0.3, 0.1
 """The same for STOP [s]."""
 STOP_DOUBT = 1.0
 """STOP without an answer for longer is said to be unanswered; it goes on being sent [s]."""
+RELEASE = ("stop_release", None)
+"""What a release of STOP is under way as."""
+TAKEN_BACK = "STOP was pressed after it."
+"""Stands for the reason of a release that is asked for no longer."""
 STILL_SENDING = "Still sending it."
 """Stands for the reason of a STOP that has no answer at all."""
 
@@ -224,6 +228,8 @@ class Commands:
         """By command and what it is about."""
         self._next: dict[Hashable, tuple[Origin, dict[str, Any]]] = {}
         """What to ask for, in the same way, once the one that is under way is answered."""
+        self._released_before = ""
+        """The release of STOP, by its id, that was under way when STOP was pressed: it is asked for no longer."""
         self._stopping: Outcome | None = None
         """The STOP that is being sent; None when there is none, or it was let go."""
         self._stop_confirmed = False
@@ -280,6 +286,8 @@ class Commands:
         """Ask with the same id until there is an answer or the command is too old."""
         deadline, kind = started + VALID_FOR, COMMANDS[outcome.name]
         while True:
+            if outcome.command_id == self._released_before:
+                return replace(outcome, phase="no_reply", reason=TAKEN_BACK)
             timeout = min(TRY, deadline - self._now())
             try:
                 answer = await self._call(kind.service, request, kind.response, timeout=timeout)
@@ -299,8 +307,10 @@ class Commands:
     async def stop(self, origin: Origin = NOBODY) -> None:
         """Send STOP from `origin` until the robot confirms it, however long that takes and over reconnects.
 
-        Pressed again while it is being sent, nothing changes.
+        Pressed again while it is being sent, nothing changes. A release that is still being sent is taken back: STOP has
+        a lane of its own and may come before it.
         """
+        self._take_back_release()
         if self._stopping is not None:
             return
         started = self._now()
@@ -315,6 +325,12 @@ class Commands:
                 self._stopping is outcome
             ):  # and not the next one, pressed while this one still awaited an answer
                 self._stopping = None
+
+    def _take_back_release(self) -> None:
+        self._next.pop(RELEASE, None)
+        release = self._under_way.get(RELEASE)
+        if release is not None:
+            self._released_before = release.command_id
 
     async def _repeat_stop(self, outcome: Outcome, request: Msg, started: float) -> None:
         doubted = False

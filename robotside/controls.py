@@ -56,6 +56,8 @@ class Controls(Authority):
         """Who pressed STOP; empty when it is not pressed."""
         self.stopped_by_id = ""
         """The id of who pressed it, as of `id`; empty when it is not pressed and for whoever has none."""
+        self.stop_given = -math.inf
+        """When the latest STOP was given [s, operators' clock]; what was given before it cannot release it."""
         self.dropped = 0
         """Drive commands that were not obeyed since the start."""
 
@@ -81,8 +83,12 @@ class Controls(Authority):
             self._giver = None
         return super().gone(client)
 
-    def stop(self, name: str, client_id: str = "") -> None:
-        """Latch STOP; from anyone, any time, whether or not they have an id. A stick that is held meanwhile has to come to rest before it counts."""
+    def stop(self, name: str, client_id: str = "", given: float = -math.inf) -> None:
+        """Latch STOP; from anyone, any time. `name` pressed it, whose `client_id` is empty without one.
+
+        It was `given` then [s, operators' clock]. A stick that is held meanwhile has to come to rest before it counts.
+        """
+        self.stop_given = max(self.stop_given, given)
         if not self._stopped:
             self._stopped, self.stopped_by, self.stopped_by_id = True, name or SOMEBODY, client_id
         self.halt()

@@ -102,20 +102,24 @@ class _Orders:
     def __init__(self, station: Station) -> None:
         self._station, self._permits = station, Permits(station)
 
-    def stop(self, client: Operator, _: CommandRequest) -> str:
+    def stop(self, client: Operator, asked: CommandRequest) -> str:
         """Latch STOP; it is not done while the robot cannot be reached, so that whoever pressed it goes on asking."""
         controls = self._station.controls
-        self._station.press_stop(controls.name(client), controls.id(client))
+        given = math.inf if math.isnan(asked.stamp) else asked.stamp
+        self._station.press_stop(controls.name(client), controls.id(client), given)
         doubt = self._station.stop_doubt
         if doubt:
             raise Refusal(f"STOP is pressed, but {doubt[0].lower()}{doubt[1:]}")
         return f"Stopped. {self._station.stop_unkept}".strip()
 
-    def release_stop(self, client: Operator, _: CommandRequest) -> str:
-        """Unlatch STOP."""
+    def release_stop(self, client: Operator, asked: CommandRequest) -> str:
+        """Unlatch STOP, unless it was pressed after that was asked for: the release was late on its way."""
         self._permits.need_control(client)
-        if not self._station.controls.stopped:
+        controls = self._station.controls
+        if not controls.stopped:
             return "STOP was not pressed."
+        if asked.stamp < controls.stop_given:
+            raise Refusal("STOP was pressed after that was asked for: it stays.")
         self._station.release_stop(self._station.controls.name(client))
         return "STOP is released."
 

@@ -162,10 +162,10 @@ class Station:
         self._mind(partial(self.helm.gone, client, self.now))
         self.show_control()
 
-    def press_stop(self, name: str, client_id: str = "") -> None:
-        """Latch STOP, bring the robot to rest and hold the task; `name` pressed it, whose `client_id` is empty without one."""
+    def press_stop(self, name: str, client_id: str = "", given: float = math.inf) -> None:
+        """Latch STOP, as `Controls.stop` says, bring the robot to rest and hold the task; it was `given` now at the latest."""
         fresh = not self.controls.stopped
-        self.controls.stop(name, client_id)  # before all that may fail
+        self.controls.stop(name, client_id, min(given, self.clock()))  # before all that may fail
         self._unheard = ""
         self._press(self.robot.stop if self._ending else self.robot.press_stop)
         if fresh:

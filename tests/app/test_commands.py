@@ -254,6 +254,33 @@ def test_a_stop_pressed_right_after_the_last_was_let_go_is_a_new_one() -> None:
     assert robot.phases == ["sent", "sent", "accepted"]
 
 
+def test_a_release_that_is_lost_is_taken_back_by_a_stop_after_it() -> None:
+    robot = Robot(NotConnected("cut"), *[YES] * 9)
+
+    async def what(commands: Commands) -> Outcome:
+        releasing = asyncio.create_task(commands.send("stop_release"))
+        await asyncio.sleep(0.01)
+        await commands.stop()
+        return await releasing
+
+    outcome = run(robot, what)
+    assert [service for service, _, _ in robot.calls] == ["/stop/release", "/stop"]
+    assert (outcome.phase, outcome.reason) == ("no_reply", "STOP was pressed after it.")
+
+
+def test_the_next_release_is_sent_as_ever() -> None:
+    robot = Robot(NotConnected("cut"), *[YES] * 9)
+
+    async def what(commands: Commands) -> Outcome:
+        releasing = asyncio.create_task(commands.send("stop_release"))
+        await asyncio.sleep(0.01)
+        await commands.stop()
+        await releasing
+        return await commands.send("stop_release")
+
+    assert run(robot, what).phase == "accepted"
+
+
 def test_stop_is_never_too_old() -> None:
     robot = Robot(YES)
     run(robot, lambda commands: commands.stop())

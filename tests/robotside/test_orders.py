@@ -73,6 +73,27 @@ def test_stop_is_released_only_with_control(scene: Scene) -> None:
     assert scene.control.mode == "MANUAL"
 
 
+def test_a_release_that_was_asked_for_before_the_latest_stop_leaves_it(scene: Scene) -> None:
+    bert = scene.client("bert")
+    scene.ask("/control/acquire", CommandRequest(client_name="Anna"))
+    scene.ask("/stop", CommandRequest(stamp=scene.now, client_name="Anna"))
+    late = CommandRequest(stamp=scene.now + 0.5, client_name="Anna")
+    scene.run(1.0)
+    scene.ask("/stop", CommandRequest(stamp=scene.now, client_name="Bert"), bert)
+    said = scene.refused("/stop/release", late)
+    assert said == "STOP was pressed after that was asked for: it stays."
+    assert scene.control.stopped
+    scene.run(1.0)
+    assert scene.ask("/stop/release", CommandRequest(stamp=scene.now, client_name="Anna")).success
+
+
+def test_a_stop_from_a_clock_ahead_is_released_all_the_same(scene: Scene) -> None:
+    scene.ask("/control/acquire")
+    scene.ask("/stop", CommandRequest(stamp=scene.now + 3600.0))
+    scene.run(1.0)
+    assert scene.ask("/stop/release", CommandRequest(stamp=scene.now)).success
+
+
 def test_with_stop_pressed_tasks_are_refused(scene: Scene) -> None:
     scene.set(*SQUARE)
     scene.ask("/stop")
