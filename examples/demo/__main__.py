@@ -74,6 +74,7 @@ def _play(arguments: argparse.Namespace, robot: Any, settings: Path) -> int:
 
     from app.application import PilothouseApp
     from examples.demo.fingers import Hand
+    from examples.demo.frames import seldom_drawn
     from examples.demo.glass import Glass
     from examples.demo.report import Report
     from examples.demo.scene import Scene
@@ -92,7 +93,8 @@ def _play(arguments: argparse.Namespace, robot: Any, settings: Path) -> int:
     Clock.schedule_interval(lambda _: _turn(story, report, app), 0)
     started = time.monotonic()
     try:
-        app.run()
+        with seldom_drawn(arguments.drawn):
+            app.run()
     finally:
         witness.close()
     recording = {"file": record.name, "bytes": record.stat().st_size} if record.exists() else None

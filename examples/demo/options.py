@@ -71,6 +71,13 @@ def options(argv: Sequence[str] | None, description: str | None) -> argparse.Nam
         help="of the patrol robot, which has two; patrol: place the robot, set points, patrol, stop, drive; errand: places, a delivery, a queue, hand-over, a power cut",
     )
     parser.add_argument("--until", metavar="STEP", help="end after this step, as in sent")
+    parser.add_argument(
+        "--drawn",
+        type=int,
+        default=1,
+        metavar="N",
+        help="draw one frame in N, and every picture all the same",
+    )
     parser.add_argument("--window", action="store_true", help="in a window, to watch it")
     chosen = parser.parse_args(argv)
     _choose(chosen)
@@ -102,6 +109,8 @@ def _check(chosen: argparse.Namespace) -> None:
         raise ValueError(f"A size is written as 412x892, not {chosen.size!r}.")
     if chosen.theme not in THEMES:
         raise ValueError(f"There is no theme {chosen.theme!r}; there are {', '.join(THEMES)}.")
+    if chosen.drawn < 1:
+        raise ValueError(f"One frame in 1 or more is drawn, not one in {chosen.drawn}.")
     steps = STORIES[chosen.story]
     if chosen.until is not None and chosen.until not in steps:
         raise ValueError(f"There is no step {chosen.until!r}; there are {', '.join(steps)}.")

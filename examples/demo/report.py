@@ -42,8 +42,8 @@ class Step:
 
 
 def picture(path: Path) -> None:
-    """Draw a frame and save what is on the glass."""
-    Window.dispatch("on_draw")
+    """Draw a frame and save what is on the glass, also where frames are left out (`examples.demo.frames`)."""
+    Window.on_draw()
     width, height = Window.size
     raw = glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE)
     image = Image.frombytes("RGBA", (width, height), raw).transpose(Image.Transpose.FLIP_TOP_BOTTOM)

@@ -8,7 +8,6 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +16,7 @@ from kivy.clock import Clock
 from kivy.uix.widget import Widget
 
 from examples.demo.fingers import Finger, Hand
+from examples.demo.frames import seldom_drawn
 from examples.demo.glass import Glass, middle
 from tests.bridge.wires import Wire, wire
 
@@ -24,6 +24,8 @@ PATIENCE = 15.0
 """How long a test waits for what must happen [s]; a fault, not a delay, uses it up."""
 LEFT_FREE = 1.0
 """Control that is free for so long is not about to be taken [s]."""
+HELPS = 2
+"""So often a story may take again what a machine that stood still has lost."""
 DRAWN = 20
 """One frame in so many is drawn: a processor that had to draw them all would have no time left for what is tested."""
 
@@ -71,13 +73,21 @@ class Handheld:
         """The visible widget of class `kind`."""
         return self.until(lambda: self.glass.all(kind), f"a {kind}")[0]
 
-    def control(self) -> None:
-        """Wait until this handheld has control.
+    @property
+    def asked(self) -> str:
+        """Which request for control of this handheld the robot granted last; empty before it did."""
+        session = self.app.session
+        outcome = None if session is None else session.outcomes.get("acquire")
+        return outcome.command_id if outcome is not None and outcome.phase == "accepted" else ""
 
-        It takes it by itself when it connects. A machine that stands still for two seconds loses it to nobody; then it is
-        taken again, as a person would.
+    def control(self, since: str = "") -> None:
+        """Wait until this handheld has control, which it has to take by itself whenever it connects.
+
+        A machine that stands still for two seconds loses it to nobody; then it is taken again, as a person would, if the robot
+        had granted what the handheld itself asked for after `since`, as of `asked`.
         """
         free: list[float] = []
+        helps = iter(range(HELPS))
 
         def mine() -> bool:
             session = self.app.session
@@ -85,8 +95,9 @@ class Handheld:
                 free.clear()
             else:
                 free.append(time.monotonic())
-                if free[-1] - free[0] > LEFT_FREE:
+                if free[-1] - free[0] > LEFT_FREE and self.asked not in ("", since):
                     free.clear()
+                    assert next(helps, None) is not None, "control is lost again and again"
                     session.take_control()
             return session is not None and bool(session.control == "mine")
 
@@ -125,26 +136,6 @@ class Handheld:
 
 
 @contextmanager
-def seldom_drawn() -> Iterator[None]:
-    """Only one in `DRAWN` of the window's frames is really drawn until the end of the block; the first one is."""
-    frames, left_out = count(), False
-
-    def draw(_: object) -> bool:
-        nonlocal left_out
-        left_out = next(frames) % DRAWN != 0
-        return left_out  # true keeps the event from the window itself
-
-    def flip(_: object) -> bool:
-        return left_out
-
-    EventLoop.window.bind(on_draw=draw, on_flip=flip)
-    try:
-        yield
-    finally:
-        EventLoop.window.unbind(on_draw=draw, on_flip=flip)
-
-
-@contextmanager
 def handheld(settings: Path, **options: Any) -> Iterator[Handheld]:
     """The app with its settings in a folder; closed at the end of the block."""
     from app.application import PilothouseApp
@@ -159,7 +150,7 @@ def handheld(settings: Path, **options: Any) -> Iterator[Handheld]:
     app._run_prepare()
     runTouchApp(embedded=True)
     try:
-        with seldom_drawn():
+        with seldom_drawn(DRAWN):
             yield Handheld(app, hand)
     finally:
         app.stop()

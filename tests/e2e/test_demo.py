@@ -14,7 +14,17 @@ ROOT = Path(__file__).parents[2]
 
 
 def test_the_demo_finds_the_robot_and_sends_it_a_mission(tmp_path):
-    command = [sys.executable, "-m", "examples.demo", "--out", str(tmp_path), "--until", "sent"]
+    command = [
+        sys.executable,
+        "-m",
+        "examples.demo",
+        "--out",
+        str(tmp_path),
+        "--until",
+        "sent",
+        "--drawn",
+        "20",
+    ]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=120)
     summary = json.loads((tmp_path / "summary.json").read_text())
     # how fast it is depends on who else uses this machine: that is for the benchmarks to judge
@@ -29,27 +39,3 @@ def test_the_demo_finds_the_robot_and_sends_it_a_mission(tmp_path):
     with (tmp_path / "run.mcap").open("rb") as recording:
         topics = {channel.topic for _, channel, _ in make_reader(recording).iter_messages()}
     assert {"/pose", "/scan", "/map", "/mission", "/control/status"} <= topics
-
-
-def test_the_second_story_makes_places_and_orders_a_delivery(tmp_path):
-    command = [sys.executable, "-m", "examples.demo", "--story", "errand", "--out", str(tmp_path)]
-    done = subprocess.run(
-        [*command, "--until", "ordered"], cwd=ROOT, capture_output=True, text=True, check=False, timeout=120
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert "Traceback" not in done.stderr
-    summary = json.loads((tmp_path / "summary.json").read_text())
-    assert [step["name"] for step in summary["steps"]] == ["fenced", "place-made", "place-here", "ordered"]
-
-
-def test_a_drone_stays_on_the_ground_when_its_slide_is_let_go_early(tmp_path):
-    command = [sys.executable, "-m", "examples.demo", "--robot", "ardrone", "--out", str(tmp_path)]
-    done = subprocess.run(
-        [*command, "--until", "let-go"], cwd=ROOT, capture_output=True, text=True, check=False, timeout=120
-    )
-    summary = json.loads((tmp_path / "summary.json").read_text())
-    failures = [failure for failure in summary["failures"] if "within" not in failure]
-    assert not failures, done.stdout + done.stderr
-    steps = [step["name"] for step in summary["steps"]]
-    assert steps == ["connect-screen", "connected", "profile", "let-go"]
-    assert (summary["robot"], summary["world"]) == ("ardrone", "parking_lot")

@@ -40,6 +40,7 @@ from examples.demo.options import STORIES, options
         ),
         (["--robot", "minnow", "--world", "office"], "A minnow cannot be in the world 'office'."),
         (["--speed", "0"], "The speed must be above 0 and at most 100, not 0.0."),
+        (["--drawn", "0"], "One frame in 1 or more is drawn, not one in 0."),
         (["--speed", "fast"], "Argument --speed: invalid float value: 'fast'."),
         (["--sizes", "1"], "Unrecognized arguments: --sizes 1."),
     ],

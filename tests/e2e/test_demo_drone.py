@@ -1,0 +1,28 @@
+"""The demo of a drone, as far as it is still on the ground."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_a_drone_stays_on_the_ground_when_its_slide_is_let_go_early(tmp_path):
+    command = [sys.executable, "-m", "examples.demo", "--robot", "ardrone", "--out", str(tmp_path)]
+    done = subprocess.run(
+        [*command, "--until", "let-go", "--drawn", "20"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    failures = [failure for failure in summary["failures"] if "within" not in failure]
+    assert not failures, done.stdout + done.stderr
+    steps = [step["name"] for step in summary["steps"]]
+    assert steps == ["connect-screen", "connected", "profile", "let-go"]
+    assert (summary["robot"], summary["world"]) == ("ardrone", "parking_lot")
