@@ -32,6 +32,8 @@ NEAR = 6
 """At so many frames of a group a place for its words is looked for."""
 STOP_COUNTS = 1000.0
 """So much worse than on anything else are words on STOP."""
+OWN_COUNTS = 30.0
+"""So much worse than on anything else are words on what they name."""
 
 
 class Ring:
@@ -123,6 +125,8 @@ class Ring:
                     top = min(top, stop[1] - out / 2)
         edge = out / 2
         root = self._app.root
+        if box[0] < edge:
+            right = min(right, box[2] - edge)  # at the glass's left edge names begin close behind
         return max(left, edge), max(low, edge), min(right, root.width - edge), min(top, root.height - edge)
 
     def _frame(self, box: Box, kind: str) -> None:
@@ -188,8 +192,9 @@ class Ring:
 
         def covers(place: tuple[float, float]) -> float:
             chip = (*place, place[0] + wide, place[1] + high)
-            on_stop = sum(_shared(chip, stop) for stop in stops)
-            return round(on_stop * STOP_COUNTS + sum(_shared(chip, other) for other in others), 1)
+            on_stop = sum(_shared(chip, stop) for stop in stops) * STOP_COUNTS
+            on_own = sum(_shared(chip, frame) for frame in self.frames) * OWN_COUNTS
+            return round(on_stop + on_own + sum(_shared(chip, other) for other in others), 1)
 
         return min(inside, key=covers)
 

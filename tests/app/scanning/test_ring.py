@@ -72,6 +72,23 @@ def test_the_words_stand_where_they_cover_no_neighbour_and_the_way_out_has_some(
     assert ring.said == ""
 
 
+def test_the_words_lie_on_nothing_that_they_name(ring: Ring) -> None:
+    # as the top bar of a phone: back and its name above, a chip at the right, rows close below
+    members = [(0.0, 850.0, 46.0, 890.0), (150.0, 850.0, 250.0, 890.0), (10.0, 790.0, 60.0, 840.0)]
+    ring.show(members, "group", "Top bar to Keep a log", lambda: [(62.0, 700.0, 412.0, 845.0)])
+    chip = next(one for one in drawn(ring, RoundedRectangle))
+    x, y = chip.pos
+    for left, low, right, top in members:
+        assert x >= right or left >= x + chip.size[0] or y >= top or low >= y + chip.size[1]
+
+
+def test_at_the_left_edge_of_the_glass_a_frame_does_not_lie_on_what_follows(ring: Ring) -> None:
+    ring.show([(0.0, 850.0, 46.0, 890.0)], "group", "Top bar")
+    (frame,) = ring.frames
+    assert frame[0] > 0
+    assert frame[2] + THICK / 2 <= 46
+
+
 def test_beside_stop_the_frame_gives_way(ring: Ring) -> None:
     for thing in ((100.0, 20.0, 220.0, 120.0), (230.0, 131.0, 400.0, 190.0)):
         left, low, right, top = ring._clear_of_stop(thing)
