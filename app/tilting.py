@@ -70,7 +70,7 @@ class Tilting(Switched):
         if self.tilt.closed:
             return "drives"
         if self._circle is None:
-            return "ready: open the drive screen"
+            return "ready: choose Tilt on the drive screen"
         return "hold the circle to drive" if not self.simulated else "simulated: arrow keys lean it"
 
     @property
@@ -222,6 +222,8 @@ class Tilting(Switched):
         self._clutched = down and able
         if not down:
             self.let_go()
+        elif self.on and self._circle is None:
+            self._say("Nothing is tilted yet: choose Tilt on the drive screen first.")
 
     def _hold(self, down: bool) -> None:
         """The key or the button that means it was pressed, or let go."""

@@ -140,6 +140,16 @@ def test_what_means_it_is_a_clutch_too_a_key_or_a_trigger(handheld: Handheld) ->
     assert handheld.last == (0.0, 0.0)
 
 
+def test_a_clutch_that_has_nothing_to_lead_says_what_to_do(handheld: Handheld) -> None:
+    handheld.hands.circle = None
+    handheld.run(0.1)
+    assert handheld.tilting.standing == "ready: choose Tilt on the drive screen"
+    handheld.tilting.clutch(down=True)
+    assert handheld.said == ["Nothing is tilted yet: choose Tilt on the drive screen first."]
+    handheld.tilting.clutch(down=False)
+    assert len(handheld.said) == 1
+
+
 def test_whatever_puts_the_circle_to_rest_opens_the_clutch_until_it_is_pressed_anew(
     handheld: Handheld,
 ) -> None:
