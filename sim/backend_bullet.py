@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.blank import given_back
-from sim.bodies import GRAVITY, STEPS_PER_SECOND, Contact, Floating, Joint, State, Wheeled
+from sim.bodies import GRAVITY, STEPS_PER_SECOND, Contact, Floating, Joint, State, WheeledBody
 from sim.shapes import Quat, Shape, Vec3, place
 
-__all__ = ["GRAVITY", "STEPS_PER_SECOND", "Bullet", "Contact", "Joint", "State", "Wheeled"]
+__all__ = ["GRAVITY", "STEPS_PER_SECOND", "Bullet", "Contact", "Joint", "State", "WheeledBody"]
 
 SKY = (160, 200, 238)
 """What `Bullet.picture` shows where there is nothing: red, green, blue, 0 to 255."""
@@ -154,7 +154,7 @@ class Bullet:
         self._below[body] = (0.0, 0.0, 0.0)
         return body
 
-    def add_wheeled(self, spec: Wheeled, position: Vec3, rotation: Quat) -> int:
+    def add_wheeled(self, spec: WheeledBody, position: Vec3, rotation: Quat) -> int:
         """A wheeled vehicle; its number.
 
         Its joints are the driven wheels in the order of `spec.wheels`, then of each steered wheel the knuckle and the
@@ -181,7 +181,7 @@ class Bullet:
         return self._add_moving(spec, [], position, rotation)
 
     def _add_moving(
-        self, spec: Wheeled | Floating, links: list[_Link], position: Vec3, rotation: Quat
+        self, spec: WheeledBody | Floating, links: list[_Link], position: Vec3, rotation: Quat
     ) -> int:
         com = spec.centre_of_mass
         offset = _less(spec.shell.position, com)
@@ -403,7 +403,7 @@ class Bullet:
                 physicsClientId=self._client,
             )
 
-    def _set_wheels(self, body: int, spec: Wheeled) -> None:
+    def _set_wheels(self, body: int, spec: WheeledBody) -> None:
         wheels, steered = len(spec.wheels), len(spec.steered)
         knuckles = range(wheels, wheels + 2 * steered, 2)
         rolling = [*range(wheels), *(link + 1 for link in knuckles)]

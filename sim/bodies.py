@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from sim.shapes import Quat, Shape, Vec3
 
-__all__ = ["GRAVITY", "STEPS_PER_SECOND", "Contact", "Floating", "Joint", "State", "Wheeled"]
+__all__ = ["GRAVITY", "STEPS_PER_SECOND", "Contact", "Floating", "Joint", "State", "WheeledBody"]
 
 STEPS_PER_SECOND = 240
 """Fixed physics steps in a second of simulated time."""
@@ -50,7 +50,7 @@ class Contact:
 
 
 @dataclass(frozen=True, slots=True)
-class Wheeled:
+class WheeledBody:
     """A body on driven wheels, and casters or steered wheels; its frame lies on the ground, x forward."""
 
     shell: Shape

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from sim.backend_bullet import STEPS_PER_SECOND, Bullet, Wheeled
+from sim.backend_bullet import STEPS_PER_SECOND, Bullet, WheeledBody
 from sim.shapes import Shape
 from sim.vehicles.control import towards, within
 from sim.vehicles.parameters import Limits, Positive, Table
@@ -136,12 +136,12 @@ class AckermannDrive:
             backend.spin(body, 3 + 2 * wheel, rolling, axles.torque if self._brakes else 0.0)
 
 
-def body_of(body: AckermannBody, axles: Axles) -> Wheeled:
+def body_of(body: AckermannBody, axles: Axles) -> WheeledBody:
     """The rigid body that the physics needs; its joints: the rear wheels, then knuckle and wheel front left and front right."""
     half, radius = axles.track / 2, axles.radius
     height = body.height - body.clearance
     middle = (body.height + body.clearance) / 2
-    return Wheeled(
+    return WheeledBody(
         shell=Shape("box", (body.length, body.width, height), (body.ahead, 0.0, middle)),
         mass=body.mass,
         inertia=body.inertia,

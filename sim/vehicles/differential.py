@@ -8,7 +8,7 @@ from typing import Self
 from msgspec.structs import replace
 
 from bridge.msgs.geometry_msgs import Twist
-from sim.backend_bullet import STEPS_PER_SECOND, Bullet, Wheeled
+from sim.backend_bullet import STEPS_PER_SECOND, Bullet, WheeledBody
 from sim.sensors.odometry import OdometryParameters
 from sim.shapes import Shape
 from sim.vehicles.control import towards
@@ -170,12 +170,12 @@ class DifferentialDrive:
         self._backend.spin(self._body, 1, (speed + lag) / wheels.radius, wheels.torque)
 
 
-def body_of(parameters: DifferentialParameters) -> Wheeled:
+def body_of(parameters: DifferentialParameters) -> WheeledBody:
     """The rigid body that the physics needs."""
     body, wheels, casters = parameters.body, parameters.wheels, parameters.casters
     height = body.height - body.clearance
     middle = (body.height + body.clearance) / 2
-    return Wheeled(
+    return WheeledBody(
         shell=Shape("cylinder", (2 * body.radius, 2 * body.radius, height), (0.0, 0.0, middle)),
         mass=body.mass,
         inertia=body.inertia,
