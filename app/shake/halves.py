@@ -40,7 +40,7 @@ class Halves:
         return self.sum / self.count if self.count else 0.0
 
     @property
-    def pace(self) -> float:
+    def period(self) -> float:
         """Mean time between two of them [s]; infinite where there is but one."""
         return (self.last - self.since) / (self.count - 1) if self.count > 1 else math.inf
 

@@ -256,7 +256,7 @@ class Recogniser:
                 way = self._tuning.ways[i]
                 if halves.count < way.halves or halves.evidence < way.evidence:
                     continue
-                if halves.pace < way.hasty and halves.mean < way.hard:
+                if halves.period < way.hasty and halves.mean < way.hard:
                     continue
                 if halves.mean >= max(way.above * background.level, way.beyond * background.loud):
                     best = burst.best.get(i)
