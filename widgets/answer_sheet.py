@@ -54,12 +54,12 @@ class AnswerSheet(Control, Column):
     def __init__(self, rows: Mapping[str, AnswerRow], now: Callable[[], float], **kwargs: Any) -> None:
         """`rows` are the questions in the order of the sheet; `now` times the answers [s]."""
         super().__init__(**{"spacing": dp(8), **kwargs})
-        self._now, self._shown = now, now()
+        self._now, self._shown, self._away = now, now(), math.nan
         self.rows = rows
         self.order: list[str] = []
         """The questions in the order in which they were answered first."""
         self.seconds: dict[str, float] = {}
-        """Question to the time of its last answer since the sheet was shown [s]."""
+        """Question to the time of its last answer since the sheet was shown, without what passed while it was put away [s]."""
         for key, row in rows.items():
             row.fbind("value", self._answered, key)
             self.add_widget(row)
@@ -68,6 +68,17 @@ class AnswerSheet(Control, Column):
     def answers(self) -> dict[str, int]:
         """Question to answer, of those that have one."""
         return {key: int(row.value) for key, row in self.rows.items() if math.isfinite(row.value)}
+
+    def put_away(self) -> None:
+        """Nobody sees it until `take_up`."""
+        if math.isnan(self._away):
+            self._away = self._now()
+
+    def take_up(self) -> None:
+        """It is gone on with; nothing where it was not put away."""
+        if not math.isnan(self._away):
+            self._shown += self._now() - self._away
+            self._away = math.nan
 
     def _answered(self, key: str, _: Widget, value: float) -> None:
         if key not in self.order:

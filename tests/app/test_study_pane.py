@@ -382,9 +382,13 @@ def test_a_form_that_is_left_by_back_keeps_its_answers_and_is_gone_on_with(bench
     view.form.sheet.rows["effort"].answer(35)
     bench.log.due = "go_home"  # the next task is over meanwhile
     assert bench.pane.back()
+    bench.time += 60.0
     assert (view.load.text, view.use.text) == ("Go on with the workload (TLX)", "Fill in the usability (SUS)")
     view.load.dispatch("on_release")
     assert view.form.sheet.answers == {"effort": 35}
+    bench.time += 2.0
+    view.form.sheet.rows["effort"].answer(40)
+    assert view.form.sheet.seconds == {"effort": 2.0}
     for scale in view.form.sheet.rows.values():
         scale.answer(30)
     view.form.hand_in.dispatch("on_release")

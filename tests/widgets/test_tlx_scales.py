@@ -80,6 +80,19 @@ def test_each_answer_is_told_with_its_order_and_its_time(tlx, clock):
     assert tlx.seconds == {"effort": 4.0, "mental": 2.5}
 
 
+def test_the_time_for_which_it_was_put_away_is_in_no_answers_time(tlx, clock):
+    clock.now = 101.0
+    tlx.put_away()
+    clock.now = 150.0
+    tlx.put_away()
+    clock.now = 161.0
+    tlx.take_up()
+    clock.now = 163.0
+    tlx.take_up()
+    tlx.rows["effort"].answer(20)
+    assert tlx.seconds == {"effort": 3.0}
+
+
 def test_scales_without_an_answer_are_marked_and_named(tlx):
     tlx.rows["mental"].answer(0)
     assert tlx.miss() == [name for key, (name, *_) in SCALES.items() if key != "mental"]
