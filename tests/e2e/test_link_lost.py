@@ -57,7 +57,8 @@ def test_a_link_that_dies_in_silence_is_said_on_the_glass_and_heals_by_itself(
     cable: Cable, witness: Witness, tmp_path: Path
 ) -> None:
     with handheld(tmp_path, url=cable.url, discover=False) as glass:
-        glass.until(lambda: glass.app.shell is not None and glass.app.session.connected, "the robot")
+        glass.control()
+        granted = glass.asked
         cable.freeze()
         glass.until(lambda: not glass.app.session.connected, "the app to notice", 6.0)
         glass.until(
@@ -66,3 +67,4 @@ def test_a_link_that_dies_in_silence_is_said_on_the_glass_and_heals_by_itself(
         )
         cable.thaw()
         glass.until(lambda: glass.app.session.connected, "the link to heal", 8.0)
+        glass.control(since=granted)
