@@ -49,8 +49,8 @@ class Turning(NamedTuple):
 class Spread:
     """Of the velocity over some time, as sums of its products [m²/s²·s]."""
 
-    def __init__(self, sums: Sequence[float], seconds: float, turning: Turning | None = None) -> None:
-        """`sums` of xx, yy, zz, xy, xz, yz over `seconds`; without `turning` it goes round no more than a line does."""
+    def __init__(self, sums: Sequence[float], seconds: float, turning: Turning) -> None:
+        """`sums` of xx, yy, zz, xy, xz, yz over `seconds`."""
         self._sums = xx, yy, zz, xy, xz, yz = tuple(sums)
         self._seconds = seconds
         self._total = xx + yy + zz
@@ -59,7 +59,7 @@ class Spread:
         """Share of the direction that has most of it, 1/3 to 1: 1 on a line, a half on a circle."""
 
         self.pace, self.round = _round(self._total, turning)
-        """How quick it is [rad/s, 0 where nothing is known of it], and how much it goes round: 0 on a line, also on one that is bent
+        """How quick it is [rad/s, 0 where nothing moved], and how much it goes round: 0 on a line, also on one that is bent
         to an arc and gone to and fro, 2 w / (1 + w²) on an ellipse w times as wide as long, 1 on a circle."""
 
     def along(self, way: Motion) -> float:
@@ -67,9 +67,9 @@ class Spread:
         return math.sqrt(max(0.0, along(self._sums, way)) / self._seconds) if self._seconds > 0.0 else 0.0
 
 
-def _round(total: float, turning: Turning | None) -> tuple[float, float]:
+def _round(total: float, turning: Turning) -> tuple[float, float]:
     """Of the sum of the squared velocity [m²/s²·s]: velocity turns by the pace in a circle, and by nothing in the mean where it swings."""
-    if turning is None or total <= 0.0:
+    if total <= 0.0:
         return 0.0, 0.0
     # a velocity that is forgotten is smaller than it was and turned ahead: the square of its own share is taken off
     square = turning.power / total

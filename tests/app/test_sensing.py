@@ -157,6 +157,17 @@ def test_a_sensor_that_never_says_anything_is_waited_for_and_then_silent(phone: 
     assert phone.fault() == "silent"
 
 
+def test_what_came_before_the_sensor_was_off_tells_nothing_of_how_it_is_now(phone: Phone) -> None:
+    phone.listen().run(2.0)
+    phone.now += 0.1
+    phone.source.put("acceleration", phone.now, (0.0, 0.0, GRAVITY))
+    phone.forget()
+    phone.listen()
+    phone.now += 0.5
+    health = phone.sensing.health("acceleration")
+    assert (health.fault, health.age) == ("waiting", math.inf)
+
+
 def test_the_same_to_the_last_bit_for_a_second_is_frozen_until_it_changes(phone: Phone) -> None:
     phone.listen().run(1.0)
     phone.run(1.2, axes=(0.0, 0.0, 9.8))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from app.shake import AXES, USUAL, Lesson, Own, Recogniser, fitted, own_from, own_to
+from app.shake.lesson import MOVING, Measured, measure
 from bench.support import motion
 from bench.support.motion import Recording
 
@@ -113,6 +114,29 @@ def test_the_lesson_of_one_who_is_slow_and_gentle_makes_no_stop_of_gentle_steps(
     assert swung(4.0, 0.6, slow) == ["lr"], "his own"
     assert swung(4.0, 1.6, slow) == [], "quick and gentle is how one sets off"
     assert swung(12.0, 1.6, slow) == ["lr"], "who is frightened shakes quickly, and hard"
+
+
+@pytest.mark.parametrize("peak", [4.0, 4.5])
+def test_nor_of_steps_that_are_not_much_quicker_than_he_is(peak: float) -> None:
+    assert swung(peak, 1.2, Own((1.0, 0.0, 0.0), 4.0, 0.9)) == []
+
+
+def test_a_thin_ellipse_is_round_though_it_is_long(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its length alone has most of the movement."""
+    at = np.arange(int(60 * MOVING)) / 60.0
+
+    def measured(wide: float) -> Measured:
+        swing = np.stack(
+            [8.0 * np.cos(math.tau * 1.5 * at), 0.0 * at, 8.0 * wide * np.sin(math.tau * 1.5 * at)]
+        )
+        return measure(
+            "lr", [(t, (x, y, z)) for t, (x, y, z) in zip(at.tolist(), swing.T.tolist(), strict=True)], {}
+        )
+
+    assert measured(0.15).sentence == ""
+    assert "went round" in measured(0.45).sentence
+    monkeypatch.setattr("app.shake.lesson.STRAIGHT", 0.84)
+    assert "went round" in measured(0.4).sentence
 
 
 def test_a_lesson_asks_for_a_straighter_line_closer_to_its_own() -> None:

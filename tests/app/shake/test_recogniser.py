@@ -149,6 +149,29 @@ def test_what_is_drawn_round_is_no_shake_of_any_size_tempo_plane_and_width() -> 
     assert sum(bool(of(motion.ellipse(seed))) for seed in range(150)) <= 1
 
 
+def ellipse(wide: float, often: float, shivers: float = 0.0) -> list[str]:
+    """What is understood of one that is drawn on the table, so many times as wide as long and so often a second, in a car that shivers
+    up and down [m/s²]."""
+    at = np.arange(144) / 60.0
+    swing = np.stack(
+        [6.0 * np.cos(math.tau * often * at), 0.0 * at, 6.0 * wide * np.sin(math.tau * often * at)]
+    )
+    samples = np.concatenate([np.zeros((300, 3)), swing.T, np.zeros((150, 3))])
+    samples[:, 1] += GRAVITY + shivers * np.sin(math.tau * 13.0 * np.arange(len(samples)) / 60.0)
+    return [shake.axis for shake in heard(map(tuple, samples.tolist()))]
+
+
+def test_what_is_slow_has_to_be_the_straighter_to_be_a_shake() -> None:
+    assert ellipse(0.1, 0.8) == ["lr"]
+    assert ellipse(0.3, 1.0) == []
+    assert ellipse(0.3, 2.0) == ["lr"]
+
+
+def test_what_shivers_beside_it_makes_a_slow_ellipse_no_quicker() -> None:
+    assert ellipse(0.1, 0.8, shivers=3.0) == ["lr"]
+    assert ellipse(0.25, 0.8, shivers=3.0) == []
+
+
 def test_a_line_that_is_bent_to_an_arc_is_not_round() -> None:
     """A hand swings about the elbow and back: there it turns one way, back the other."""
     rng = np.random.default_rng(2)

@@ -41,7 +41,15 @@ def test_an_arc_gone_to_and_fro_is_not_round_however_deep() -> None:
     assert found.round < 0.06
 
 
-def test_where_nothing_moved_or_nothing_is_known_of_it_nothing_goes_round() -> None:
+def test_what_is_left_of_a_movement_that_hardly_differs_from_its_background_is_not_rounder_than_round() -> (
+    None
+):
+    """Less is left of its power than forgetting takes off: so slow it seems that whatever turns in it would be a circle many times over."""
+    found = Spread([1.0, 0.1, 0.0, 0.0, 0.0, 0.0], 1.0, Turning((0.0, 0.0, 0.5), 15.0, LEAK))
+    assert found.round < 0.5
+    assert found.pace > 1.0
+
+
+def test_where_nothing_moved_nothing_goes_round() -> None:
     still = Spread([0.0] * 6, 1.0, Turning((0.0, 0.0, 0.0), 0.0, LEAK))
     assert (still.round, still.straight, still.along((1.0, 0.0, 0.0))) == (0.0, 0.0, 0.0)
-    assert Spread([1.0, 0.0, 0.0, 0.0, 0.0, 0.0], 1.0).round == 0.0

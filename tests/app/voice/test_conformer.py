@@ -101,6 +101,19 @@ def test_weights_of_this_network_are_taken(weights):
     assert Conformer(weights)(quiet(0.1)).shape == (6, 191)
 
 
+def test_attention_that_is_sure_beyond_what_an_exponential_holds_stays_a_number(weights):
+    sure = {
+        f"acoustic_model.model.blocks.{n}.attn.in_proj_bias": np.full(432, 100.0, np.float32)
+        for n in range(4)
+    }
+    assert np.isfinite(Conformer(weights | sure)(quiet(0.1))).all()
+
+
+def test_the_spectrum_is_rounded_as_the_network_learned_it(weights):
+    spectrum = Conformer(weights)._log_mel(quiet(0.1, 0.1))
+    assert np.array_equal(spectrum, spectrum.astype(np.float16))
+
+
 @pytest.mark.parametrize(
     "change",
     [

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from app.voice.ctc import Found
+from app.voice.ctc import Found, Scorer
 from app.voice.files import chunks
 from app.voice.hearing import Hearing, Phonemes
 from app.voice.lexicon import COMMANDS
 from app.voice.noise import decibels
 from app.voice.recognizer import Grammar, Level, Rejected, Result, State
 from app.voice.spotter import Spotted
-from tests.app.voice.sounds import Written, quiet, voice
+from tests.app.voice.sounds import Written, opinion, quiet, voice
 
 GRAMMAR = Grammar(COMMANDS)
 
@@ -133,12 +133,59 @@ def test_words_that_stand_clear_of_the_noise_count_though_it_was_too_loud_a_mome
     assert [event.command for event in told if isinstance(event, Result)] == ["pause"]
 
 
+def test_soft_words_in_what_was_too_loud_a_moment_ago_do_not_count_before_it_is_known_to_be_quiet():
+    told = []
+    hearing = Hearing(GRAMMAR, Judge("pause"), told.append)
+    at = 0.0
+    for part, at in chunks(quiet(9.0, 0.2)):
+        hearing.hear(part, at)
+    hearing.finish(at)
+    told.clear()
+    soft = np.concatenate((quiet(0.4, 0.01), voice(0.4, 0.05), quiet(1.0, 0.01)))
+    for part, now in chunks(soft, at):
+        hearing.hear(part, now)
+    assert [event.reason for event in words(told)] == ["It is too loud here to be sure."]
+
+
 def test_a_close_call_is_looked_at_four_times_and_a_clear_one_once():
     clear, close = Written("p ɔ z"), Written("k æ s ə l")
     Phonemes(GRAMMAR, clear).judge(voice(0.6), frozenset(COMMANDS))
     Phonemes(GRAMMAR, close).judge(voice(0.6), frozenset(COMMANDS))
     assert clear.asked == 1
     assert close.asked == 4
+
+
+@pytest.mark.parametrize(("sure", "confidence", "looks"), [(0.15, 0.69, 4), (0.3, 0.94, 1)])
+def test_what_would_be_accepted_is_a_close_call_too_where_it_is_not_nearly_certain(sure, confidence, looks):
+    model = Written("p ɔ z", sure)
+    first = Scorer(GRAMMAR, model.tokens).judge([model.table], COMMANDS)
+    assert (first.command, first.confidence) == ("pause", pytest.approx(confidence, abs=0.02))
+    Phonemes(GRAMMAR, model).judge(voice(0.6), COMMANDS)
+    assert model.asked == looks
+
+
+class Minded(Written):
+    """Hears something else with each look."""
+
+    def __init__(self, *looks):
+        super().__init__(looks[0])
+        self.tables = [opinion(look) for look in looks]
+
+    def hear(self, samples):
+        super().hear(samples)
+        return self.tables[self.asked - 1]
+
+
+@pytest.mark.parametrize("look", [1, 2, 3])
+def test_stop_in_any_look_is_stop_though_all_of_them_together_are_not(look):
+    sounds = ["k æ s ə l"] * 4
+    sounds[look] = "s t ɑ p"
+    model = Minded(*sounds)
+    together = Scorer(GRAMMAR, model.tokens).judge(model.tables, COMMANDS)
+    assert not (together.accepted and together.command == "stop")
+    found = Phonemes(GRAMMAR, model).judge(voice(0.6), COMMANDS)
+    assert (found.command, found.accepted) == ("stop", True)
+    assert model.asked == look + 1, "and no further look is waited for"
 
 
 def test_the_second_look_is_at_words_with_less_noise_in_them():

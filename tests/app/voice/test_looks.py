@@ -32,5 +32,11 @@ def test_one_look_is_as_long_and_the_others_are_of_a_smaller_and_a_larger_speake
     assert [len(look) / len(words) for look in looks(words)] == pytest.approx([1.0, 0.926, 1.075], abs=0.01)
 
 
+def test_however_loud_somebody_speaks_every_look_is_the_same():
+    words = np.concatenate((quiet(0.3), voice(0.6), quiet(0.3)))
+    for look, soft in zip(looks(words), looks(0.02 * words), strict=True):
+        assert np.allclose(look, soft, atol=1e-3)
+
+
 def test_even_nothing_has_looks():
     assert [len(look) for look in looks(np.zeros(0, np.float32))] == [0, 0, 0]

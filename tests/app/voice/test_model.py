@@ -50,6 +50,16 @@ def test_the_cheaper_of_two_that_say_the_same_is_taken(clock, caplog):
     assert not caplog.messages
 
 
+def test_what_the_first_time_costs_counts_for_neither(clock):
+    costs = iter([9.0, 1.0])
+
+    def warming(wave):
+        clock.at += next(costs)
+        return np.log(np.full((3, SIGNS), 0.5, np.float32))
+
+    assert chosen(lambda: warming, clock.way(5.0)) is warming
+
+
 def test_the_engine_is_taken_where_ours_says_something_else(clock, caplog):
     ours, engine = clock.way(1.0, 0.5), clock.way(5.0, 0.6)
     assert chosen(ours, engine) is engine()
@@ -101,6 +111,17 @@ def test_what_is_shorter_than_one_window_is_heard_as_well():
     pytest.importorskip("hama")
     model = HamaModel()
     assert model.hear(np.zeros(10, np.float32)).shape == (2, len(model.tokens))
+
+
+def test_the_model_is_run_on_one_core_by_samples_of_full_scale_at_most(monkeypatch):
+    pytest.importorskip("hama")
+    told, heard = [], []
+    monkeypatch.setattr(module, "one_core", lambda: told.append(len(heard)))
+    monkeypatch.setattr(module, "chosen", lambda *_: lambda wave: heard.append(wave) or wave)
+    model = HamaModel()
+    assert told == [0]
+    model.hear(np.linspace(-3.0, 3.0, 800))
+    assert (heard[0].min(), heard[0].max(), heard[0].dtype) == (-1.0, 1.0, np.float32)
 
 
 def test_numpy_is_told_to_use_one_thread(monkeypatch):

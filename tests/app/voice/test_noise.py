@@ -43,6 +43,16 @@ def test_loud_noise_that_lasts_is_too_loud_and_quiet_that_lasts_is_not():
     assert not heard(quiet(9.0, 0.2), quiet(9.0)).too_loud
 
 
+def test_what_was_found_before_the_ears_were_closed_counts_again_once_it_is_heard_anew():
+    still_loud, quiet_now = heard(quiet(9.0, 0.2)), heard(quiet(9.0, 0.2))
+    for meter, noise, loud in ((still_loud, 0.2, True), (quiet_now, 1e-3, False)):
+        meter.rest()
+        assert (meter.too_loud, meter.outdated) == (True, True)
+        for part, at in chunks(quiet(LASTING + 0.2, noise), 20.0):
+            meter.hear(part, at)
+        assert (meter.too_loud, meter.outdated) == (loud, False)
+
+
 def test_it_is_not_switched_while_somebody_speaks():
     meter = NoiseMeter()
     for part, at in chunks(quiet(9.0, 0.2)):
