@@ -148,6 +148,22 @@ def test_while_the_app_sleeps_nobody_listens(running):
     assert running.kept("armed") == []
 
 
+def test_that_a_task_is_over_takes_the_place_of_what_the_log_said_before(running):
+    said, statuses = [], {}
+    running.settings.set("study", {"remind": True})
+    running.close()
+    running.open()
+    running.app.shell = SimpleNamespace(say=lambda sentence, level, about: said.append((level, about)))
+    feeds = SimpleNamespace(latest=statuses.get)
+    running.app.session = SimpleNamespace(listeners=[], name="R2", link=None, feeds=feeds, control="mine")
+    for state in ("RUNNING", "DONE"):
+        statuses["/task/status"] = SimpleNamespace(task="patrol", state=state)
+        running.wait(0.5)
+        for hear in running.app.session.listeners:
+            hear("/task/status", Post(None, running.time, running.time))
+    assert said == [("info", "log")]
+
+
 def test_driving_is_one_line_from_its_begin_to_its_end(running):
     link = SimpleNamespace(driving=True, driven_by=Origin("gamepad"))
     running.app.session = SimpleNamespace(listeners=[], name="R2", link=link)
