@@ -269,7 +269,7 @@ class Session:
         if channel in self.feeds:
             self.feeds.put(channel, post)
         takes: dict[str, Callable[[Any], None]] = {
-            LINK: self._link_changed,
+            LINK: lambda state: self._link_changed(state, post.received),
             OFFER: self._offered,
             OUTCOME: self._outcome,
             MISSED: self.logbook.miss,
@@ -286,7 +286,7 @@ class Session:
             self._told_mission = post.value
             self._take_mission()
         elif channel == "/control/status":
-            self._stopping.hear(post.value)
+            self._stopping.hear(post.value, post.received)
             self._learn_name(post.value)
             self._decide()
             self.authority.hear(post.value)
@@ -346,17 +346,18 @@ class Session:
         self.tasking.dropped()
         self.logbook.dropped()
         self.missions.dropped()
-        self._link_changed(link.state)
+        self._link_changed(link.state, self._now())
 
     def _offered(self, offer: Offer) -> None:
         self.offer = offer
         if offer.ours:
             self.local_stop.release()
 
-    def _link_changed(self, state: LinkState) -> None:
+    def _link_changed(self, state: LinkState, at: float) -> None:
         self.link_state, self._state_since = state, self._now()
         self.feeds.link(self.connected)
-        self._stopping.reach(self.connected, state.sentence, hopeless=state.phase is Phase.CLOSED)
+        hopeless = state.phase is Phase.CLOSED
+        self._stopping.reach(self.connected, state.sentence, at=at, hopeless=hopeless)
         self.authority.link_changed()
         if not self.connected:
             self.on_rest()  # it may be back before anybody looks

@@ -121,8 +121,6 @@ class StopLane:
         self._reached = False
         self._offer: Offer | None = None
         self._status: ControlStatus | None = None
-        self._early: ControlStatus | None = None
-        """What a robot says over a new connection before that is known to be a robot's."""
         self._info = RobotInfo()
         self._listening: dict[str, Callable[[], None]] = {}
         self._learning: asyncio.Task[None] | None = None
@@ -181,11 +179,9 @@ class StopLane:
         self._stopping.reach(self._reached, state.sentence, hopeless=hopeless)
         if self._learning is not None:
             self._learning.cancel()
-        early, self._early = self._early, None
         if self._reached:
             self._learning = asyncio.get_running_loop().create_task(self._learn())
-            if early is not None:
-                self._on_status(early, self._now())
+            self._heed()
         self._look()
 
     async def _learn(self) -> None:
@@ -217,12 +213,14 @@ class StopLane:
         self._info = info
         self._recognise()
 
-    def _on_status(self, status: ControlStatus, _: float) -> None:
+    def _on_status(self, status: ControlStatus, received: float) -> None:
         self._status = status
-        if not self._reached:
-            self._early = status
-            return
-        self._stopping.hear(status)
+        self._stopping.hear(status, received)
+        if self._reached:
+            self._heed()
+
+    def _heed(self) -> None:
+        """Ask for nothing more where it says that it rests."""
         if self._stopping.rests:
             self._done.set()
             self._commands.confirm_stop()

@@ -124,6 +124,10 @@ class Stopping:
         """`now` is our clock [s]; `client_id` is who this handheld is to the robot."""
         self._now, self._id = now, client_id
         self._status: ControlStatus | None = None
+        self._early: ControlStatus | None = None
+        """Heard over a new connection before that is known to stand."""
+        self._cut_at = math.nan
+        """When it was told last that the link does not stand; NaN before it was."""
         self._asked_at = self._taken_at = self._moves_since = self._reached_at = self._lost_at = math.nan
         self._refusal = self._why = ""
         self._reached = True
@@ -172,9 +176,16 @@ class Stopping:
         elif outcome.phase in ("refused", "no_reply"):
             self._refusal = "" if outcome.reason == STILL_SENDING else outcome.reason
 
-    def hear(self, status: ControlStatus) -> None:
-        """What the robot says of it."""
-        if not self._reached:  # said before the link was lost, and delivered after
+    def hear(self, status: ControlStatus, received: float) -> None:
+        """What the robot says of it, `received` when it came [s].
+
+        While the link does not stand that is the last word of the old connection if it came before it was lost, and else the
+        first of a new one, which counts from when that stands.
+        """
+        if not self._reached and received > self._cut_at:
+            self._early = status
+            return
+        if not self._reached:
             rests = status.stopped and status.at_rest
             self._lost_at = (
                 math.nan if not rests else self._now() if math.isnan(self._lost_at) else self._lost_at
@@ -191,8 +202,8 @@ class Stopping:
             self._released = False
             self._done = self._done or status.at_rest or self.taken
 
-    def reach(self, reached: bool, why: str = "", *, hopeless: bool = False) -> None:
-        """The link stands, or does not, and `why`; `hopeless` when it is tried no longer."""
+    def reach(self, reached: bool, why: str = "", *, at: float = math.nan, hopeless: bool = False) -> None:
+        """The link stands, or does not, and `why`, since `at` [s], NaN for now; `hopeless` when it is tried no longer."""
         if self._reached and not reached and self._status is not None:
             self._lost_at = self._now() if self.rests else math.nan
         if self._reached != reached:
@@ -200,6 +211,11 @@ class Stopping:
         if reached and not self._reached:
             self._reached_at = self._now()
         self._reached, self._why, self._hopeless = reached, why, hopeless
+        early, self._early = self._early, None
+        if not reached:
+            self._cut_at = self._now() if math.isnan(at) else at
+        elif early is not None:
+            self.hear(early, self._now())
 
     @property
     def _other(self) -> str:

@@ -72,7 +72,7 @@ class Watch:
         self.stopping = Stopping(self.clock, "me")
 
     def told(self, *, stopped: bool = True, at_rest: bool = True) -> None:
-        self.stopping.hear(ControlStatus(stopped=stopped, at_rest=at_rest))
+        self.stopping.hear(ControlStatus(stopped=stopped, at_rest=at_rest), self.clock.time)
 
     def outcome(self, phase: str, reason: str = "") -> None:
         self.stopping.answered(Outcome("stop", "1", phase, reason))
@@ -109,13 +109,13 @@ def test_a_robot_that_is_slow_to_rest_is_not_obeyed_only_after_its_time(watch: W
 def test_who_pressed_it_is_known_by_the_id_and_not_by_the_name(
     watch: Watch, client_id: str, said: str
 ) -> None:
-    watch.stopping.hear(ControlStatus(stopped=True, stopped_by="tablet", stopped_by_id=client_id))
+    watch.stopping.hear(ControlStatus(stopped=True, stopped_by="tablet", stopped_by_id=client_id), 100.0)
     assert watch.stopping.verdict == Verdict("stopped", said)
 
 
 def test_a_handheld_without_an_id_takes_nobodys_stop_for_its_own() -> None:
     stopping = Stopping(Clock(), "")
-    stopping.hear(ControlStatus(stopped=True, stopped_by="a browser"))
+    stopping.hear(ControlStatus(stopped=True, stopped_by="a browser"), 100.0)
     assert stopping.verdict.sentence == "Pressed by a browser."
 
 
@@ -165,6 +165,36 @@ def test_a_word_that_is_delivered_after_the_link_was_lost_is_the_last_word_and_n
     watch.told()
     watch.clock.time += 3.0
     assert (watch.phase, watch.stopping.lost_for) == ("lost", 3.0)
+
+
+def test_a_word_that_comes_over_a_new_connection_counts_from_when_that_stands(watch: Watch) -> None:
+    watch.told()
+    watch.stopping.reach(False, WHY)
+    watch.clock.time += 3.0
+    watch.told()
+    assert (watch.phase, watch.stopping.lost_for) == ("lost", 3.0)
+    watch.stopping.reach(True)
+    assert watch.phase == "stopped"
+
+
+def test_a_word_of_the_old_connection_does_not_count_over_the_new_one(watch: Watch) -> None:
+    watch.told()
+    watch.clock.time += 1.0
+    watch.stopping.reach(False, WHY, at=watch.clock.time)
+    watch.clock.time += 3.0
+    watch.stopping.hear(ControlStatus(stopped=True), watch.clock.time - 3.5)
+    watch.stopping.reach(True)
+    assert watch.phase == "lost"
+
+
+def test_a_word_of_a_connection_that_did_not_come_to_stand_is_forgotten(watch: Watch) -> None:
+    watch.told()
+    watch.stopping.reach(False, WHY)
+    watch.clock.time += 3.0
+    watch.told()
+    watch.stopping.reach(False, WHY)
+    watch.stopping.reach(True)
+    assert watch.phase == "lost"
 
 
 def test_what_moved_when_the_link_went_is_not_said_to_have_been_stopped(watch: Watch) -> None:
