@@ -81,7 +81,7 @@ Builder.load_string("""
 <Roll>:
     do_scroll_x: False
     bar_width: dp(3)
-    bar_margin: dp(-6)
+    bar_margin: dp(-4)
     bar_color: theme.faint
     bar_inactive_color: theme.line
 

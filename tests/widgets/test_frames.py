@@ -16,7 +16,7 @@ class Key(Pressable, Widget):
     pass
 
 
-class Rail(Edged, Widget):
+class Bar(Edged, Widget):
     pass
 
 
@@ -70,11 +70,11 @@ def test_glass_is_there_for_a_card_only(stage):
     [("bottom", (10, 20), (300, 1)), ("top", (10, 75), (300, 1)), ("right", (309, 20), (1, 56))],
 )
 def test_a_bar_has_its_line_along_the_edge_where_the_screen_begins(stage, edge, pos, size):
-    rail = Rail(edge=edge, size_hint=(None, None), pos=(10, 20), size=(300, 56))
-    stage.show(rail)
-    rail.pos = 10, 20
+    bar = Bar(edge=edge, size_hint=(None, None), pos=(10, 20), size=(300, 56))
+    stage.show(bar)
+    bar.pos = 10, 20
     stage.frames(2)
-    ground, line = (part for part in rail.canvas.before.children if isinstance(part, Rectangle))
+    ground, line = (part for part in bar.canvas.before.children if isinstance(part, Rectangle))
     assert (tuple(ground.pos), tuple(ground.size)) == ((10, 20), (300, 56))
     assert (line.pos, line.size) == (pytest.approx(pos), pytest.approx(size))
-    assert colours(rail) == [pytest.approx(theme.surface), pytest.approx(theme.line)]
+    assert colours(bar) == [pytest.approx(theme.surface), pytest.approx(theme.line)]
