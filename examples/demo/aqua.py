@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
+from kivy.app import App
 from kivy.core.window import Window
 
 from examples.demo.fingers import Finger
@@ -17,7 +19,11 @@ TOPICS = ("/motors", "/depth")
 GLIDES, GLIDES_OUT = 0.12, 3.0
 """Slower it only glides [m/s]; the water takes its way within this [s]."""
 TAB, ENTER = 9, 13
-"""Keys that two switches send: on to the next action, and do it."""
+"""Keys that two switches send: on to the next one, and do it."""
+BETWEEN = 0.5
+"""Between two presses [s]: sooner the second is taken for a trembling hand's."""
+MOST = 60
+"""Presses after which something is not to be found."""
 HELD = 0.12
 """A depth is held to this [m]."""
 AT_THE_SURFACE = -0.3
@@ -70,28 +76,40 @@ def _swim(scene: Scene) -> Wait:
 
 
 def _switch(scene: Scene, words: str) -> Wait:
-    """Go to the action that says `words` by the first switch, and do it by the second."""
-    column: Any = yield from scene.glass.one("ActionColumn")
-    presses = 0
-    while not _current(column).startswith(words):
-        if presses > 2 * len(column.actions):
-            raise RuntimeError(f"the switches do not come to {words!r}.")
-        yield from _key(scene, TAB)
-        presses += 1
-    scene.report.snapshot("at-" + words.lower().replace(" ", "-"))
-    yield from _key(scene, ENTER)
-    return presses
+    """Go to what says `words` by two switches, into the groups that it is in, and do it; returns how often they were pressed."""
+    scan: Any = App.get_running_app().methods.get("switches").engine.scan
 
+    def there(targets: Iterable[Any]) -> bool:
+        return any(target.words.startswith(words) for target in targets)
 
-def _current(column: Any) -> str:
-    return next((action.text for action in column.actions if action.name == column.current), "")
+    for presses in range(1, MOST + 1):
+        mark = scan.mark
+        marked = mark is not None and there(mark.targets)
+        if marked and mark.kind == "item":
+            scene.report.snapshot("at-" + words.lower().replace(" ", "-"))
+            yield from _key(scene, ENTER)
+            return presses
+        if scan.depth and not there(scan.inside):
+            yield from _up(scene, scan)
+        else:
+            yield from _key(scene, ENTER if marked else TAB)
+    raise RuntimeError(f"the switches do not come to {words!r}.")
 
 
 def _key(scene: Scene, key: int) -> Wait:
     Window.dispatch("on_key_down", key, 0, "", [])
     yield from scene.glass.pause(0.1)
     Window.dispatch("on_key_up", key, 0)
-    yield from scene.glass.pause(0.2)
+    yield from scene.glass.pause(BETWEEN)
+
+
+def _up(scene: Scene, scan: Any) -> Wait:
+    """Hold the first switch until the mark has left the group."""
+    depth = scan.depth
+    Window.dispatch("on_key_down", TAB, 0, "", [])
+    yield from scene.glass.soon(lambda: scan.depth != depth, 3)
+    Window.dispatch("on_key_up", TAB, 0)
+    yield from scene.glass.pause(BETWEEN)
 
 
 def _hold(scene: Scene) -> Wait:
@@ -99,7 +117,7 @@ def _hold(scene: Scene) -> Wait:
     with scene.step("switches") as check:
         presses = yield from _switch(scene, "Hold depth")
         holds = yield from glass.soon(lambda: scene.task("hold"), 5)
-        check("two switches come to Hold depth and do it [presses of the first]", presses, bool(holds))
+        check("two switches come to Hold depth and do it [presses]", presses, bool(holds))
     with scene.step("depth-held") as check:
         yield from scene.robot_time(3)
         since = witness.now
