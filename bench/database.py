@@ -22,7 +22,7 @@ from bench.support.crash import Ledger, crash, look
 from bench.support.figures import Figure, percentile
 from bench.support.harness import Context, Sides
 from bridge.msgs.pilothouse_msgs import Place
-from robotside.database.opening import open_records
+from robotside.records.opening import open_records
 
 KILLS = 200
 CHANGES = 500

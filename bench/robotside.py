@@ -24,9 +24,9 @@ from bridge.frames import Frame
 from bridge.msgs.pilothouse_msgs import Mission, SetMissionRequest, StartTaskRequest, TaskProgress
 from bridge.network import NetworkThread
 from bridge.server import Session
-from robotside.database import Records
-from robotside.orders import services
-from robotside.station import Station
+from robotside.records import Records
+from robotside.services.orders import services
+from robotside.station.station import Station
 from sim.robot import make
 from sim.vehicles.patrol import PARAMETERS
 

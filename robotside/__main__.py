@@ -18,18 +18,18 @@ from typing import Any
 from bridge.address import BadAddress, host_and_port
 from bridge.errors import BridgeError
 from robotside import options as said
-from robotside.clock import RobotClock
-from robotside.config import BadConfig, Config
-from robotside.database.opening import open_records
-from robotside.foreign import ForeignRobot
-from robotside.landmarks import take_over
+from robotside.core.clock import RobotClock
+from robotside.core.config import BadConfig, Config
+from robotside.core.robot import Robot
+from robotside.foreign.foreign import ForeignRobot
+from robotside.gateways.serving import Addresses, Serving
+from robotside.gateways.slack import trim
+from robotside.gateways.together import Together
 from robotside.options import One, UserMistake
-from robotside.robot import Robot
-from robotside.schedule import local_zone
-from robotside.serving import Addresses, Serving
-from robotside.slack import trim
-from robotside.station import Station
-from robotside.together import Together
+from robotside.records.landmarks import take_over
+from robotside.records.opening import open_records
+from robotside.station.station import Station
+from robotside.tasks.schedule import local_zone
 
 __all__ = ["main"]
 

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from robotside.config import NOTHING_SET, Config, load
+from robotside.core.config import NOTHING_SET, Config, load
 
 __all__ = ["MOST", "SIMULATED", "One", "UserMistake", "configs", "ports", "read", "robots", "state"]
 

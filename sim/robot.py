@@ -64,7 +64,7 @@ _ASIDE = 0.1
 
 
 class SimRobot:
-    """Fits `robotside.robot.Robot`.
+    """Fits `robotside.core.robot.Robot`.
 
     Nothing moves between calls: `read(now)` does all the physics up to `now`. It never skips any, so a caller in real
     time that was held up for long gets the whole backlog computed in one call (without camera about a thirtieth of its

@@ -12,7 +12,7 @@ import sim.robot
 from bridge.msgs import Msg
 from bridge.msgs.nav_msgs import Odometry
 from robotside.__main__ import main
-from robotside.robot import Robot
+from robotside.core.robot import Robot
 
 __all__ = ["RATE", "TRUTH"]
 
@@ -22,7 +22,7 @@ RATE = 2500.0
 
 
 class Flooding:
-    """Fits `robotside.robot.Robot`; passes everything on, and one thing again and again."""
+    """Fits `robotside.core.robot.Robot`; passes everything on, and one thing again and again."""
 
     def __init__(self, robot: Robot) -> None:
         self._robot = robot

@@ -53,7 +53,7 @@ KINDS = {
 
 
 class Aloft:
-    """Fits `robotside.robot.Robot`: a robot that is in the air when it is first looked at, and again whenever it has landed."""
+    """Fits `robotside.core.robot.Robot`: a robot that is in the air when it is first looked at, and again whenever it has landed."""
 
     trouble = ""
 

@@ -8,11 +8,11 @@ import time
 
 import numpy as np
 
-from robotside.grid import Grid
-from robotside.guide import Goal, Guide, Leg
-from robotside.obstacles import FADES
-from robotside.pose2 import Pose2
-from robotside.robot import Robot
+from robotside.core.pose2 import Pose2
+from robotside.core.robot import Robot
+from robotside.mapping.grid import Grid
+from robotside.mapping.obstacles import FADES
+from robotside.navigation.guide import Goal, Guide, Leg
 from sim.occupancy import occupancy
 from sim.world import load
 

@@ -28,7 +28,7 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
 from robotside.__main__ import main
-from robotside.robot import Robot
+from robotside.core.robot import Robot
 
 TICK = 1 / 60
 """[s]"""

@@ -16,13 +16,13 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.sensor_msgs import CompressedImage
 from robotside.__main__ import main
-from robotside.robot import Robot
+from robotside.core.robot import Robot
 
 __all__ = ["Probe"]
 
 
 class Probe:
-    """Fits `robotside.robot.Robot`; passes everything on."""
+    """Fits `robotside.core.robot.Robot`; passes everything on."""
 
     def __init__(self, robot: Robot) -> None:
         self._robot = robot

@@ -11,8 +11,8 @@ from pathlib import Path
 from bridge.msgs.geometry_msgs import Twist
 from tests.app.test_link import Operator
 from tests.fakes import FakeRobot
-from tests.robotside.test_foreign_link import until
-from tests.robotside.test_serving import serving
+from tests.robotside.foreign.test_foreign_link import until
+from tests.robotside.gateways.test_serving import serving
 
 AHEAD = Twist.planar(0.3, 0.0)
 

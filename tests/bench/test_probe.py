@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bench.support.probe import Probe
-from robotside.robot import Robot
+from robotside.core.robot import Robot
 
 
 def test_it_has_all_that_a_robot_has():

@@ -11,7 +11,7 @@ from bridge.choice import CAMERA, Command, command, drive_message, source
 from bridge.msgs import ros1_name
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.msgs.std_msgs import Header, Time
-from robotside.foreign_topics import match
+from robotside.foreign.foreign_topics import match
 
 SCAN, MAP, PICTURE = "sensor_msgs/LaserScan", "nav_msgs/OccupancyGrid", "sensor_msgs/CompressedImage"
 TWIST, STAMPED = "geometry_msgs/Twist", "geometry_msgs/TwistStamped"

@@ -9,10 +9,10 @@ from pathlib import Path
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Event, Manoeuvre
-from robotside.config import NOTHING_SET, Config
-from robotside.manoeuvres import Order
-from robotside.orders import services
-from robotside.station import Station
+from robotside.core.config import NOTHING_SET, Config
+from robotside.motion.manoeuvres import Order
+from robotside.services.orders import services
+from robotside.station.station import Station
 from sim.backend_bullet import State
 from sim.robot import make
 from tests.fakes import FakeClient

@@ -19,11 +19,11 @@ from bridge.msgs.pilothouse_msgs import (
     TaskStatus,
     Waypoint,
 )
-from robotside.config import NOTHING_SET, Config
-from robotside.database import Records
-from robotside.database.rows import Content, empty
-from robotside.orders import listener, services
-from robotside.station import Station
+from robotside.core.config import NOTHING_SET, Config
+from robotside.records import Records
+from robotside.records.database.rows import Content, empty
+from robotside.services.orders import listener, services
+from robotside.station.station import Station
 from tests.fakes import FakeClient, FakeRobot
 
 __all__ = ["SQUARE", "Scene", "records_at"]

@@ -17,8 +17,8 @@ from bridge.msgs.pilothouse_msgs import (
     TaskStatus,
     Waypoint,
 )
-from robotside.orders import services
-from robotside.station import Station
+from robotside.services.orders import services
+from robotside.station.station import Station
 from sim.robot import SimRobot
 from tests.fakes import FakeClient
 from tests.robotside.scene import records_at

@@ -7,12 +7,12 @@ from collections.abc import Awaitable
 from typing import Any
 
 from bridge.msgs import Msg
-from robotside.database import Records
-from robotside.database.rows import empty
-from robotside.orders import services
-from robotside.station import Station
+from robotside.records import Records
+from robotside.records.database.rows import empty
+from robotside.services.orders import services
+from robotside.station.station import Station
 from tests.fakes import FakeClient, FakeRobot
-from tests.robotside.database.disk import Disk
+from tests.robotside.records.disk import Disk
 
 __all__ = ["FULL", "Slow"]
 

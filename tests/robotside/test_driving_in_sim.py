@@ -12,8 +12,8 @@ import pytest
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, StartTaskRequest, TaskOrder
 from bridge.msgs.std_msgs import Header, Time
-from robotside.config import Config, LimitSettings, Ring
-from robotside.manoeuvres import Order
+from robotside.core.config import Config, LimitSettings, Ring
+from robotside.motion.manoeuvres import Order
 from tests.robotside.hand import Hand, steer, tilt
 
 Make = Callable[..., Hand]

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from bridge.msgs.pilothouse_msgs import StartTaskRequest, TaskOrder, Waypoint
-from robotside.orders import services
-from robotside.station import Station
+from robotside.services.orders import services
+from robotside.station.station import Station
 from sim.robot import SimRobot, make_several
 from sim.world import Start
 from tests.fakes import FakeClient

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from robotside.__main__ import main
-from robotside.config import BadConfig
+from robotside.core.config import BadConfig
 from robotside.options import MOST, One, UserMistake, configs, ports, read, robots, state
 from sim.world import WORLDS
 

@@ -11,8 +11,8 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, StartTaskRequest, TaskOrder, Waypoint
-from robotside.config import NOTHING_SET, Config, SafeStateSettings
-from robotside.manoeuvres import Order
+from robotside.core.config import NOTHING_SET, Config, SafeStateSettings
+from robotside.motion.manoeuvres import Order
 from tests.robotside.hand import UPSIDE_DOWN, Hand, steer, tilt
 
 Make = Callable[..., Hand]

@@ -9,7 +9,7 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import CommandRequest, Manoeuvre
-from robotside.pose2 import Pose2
+from robotside.core.pose2 import Pose2
 from sim.robot import SimRobot, make
 from tests.robotside.sim_run import Run
 

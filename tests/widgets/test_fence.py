@@ -7,9 +7,9 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Point32, Polygon
 from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
-from robotside.config import LimitSettings
-from robotside.limits import GOAL_ROOM as ROBOTS_ROOM
-from robotside.limits import Keeper
+from robotside.core.config import LimitSettings
+from robotside.limits.limits import GOAL_ROOM as ROBOTS_ROOM
+from robotside.limits.limits import Keeper
 from widgets.fence import GOAL_ROOM, MOST_CORNERS, Fence
 
 SQUARE = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]

@@ -1,0 +1,255 @@
+"""Who has control, who asks for it, and when it goes over. Watching needs none.
+
+Pure: every call is told the time. Times are seconds of the operators' clock.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from bridge.liveness import LAPSE
+from robotside.core.words import number, plain
+
+__all__ = ["AGAIN", "REMEMBERED", "SILENT", "TO_OBJECT", "Asker", "Authority", "Driver", "Operator"]
+
+SILENT = 1.0
+"""A driver who was not heard for this long may come back over another connection [s]; until then that is somebody else."""
+
+TO_OBJECT = 10.0
+"""How long a driver has to object before control goes over to who asks for it [s]."""
+
+AGAIN = 30.0
+"""Whom a driver objected to may ask the same driver again so long afterwards [s]."""
+
+LONGEST_NAME = 40
+"""Characters kept of what a client calls itself."""
+
+LONGEST_ID = 64
+"""Characters kept of a client's id."""
+
+_CALLED = 256
+"""Of as many ids it is remembered what they are called."""
+
+REMEMBERED = 64
+"""As many objections are remembered."""
+
+
+class Operator(Protocol):
+    """Who commands over one connection: a session of the bridge server."""
+
+    id: str
+    address: str
+    last_heard: float
+    """When anything last came from it [s]."""
+    rtt: float
+    """How long the way to it and back takes [s]; NaN until that is known."""
+    asked_time: bool
+    """It has asked for the operators' clock, so that its stamps mean something."""
+    answered: float
+    """Whatever comes from it now was sent after this [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Driver:
+    """Who has control."""
+
+    client_id: str
+    name: str
+    client: Operator
+
+
+@dataclass(frozen=True, slots=True)
+class Asker:
+    """Who asks the driver for control."""
+
+    client_id: str
+    name: str
+    client: Operator
+    due: float
+    """When it goes over unless the driver objects [s]."""
+
+
+class Authority:
+    """Gives control to one operator at a time. Methods that may refuse return why, empty when it is done."""
+
+    def __init__(self) -> None:
+        self._driver: Driver | None = None
+        self._asker: Asker | None = None
+        self._names: dict[str, tuple[str, str]] = {}
+        self._called: dict[str, tuple[str, str]] = {}
+        """What an id wants to be called and what it is called, the one that was heard last at the end."""
+        self._fell = ""
+        self._refused: dict[tuple[str, str], float] = {}
+
+    @property
+    def driver(self) -> Driver | None:
+        """Who has control; None when it is free."""
+        return self._driver
+
+    @property
+    def asker(self) -> Asker | None:
+        """Who asks for it; None when nobody does, and always while it is free."""
+        return self._asker
+
+    def introduce(self, client: Operator, client_id: str, name: str) -> None:
+        """Remember what `client` calls itself, cut to a readable line; empty words change nothing.
+
+        The second id of a name is called `name (2)`.
+        """
+        client_id, name = plain(client_id, LONGEST_ID), plain(name, LONGEST_NAME)
+        known_id, known_name = self._identity(client)
+        client_id, name = client_id or known_id, name or known_name
+        own = client_id != client.id  # else there is nothing to tell it by the next time
+        self._names[client.id] = (client_id, self._apart(client_id, name) if own else name)
+
+    def _apart(self, client_id: str, name: str) -> str:
+        """`name`, with a number behind it where another id is called so: one id is called the same each time."""
+        asked, given = self._called.pop(client_id, ("", ""))
+        if asked != name:
+            taken = {one for _, one in self._called.values()}
+            numbered = (f"{name[: LONGEST_NAME - 6]} ({number})" for number in range(2, _CALLED + 3))
+            given = next(one for one in (name, *numbered) if one not in taken)
+        self._called[client_id] = name, given
+        while len(self._called) > _CALLED:
+            del self._called[next(iter(self._called))]
+        return given
+
+    def knows(self, client: Operator) -> bool:
+        """`client` has introduced itself and is still connected."""
+        return client.id in self._names
+
+    def name(self, client: Operator) -> str:
+        """What to call `client`."""
+        return self._identity(client)[1]
+
+    def id(self, client: Operator) -> str:
+        """The `client_id` that `client` gave, or one for its connection."""
+        return self._identity(client)[0]
+
+    def holds(self, client: Operator) -> bool:
+        """`client` has control, over this connection."""
+        return self._driver is not None and self._driver.client.id == client.id
+
+    def objection(self, client: Operator, advice: str = "ask there, or wait until it is released") -> str:
+        """Why `client` may not change what the robot will do, with an `advice`; empty when it may.
+
+        One id may drive over one connection: another with the same counts as the same only when the first has been
+        silent, as one that was cut is.
+        """
+        held = self._driver
+        if held is None or client.id == held.client.id:
+            return ""
+        if self.id(client) != held.client_id:
+            return f"{held.name} has control; {advice}."
+        if client.last_heard - held.client.last_heard > SILENT:
+            return ""
+        return f"{held.name} has control over another connection with the same client_id; {advice}."
+
+    def acquire(self, client: Operator, now: float) -> str:
+        """Give control to `client` if it is free or its own."""
+        self._look(now)
+        problem = self.objection(client)
+        if not problem:
+            self._give(client)
+        return problem
+
+    def release(self, client: Operator) -> str:
+        """Take control from `client`, for who asked for it if anybody did; or take back that `client` asks for it."""
+        if self._asker is not None and self._asker.client.id == client.id:
+            self._asker = None
+            return ""
+        problem = self.objection(client, "only its holder can release it")
+        if not problem:
+            self._pass_on()
+        return problem
+
+    def request(self, client: Operator, now: float) -> str:
+        """Give control to `client` at once if it may have it, else ask the driver, who has TO_OBJECT to object.
+
+        Asking again changes nothing; there is one who asks at a time.
+        """
+        problem = self.acquire(client, now)
+        held, asker = self._driver, self._asker
+        client_id, name = self._identity(client)
+        if held is None or not problem or client_id == held.client_id:
+            return problem
+        if asker is not None:
+            same = asker.client_id == client_id
+            return (
+                ""
+                if same
+                else f"{asker.name} has asked {held.name} for control already; wait for the answer."
+            )
+        wait = self._refused.get((held.client_id, client_id), now) - now
+        if wait > 0:
+            return f"{held.name} has objected; ask again in {number(wait)} s."
+        self._asker = Asker(client_id, name, client, now + TO_OBJECT)
+        return ""
+
+    def grant(self, client: Operator) -> str:
+        """The driver hands control over to who asks for it."""
+        problem = self._answering(client)
+        if not problem:
+            self._pass_on()
+        return problem
+
+    def object(self, client: Operator, now: float) -> str:
+        """The driver keeps control; who asked may ask again after AGAIN."""
+        problem = self._answering(client)
+        if problem or self._driver is None or self._asker is None:
+            return problem
+        self._refused[self._driver.client_id, self._asker.client_id] = now + AGAIN
+        while len(self._refused) > REMEMBERED:
+            del self._refused[next(iter(self._refused))]
+        self._asker = None
+        return ""
+
+    def mind(self, now: float) -> str:
+        """Let control lapse and go over when it is time.
+
+        Returns the name of a driver who fell silent since the last call, empty when none did.
+        """
+        self._look(now)
+        fell, self._fell = self._fell, ""
+        return fell
+
+    def _look(self, now: float) -> None:
+        if self._asker is not None and now - self._asker.client.last_heard > LAPSE:
+            self._asker = None
+        if self._driver is not None and now - self._driver.client.last_heard > LAPSE:
+            self._fell = self._driver.name
+            self._pass_on()
+        elif self._asker is not None and now >= self._asker.due:
+            self._pass_on()
+
+    def gone(self, client: Operator) -> bool:
+        """Forget a client whose socket closed; True when it had control."""
+        if self._asker is not None and self._asker.client.id == client.id:
+            self._asker = None
+        held = self.holds(client)
+        if held:
+            self._pass_on()
+        self._names.pop(client.id, None)
+        return held
+
+    def _answering(self, client: Operator) -> str:
+        if self._driver is None or self._asker is None:
+            return "Nobody asks for control."
+        if not self.holds(client):
+            return f"{self._driver.name} has control; only its holder can answer."
+        return ""
+
+    def _pass_on(self) -> None:
+        """Control leaves its driver: to who asks for it, or to nobody."""
+        asker, self._asker = self._asker, None
+        self._driver = Driver(asker.client_id, asker.name, asker.client) if asker else None
+
+    def _give(self, client: Operator) -> None:
+        client_id, name = self._identity(client)
+        self._driver = Driver(client_id, name, client)
+        if self._asker is not None and self._asker.client_id == client_id:
+            self._asker = None
+
+    def _identity(self, client: Operator) -> tuple[str, str]:
+        return self._names.get(client.id, (client.id, f"a client at {client.address}"))

@@ -1,0 +1,172 @@
+"""The robot's port behind STOP and limits: whoever asks, nothing moves while STOP is pressed, nor farther than it may."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+
+from msgspec.structs import replace
+
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import Pose, Twist
+from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
+from robotside.core.robot import Equipped, Levelled, Manoeuvrable, Resettable, Robot, Stoppable
+from robotside.motion.manoeuvres import BY_ITSELF, Order
+
+__all__ = ["Guarded", "port_info"]
+
+_REST = Twist()
+
+
+def port_info(robot: Robot) -> RobotInfo:
+    """Who `robot` is: one that is reached over a link that passes twists only is not said to know more."""
+    info = robot.info
+    return info if isinstance(robot, Manoeuvrable) or not info.manoeuvres else replace(info, manoeuvres=[])
+
+
+def _as_it_is(order: Order) -> Order:
+    return order
+
+
+class Guarded:
+    """A `Robot` that brakes instead of driving while STOP is pressed; the one way by which orders reach the port."""
+
+    def __init__(
+        self,
+        robot: Robot,
+        stopped: Callable[[], bool],
+        clamp: Callable[[Order], Order] = _as_it_is,
+        info: RobotInfo | None = None,
+    ) -> None:
+        """`stopped` tells whether STOP is pressed at this moment, `clamp` what may be done of an order just now.
+
+        `info` is what the robot may do, None for all that it can.
+        """
+        self.info = info or robot.info
+        """Who it is and what it may do."""
+        self._robot, self._stopped, self._clamp = robot, stopped, clamp
+        self._wanted: Order | None = None
+        self._given: Order | None = None
+
+    @property
+    def trouble(self) -> str:
+        """Why it can be neither driven nor heard just now; empty when all is well."""
+        return self._robot.trouble
+
+    def press_stop(self) -> None:
+        """Brake, hold what moves on it, and press the STOP behind, if the robot has one of its own."""
+        self.stop()
+        if isinstance(self._robot, Equipped):
+            self._robot.hold_payloads()
+        if isinstance(self._robot, Stoppable):
+            self._robot.press_stop()
+
+    def release_stop(self) -> None:
+        """Release the STOP behind, if it was pressed from here."""
+        if isinstance(self._robot, Stoppable):
+            self._robot.release_stop()
+
+    def follow(self, order: Order) -> None:
+        """`drive` or `manoeuvre`, as the order is."""
+        if isinstance(order, Manoeuvre):
+            self.manoeuvre(order)
+        else:
+            self.drive(order)
+
+    def drive(self, twist: Twist) -> None:
+        """Move with `twist` in `base_link`, as far as it may, until the next order; brake while STOP is pressed."""
+        self._take(twist)
+
+    def manoeuvre(self, order: Manoeuvre) -> None:
+        """Move by `order`, as far as it may, until the next one; brake while STOP is pressed.
+
+        A robot that does not know the kind gets the twist that comes nearest; ValueError with one sentence where none does.
+        """
+        if order.kind == "rest":
+            self.stop()
+            return
+        if order.kind in BY_ITSELF and order.kind not in self.info.manoeuvres:
+            raise ValueError(f"{self.info.name} cannot {order.kind.replace('_', ' ')}.")
+        self._take(order)
+
+    def again(self) -> None:
+        """Look anew at the order that it moves by: the robot is elsewhere now. Call it whenever that is measured."""
+        if self._wanted is None:
+            return
+        order = self._allowed(self._wanted)
+        if order is not self._given and order != self._given:
+            self._give(order)
+
+    def stop(self) -> None:
+        """Brake to rest and stay there."""
+        self._wanted = self._given = None
+        self._robot.stop()
+
+    def command(self, payload: str, order: Msg) -> None:
+        """Tell a payload what to do; ValueError with one sentence when it cannot."""
+        if isinstance(self._robot, Equipped):
+            self._robot.command(payload, order)
+            return
+        raise ValueError(f"{self.info.name} has no {payload.replace('_', ' ')} that takes orders.")
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        """The lowest and the highest at which it can be, above the map's origin [m]; infinite where nobody knows."""
+        return self._robot.heights if isinstance(self._robot, Levelled) else (-math.inf, math.inf)
+
+    @property
+    def equipped(self) -> bool:
+        """Its payloads take orders."""
+        return isinstance(self._robot, Equipped)
+
+    @property
+    def resettable(self) -> bool:
+        """It can be put back to where it started."""
+        return isinstance(self._robot, Resettable)
+
+    def reset(self) -> Pose:
+        """Put it back, at rest; where it stands now, in `map`. ValueError with one sentence when that cannot be."""
+        if isinstance(self._robot, Resettable):
+            place = self._robot.reset()
+            self._wanted = self._given = None
+            return place
+        raise ValueError(f"{self.info.name} is real: nobody can put it back from here.")
+
+    def _take(self, order: Order) -> None:
+        if self._stopped():
+            self.stop()
+            return
+        self._wanted = order
+        self._give(self._allowed(order))
+
+    def _allowed(self, order: Order) -> Order:
+        """What may be done of it; when that cannot be told for a fault of the program, it brakes first."""
+        try:
+            return self._clamp(order)
+        except Exception:
+            self.stop()
+            raise
+
+    def _give(self, order: Order) -> None:
+        self._given = order
+        if isinstance(order, Twist):
+            if order == _REST != self._wanted:
+                self._robot.stop()  # brakes harder than driving with no speed
+            else:
+                self._robot.drive(order)
+        elif isinstance(self._robot, Manoeuvrable):
+            self._robot.manoeuvre(order)
+        else:
+            self.stop()
+
+    def read(self, now: float) -> Iterable[tuple[str, Msg]]:
+        """Topic and message of everything measured up to `now` [s, robot clock] since the last call."""
+        return self._robot.read(now)
+
+    def want(self, topic: str, wanted: bool) -> None:
+        """Make the messages of an on-demand topic from now on, or no longer."""
+        self._robot.want(topic, wanted)
+
+    def close(self) -> None:
+        """Let go of everything it holds; no other call follows."""
+        self._robot.close()

@@ -1,0 +1,48 @@
+"""STOP as the disk has it: kept over restarts, and said when it is not."""
+
+from __future__ import annotations
+
+from robotside.records import Records
+from robotside.records.events import Say
+
+__all__ = ["Latch"]
+
+
+class Latch:
+    """Notes who pressed STOP; tried again until it is on the disk."""
+
+    def __init__(self, records: Records, say: Say) -> None:
+        self._records, self._say = records, say
+        self._unkept = False
+        records.watch("facts", self._look)
+
+    def note(self, by: str) -> None:
+        """STOP is pressed, `by` somebody; nobody when it is released."""
+        if by != self._records.stopped_by:
+            self._records.note_stop(by, self._tried)
+
+    @property
+    def doubt(self) -> str:
+        """Why a STOP that is pressed would be gone after a restart, as one sentence; empty when nothing says so."""
+        records = self._records
+        if records.stop_kept or not (records.stopped_by and records.trouble):
+            return ""
+        return f"A restart of the robot's computer would release it. {records.trouble}"
+
+    def _tried(self) -> None:
+        """What was noted is on the disk or could not be written."""
+        if self._records.stop_kept:
+            self._unkept = False
+        elif not self._unkept:
+            self._unkept = True
+            state, outcome = (
+                ("pressed", "release it") if self._records.stopped_by else ("released", "press it")
+            )
+            said = f"a restart of the robot's computer would {outcome}. {self._records.trouble}".strip()
+            self._say("stop", f"That STOP is {state} could not be kept: {said}", "alarm")
+
+    def _look(self) -> None:
+        if self._unkept and self._records.stop_kept:
+            self._unkept = False
+            state = "pressed" if self._records.stopped_by else "released"
+            self._say("stop", f"That STOP is {state} is kept now.", "ok")

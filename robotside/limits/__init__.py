@@ -1,0 +1,1 @@
+"""What the robot's configuration allows: speeds, depths, heights, the fence and the bumper."""

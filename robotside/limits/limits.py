@@ -1,0 +1,377 @@
+"""What the robot's own configuration allows: drive commands are clamped to it, goals outside are refused.
+
+Pure: what the robot measures is passed in. Speeds are limited to what it may, height and depth so that it comes to rest
+before they are exceeded, and `robotside.limits.fencing` does the same for the fence.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import msgspec
+import numpy as np
+
+from bridge.msgs.geometry_msgs import Point32, Polygon, Twist, Vector3
+from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
+from robotside.core.config import LimitSettings, Ring
+from robotside.core.kinds import kind_of
+from robotside.core.pose2 import Pose2
+from robotside.limits.fence import Fence
+from robotside.limits.fencing import LEVEL_FROM, MOST_DOUBT, SURE_ENOUGH, Fencing, doubt_of
+from robotside.mapping.grid import Grid
+from robotside.motion.drifting import BACK_AT, BACK_TO, CREEP, DRIFTS, Drift, back, way_back
+from robotside.motion.manoeuvres import BY_ITSELF, Order, kept, leads_to, levelled
+from robotside.motion.slower import slower, within
+from robotside.motion.tracks import HANDLING, REACTION, REST, Handling, Moving
+from robotside.navigation.planner import place_sentence
+
+__all__ = ["GOAL_ROOM", "PATH_ROOM", "Clamped", "Keeper", "Kept", "Measured", "turned_over"]
+
+GOAL_ROOM = 0.4
+"""Kept between the body and the fence at a goal [m]: following a path is not exact."""
+PATH_ROOM = 0.15
+"""Of the map, what is nearer than this to the fence is no place to plan through [m]."""
+STEEP_FROM, STEEP_SLOWEST = 0.8, 0.3
+"""From this part of the greatest slope on it goes slower, down to this part of the speed."""
+UPSIDE_DOWN = 0.2
+"""Cosine of the tilt from which on a robot has turned over."""
+DIVING = 0.1
+"""From this pitch on a swimmer goes up and down as it goes ahead, and its fins cannot make up for that [rad]."""
+UNSURE = 0.25
+"""A robot that is not sure of its place goes at this part of its speed while it has a fence."""
+NOT_PLACED = "The robot does not know where it is, so it cannot keep to its fence; place it on the map."
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """What the robot knows of itself; NaN and None for what it does not measure."""
+
+    pose: Pose2 | None = None
+    """In `map`."""
+    moving: Moving = REST
+    """As its wheels tell."""
+    height: float = math.nan
+    """Above the map's origin, which for boats is the water [m]."""
+    roll: float = 0.0
+    """[rad]"""
+    pitch: float = 0.0
+    """[rad], positive is nose down."""
+    spread: float = 0.0
+    """How far off the pose may be in the worst direction, one standard deviation [m]; NaN without a pose."""
+    sure: bool = True
+    """The robot holds the pose for right."""
+    landed: bool = False
+    """It says itself that it is on the ground, rotors off; False for one that does not fly."""
+    overturned: bool = False
+    """It says itself that it lies there on its back."""
+    touched: float | None = None
+    """Bearing in `base_link` of what its bumper touches [rad]; None for nothing, and where it cannot tell."""
+
+
+class Clamped(NamedTuple):
+    """A drive command as it may be done."""
+
+    twist: Twist
+    why: str = ""
+    """What holds it back by more than half, as one sentence; empty when nothing does."""
+
+
+class Kept(NamedTuple):
+    """An order of any kind as it may be done."""
+
+    order: Order
+    why: str = ""
+    """As that of `Clamped`."""
+
+
+def turned_over(measured: Measured, kind: str) -> bool:
+    """A robot of this `kind` lies on its side or its back, as only a swimmer may."""
+    over = math.cos(measured.roll) * math.cos(measured.pitch) < UPSIDE_DOWN
+    return not kind_of(kind).dives and (over or measured.overturned)
+
+
+class Keeper:
+    """Keeps one robot to its limits."""
+
+    def __init__(self, settings: LimitSettings, info: RobotInfo) -> None:
+        """`settings` are the configuration's, `info` what the robot says of itself."""
+        self._settings = settings
+        self._own, self._radius = info, info.radius
+        known = HANDLING.get(info.kind, HANDLING["wheels"])
+        self._handling: Handling = replace(known, braking=settings.braking or known.braking)
+        self._height = _highest(settings)
+        self._deepest = -settings.max_depth if settings.max_depth is not None else -math.inf
+        self._slope = math.radians(settings.max_slope_degrees or 0.0) or math.inf
+        self._came: tuple[float, float] | None = None
+        self._fence = Fence(settings.keep_in, settings.keep_out)
+        self._drift, self._doubt = Drift(), 0.0
+        self._returns, self._way, self._back = False, 0.0, False
+        self._fencing = Fencing(self._fence, info.radius, self._handling)
+        self.info: RobotInfo = msgspec.structs.replace(
+            info,
+            max_speed=min(info.max_speed, settings.max_speed or math.inf),
+            max_yaw_rate=min(info.max_yaw_rate, settings.max_yaw_rate or math.inf),
+        )
+        """Who it is, with the speeds that it is allowed."""
+        self._last: tuple[Twist, Measured, Clamped] = (Twist(), Measured(), Clamped(Twist()))
+        """What was asked for last, and what came of it."""
+
+    @property
+    def message(self) -> Limits:
+        """For `/limits`."""
+        told = self._settings
+        return Limits(
+            max_speed=_or_nan(told.max_speed),
+            max_yaw_rate=_or_nan(told.max_yaw_rate),
+            min_depth=_or_nan(told.min_depth),
+            max_depth=_or_nan(told.max_depth),
+            max_height=_or_nan(told.max_height),
+            max_slope=math.radians(_or_nan(told.max_slope_degrees)),
+            keep_in=[_polygon(ring) for ring in told.keep_in],
+            keep_out=[_polygon(ring) for ring in told.keep_out],
+        )
+
+    def heights(self, own: tuple[float, float]) -> tuple[float, float]:
+        """The lowest and the highest [m] at which it may be that can go from one to the other of its `own`."""
+        return max(own[0], self._deepest), min(own[1], self._height)
+
+    def fault(self, name: str, x: float, y: float) -> str:
+        """Why the robot may not be sent to a place [m, in `map`], as one sentence that calls it `name`; empty when it may."""
+        if not self._fence:
+            return ""
+        where = place_sentence(name, x, y)
+        room = self.room(x, y)
+        if not room > 0:
+            return f"{where} is outside the robot's fence."
+        need = self._radius + max(GOAL_ROOM, self._doubt + 2 * PATH_ROOM)
+        if room < need:
+            return f"{where} is {room:.2f} m from the robot's fence; the robot needs {need:.2f} m."
+        return ""
+
+    def room(self, x: float, y: float) -> float:
+        """From a place [m, in `map`] to the fence [m]; negative outside, infinite without one."""
+        return float(self._fence.clearance(np.array([[x, y]]))[0])
+
+    def outside(self, pose: Pose2 | None) -> str:
+        """Why the robot cannot start by itself from where it is, as one sentence; empty when it can."""
+        if pose is None or not self._fence or self._fence.allows(np.array([pose[:2]]))[0]:
+            return ""
+        return f"{place_sentence('The robot', pose.x, pose.y)} is outside its fence; drive it back by hand first."
+
+    def marked(self, grid: Grid) -> Grid:
+        """The map to plan on: where one may not be counts as occupied."""
+        return self._fence.marked(grid, PATH_ROOM)
+
+    def clamp(self, twist: Twist, measured: Measured) -> Clamped:
+        """`twist` as it may be done now; call it again whenever something new is measured."""
+        if self._last[:2] != (twist, measured):
+            self._last = twist, measured, self._clamped(twist, measured)
+        return self._last[2]
+
+    def keep(self, order: Order, measured: Measured) -> Kept:
+        """`order` as it may be done now, of any kind; as a twist where the robot does not know the kind."""
+        if isinstance(order, Twist):
+            return Kept(*self.clamp(order, measured))
+        own, asked = self._own, order.height
+        order = levelled(order, self._deepest, self._height, measured.height)
+        cut = _level_cut(asked, order.height)
+        if order.kind == "tilt" and (roll := self._rolled(order.roll, measured)) != order.roll:
+            order = msgspec.structs.replace(order, roll=roll)
+        leads = leads_to(order, own, measured)
+        may, why = self.clamp(leads, measured)
+        why = why or cut
+        if self._back and order.kind not in BY_ITSELF:
+            return Kept(may, why)
+        if order.kind not in own.manoeuvres or turned_over(measured, own.kind):
+            return Kept(may, why)
+        return Kept(kept(order, leads, may, own), why)
+
+    def _clamped(self, twist: Twist, measured: Measured) -> Clamped:
+        self._back = False
+        if turned_over(measured, self.info.kind):
+            return Clamped(Twist(), f"{self.info.name or 'The robot'} has turned over; put it upright first.")
+        fitted = self._upright(slower(twist, self.info.max_speed, self.info.max_yaw_rate), measured)
+        level = self._level(fitted.twist, measured)
+        fenced = self._fenced(level.twist, measured)
+        return Clamped(fenced.twist, fitted.why or level.why or fenced.why)
+
+    def _upright(self, twist: Twist, measured: Measured) -> Clamped:
+        """Slower up and down, so that height and depth are kept when it brakes."""
+        z = measured.height
+        if math.isnan(z) or not (self._height < math.inf or self._deepest > -math.inf):
+            return Clamped(twist)
+        v, nose = twist.linear, 0.0 if self._handling.sideways else measured.pitch
+        rise = v.z * math.cos(nose) - v.x * math.sin(nose)
+        allowed = max(-self._speed_within(z - self._deepest), min(rise, self._speed_within(self._height - z)))
+        if abs(nose) < DIVING:
+            fitted = Vector3(v.x, v.y, (allowed + v.x * math.sin(nose)) / math.cos(nose))
+        else:
+            part = allowed / rise if rise else 1.0
+            fitted = Vector3(part * v.x, v.y, part * v.z)
+        why = ""
+        if abs(allowed) < abs(rise) / 2:
+            limit = self._height if rise > 0 else self._deepest
+            why = f"The robot goes no {'higher' if rise > 0 else 'deeper'} than {_level_words(limit)}."
+        return Clamped(Twist(fitted, twist.angular), why)
+
+    def _speed_within(self, room: float) -> float:
+        """The speed from which it comes to rest within `room` [m], reaction included [m/s]; 0 beyond it."""
+        if room <= 0:
+            return 0.0
+        braking = self._handling.levelling
+        lag = braking * REACTION
+        return math.sqrt(lag * lag + 2 * braking * room) - lag
+
+    def _level(self, twist: Twist, measured: Measured) -> Clamped:
+        """Slower where it is steep; too steep, only back to where it came from."""
+        tilt = math.acos(max(-1.0, min(1.0, math.cos(measured.roll) * math.cos(measured.pitch))))
+        if tilt < STEEP_FROM * self._slope:
+            self._came = None
+            return Clamped(twist)
+        v = twist.linear
+        if tilt < self._slope:
+            part = (self._slope - tilt) / (self._slope * (1 - STEEP_FROM))
+            return Clamped(_scaled(twist, max(STEEP_SLOWEST, part), self._handling))
+        if self._came is None:
+            self._came = _direction(measured)
+        if v.x * self._came[0] + v.y * self._came[1] <= 0:
+            return Clamped(_scaled(twist, STEEP_SLOWEST, self._handling))
+        said = f"It is steeper here, {math.degrees(tilt):.0f} degrees, than the {math.degrees(self._slope):.0f} allowed"
+        return Clamped(_scaled(twist, 0.0, self._handling), f"{said}; drive back.")
+
+    def adrift(self, measured: Measured) -> str:
+        """What to say of a robot that is carried over its fence, whether it may go back or STOP is pressed; empty for nothing.
+
+        Call it whenever something new is measured.
+        """
+        self._doubt = doubt_of(measured.spread) if self._fence else 0.0
+        pose, last = measured.pose, self._last
+        if not self._fence or pose is None:
+            return ""
+        room, outward = self._fencing.room(pose), self._fencing.outward(pose, measured.moving)
+        returns = self._back and last[1] == measured
+        if returns:
+            room, outward = min(room - self._doubt, BACK_AT), max(outward, DRIFTS)
+        return self._drift.told(self._own.name, room, outward, returns=returns)
+
+    def _fenced(self, twist: Twist, measured: Measured) -> Clamped:
+        """Slower towards the fence, and slowly all ways where the place is not sure."""
+        v, pose = twist.linear, measured.pose
+        if not self._fence:
+            return Clamped(twist)
+        if pose is None:
+            return Clamped(_scaled(twist, 0.0, self._handling), NOT_PLACED) if v.x or v.y else Clamped(twist)
+        doubt, unsure = doubt_of(measured.spread), _unsure(measured)
+        if unsure:
+            most = UNSURE * self.info.max_speed
+            far = math.hypot(v.x, v.y)
+            twist = _scaled(twist, most / far, self._handling) if far > most else twist
+        clamped = self._within(twist, measured, pose, doubt)
+        if self._drifts_out(measured.moving, pose, doubt, clamped.twist):
+            inward = self._fencing.inward(pose)
+            self._way = 0.0 if self._handling.glide else way_back(inward, self._way)
+            home = back(inward, self._way)
+            rolls, levels = self._roll_rate(0.0, measured), -within(measured.pitch, 0.5)
+            kept = Twist(Vector3(home.linear.x, 0.0, twist.linear.z), Vector3(rolls, levels, home.angular.z))
+            self._back = True
+            return Clamped(kept, clamped.why)
+        return Clamped(clamped.twist, clamped.why or (unsure if v.x or v.y else ""))
+
+    def _within(self, twist: Twist, measured: Measured, pose: Pose2, doubt: float) -> Clamped:
+        v, w = twist.linear, twist.angular
+        creeps = kind_of(self._own.kind).comes_about and w.z != 0.0 and abs(v.x) < CREEP
+        wanted = Moving(math.copysign(CREEP, v.x) if creeps else v.x, v.y, w.z)
+        if not wanted.speed:
+            return Clamped(twist)
+        done = self._fencing.slowed(pose, measured.moving, wanted, doubt)
+        w = Vector3(self._roll_rate(w.x, measured), w.y, w.z)
+        if done is wanted:
+            return Clamped(Twist(v, w))
+        kept = Twist(Vector3(done.x, done.y, v.z), Vector3(w.x, w.y, done.turn))
+        if creeps:
+            kept = Twist(Vector3(0.0, 0.0, v.z), Vector3(w.x, w.y, 0.0))
+        elif done.speed > wanted.speed / 2:
+            return Clamped(kept)
+        room = self._fencing.room(pose)
+        where = f"is {room:.1f} m away" if room > 0.05 else "is here"
+        known = f" and it knows its place to {SURE_ENOUGH * measured.spread:.1f} m only" if doubt else ""
+        return Clamped(kept, f"The robot's fence {where}{known}: it goes no nearer.")
+
+    def _drifts_out(self, moving: Moving, pose: Pose2, doubt: float, kept: Twist) -> bool:
+        """It is carried over the fence, or will be, and what is left of its order does not bring it back."""
+        if not self._handling.drifts:
+            return False
+        room, out = self._fencing.room(pose) - doubt, self._fencing.outward(pose, moving)
+        most = self._fencing.unhurried(room)
+        if self._returns:
+            self._returns = room < BACK_TO or out > most
+        else:
+            self._returns = (room < BACK_AT and out > DRIFTS) or out > most + 2 * DRIFTS
+        inward = -self._fencing.outward(pose, Moving(kept.linear.x, kept.linear.y, 0.0))
+        if not self._returns:
+            self._way = 0.0
+        return self._returns and inward < CREEP / 2
+
+    def _rolled(self, roll: float, measured: Measured) -> float:
+        """As much of a `roll` [rad] as one that glides may have here: rolled, its fins push it aside."""
+        if not (self._handling.glide and self._fence and measured.pose):
+            return roll
+        room = self._fencing.room(measured.pose) - doubt_of(measured.spread)
+        return roll * max(0.0, min(1.0, room / LEVEL_FROM))
+
+    def _roll_rate(self, rate: float, measured: Measured) -> float:
+        """One that is rolled farther than it may rolls back [rad/s]."""
+        over = measured.roll - self._rolled(measured.roll, measured)
+        return -within(over, 0.5) if abs(over) > 0.05 else rate
+
+
+def _scaled(twist: Twist, part: float, handling: Handling) -> Twist:
+    """`part` of the speed; one that steers stays on its arc."""
+    v, w = twist.linear, twist.angular
+    turn = part if handling.steers else 1.0
+    return Twist(Vector3(part * v.x, part * v.y, v.z), Vector3(w.x, w.y, turn * w.z))
+
+
+def _unsure(measured: Measured) -> str:
+    """Why its place is not sure enough to promise a fence, as one sentence; empty when it is."""
+    off = SURE_ENOUGH * measured.spread
+    if measured.sure and not off > MOST_DOUBT:
+        return ""
+    how = f"to {off:.1f} m only" if off > MOST_DOUBT else "for sure"
+    return f"The robot does not know {how} where it is, so its fence is not certain: it goes slowly; place it on the map."
+
+
+def _direction(measured: Measured) -> tuple[float, float]:
+    """Where it was going, of length 1 in `base_link`; uphill when it stands."""
+    x, y = measured.moving.x, measured.moving.y
+    if math.hypot(x, y) < 0.02:
+        x, y = -math.sin(measured.pitch), math.sin(measured.roll)
+    far = max(math.hypot(x, y), 1e-9)
+    return x / far, y / far
+
+
+def _highest(settings: LimitSettings) -> float:
+    """[m] above the map's origin; a least depth is one below it."""
+    shallowest = -settings.min_depth if settings.min_depth is not None else math.inf
+    return min(settings.max_height if settings.max_height is not None else math.inf, shallowest)
+
+
+def _level_cut(asked: float, allowed: float) -> str:
+    """What is to be said of a height that was asked for and of the one that it goes to; empty where that is the same."""
+    if math.isnan(asked) or asked == allowed:
+        return ""
+    return f"The robot goes no {'higher' if asked > allowed else 'deeper'} than {_level_words(allowed)}."
+
+
+def _level_words(height: float) -> str:
+    return f"{height:g} m" if height >= 0 else f"{-height:g} m of depth"
+
+
+def _or_nan(value: float | None) -> float:
+    return math.nan if value is None else value
+
+
+def _polygon(ring: Ring) -> Polygon:
+    return Polygon([Point32(x, y) for x, y in ring])

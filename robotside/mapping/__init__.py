@@ -1,0 +1,1 @@
+"""Maps and sensor sweeps as arrays and points."""

@@ -1,0 +1,53 @@
+"""A ring of sonars as points: each tells how far the nearest thing in its cone is, and not where in the cone."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bridge.msgs.pilothouse_msgs import SonarRing
+from robotside.core.pose2 import Points
+
+__all__ = ["NEAR", "Sonars"]
+
+NEAR = 1.5
+"""Beyond this a cone is too wide to say where something stands [m]."""
+
+TOUCHING = 0.7
+"""What is too close to be measured is supposed to be at this part of the shortest range."""
+
+FAR = 4.0
+"""Beyond this an echo says nothing of where the robot is [m]."""
+
+EDGES = np.array([-0.35, 0.0, 0.35])
+"""Places across a cone that are taken for its end, in widths; not its very edges, or no door were wide enough."""
+
+ARC = np.linspace(-0.5, 0.5, 7)
+"""Places on the end of a cone that may have given the echo, in widths."""
+
+
+class Sonars:
+    """Turns rings of distances into points."""
+
+    def points(self, ring: SonarRing) -> Points:
+        """Where something may stand, in `base_link`: across the end of every cone that met something near.
+
+        What is too close to be measured stands right before its sonar.
+        """
+        return _ends(ring, -np.inf, NEAR, EDGES).reshape(-1, 2)
+
+    def arcs(self, ring: SonarRing) -> NDArray[np.float64]:
+        """The ends of all cones that measured something not too far away, shape (echoes, places, 2) in `base_link` [m]."""
+        return _ends(ring, 0.0, FAR, ARC)
+
+
+def _ends(ring: SonarRing, least: float, most: float, across: Points) -> NDArray[np.float64]:
+    """Places across the ends of the cones whose ranges are in between, shape (cones, places, 2)."""
+    ranges = np.asarray(ring.ranges, dtype=np.float64)
+    bearings = np.asarray(ring.bearings, dtype=np.float64)[: len(ranges)]
+    ranges = ranges[: len(bearings)]
+    met = (ranges >= least) & (ranges < min(ring.range_max, most))  # not NaN
+    measured = np.maximum(ranges[met], TOUCHING * ring.range_min)
+    reach = (ring.radius + measured)[:, None]
+    angles = bearings[met][:, None] + ring.field_of_view * across
+    return np.stack([reach * np.cos(angles), reach * np.sin(angles)], axis=-1)

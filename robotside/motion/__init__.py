@@ -1,0 +1,1 @@
+"""Kinematics: what a manoeuvre commands, where a command leads and how the robot comes to rest."""

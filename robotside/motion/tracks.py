@@ -1,0 +1,125 @@
+"""Where a command leads: what a robot of a kind does of it, and how it comes to rest afterwards."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from robotside.core.pose2 import Points, Pose2
+
+__all__ = ["HANDLING", "REACTION", "REST", "Handling", "Moving", "reach", "track"]
+
+REACTION = 0.15
+"""From a command until the next one can tell otherwise and is felt [s]: a period of odometry, and the drive's own lag."""
+
+SPACING = 0.08
+"""Between two places that are looked at, at most [m]."""
+_MOST = 240
+
+
+class Moving(NamedTuple):
+    """Velocities in `base_link`."""
+
+    x: float
+    """Forward [m/s]."""
+    y: float
+    """To the left [m/s]."""
+    turn: float
+    """Anticlockwise [rad/s]."""
+
+    @property
+    def speed(self) -> float:
+        """[m/s]"""
+        return math.hypot(self.x, self.y)
+
+    def scaled(self, part: float, turn: float = 1.0) -> Moving:
+        """With `part` of the speed and another of the turn rate."""
+        return Moving(part * self.x, part * self.y, turn * self.turn)
+
+
+REST = Moving(0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Handling:
+    """How a kind of robot moves."""
+
+    braking: float
+    """Deceleration that can be counted on, wet or dry, however it is told [m/s2]."""
+    turning: float
+    """As fast a turn dies away [rad/s2]."""
+    sideways: bool = False
+    """It can go in any direction, so that it may slide along a fence."""
+    steers: bool = False
+    """It turns only by going, in proportion to its speed."""
+    drifts: bool = False
+    """Nothing that stands still holds it where it is: water carries it along, and what it has of way aside."""
+    glide: float = 0.0
+    """What way it has aside only drag takes off it, to 1/e of it within this [m]; 0 for one that brakes all ways."""
+    levelling: float = 1.0
+    """Deceleration up and down that can be counted on [m/s2]."""
+
+
+HANDLING = {
+    "wheels": Handling(0.8, 2.5),
+    "ackermann": Handling(1.5, 1.0, steers=True),
+    "boat": Handling(0.15, 0.3, drifts=True),
+    "hexapod": Handling(0.2, 0.6, drifts=True, glide=0.7, levelling=0.08),
+    "quadrotor": Handling(1.0, 2.0, sideways=True, levelling=0.5),
+}
+"""By the kind that `/robot/info` tells. The deceleration can be configured, since floors and loads differ."""
+
+
+def reach(start: Moving, command: Moving, handling: Handling) -> float:
+    """How far `track` gets at most [m]."""
+    fastest = max(start.speed, command.speed)
+    return fastest * REACTION + fastest * fastest / (2 * handling.braking)
+
+
+def track(pose: Pose2, start: Moving, command: Moving, handling: Handling, *, swings: bool = False) -> Points:
+    """Places on the way of a robot that moves as `start`, obeys `command` for REACTION and then brakes, (n, 2) [m].
+
+    Its speed changes as `handling` says. Its turn rate does at once, or when it `swings` no faster than `handling` says;
+    the wheels of one that steers are then left as they are while it brakes.
+    """
+    braking = handling.braking
+    change = np.array([command.x - start.x, command.y - start.y])
+    leap = max(math.hypot(*change), 1e-9)
+    then = np.array([start.x, start.y]) + change * min(1.0, braking * REACTION / leap)
+    left = max(math.hypot(*then), 1e-9)
+    time = REACTION + left / braking
+    count = min(_MOST, max(4, math.ceil(max(start.speed, left) * time / SPACING)))
+    step = time / count
+    at = np.asarray((np.arange(count) + 0.5) * step, dtype=np.float64)
+    obeying = (at < REACTION)[:, None]
+    towards = np.minimum(1.0, braking * at / leap)[:, None] * change
+    fading = np.maximum(0.0, 1.0 - braking * (at - REACTION) / left)[:, None]
+    slowing = then * np.minimum(1.0, fading)
+    velocity = np.where(obeying, np.array([start.x, start.y], dtype=np.float64) + towards, slowing)
+    turn = _turning(start, command, handling, at, velocity, swings)
+    yaw = pose.yaw + (np.cumsum(turn) - turn / 2) * step
+    c, s = np.cos(yaw), np.sin(yaw)
+    x = pose.x + np.cumsum(c * velocity[:, 0] - s * velocity[:, 1]) * step
+    y = pose.y + np.cumsum(s * velocity[:, 0] + c * velocity[:, 1]) * step
+    return np.column_stack([x, y])
+
+
+def _turning(
+    start: Moving, command: Moving, handling: Handling, at: Points, velocity: Points, swings: bool
+) -> Points:
+    """The turn rate at each moment [rad/s]."""
+    if handling.steers:
+        told = command if command.speed > 1e-3 else start
+        bend = told.turn / max(told.speed, 1e-3) * np.where(swings | (at < REACTION), 1.0, 0.0)
+        return np.asarray(np.hypot(*velocity.T) * bend)
+    if not swings:
+        return np.where(at < REACTION, command.turn, 0.0)
+    rate = handling.turning
+    change = command.turn - start.turn
+    then = start.turn + math.copysign(min(abs(change), rate * REACTION), change)
+    obeying = start.turn + math.copysign(1.0, change) * np.minimum(abs(change), rate * at)
+    fading = math.copysign(1.0, then) * np.maximum(0.0, abs(then) - rate * (at - REACTION))
+    return np.where(at < REACTION, obeying, fading)

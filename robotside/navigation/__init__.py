@@ -1,0 +1,1 @@
+"""Bringing the robot to a place: planning, path following and avoidance."""

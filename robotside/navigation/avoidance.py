@@ -1,0 +1,114 @@
+"""Not hitting what the laser sees: the arc nearest to the wanted one that stays free.
+
+Arcs are those a robot drives with constant speed and yaw rate (the curvature-velocity method); the distance that
+is free along each is exact, not sampled.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bridge.msgs.geometry_msgs import Twist
+from robotside.core.pose2 import Points
+from robotside.motion.slower import within
+
+__all__ = ["HORIZON", "Avoidance", "Way", "free_lengths"]
+
+HORIZON = 2.5
+"""Obstacles farther away than this do not matter yet [m]."""
+
+GAP = 0.10
+"""Kept between the body and anything that the laser sees [m]."""
+
+BRAKING = 0.4
+"""Deceleration counted on when something is ahead [m/s2]."""
+
+CURVATURES = np.concatenate([np.linspace(-3.0, -0.25, 12), [0.0], np.linspace(0.25, 3.0, 12)])
+"""Arcs that are tried beside the wanted one [1/m]; positive to the left."""
+
+ENOUGH = 0.35
+"""An arc with less free length than this leads nowhere [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """What to do now."""
+
+    twist: Twist
+    blocked: bool
+    """No arc leads on; the twist only turns, or nothing."""
+
+
+def free_lengths(curvatures: NDArray[np.float64], points: Points, reach: float) -> NDArray[np.float64]:
+    """How far a disc of radius `reach` [m] can go along each arc before it touches a point [m], up to HORIZON.
+
+    `points` are in the disc's own frame. A point inside the disc counts only for arcs that lead towards it.
+    """
+    free = np.full(len(curvatures), HORIZON)
+    if not len(points):
+        return free
+    k = curvatures[:, None]
+    x, y = points[None, :, 0], points[None, :, 1]
+    bent = np.where(np.abs(k) < 1e-3, 1e-3, k)
+    radius = 1.0 / bent
+    span = np.hypot(x, y - radius)
+    size = np.abs(radius)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        offset = np.arccos((size**2 + span**2 - reach**2) / (2.0 * size * span))
+    side = np.sign(bent)
+    angle = np.arctan2(x, side * (radius - y))
+    inside = x * x + y * y < reach * reach
+    angle = np.where((angle < -offset) & ~inside, angle + math.tau, angle)
+    length = (angle - offset) * size
+    length = np.where(inside, np.where(angle > 0.0, 0.0, HORIZON), length)
+    length = np.where(np.isnan(offset) & ~inside, HORIZON, length)
+    return np.asarray(np.clip(length, 0.0, HORIZON).min(axis=1))
+
+
+class Avoidance:
+    """Chooses the twist for one robot of `radius` [m]."""
+
+    def __init__(self, radius: float, *, max_yaw_rate: float) -> None:
+        self._reach = radius + GAP
+        self._turn = max_yaw_rate
+        self._last = 0.0
+
+    def choose(self, distance: float, bearing: float, speed: float, points: Points) -> Way:
+        """The twist towards an aim at `distance` [m] and `bearing` [rad], at up to `speed` [m/s].
+
+        `points` are what the laser sees, in `base_link`.
+        """
+        if abs(bearing) > 1.0:
+            return Way(Twist.planar(0.0, self._rate(2.0 * bearing)), False)
+        wanted = 2.0 * math.sin(bearing) / max(distance, 0.1)
+        near = points[np.hypot(points[:, 0], points[:, 1]) < HORIZON]
+        curvatures = np.append(CURVATURES, wanted)
+        free = free_lengths(curvatures, near, self._reach)
+        needed = min(distance, ENOUGH + speed * speed / (2 * BRAKING) + 0.4)
+        best = self._best(curvatures, free, wanted, needed)
+        if free[best] < min(ENOUGH, distance * 0.5):
+            return Way(Twist.planar(0.0, self._rate(1.5 * bearing)), True)
+        return Way(self._along(float(curvatures[best]), float(free[best]), speed), False)
+
+    def _best(
+        self, curvatures: NDArray[np.float64], free: NDArray[np.float64], wanted: float, needed: float
+    ) -> int:
+        shortfall = np.clip(needed - free, 0.0, None) / needed
+        away = np.abs(curvatures - wanted)
+        swing = np.abs(curvatures - self._last)
+        best = int(np.argmin(6.0 * shortfall + 0.5 * away + 0.1 * swing))
+        self._last = float(curvatures[best])
+        return best
+
+    def _along(self, curvature: float, free: float, speed: float) -> Twist:
+        by_room = math.sqrt(2.0 * BRAKING * max(0.0, free - 0.1))
+        by_turn = 0.8 * self._turn / max(abs(curvature), 1e-6)
+        v = min(speed, by_room, by_turn)
+        return Twist.planar(v, self._rate(v * curvature))
+
+    def _rate(self, rate: float) -> float:
+        return within(rate, 0.8 * self._turn)

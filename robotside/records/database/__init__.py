@@ -1,0 +1,1 @@
+"""The database itself: its file, tables, migrations and the thread that writes."""

@@ -1,0 +1,78 @@
+"""What is to be written in one transaction, and who waits for it."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from robotside.records.database.rows import Put
+
+__all__ = ["Job", "NotRecorded"]
+
+
+class NotRecorded(Exception):
+    """It was not recorded and is not remembered either; the text is one sentence for the operator."""
+
+
+@dataclass(slots=True, eq=False)
+class Job:
+    """Rows that are written together or not at all."""
+
+    orders: list[Put] = field(default_factory=list)
+    """What somebody asked for: given up and told when it cannot be written."""
+    facts: list[Put] = field(default_factory=list)
+    """What is so whatever the disk says: stays in memory and is tried again."""
+    then: list[Callable[[], object]] = field(default_factory=list)
+    """Called once the orders are on the disk; never when they are not."""
+    after: list[Callable[[], object]] = field(default_factory=list)
+    """Called once it was tried, whatever came of it."""
+    done: bool = False
+    """It was tried."""
+    problem: str = ""
+    """Why the orders are not on the disk, as one sentence; empty when they are or there were none."""
+    trouble: str = ""
+    """Why nothing of it is on the disk yet, orders or facts, as one sentence; empty when all is."""
+    given_up: bool = False
+    """Whoever waited for it was told that nobody knows: if it is written after all, nothing may move for it."""
+    urgent: bool = False
+    """Who caused it waits for it, though it has no orders."""
+    _waiting: list[asyncio.Future[None]] = field(default_factory=list)
+
+    @property
+    def puts(self) -> list[Put]:
+        """All rows."""
+        return self.orders + self.facts
+
+    @property
+    def binding(self) -> bool:
+        """Nothing may be answered before it was tried."""
+        return self.urgent or bool(self.orders)
+
+    def settle(self, problem: str) -> None:
+        """Note what came of it and tell who waits."""
+        self.done, self.trouble, self.problem = True, problem, problem if self.orders else ""
+        for future in self._waiting:
+            if not future.done():
+                future.set_result(None)
+        for call in (*(() if self.problem else self.then), *self.after):
+            call()
+
+    async def kept(self, patience: float) -> str:
+        """Wait until it was tried; returns why the orders are not on the disk, empty when they are or there were none.
+
+        After `patience` [s] the answer is that nobody knows, and `trouble` says so.
+        """
+        if not self.done:
+            future = asyncio.get_running_loop().create_future()
+            self._waiting.append(future)
+            try:
+                async with asyncio.timeout(patience):
+                    await future
+            except TimeoutError:
+                self.given_up = True
+                self.trouble = (
+                    f"The database has not answered for {patience:g} s; it may or may not be stored."
+                )
+                return self.trouble if self.orders else ""
+        return self.problem

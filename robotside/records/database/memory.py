@@ -1,0 +1,89 @@
+"""The rows as the robot knows them: what is on the disk, and what is on its way there."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Collection, Iterable
+from typing import Any
+
+from robotside.records.database.jobs import Job
+from robotside.records.database.rows import Content, Key, Put
+
+__all__ = ["Memory"]
+
+
+class Memory:
+    """Two views of the same rows. A job that fails takes its orders back and leaves its facts to be tried again."""
+
+    def __init__(self, stored: Content) -> None:
+        self.stored = stored
+        """On the disk."""
+        self.current: Content = {table: dict(rows) for table, rows in stored.items()}
+        """As they will be when everything was written."""
+        self.dirty: set[tuple[str, Key]] = set()
+        """Rows of `current` that could not be written."""
+        self._pending: deque[Job] = deque()
+
+    @property
+    def pending(self) -> int:
+        """Jobs that were not tried yet."""
+        return len(self._pending)
+
+    def asked(self, tables: Collection[str]) -> bool:
+        """An order about one of the `tables` was not tried yet."""
+        return any(put.table in tables for job in self._pending for put in job.orders)
+
+    def put(self, job: Job) -> None:
+        """Note that `job` is on its way; its rows were `see`n already."""
+        self._pending.append(job)
+
+    def see(self, put: Put) -> None:
+        """Have the row in `current`."""
+        _set(self.current, put)
+
+    def succeeded(self, job: Job) -> None:
+        """The job, the oldest that is pending, is on the disk."""
+        self._pending.remove(job)
+        for put in job.puts:
+            _set(self.stored, put)
+            self.dirty.discard((put.table, put.key))
+
+    def failed(self, job: Job) -> None:
+        """The job is not on the disk."""
+        if job in self._pending:
+            self._pending.remove(job)
+        for table, key, _ in job.facts:
+            self.dirty.add((table, key))
+        later = {(put.table, put.key): put for other in self._pending for put in other.puts}
+        for table, key, _ in job.orders:
+            if (table, key) not in self.dirty:
+                _set(self.current, later.get((table, key)) or Put(table, key, self.stored[table].get(key)))
+
+    def again(self) -> list[Put]:
+        """The rows to try again, as they are now."""
+        return [Put(table, key, self.current[table].get(key)) for table, key in sorted(self.dirty, key=str)]
+
+    def written_anew(self, puts: Iterable[Put]) -> None:
+        """The disk has these rows and no others."""
+        self.stored = {table: {} for table in self.current}
+        for put in puts:
+            _set(self.stored, put)
+            self.dirty.discard((put.table, put.key))
+
+    def everything(self) -> list[Put]:
+        """All rows as they will be."""
+        return list(_rows(self.current))
+
+
+def _set(content: Content, put: Put) -> None:
+    if put.value is None:
+        content[put.table].pop(put.key, None)
+    else:
+        content[put.table][put.key] = put.value
+
+
+def _rows(content: Content) -> Iterable[Put]:
+    rows: dict[Key, Any]
+    for table, rows in content.items():
+        for key, value in rows.items():
+            yield Put(table, key, value)

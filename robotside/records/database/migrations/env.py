@@ -1,0 +1,14 @@
+"""How alembic runs the migrations: over the connection it is handed, within the transaction that is open there."""
+
+from __future__ import annotations
+
+from alembic import context
+
+from robotside.records.database.tables import Base
+
+connection = context.config.attributes.get("connection")
+if connection is None:
+    raise RuntimeError("These migrations are run by robotside.database.opening, which hands in a connection.")
+context.configure(connection=connection, target_metadata=Base.metadata)
+with context.begin_transaction():
+    context.run_migrations()

@@ -1,0 +1,45 @@
+"""The named places of the world that a robot is in, taken over once: nobody has to enter what a map has already."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol, runtime_checkable
+
+from bridge.msgs.pilothouse_msgs import Place
+from robotside.records import NotRecorded, Records
+from robotside.records.events import Say
+
+__all__ = ["Landmarked", "take_over"]
+
+_DONE = "places of the world"
+"""Setting that says that it was done: what people delete does not come back."""
+
+
+@runtime_checkable
+class Landmarked(Protocol):
+    """A robot that knows the names of places where it is."""
+
+    @property
+    def places(self) -> Sequence[Place]:
+        """Their ids are of no account."""
+
+
+def take_over(robot: object, records: Records, say: Say) -> None:
+    """Keep the places that `robot` knows, if it knows any, nobody has kept one yet, and it was never done before."""
+    if not isinstance(robot, Landmarked) or records.setting(_DONE) or records.places.all():
+        return
+    places = robot.places
+    if not places:
+        return
+    refused = ""
+    with records.together():
+        for place in places:
+            try:
+                records.places.set(place)
+            except NotRecorded as problem:
+                refused = str(problem)
+        records.set_setting(_DONE, str(len(places)))
+    count = len(records.places.all())
+    say("places", f"{count} {'place' if count == 1 else 'places'} of the world taken over.")
+    if refused:
+        say("places", f"Not all places of the world could be taken over: {refused}", "warn")

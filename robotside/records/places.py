@@ -1,0 +1,83 @@
+"""Named poses, as people speak of them."""
+
+from __future__ import annotations
+
+import math
+
+import msgspec
+
+from bridge.msgs.pilothouse_msgs import PLACE_KINDS, Place
+from robotside.core.words import plain
+from robotside.records.database.jobs import NotRecorded
+from robotside.records.ledger import Ledger, within
+
+__all__ = ["KINDS", "Places"]
+
+KINDS = PLACE_KINDS
+MOST = 1000
+"""Places that are kept."""
+LONGEST = {"name": 60, "floor": 20, "tag": 64, "note": 300}
+"""Characters of each text."""
+
+
+class Places:
+    """All places; no two have the same name, whatever their letters' size."""
+
+    def __init__(self, ledger: Ledger) -> None:
+        self._ledger = ledger
+
+    def all(self) -> list[Place]:
+        """Every place, in the order of the ids."""
+        rows = self._ledger.rows("places")
+        return [rows[key] for key in sorted(rows)]
+
+    def stored(self) -> list[Place]:
+        """The same as it is on the disk: what others are shown."""
+        rows = self._ledger.stored("places")
+        return [rows[key] for key in sorted(rows)]
+
+    def get(self, id: int) -> Place | None:
+        """The place with that id."""
+        return self._ledger.rows("places").get(id)
+
+    def named(self, name: str) -> Place | None:
+        """The place that people call so; large and small letters are the same."""
+        wanted = plain(name, LONGEST["name"]).casefold()
+        return next((place for place in self.all() if place.name.casefold() == wanted), None)
+
+    def set(self, place: Place) -> Place:
+        """Keep a place, a new one when its id is 0; returns it as it is kept, with its id.
+
+        NotRecorded says what is wrong with it.
+        """
+        _check(place)
+        texts = {field: plain(getattr(place, field), most) for field, most in LONGEST.items()}
+        place = msgspec.structs.replace(place, **texts)
+        if not place.name:
+            raise NotRecorded("A place needs a name.")
+        other = self.named(place.name)
+        if other is not None and other.id != place.id:
+            raise NotRecorded(f"There is a place {other.name!r} already; choose another name.")
+        if place.id and self.get(place.id) is None:
+            raise NotRecorded(f"There is no place with the number {place.id}.")
+        with self._ledger.together():
+            if not place.id:
+                within(len(self._ledger.rows("places")) + 1, MOST, "places")
+                place = msgspec.structs.replace(place, id=self._ledger.count("last place"))
+            self._ledger.order("places", place.id, place)
+        return place
+
+    def delete(self, id: int) -> Place:
+        """Forget a place; returns what it was. NotRecorded when there is none."""
+        place = self.get(id)
+        if place is None:
+            raise NotRecorded(f"There is no place with the number {id}.")
+        self._ledger.order("places", id, None)
+        return place
+
+
+def _check(place: Place) -> None:
+    if place.kind not in KINDS:
+        raise NotRecorded(f"There is no kind of place {place.kind!r}; there are {', '.join(KINDS)}.")
+    if not (math.isfinite(place.x) and math.isfinite(place.y)):
+        raise NotRecorded(f"A place's x and y must be numbers, not {place.x} and {place.y}.")

@@ -1,0 +1,44 @@
+"""Shows everyone what is kept, once it is on the disk."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from bridge.msgs.pilothouse_msgs import PlaceArray
+from bridge.msgs.std_msgs import Time
+from robotside.core.bus import Publish
+from robotside.records import Records
+from robotside.records.events import Say
+
+__all__ = ["Shown"]
+
+
+class Shown:
+    """What is kept on the topics that tell of it."""
+
+    def __init__(self, records: Records, publish: Publish, say: Say, clock: Callable[[], float]) -> None:
+        """`clock` is the operators' [s]. Shows everything there is, and tells what was wrong with it."""
+        self._records, self._publish, self._say, self._clock = records, publish, say, clock
+        for table, show in (("facts", self._mission), ("places", self._places)):
+            records.watch(table, show)
+            show()
+        records.on_trouble(self._trouble)
+        for problem in records.problems:
+            say("database", problem, "warn")
+
+    def _mission(self) -> None:
+        mission = self._records.missions.stored
+        if mission is not self._shown:
+            self._shown = mission
+            self._publish("/mission", mission)
+
+    _shown: object = None
+
+    def _places(self) -> None:
+        self._publish("/places", PlaceArray(Time.at(self._clock()), self._records.places.stored()))
+
+    def _trouble(self, sentence: str) -> None:
+        if sentence:
+            self._say("database", sentence, "alarm")
+        else:
+            self._say("database", "The database can be written again.", "ok")

@@ -1,0 +1,1 @@
+"""One robot's side as a whole, without sockets."""

@@ -1,0 +1,1 @@
+"""Tasks from order to history: one runs at a time, others wait in the queue."""

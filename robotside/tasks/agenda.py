@@ -1,0 +1,308 @@
+"""What comes next: the queue goes on by itself when a task is done, the schedule starts tasks when their time comes.
+
+Nothing of it starts while anything speaks against it, and never two tasks at once.
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+import math
+from collections.abc import Callable, Sequence
+
+import msgspec
+
+from bridge.msgs.pilothouse_msgs import Schedule, ScheduledTask, TaskOrder, TaskQueue
+from bridge.msgs.std_msgs import Time
+from robotside.core.bus import Publish
+from robotside.records import Job, NotRecorded, Records
+from robotside.records.events import Say
+from robotside.records.plans import MOST_QUEUED
+from robotside.services.commands import Refusal
+from robotside.tasks.assignments import Assignments, words_for
+from robotside.tasks.manual import Manual
+from robotside.tasks.schedule import Turn, fault, following, turns
+from robotside.tasks.tasks import TO_CHARGE, Engine
+
+__all__ = ["Agenda"]
+
+PERIOD = 1.0
+"""Between two looks [s], robot clock."""
+
+APART = 1.0
+"""Two clocks that differ by less are one [s]."""
+
+_BARS = ("PAUSED", "INTERRUPTED")
+
+
+class Agenda:
+    """Queue and schedule of one robot."""
+
+    def __init__(
+        self,
+        records: Records,
+        engine: Engine,
+        assignments: Assignments,
+        *,
+        publish: Publish,
+        say: Say,
+        clock: Callable[[], float],
+        civil: Callable[[], float],
+        zone: dt.tzinfo,
+        barred: Callable[[bool], str],
+    ) -> None:
+        """`clock` is the operators' [s]; `civil` is what the computer's own clock says, which may jump [s].
+
+        `barred(drains)` tells why no task may start by itself just now, one that needs charge or not; empty when it may.
+        """
+        self._records, self._engine, self._assignments = records, engine, assignments
+        self._publish, self._say, self._clock = publish, say, clock
+        self._civil, self._zone, self._barred = civil, zone, barred
+        self.manual = Manual(records, say)
+        """Whether anything may start by itself at all."""
+        self._next = -math.inf
+        self._settled = 0
+        """The task that does not hold the queue, however it ended."""
+        self._held_under = 0
+        """The task that was under way when the queue was parked; 0 for none."""
+        self.held = "the robot's computer was restarted" if records.queue.current.orders else ""
+        """Why the queue does not go on, as the end of a sentence; empty when it does."""
+        if self.held:
+            self._tell_held()
+        for table, show in (("queue", self._show_queue), ("schedule", self._show_schedule)):
+            records.watch(table, show)
+            show()
+
+    def stay_manual(self, name: str) -> bool:
+        """`name` chose MANUAL: what waits in the queue goes on waiting. False when that was so already."""
+        fresh = self.manual.choose(name)
+        if fresh:
+            self.hold(self.manual.why)
+        return fresh
+
+    def step(self, now: float) -> None:
+        """Look what is due at `now` [s, robot clock]; call it often."""
+        if now < self._next:
+            return
+        if self._records.undecided("queue", "schedule"):
+            return  # what may be taken back yet sets nothing going
+        self._next = now + PERIOD
+        for turn in turns(self._records.schedule.all(), self._civil(), self._zone):
+            self._records.schedule.note(turn.task)
+            self._take_turn(turn, now)
+        if not self._engine.active and self._records.queue.current.orders:
+            self._go_on(now)
+
+    def hold(self, why: str) -> None:
+        """Have the queue wait until somebody says so; `why` ends a sentence. Nothing happens when it is empty."""
+        if self._records.queue.current.orders and not self.held:
+            self.held = why
+            self._held_under = self._engine.status.task_id if self._engine.active else 0
+            self._tell_held()
+            self._show_queue()
+
+    def taken_up(self) -> None:
+        """The task under way goes on: so does what was parked together with it, and nothing from before it."""
+        if self.held and self._engine.active and self._held_under == self._engine.status.task_id:
+            self.release()
+
+    @property
+    def parked(self) -> str:
+        """What waits until somebody has the queue go on, as a sentence; empty when nothing does."""
+        count = len(self._records.queue.current.orders)
+        if not self.held or not count:
+            return ""
+        return f"{_counted(count)} from before {'waits' if count == 1 else 'wait'} in the queue until told to go on."
+
+    def release(self) -> bool:
+        """Have the queue go on; False when it did not wait."""
+        was, self.held = bool(self.held), ""
+        self._settled = self._engine.status.task_id
+        if was:
+            self._show_queue()
+        return was and bool(self._records.queue.current.orders)
+
+    def set_queue(self, orders: Sequence[TaskOrder], revision: int) -> tuple[TaskQueue, str]:
+        """Replace what waits; returns it, and why it does not go on by itself, as the end of a sentence, empty when it does.
+
+        Refusal when one of them cannot be done, NotRecorded when the queue has changed meanwhile.
+        """
+        tidy = []
+        for number, order in enumerate(orders[:MOST_QUEUED], 1):
+            try:
+                tidy.append(self._assignments.task(order).order)
+            except Refusal as problem:
+                raise Refusal(f"Task {number} of the queue: {problem}") from problem
+        fresh = not (orders and self._records.queue.current.orders)
+        with self._records.together() as job:
+            queue = self._records.queue.set([*tidy, *orders[MOST_QUEUED:]], revision)
+            why = self._against(queue.orders, fresh=fresh)
+            job.then.append(lambda: self._taken_over(job, fresh=fresh))
+        return queue, why
+
+    def _taken_over(self, job: Job, *, fresh: bool) -> None:
+        """The queue is on the disk as it was set, a `fresh` one that waits for nothing or one that was edited."""
+        if job.given_up:
+            self.hold("it was stored too late")
+        elif fresh:
+            self.release()
+        if self.manual.by:
+            self.hold(self.manual.why)
+
+    def set_scheduled(self, task: ScheduledTask) -> ScheduledTask:
+        """Keep a scheduled task with the time of its next start. Refusal or NotRecorded says what is wrong with it."""
+        problem = fault(task)
+        if problem:
+            raise Refusal(problem)
+        order = msgspec.structs.replace(self._assignments.task(task.order).order, id=0)
+        start = following(task, self._civil(), self._zone)
+        return self._records.schedule.set(
+            msgspec.structs.replace(task, order=order, next=Time.at(start) if start else Time())
+        )
+
+    def when(self, task: ScheduledTask) -> str:
+        """When a scheduled task starts next, as the end of a sentence."""
+        if task.next.seconds <= 0:
+            return "it is switched off"
+        return f"next on {self._spoken(task.next.seconds)}"
+
+    def _go_on(self, now: float) -> None:
+        if self.held or self._engine.interrupted:
+            return
+        why = self._against(self._records.queue.current.orders)
+        if why:
+            self.hold(why)
+            return
+        order = self._records.queue.take()
+        if order is not None:
+            self._start(order, now, f"{_title(order)} of the queue is left out")
+
+    def _against(self, orders: Sequence[TaskOrder], *, fresh: bool = False) -> str:
+        """Why `orders` would not go on just now, as the end of a sentence; empty when they would, or after the task that runs.
+
+        A `fresh` queue does not wait for what an older one waits for.
+        """
+        status = self._engine.status
+        if self.manual.why or (self.held and not fresh):
+            return self.manual.why or self.held
+        if self._engine.interrupted:
+            return "the task before the restart is neither resumed nor discarded"
+        if self._engine.active or not orders:
+            return ""
+        if status.state == "CANCELED" and status.task_id != self._settled and not fresh:
+            return "the task before it was canceled"
+        barred = self._barred(_drains(orders[0]))
+        return _tail(barred)
+
+    def _start(self, order: TaskOrder, now: float, otherwise: str) -> None:
+        try:
+            task = self._assignments.task(order)
+        except Refusal as problem:
+            self._say("task", f"{otherwise}: {problem}", "warn")
+            return
+        self._engine.start(task, now)
+
+    def _take_turn(self, turn: Turn, now: float) -> None:
+        """Start what is due, have it wait for the task that runs, or say why it is skipped."""
+        order = turn.task.order
+        title = f"{_title(order)} that was due"
+        if turn.missed:
+            when = self._spoken(turn.missed)
+            self._skip(title, f"at {when} is skipped: the robot's computer was off or its clock was changed")
+        if not turn.due:
+            return
+        barred = self.manual.why or self._barred(_drains(order)) or self._waiting()
+        running = self._engine.active or bool(self._records.queue.current.orders)
+        if barred:
+            self._skip(title, f"now is skipped: {barred}")
+        elif running and self._same(order):
+            self._skip(title, "now is skipped: the one before it has not ended")
+        elif running:
+            self._wait(order, title)
+        else:
+            self._start(order, now, f"{title} now is skipped")
+
+    def _wait(self, order: TaskOrder, title: str) -> None:
+        with self._records.together() as job:
+            try:
+                self._records.queue.add(order)
+            except NotRecorded as problem:
+                self._skip(title, f"now is skipped: {problem}")
+                return
+            job.after.append(lambda: self._waits(job, title))
+
+    def _waits(self, job: Job, title: str) -> None:
+        if job.problem:
+            self._skip(title, f"now is skipped: {job.problem}")
+            return
+        until = f"; it waits, since {self.held}" if self.held else ""
+        self._say("task", f"{title} now waits in the queue for its turn{until}.", "info")
+
+    def _waiting(self) -> str:
+        """Why nobody knows when a task in the queue would have its turn; empty when it has one."""
+        state = self._engine.status.state
+        return f"a task is {state.lower()}" if state in _BARS else ""
+
+    def _same(self, order: TaskOrder) -> bool:
+        task = self._engine.task
+        waiting = list(self._records.queue.current.orders)
+        known = [*waiting, task.order] if task else waiting
+        return any(_alike(order, other) for other in known)
+
+    def _skip(self, title: str, why: str) -> None:
+        self._say("task", f"{title} {why.rstrip('.')}.", "warn")
+
+    def _spoken(self, instant: float) -> str:
+        return dt.datetime.fromtimestamp(instant, self._zone).strftime("%Y-%m-%d at %H:%M")
+
+    def _tell_held(self) -> None:
+        count = len(self._records.queue.current.orders)
+        these, still = ("this", "waits") if count == 1 else ("these", "wait")
+        said = (
+            f"{_counted(count)} {still} in the queue, since {self.held}, until you choose Go on with {these}."
+        )
+        self._say("task", said, "warn")
+
+    def _show_queue(self) -> None:
+        stored, stamp = self._records.queue.stored, Time.at(self._clock())
+        held = self.held if stored.orders else ""
+        self._publish("/task/queue", msgspec.structs.replace(stored, stamp=stamp, held=held))
+
+    def _show_schedule(self) -> None:
+        now = self._clock()
+        ahead = (
+            now - self._civil()
+        )  # the computer's clock may have been set since the start, the operators' goes on evenly
+        tasks = [_told(task, ahead) for task in self._records.schedule.stored()]
+        self._publish("/schedule", Schedule(Time.at(now), tasks))
+
+
+def _told(task: ScheduledTask, ahead: float) -> ScheduledTask:
+    """With its next start by a clock that is `ahead` [s] of the computer's."""
+    if task.next.seconds <= 0 or abs(ahead) < APART:
+        return task
+    return msgspec.structs.replace(task, next=Time.at(task.next.seconds + ahead))
+
+
+def _tail(why: str) -> str:
+    """A reason as the end of a sentence, whether it is one itself or not."""
+    first = why.partition(" ")[0]
+    return (why if first.isupper() and len(first) > 1 else f"{why[:1].lower()}{why[1:]}").rstrip(".")
+
+
+def _drains(order: TaskOrder) -> bool:
+    """It takes the robot elsewhere than to where it can be charged."""
+    return order.task != "hold" and order.task not in TO_CHARGE
+
+
+def _counted(count: int) -> str:
+    return "1 task" if count == 1 else f"{count} tasks"
+
+
+def _title(order: TaskOrder) -> str:
+    words = words_for(order.task)
+    return f"{words[0].upper()}{words[1:]}"
+
+
+def _alike(a: TaskOrder, b: TaskOrder) -> bool:
+    """The same but for the number; NaN is like NaN."""
+    return repr(msgspec.structs.replace(a, id=0)) == repr(msgspec.structs.replace(b, id=0))

@@ -1,0 +1,76 @@
+"""Standing and asking until somebody answers: by a tap, or with the right card at the reader."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from robotside.records.events import Say
+from robotside.tasks.behaviours.course import Course
+from robotside.tasks.behaviours.situation import Situation
+
+__all__ = ["AskAt", "Question"]
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What is asked at one place."""
+
+    asks: str
+    """As in: Has it been picked up at Office 12?"""
+    done: str
+    """As a sentence begins when it was answered: Picked up at Office 12."""
+    message: str = ""
+    """For the person there; empty when there is nothing to tell."""
+    tag: str = ""
+    """What the reader reads of the card that answers; empty when only a tap does."""
+
+
+class AskAt(Behaviour):
+    """Waits for the answer to the question of the course's point; succeeds at once where there is none."""
+
+    def __init__(self, course: Course, questions: list[Question], situation: Situation, say: Say) -> None:
+        """One question a point, as far as there are."""
+        super().__init__("ask")
+        self._course, self._questions, self._situation, self._say = course, questions, situation, say
+        self._strange = ""
+
+    def initialise(self) -> None:
+        """Answers that were given before count no more."""
+        self._situation.unhear()
+        self._strange = ""
+        question = self._question
+        if question and question.message:
+            self._say("task", f"At {self._course.goal.spoken}: {question.message}", "info")
+
+    def update(self) -> Status:
+        """Wait."""
+        question, now = self._question, self._situation
+        if question is None:
+            return Status.SUCCESS
+        if now.confirmed_by:
+            self._say("task", f"{question.done}, confirmed by {now.confirmed_by}.", "ok")
+            return Status.SUCCESS
+        if now.tag and now.tag == question.tag:
+            self._say("task", f"{question.done}, confirmed by the card.", "ok")
+            return Status.SUCCESS
+        if now.tag and now.tag != self._strange:
+            self._strange = now.tag
+            self._say("task", self._refusal(question), "warn")
+        goal = self._course.goal
+        text = f"Waiting at {goal.spoken}: {question.message or question.asks}"
+        now.tell("waiting", text, place=goal.place, asks=question.asks)
+        return Status.RUNNING
+
+    @property
+    def _question(self) -> Question | None:
+        number = self._course.index
+        return self._questions[number] if 0 <= number < len(self._questions) else None
+
+    def _refusal(self, question: Question) -> str:
+        where = self._course.goal.spoken
+        if not question.tag:
+            return f"No card answers at {where}, since none is known for it; a tap does."
+        return f"The card at the reader is not the one that answers at {where}."

@@ -1,0 +1,64 @@
+"""Delivering: to the pick-up, ask, to the addressee, ask, and on to where it shall be then, if anywhere.
+
+rounds ── leg ─┬─ choose the next place
+               ├─ drive to point
+               ├─ arrived
+               ├─ ask
+               └─ count it
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence as Places
+
+from py_trees.behaviour import Behaviour
+from py_trees.composites import Sequence
+
+from bridge.msgs.pilothouse_msgs import Place
+from robotside.navigation.guide import Guide
+from robotside.records.events import Say
+from robotside.tasks.behaviours.acts import Act, Rounds
+from robotside.tasks.behaviours.ask import AskAt, Question
+from robotside.tasks.behaviours.course import Course
+from robotside.tasks.behaviours.drive_to import DriveTo
+from robotside.tasks.behaviours.patrol import at_place
+from robotside.tasks.behaviours.situation import Situation
+
+__all__ = ["deliver"]
+
+
+def deliver(
+    places: Places[Place], message: str, tag: str, guide: Guide, situation: Situation, say: Say
+) -> tuple[Course, Behaviour]:
+    """From the first of `places` to the second, and on to the third if there is one.
+
+    `message` is for the person at the second, `tag` what the reader reads of that one's card, empty for the place's own.
+    """
+    start, end = places[0], places[1]
+    course = Course([at_place(place) for place in places])
+    questions = [
+        Question(f"Has it been picked up at {start.name}?", f"Picked up at {start.name}", message, start.tag),
+        Question(f"Has it been taken at {end.name}?", f"Delivered at {end.name}", message, tag or end.tag),
+    ]
+
+    def arrived() -> bool:
+        goal = course.goal
+        say("waypoint", f"{goal.name} reached.", "ok", at=(goal.x, goal.y))
+        return True
+
+    def count() -> bool:
+        course.reached()
+        return True
+
+    leg = Sequence(
+        "leg",
+        memory=True,
+        children=[
+            Act("choose", lambda: bool(course.advance())),
+            DriveTo(course, guide, situation),
+            Act("arrived", arrived),
+            AskAt(course, questions, situation, say),
+            Act("count", count),
+        ],
+    )
+    return course, Rounds("deliver", leg, lambda: course.finished)

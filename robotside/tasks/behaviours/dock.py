@@ -1,0 +1,108 @@
+"""Docking: to a place before the dock, turn to it, and creep on until the battery takes charge."""
+
+from __future__ import annotations
+
+import math
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import Place
+from robotside.core.pose2 import Pose2
+from robotside.navigation.guide import Goal, Guide
+from robotside.tasks.behaviours.course import Course
+from robotside.tasks.behaviours.drive_to import LEG_STATUS
+from robotside.tasks.behaviours.situation import Situation
+
+__all__ = ["APPROACH", "PATIENCE", "Dock", "before"]
+
+APPROACH = 0.8
+"""From where it stands at the dock back to where it turns to it [m]."""
+
+CREEP = 0.08
+"""On the last bit [m/s]."""
+
+BEYOND = 0.15
+"""It creeps no farther than this beyond the dock's place [m]."""
+
+PATIENCE = 20.0
+"""So long it creeps and waits for the charge [s]."""
+
+ASIDE = 0.25
+"""Who is farther from the line to the dock begins anew [m]."""
+
+ASKEW = 0.5
+"""The same for the direction [rad]."""
+
+
+def before(dock: Place) -> Goal:
+    """Where it turns to the dock; `dock` has a direction."""
+    x, y = dock.x - APPROACH * math.cos(dock.yaw), dock.y - APPROACH * math.sin(dock.yaw)
+    return Goal(dock.name, x, y, dock.yaw, dock.name)
+
+
+class Dock(Behaviour):
+    """Succeeds when the battery takes charge; fails when there is no way or no charge in time, and says which."""
+
+    def __init__(self, dock: Place, course: Course, guide: Guide, situation: Situation) -> None:
+        """`course` has the one point that `before` gives."""
+        super().__init__("dock")
+        self._dock, self._course, self._guide, self._situation = dock, course, guide, situation
+        self._place = Pose2(dock.x, dock.y, dock.yaw)
+        self._began = math.nan
+
+    def initialise(self) -> None:
+        """Set out."""
+        self._set_out()
+
+    def update(self) -> Status:
+        """Go on."""
+        if math.isnan(self._began):
+            return self._approach()
+        return self._creep()
+
+    def terminate(self, new_status: Status) -> None:
+        """Stand still."""
+        self._guide.rest()
+
+    def _set_out(self) -> None:
+        self._began = math.nan
+        self._guide.head_for(self._course.goal)
+
+    def _approach(self) -> Status:
+        now, name = self._situation, self._dock.name
+        if now.charging and now.pose.distance(self._dock.x, self._dock.y) < APPROACH / 2:
+            self._course.reached()
+            return Status.SUCCESS
+        leg = self._guide.update(now.pose, now.points, now.now)
+        phase = "turning" if self._guide.turning else "driving"
+        text = f"Turning to {name}." if self._guide.turning else f"Heading for {name}."
+        now.tell(phase, text, place=name, still=APPROACH / CREEP)
+        if LEG_STATUS[leg] is Status.SUCCESS:
+            self._guide.finish()
+            self._began = now.worked
+            return Status.RUNNING
+        return LEG_STATUS[leg]
+
+    def _creep(self) -> Status:
+        now, name = self._situation, self._dock.name
+        if now.charging:
+            self._course.reached()
+            return Status.SUCCESS
+        here = now.pose.since(self._place)
+        if abs(here.y) > ASIDE or abs(here.yaw) > ASKEW or here.x < -APPROACH - ASIDE:
+            self._set_out()  # somebody moved it meanwhile
+            return Status.RUNNING
+        left = PATIENCE - (now.worked - self._began)
+        if left <= 0:
+            self._guide.reason = (
+                f"No charge was seen at {name} within {PATIENCE:.0f} s; the robot stands there."
+            )
+            return Status.FAILURE
+        at_end = now.touched or here.x > BEYOND
+        text = f"Waiting for the charge at {name}." if at_end else f"Creeping to {name}."
+        now.tell("docking", text, place=name, still=left)
+        turn = -1.5 * here.yaw - 2.0 * here.y
+        self._guide.move(Twist() if at_end else Twist.planar(CREEP, max(-0.3, min(0.3, turn))))
+        return Status.RUNNING

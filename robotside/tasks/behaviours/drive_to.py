@@ -1,0 +1,83 @@
+"""Driving to the point that a course heads for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from robotside.navigation.guide import Goal, Guide, Leg
+from robotside.tasks.behaviours.course import Course
+from robotside.tasks.behaviours.situation import Situation
+
+__all__ = ["LEG_STATUS", "DriveTo"]
+
+LEG_STATUS = {Leg.UNDER_WAY: Status.RUNNING, Leg.ARRIVED: Status.SUCCESS, Leg.BLOCKED: Status.FAILURE}
+
+STANDS = 4.0
+"""Without moving for so long it is said that it makes no way [s]."""
+
+MOVES, TURNS = 0.1, 0.2
+"""Less than this is no way [m, rad]."""
+
+
+class DriveTo(Behaviour):
+    """Succeeds at the point, fails when there is no way; `feedback_message` says how far it is or why not."""
+
+    def __init__(
+        self,
+        course: Course,
+        guide: Guide,
+        situation: Situation,
+        words: Callable[[Goal], str] = lambda goal: f"Heading for {goal.spoken}.",
+    ) -> None:
+        """`words` say where it goes, as one sentence."""
+        super().__init__("drive to point")
+        self._course, self._guide, self._situation, self._words = course, guide, situation, words
+        self._was, self._since = situation.pose, situation.worked
+
+    def initialise(self) -> None:
+        """Set out for the course's point."""
+        self._guide.head_for(self._course.goal)
+        self._was, self._since = self._situation.pose, self._situation.worked
+
+    def update(self) -> Status:
+        """Drive on."""
+        now, goal = self._situation, self._course.goal
+        leg = self._guide.update(now.pose, now.points, now.now)
+        self.feedback_message = self._sentence(leg)
+        if self._guide.waits_for or self._guide.planning:
+            self._was, self._since = now.pose, now.worked
+        if self._guide.waits_for:
+            now.tell("taking off", self._guide.waits_for, place=goal.place)
+            return LEG_STATUS[leg]
+        if self._guide.planning:
+            now.tell("planning", f"Looking for a way to {goal.spoken}.", place=goal.place)
+            return LEG_STATUS[leg]
+        said = f"Makes no way to {goal.spoken}; it goes on trying." if self._stands() else self._words(goal)
+        now.tell("turning" if self._guide.turning else "driving", said, place=goal.place)
+        return LEG_STATUS[leg]
+
+    def _stands(self) -> bool:
+        """It was to move and has not, for a while."""
+        pose, clock = self._situation.pose, self._situation.worked
+        turned = abs(math.remainder(pose.yaw - self._was.yaw, math.tau))
+        if pose.distance(self._was.x, self._was.y) > MOVES or turned > TURNS:
+            self._was, self._since = pose, clock
+        return clock - self._since > STANDS
+
+    def terminate(self, new_status: Status) -> None:
+        """Stand still, whatever the reason."""
+        self._guide.rest()
+
+    def _sentence(self, leg: Leg) -> str:
+        goal = self._course.goal
+        if leg is Leg.BLOCKED:
+            return self._guide.reason
+        if leg is Leg.ARRIVED:
+            return f"{goal.name} reached."
+        if self._guide.planning:
+            return f"Looking for a way to {goal.spoken}."
+        return f"Heading for {goal.name[0].lower()}{goal.name[1:]}, {self._guide.remaining:.0f} m to go."

@@ -1,0 +1,129 @@
+"""Leading a person along places: waits when nobody follows, and tells what is there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence as Places
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+from py_trees.composites import Sequence
+
+from bridge.msgs.pilothouse_msgs import Place
+from robotside.navigation.guide import Goal, Guide
+from robotside.records.events import Say
+from robotside.tasks.behaviours.acts import Act, Rounds
+from robotside.tasks.behaviours.course import Course
+from robotside.tasks.behaviours.drive_to import DriveTo
+from robotside.tasks.behaviours.patrol import at_place
+from robotside.tasks.behaviours.situation import Situation
+
+__all__ = ["PATIENCE", "SILENCE", "STAY", "lead"]
+
+PATIENCE = 1.5
+"""It drives on for so long after nobody was seen to follow [s]."""
+
+SILENCE = 3.0
+"""A sensor that was silent for this long cannot tell who follows [s]."""
+
+STAY = 6.0
+"""At a place about which there is something to tell [s]."""
+
+
+class _Lead(DriveTo):
+    """Drives to the course's point, no faster than who follows."""
+
+    def __init__(self, course: Course, guide: Guide, situation: Situation, say: Say) -> None:
+        super().__init__(course, guide, situation, self._doing)
+        self._say = say
+        self._alone_since = math.nan
+        self._waits = self._blind = False
+
+    def update(self) -> Status:
+        """Drive on, or wait."""
+        now, goal = self._situation, self._course.goal
+        if not self._alone():
+            if self._waits:
+                self._waits = False
+                self._say("task", f"Somebody follows again; going on to {goal.spoken}.", "ok")
+            return super().update()
+        if not self._waits:
+            self._waits = True
+            self._guide.rest()
+            at = (now.pose.x, now.pose.y)
+            self._say("task", f"Waiting on the way to {goal.spoken}: nobody follows.", "warn", at=at)
+        now.tell("waiting", "Waiting: nobody follows.", place=goal.place)
+        return Status.RUNNING
+
+    def _doing(self, goal: Goal) -> str:
+        waits = ", without waiting: nothing tells whether somebody follows" if self._blind else ""
+        return f"Leading the way to {goal.spoken}{waits}."
+
+    def _alone(self) -> bool:
+        """Nobody has followed for a while, as far as a sensor can tell."""
+        now = self._situation
+        if now.follows is None or now.now - now.follows_heard > SILENCE:
+            if not self._blind:
+                said = "Nothing tells whether somebody follows; the robot goes on without waiting."
+                self._say("task", said, "warn")
+            self._blind, self._alone_since = True, math.nan
+            return False
+        self._blind = False
+        if now.follows:
+            self._alone_since = math.nan
+        elif math.isnan(self._alone_since):
+            self._alone_since = now.now
+        return now.now - self._alone_since > PATIENCE or (self._waits and not now.follows)
+
+
+class _Tell(Behaviour):
+    """Tells the note of the place where it stands, and stays as long as that takes."""
+
+    def __init__(self, course: Course, notes: list[str], situation: Situation, say: Say) -> None:
+        super().__init__("tell")
+        self._course, self._notes, self._situation, self._say = course, notes, situation, say
+        self._until = -math.inf
+
+    def initialise(self) -> None:
+        goal, note = self._course.goal, self._notes[self._course.index]
+        words = f"{goal.name} reached: {note}" if note else f"{goal.name} reached."
+        self._say("waypoint", words, "ok", at=(goal.x, goal.y))
+        self._until = self._situation.worked + (STAY if note else 0.0)
+
+    def update(self) -> Status:
+        left = self._until - self._situation.worked
+        if left <= 1e-6:
+            return Status.SUCCESS
+        goal, note = self._course.goal, self._notes[self._course.index]
+        text = f"At {goal.spoken}: {note}"
+        self._situation.tell("dwelling", text, place=goal.place, still=left)
+        return Status.RUNNING
+
+
+def lead(
+    places: Places[Place], message: str, guide: Guide, situation: Situation, say: Say
+) -> tuple[Course, Behaviour]:
+    """Along `places` in their order; `message` is told at the start, empty when there is nothing to tell."""
+    course = Course([at_place(place) for place in places])
+
+    def count() -> bool:
+        course.reached()
+        return True
+
+    def choose() -> bool:
+        if course.index < 0 and message:
+            say("task", message, "info")
+        course.advance()
+        return True
+
+    leg = Sequence(
+        "leg",
+        memory=True,
+        children=[
+            Act("choose", choose),
+            _Lead(course, guide, situation, say),
+            _Tell(course, [place.note for place in places], situation, say),
+            Act("count", count),
+        ],
+    )
+    return course, Rounds("guide", leg, lambda: course.finished)

@@ -1,0 +1,43 @@
+"""MANUAL, chosen by somebody: nothing starts by itself until the robot is set going again, over restarts too."""
+
+from __future__ import annotations
+
+from robotside.records import Records
+from robotside.records.events import Say
+
+__all__ = ["Manual"]
+
+_SETTING = "manual by"
+"""Name of the setting that says who chose it."""
+
+
+class Manual:
+    """Who chose it, kept with the settings; whatever the disk says it holds, as the motion does that ends it."""
+
+    def __init__(self, records: Records, say: Say) -> None:
+        self._records, self._say = records, say
+
+    @property
+    def by(self) -> str:
+        """Who chose it; empty when what is due may start by itself."""
+        return self._records.setting(_SETTING)
+
+    @property
+    def why(self) -> str:
+        """Why nothing starts by itself, as the end of a sentence; empty when it may."""
+        return f"{self.by} set the mode to MANUAL" if self.by else ""
+
+    def choose(self, name: str) -> bool:
+        """`name` chose it; False when somebody had already."""
+        if self.by:
+            return False
+        self._records.note_setting(_SETTING, name)
+        self._say("control", f"{name} set the mode to MANUAL: nothing starts by itself until it is AUTO.")
+        return True
+
+    def end(self) -> bool:
+        """Somebody had the robot drive itself; False when nothing kept it from that."""
+        if not self.by:
+            return False
+        self._records.note_setting(_SETTING, "")
+        return True

@@ -1,0 +1,64 @@
+"""Keeps the list that is looked through before the first motion, and tells everyone when it changes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from bridge.msgs.pilothouse_msgs import Check, Checklist
+from bridge.msgs.std_msgs import Time
+from robotside.core.bus import Publish
+from robotside.tasks.autonomy import LOW_BELOW, Autonomy
+from robotside.tasks.checklist import Looked, checks
+from robotside.tasks.senses import Senses
+
+__all__ = ["Readiness"]
+
+
+class Readiness:
+    """What is known of one robot before it moves; times are of the operators' clock [s] unless said otherwise."""
+
+    def __init__(self, clock: Callable[[], float], publish: Publish, kind: str = "wheels") -> None:
+        """Of a robot of a `kind`, as its information calls it."""
+        self._clock, self._publish = clock, publish
+        self.senses = Senses(kind)
+        """What the robot measures of itself."""
+        self.stop_tested = Time()
+        """When STOP, pressed since the start, last brought the robot to rest; 0 when never."""
+        self._stopping = False
+        self._offset = math.nan
+        self._checks: list[Check] = []
+
+    def told_time(self, stamp: float) -> None:
+        """Somebody stamped something with `stamp`, of what is supposed to be the operators' clock; NaN says nothing."""
+        if math.isfinite(stamp):
+            self._offset = stamp - self._clock()
+
+    def stop_pressed(self) -> None:
+        """STOP was pressed just now; one that was pressed before the start tests nothing."""
+        self._stopping = True
+
+    def rests(self, *, stopped: bool) -> None:
+        """The robot stands still; `stopped` while STOP is pressed."""
+        if self._stopping and stopped:
+            self.stop_tested = Time.at(self._clock())
+        self._stopping = False
+
+    def look(self, autonomy: Autonomy, trouble: str, now: float) -> None:
+        """Look through everything at `now` [s, robot clock]; `trouble` is why the robot cannot be reached."""
+        where = autonomy.whereabouts
+        found = checks(
+            Looked(
+                battery=autonomy.battery,
+                low_below=LOW_BELOW,
+                silent=self.senses.silent(now),
+                placed=where.pose is not None,
+                sure=where.sure,
+                stop_tested=self.stop_tested.seconds > 0,
+                offset=self._offset,
+                trouble=trouble,
+            )
+        )
+        if found != self._checks:
+            self._checks = found
+            self._publish("/checklist", Checklist(Time.at(self._clock()), found))

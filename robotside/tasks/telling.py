@@ -1,0 +1,49 @@
+"""Tells how the task is: that it began or ended once that is on the disk, so that a restart takes nothing back."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+
+from bridge.msgs.pilothouse_msgs import TaskStatus
+from robotside.records import Job, Records
+
+__all__ = ["PATIENCE", "Telling"]
+
+PATIENCE = 2.0
+"""How long a disk that does not answer may keep back what the robot does [s]: who stands beside it must know."""
+
+
+class Telling:
+    """Passes each status on in its turn."""
+
+    def __init__(
+        self, records: Records, publish: Callable[[TaskStatus], None], clock: Callable[[], float]
+    ) -> None:
+        """`clock` is the operators' [s]."""
+        self.note: Callable[[TaskStatus], None] = lambda _: None
+        """Keeps a status; what of it a restart must know waits for the disk."""
+        self._records, self._publish, self._clock = records, publish, clock
+        self._waiting: deque[tuple[TaskStatus, Job, float]] = deque()
+
+    def show(self, status: TaskStatus) -> None:
+        """Note a status and tell it, after those that wait; a disk that fails keeps nothing back."""
+        with self._records.together() as job:
+            self.note(status)
+            waits = bool(self._waiting) or job.binding
+            if waits:
+                self._waiting.append((status, job, self._clock() + PATIENCE))
+                job.after.append(self.look)
+        if not waits:
+            self._publish(status)
+
+    def look(self) -> None:
+        """Tell what was tried, or has waited for too long; to be called now and then."""
+        now = self._clock()
+        while self._waiting and (self._waiting[0][1].done or now >= self._waiting[0][2]):
+            self._publish(self._waiting.popleft()[0])
+
+    @property
+    def all_told(self) -> bool:
+        """Nothing waits to be told."""
+        return not self._waiting

@@ -1,0 +1,150 @@
+"""The robot's settings file: what it says, and one sentence for each way to get it wrong."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from robotside.core.config import LARGEST_FILE, MOST_AREAS, MOST_CORNERS, BadConfig, Config, load, parse
+
+EXAMPLE = Path(__file__).parents[3] / "docs" / "robot.toml.example"
+SQUARE = "[[0, 0], [2, 0], [2, 2], [0, 2]]"
+
+
+def test_an_empty_file_leaves_everything_to_the_robot() -> None:
+    assert parse("") == Config()
+    assert Config().limits.max_speed is None
+    assert Config().control.follow_link
+    assert not Config().control.lost_link_stops_task
+
+
+def test_the_example_in_the_docs_can_be_used_as_it_is_and_shows_every_setting() -> None:
+    config = load(EXAMPLE)
+    assert (config.limits.max_speed, config.limits.max_slope_degrees) == (0.5, 12.0)
+    assert config.limits.keep_out == (((5.0, 1.0), (7.0, 1.0), (7.0, 3.0), (5.0, 3.0)),)
+    text = EXAMPLE.read_text()
+    for section in Config.__struct_fields__:
+        assert f"\n[{section}]" in f"\n{text}"
+        for setting in getattr(config, section).__struct_fields__:
+            assert f"\n{setting} = " in text.replace("\n# ", "\n"), setting
+
+
+def test_whole_numbers_do_for_numbers() -> None:
+    ring = parse(f"[limits]\nmax_speed = 1\nkeep_in = [{SQUARE}]").limits.keep_in[0]
+    assert ring == ((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0))
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("x =", "this is no TOML: invalid value (at end of document)."),
+        ("[limits]\nmax_speed = 1\nmax_speed = 2", "this is no TOML: cannot overwrite a value"),
+        ("[limit]", "the file has no 'limit'; there are robot, limits, safe_state, control, database."),
+        ("[robot]\nnme = 'x'", "robot has no 'nme'; there are name."),
+        ("limits = 3", "limits must be a section, not 3."),
+        ("[limits]\nmax_speed = 'fast'", "limits.max_speed must be a number, not 'fast'."),
+        ("[limits]\nmax_speed = -1", "limits.max_speed must be a number above 0, not -1."),
+        ("[limits]\nmax_speed = inf", "limits.max_speed must be a number, not inf."),
+        ("[limits]\nmax_speed = true", "limits.max_speed must be a number, not true."),
+        ("[limits]\nmax_slope_degrees = 91", "limits.max_slope_degrees must be a number at most 90, not 91."),
+        ("[limits]\nkeep_in = [[0, 0], [1, 0]]", "limits.keep_in[0][0] must be a list, not 0."),
+        ("[limits]\nkeep_in = [[[0, 0], [1]]]", "limits.keep_in[0][1] must be a list of 2 numbers, not [1]."),
+        ("[limits]\nkeep_in = [[[0, nan]]]", "limits.keep_in[0][0][1] must be a number, not nan."),
+        ("[safe_state]\naction = 'fly'", "safe_state.action must be one of brake, brake_straight,"),
+        ("[control]\nfollow_link = 'yes'", "control.follow_link must be true or false, not 'yes'."),
+        ("[database]\nbackups = 1.5", "database.backups must be a whole number, not 1.5."),
+        ("[robot]\nname = ''", "robot.name must be a text of at least 1 characters, not ''."),
+    ],
+)
+def test_a_mistake_is_one_sentence_with_the_value_and_what_is_allowed(text: str, said: str) -> None:
+    with pytest.raises(BadConfig) as problem:
+        parse(text, "patrol.toml")
+    assert str(problem.value).startswith(f"patrol.toml: {said}")
+    assert "\n" not in str(problem.value)
+
+
+@pytest.mark.parametrize(
+    ("corners", "said"),
+    [
+        ("[[0, 0], [1, 1]]", f"must have 3 to {MOST_CORNERS} corners, not 2."),
+        ("[[0, 0], [1, 1], [2, 2]]", "has no inside: its corners lie on one line."),
+        ("[[0, 0], [1, 1], [1, 0], [0, 1]]", "crosses itself: its side 1 and its side 3 meet."),
+        ("[[0, 0], [4, 0], [4, 4], [2, 0], [0, 4]]", "crosses itself: its side 1 and its side 3 meet."),
+        ("[[0, 0], [1, 1], [1, 1], [0, 1]]", "has its corner 2, (1, 1), twice in a row."),
+        ("[[0, 0], [1, 0], [1, 1], [0, 0]]", "has its corner 4, (0, 0), twice in a row."),
+    ],
+)
+def test_an_area_that_encloses_nothing_clear_is_named(corners: str, said: str) -> None:
+    with pytest.raises(BadConfig) as problem:
+        parse(f"[limits]\nkeep_out = [{SQUARE}, {corners}]")
+    assert str(problem.value) == f"robot.toml: area 2 of limits.keep_out {said}"
+
+
+def test_a_fence_has_a_bounded_number_of_areas() -> None:
+    areas = ", ".join([SQUARE] * (MOST_AREAS + 1))
+    with pytest.raises(
+        BadConfig, match=f"limits.keep_in has {MOST_AREAS + 1} areas; at most {MOST_AREAS} are"
+    ):
+        parse(f"[limits]\nkeep_in = [{areas}]")
+
+
+def test_a_least_depth_below_the_greatest_is_said() -> None:
+    with pytest.raises(BadConfig, match=r"limits.min_depth must be less than max_depth, 2 m, not 3 m\."):
+        parse("[limits]\nmin_depth = 3\nmax_depth = 2")
+
+
+def test_a_file_that_cannot_be_read_is_said(tmp_path: Path) -> None:
+    with pytest.raises(
+        BadConfig, match=r"The settings cannot be read from '.*none': no such file or directory\."
+    ):
+        load(tmp_path / "none")
+    with pytest.raises(BadConfig, match="is a directory"):
+        load(tmp_path)
+    there = tmp_path / "robot.toml"
+    there.write_bytes(b"\xff\xfe")
+    with pytest.raises(BadConfig, match="the file is no UTF-8 text"):
+        load(there)
+    there.write_bytes(b"#" * (LARGEST_FILE + 1))
+    with pytest.raises(BadConfig, match="a settings file has at most 1,000,000 bytes"):
+        load(there)
+
+
+VALUES = st.recursive(
+    st.sampled_from(
+        ["1", "-1", "nan", "-inf", "1e400", "9" * 400, "true", "'x'", "1979-05-27", "0x1F", "''"]
+    ),
+    lambda inner: st.lists(inner, max_size=4).map(lambda each: f"[{', '.join(each)}]"),
+    max_leaves=12,
+)
+SETTINGS = [
+    f"{section}.{name}"
+    for section in Config.__struct_fields__
+    for name in getattr(Config(), section).__struct_fields__
+]
+
+
+def refusal(text: str) -> str:
+    """Why `text` is refused; a good sentence when it is not."""
+    try:
+        parse(text)
+    except BadConfig as problem:
+        return str(problem)
+    return "Taken."
+
+
+@given(st.lists(st.tuples(st.sampled_from([*SETTINGS, "limits", "a.b"]), VALUES), max_size=4))
+def test_whatever_stands_in_the_file_it_is_taken_or_refused_in_one_line(
+    settings: list[tuple[str, str]],
+) -> None:
+    said = refusal("\n".join(f"{name} = {value}" for name, value in settings))
+    assert said.endswith(".")
+    assert "\n" not in said
+
+
+def test_a_fence_has_a_bounded_number_of_corners() -> None:
+    ring = "[" + ", ".join(f"[{x}, {x * x}]" for x in range(MOST_CORNERS)) + "]"
+    with pytest.raises(BadConfig, match=r"the fence has 1200 corners; at most 1000 are allowed\."):
+        parse(f"[limits]\nkeep_out = [{', '.join([ring] * 6)}]")

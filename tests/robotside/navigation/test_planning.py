@@ -1,0 +1,192 @@
+"""Looking for a way that is hard to find: a bit at a time, and given up at once when somebody asks for that."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from pathlib import Path
+
+import msgspec
+import numpy as np
+import pytest
+
+from bridge.msgs.geometry_msgs import Twist
+from robotside.core.pose2 import Pose2
+from robotside.mapping.grid import Grid
+from robotside.navigation import lattice
+from robotside.navigation.guide import AT_ONCE, Goal, Guide, Leg
+from robotside.navigation.lattice import Lattice
+from tests.fakes import Box, FakeRobot
+from tests.robotside.scene import Scene
+
+CLOSED = [
+    Box(3.0, -2.0, 7.0, -1.6),
+    Box(3.0, 1.6, 7.0, 2.0),
+    Box(3.0, -2.0, 3.4, 2.0),
+    Box(6.6, -2.0, 7.0, 2.0),
+]
+"""Round the goal: wherever it looks, there is no way."""
+GOAL = Goal("Point 1", 5.0, 0.0)
+
+
+class Looks:
+    """How many poses were looked at."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.count = 0
+        children = Lattice._children
+
+        def counted(*words: object) -> object:
+            self.count += 1
+            return children(*words)  # type: ignore[arg-type]
+
+        monkeypatch.setattr(Lattice, "_children", counted)
+
+
+@pytest.fixture
+def looks(monkeypatch: pytest.MonkeyPatch) -> Looks:
+    return Looks(monkeypatch)
+
+
+def truck(*boxes: Box) -> FakeRobot:
+    robot = FakeRobot(start=(-4.0, 0.0, 0.0), boxes=boxes)
+    robot.info = msgspec.structs.replace(robot.info, kind="ackermann")
+    return robot
+
+
+def test_the_hardest_search_takes_no_more_than_its_share_of_each_update(
+    looks: Looks, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(lattice, "MOST", 10 * AT_ONCE)
+    robot = truck(*CLOSED)
+    guide = Guide(robot, Grid.from_msg(robot.map()), lambda _: None)
+    guide.head_for(GOAL)
+    shares = []
+    for tick in range(100):
+        before = looks.count
+        leg = guide.update(Pose2(*robot.pose), np.empty((0, 2)), tick * 0.05)
+        shares.append(looks.count - before)
+        if leg is Leg.BLOCKED:
+            break
+        assert guide.planning
+        assert robot.at_rest
+    assert leg is Leg.BLOCKED
+    assert guide.reason == "There is no way to Point 1 at (5.0, 0.0) that it can drive."
+    assert max(shares) <= AT_ONCE
+    assert 9 * AT_ONCE < sum(shares) <= 10 * AT_ONCE
+
+
+def test_it_finds_bit_by_bit_what_it_finds_in_one_go() -> None:
+    robot = truck(Box(0.0, -2.0, 0.4, 2.0))
+    grid = Grid.from_msg(robot.map())
+
+    def drawn() -> list[list[list[float]]]:
+        ways: list[list[list[float]]] = []
+        guide = Guide(robot, grid, lambda way: ways.append(way.tolist()))
+        guide.head_for(GOAL)
+        for tick in range(1000):
+            guide.update(Pose2(-4.0, 0.0, 0.0), np.empty((0, 2)), tick * 0.05)
+            if ways:
+                break
+        return ways
+
+    with pytest.MonkeyPatch.context() as patched:
+        found = []
+        for share in (2, 10**6):
+            patched.setattr("robotside.navigation.guide.AT_ONCE", share)
+            found.append(drawn())
+    assert found[0] == found[1]
+    assert math.dist(found[0][0][-1], (5.0, 0.0)) < 0.05
+
+
+def searching(state: Path, looks: Looks) -> Scene:
+    """It is asked to go where no way leads, and looks for one."""
+    run = Scene(truck(*CLOSED), state)
+    run.run(3.5)
+    run.go_to(5.0, 0.0)
+    for _ in itertools.takewhile(lambda _: looks.count < 3 * AT_ONCE, range(20)):
+        run.run(0.1)
+    status = run.task
+    assert (status.phase, status.reason) == ("planning", "Looking for a way to the goal.")
+    assert run.station.autonomy.guide.planning
+    return run
+
+
+@pytest.mark.parametrize("service", ["/stop", "/task/pause", "/task/cancel"])
+def test_whoever_stops_or_pauses_it_meanwhile_is_obeyed_at_once(
+    service: str, tmp_path: Path, looks: Looks
+) -> None:
+    run = searching(tmp_path, looks)
+    answer = run.ask(service)
+    assert answer.success, answer.message
+    so_far = looks.count
+    assert not run.station.autonomy.guide.planning
+    run.run(1.0)
+    assert looks.count == so_far
+    assert run.robot.at_rest
+
+
+def test_resumed_it_looks_anew(tmp_path: Path, looks: Looks) -> None:
+    run = searching(tmp_path, looks)
+    run.ask("/task/pause")
+    run.run(0.5)
+    so_far = looks.count
+    run.ask("/task/resume")
+    run.run(0.5)
+    assert run.station.autonomy.guide.planning
+    assert looks.count > so_far
+
+
+def test_another_place_takes_the_place_of_the_one_that_it_looks_for(tmp_path: Path, looks: Looks) -> None:
+    run = searching(tmp_path, looks)
+    run.go_to(-1.0, 0.0)
+    run.run(1.0)
+    status = run.task
+    assert (status.phase, run.station.autonomy.guide.planning) == ("driving", False)
+
+
+@pytest.mark.parametrize("kind", ["wheels", "boat", "hexapod", "quadrotor"])
+def test_every_kind_looks_for_a_way_a_bit_at_a_time_and_stands_meanwhile(
+    kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("robotside.navigation.guide.AT_ONCE", 1)
+    robot = truck(Box(0.0, -2.0, 0.4, 2.0))
+    robot.info = msgspec.structs.replace(robot.info, kind=kind)
+    guide = Guide(robot, Grid.from_msg(robot.map()), lambda _: None)
+    robot.drive(Twist.planar(0.5, 0.0))
+    guide.head_for(GOAL)
+    ticks = 0
+    while guide.going.under_way is False and ticks < 500:
+        assert guide.update(Pose2(*robot.pose), np.empty((0, 2)), ticks * 0.05) is Leg.UNDER_WAY
+        ticks += 1
+        assert guide.going.under_way or (guide.planning and robot.at_rest)
+    assert 5 < ticks < 500
+
+
+def test_while_it_looks_for_another_way_it_goes_on_along_the_one_that_it_has(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    robot = truck()
+    robot.info = msgspec.structs.replace(robot.info, kind="wheels")
+    guide = Guide(robot, Grid.from_msg(robot.map()), lambda _: None)
+    guide.head_for(GOAL)
+    nothing = np.empty((0, 2))
+    guide.update(Pose2(-4.0, 0.0, 0.0), nothing, 0.0)
+    assert guide.going.under_way
+    monkeypatch.setattr("robotside.navigation.guide.AT_ONCE", 1)
+    guide.obstacles.see(np.array([[1.0, 0.0]]), 2.0)
+    told = len(robot.commands)
+    guide.update(Pose2(-4.0, 0.0, 0.0), nothing, 2.0)
+    assert guide.planning
+    for tick in range(3):
+        guide.update(Pose2(-4.0, 0.0, 0.0), nothing, 2.05 + 0.05 * tick)
+        assert guide.planning
+    speeds = [twist.linear.x for twist in robot.commands[told:] if twist is not None]
+    assert len(speeds) == 4
+    assert min(speeds) > 0.05
+    # right before it something turns up: it brakes for that as ever
+    for tick in range(4):
+        guide.update(Pose2(-4.0, 0.0, 0.0), np.array([[0.22, 0.0]]), 2.2 + 0.05 * tick)
+        assert guide.planning
+    last = robot.commands[-1]
+    assert last is None or last.linear.x == 0.0

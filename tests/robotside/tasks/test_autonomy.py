@@ -1,0 +1,180 @@
+"""What the robot does by itself, in virtual time."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Pose,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Quaternion,
+)
+from bridge.msgs.pilothouse_msgs import (
+    IntruderArray,
+    Waypoint,
+)
+from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.msgs.std_msgs import Header, Time
+from tests.fakes import Box, FakeRobot, Pillar
+from tests.robotside.perception.test_detect import cone, jpeg, picture
+from tests.robotside.scene import SQUARE, Scene
+
+
+def test_an_empty_battery_sends_the_robot_home_by_itself(scene: Scene) -> None:
+    scene.set(*SQUARE)
+    scene.start()
+    scene.run(5.0)
+    scene.robot.battery = 0.09
+    scene.run(1.1)
+    assert scene.task.task == "go_home"
+    assert scene.events("battery") == ["Battery low: 9%.", "Battery at 9%: going home."]
+    assert scene.run_task().reason == "Home."
+
+
+def test_the_bumper_halts_the_patrol(scene: Scene) -> None:
+    scene.set(*SQUARE)
+    scene.start()
+    scene.run(1.0)
+    x, y, _ = scene.robot.pose
+    scene.robot.pillars.append(Pillar(x + 0.25, y, 0.12))
+    scene.run(0.2)
+    assert scene.task.reason == "Paused: the bumper touched something."
+    assert scene.robot.at_rest
+    assert len(scene.events("contact")) == 1
+
+
+@pytest.mark.parametrize(("topic", "sense"), [("/scan", "laser"), ("/odom", "odometry")])
+def test_a_robot_that_has_become_blind_halts(scene: Scene, topic: str, sense: str) -> None:
+    scene.set(*SQUARE)
+    scene.start()
+    scene.run(1.0)
+    scene.robot.silent.add(topic)
+    scene.run(0.9)
+    assert scene.task.reason == f"Paused: the {sense} has been silent for 0.6 s."
+    assert scene.robot.at_rest
+
+
+def test_a_robot_that_was_placed_by_a_finger_finds_its_exact_pose(tmp_path: Path) -> None:
+    hall = FakeRobot(start=(-6.0, 2.0, 0.8), boxes=[Box(-1.0, 2.0, 1.0, 4.0), Box(3.0, -5.0, 4.0, -2.0)])
+    scene = Scene(hall, tmp_path)
+    told = Pose(Point(-5.5, 1.6), Quaternion.from_yaw(0.5))
+    scene.run(0.5)
+    scene.station.hear(
+        scene.anna, "/initialpose", PoseWithCovarianceStamped(pose=PoseWithCovariance(told)), None
+    )
+    scene.run(2.0)
+    pose = scene.station.autonomy.whereabouts.pose
+    assert pose is not None
+    assert pose == pytest.approx((-6.0, 2.0, 0.8), abs=0.08)
+    assert scene.station.autonomy.whereabouts.sure
+
+
+def test_the_camera_is_wanted_only_while_a_task_runs(scene: Scene) -> None:
+    scene.set(*SQUARE, laps=1)
+    scene.start()
+    assert scene.robot.wanted["/camera/image/compressed"]
+    scene.run_task()
+    assert not scene.robot.wanted["/camera/image/compressed"]
+
+
+def show_cone(scene: Scene) -> None:
+    """Five pictures of a cone 3 m ahead."""
+    image, draw = picture()
+    focal = 320 / math.tan(0.6)
+    cone(draw, 320, 240 + focal * 0.36 / 3.0, 0.6 * focal / 3.0)
+    for n in range(5):
+        shot = CompressedImage(Header(Time.at(scene.now - 0.5 + 0.21 * n), "camera"), "jpeg", jpeg(image))
+        scene.station.autonomy.take("/camera/image/compressed", shot, scene.now)
+
+
+def test_who_drives_by_hand_and_looks_at_the_camera_is_told_of_an_intruder(scene: Scene) -> None:
+    scene.run(0.5)
+    show_cone(scene)
+    assert not scene.station.autonomy.engine.active
+    known = scene.station.bus.last("/intruders")
+    assert isinstance(known, IntruderArray)
+    assert [intruder.id for intruder in known.intruders] == [1]
+    assert len(scene.events("intruder")) == 1
+
+
+def test_an_intruder_found_while_a_patrol_rests_leaves_what_is_said_of_the_patrol(scene: Scene) -> None:
+    scene.set(Waypoint(6.0, -4.0), stop_on_intruder=True)
+    scene.start()
+    scene.run(0.1)
+    scene.station.autonomy.engine.pause("Paused: Anna took the stick.")
+    show_cone(scene)
+    assert len(scene.events("intruder")) == 1
+    assert scene.task.reason == "Paused: Anna took the stick."
+
+
+@pytest.mark.parametrize(
+    ("words", "state", "phase"),
+    [
+        ({"stop_on_intruder": True, "on_intruder": "report"}, "PAUSED", ""),
+        ({"on_intruder": "stop"}, "PAUSED", ""),
+        ({"on_intruder": "report"}, "RUNNING", "driving"),
+        ({}, "RUNNING", "driving"),
+        ({"on_intruder": "circle"}, "RUNNING", "circling"),
+    ],
+)
+def test_an_intruder_is_told_once_and_the_patrol_does_about_it_what_the_mission_says(
+    scene: Scene, words: dict[str, object], state: str, phase: str
+) -> None:
+    scene.set(Waypoint(6.0, -4.0), **words)
+    scene.start()
+    scene.run(0.1)
+    show_cone(scene)
+    assert len(scene.events("intruder")) == 1
+    known = scene.station.bus.last("/intruders")
+    assert isinstance(known, IntruderArray)
+    assert [intruder.id for intruder in known.intruders] == [1]
+    scene.run(0.1)
+    assert (scene.task.state, scene.task.phase) == (state, phase)
+
+
+def test_a_robot_that_was_carried_away_says_that_it_is_unsure_creeps_and_can_be_placed_again(
+    tmp_path: Path,
+) -> None:
+    boxes = [Box(-1.0, 2.0, 1.0, 4.0), Box(3.0, -5.0, 4.0, -2.0), Box(-8.0, -4.0, -6.0, -3.0)]
+    scene = Scene(FakeRobot(boxes=boxes), tmp_path)
+    scene.run(4.0)
+    scene.set(Waypoint(8.0, 0.0))
+    scene.start()
+    scene.run(2.0)
+    scene.robot.pose = (-4.0, 4.0, 2.0)
+    scene.run(3.0)
+    assert any(said.startswith("Position unsure") for said in scene.events("localisation"))
+    assert abs(scene.robot.twist.linear.x) <= 0.15
+    scene.ask("/task/pause")
+    x, y, yaw = scene.robot.pose
+    told = Pose(Point(x + 0.4, y - 0.3), Quaternion.from_yaw(yaw + 0.2))
+    scene.station.hear(
+        scene.anna, "/initialpose", PoseWithCovarianceStamped(pose=PoseWithCovariance(told)), None
+    )
+    scene.run(1.0)
+    assert scene.events("localisation")[-1] == "Position sure again."
+    scene.ask("/task/resume")
+    assert scene.run_task().state == "SUCCEEDED"
+    assert math.hypot(scene.robot.pose[0] - 8.0, scene.robot.pose[1]) < 0.2
+    assert scene.robot.contacts == 0
+
+
+def test_a_pose_told_by_a_finger_half_a_metre_off_is_put_right_by_the_next_sweep(tmp_path: Path) -> None:
+    boxes = [Box(-1.0, 2.0, 1.0, 4.0), Box(3.0, -5.0, 4.0, -2.0), Box(-8.0, -4.0, -6.0, -3.0)]
+    scene = Scene(FakeRobot(boxes=boxes), tmp_path)
+    scene.run(4.0)
+    for x, y, yaw, off in ((-4.0, 4.5, 0.6, 0.4), (4.3, -0.8, 2.2, -0.4), (0.4, -0.3, 2.4, 0.3)):
+        scene.robot.pose = (x, y, yaw)
+        told = Pose(Point(x + off, y - 0.3), Quaternion.from_yaw(yaw + 0.2))
+        stamped = PoseWithCovarianceStamped(pose=PoseWithCovariance(told))
+        scene.station.hear(scene.anna, "/initialpose", stamped, None)
+        scene.run(0.5)
+        pose = scene.station.autonomy.whereabouts.pose
+        assert pose is not None
+        assert pose.distance(x, y) < 0.05
+        assert pose.yaw == pytest.approx(yaw, abs=0.02)
