@@ -46,9 +46,9 @@ from app.settings import Settings
 from app.simulating import CHANNEL as SIMULATED
 from app.simulating import Simulating
 from app.telling import tell
-from bridge.frames import Frame
+from bridge.core.frames import Frame
+from bridge.discovery.network import NetworkThread
 from bridge.msgs.pilothouse_msgs import Event
-from bridge.network import NetworkThread
 from widgets import CATALOGUE
 from widgets.theme import theme
 

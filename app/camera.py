@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from app.feeds import Mailbox
 from app.worker import NewestWorker
-from bridge.frames import Frame
+from bridge.core.frames import Frame
 
 __all__ = ["PICTURE", "Camera", "Picture", "best_decoder"]
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from app.origin import NOBODY, Origin
-from bridge.errors import BridgeError, NoReply, NotConnected, Refused
+from bridge.core.errors import BridgeError, NoReply, NotConnected, Refused
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (
     AcknowledgeEventsRequest,

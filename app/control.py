@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from bridge.liveness import LAPSE
+from bridge.core.liveness import LAPSE
 from bridge.msgs.pilothouse_msgs import ControlStatus
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 from urllib.parse import urlsplit
 
-from bridge.beacon import Hello
+from bridge.discovery.beacon import Hello
 
 __all__ = ["Entry", "Robots", "check_address"]
 

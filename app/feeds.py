@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from bridge.core.topics import TOPICS, Topic
 from bridge.msgs import Msg
-from bridge.topics import TOPICS, Topic
 
 __all__ = ["Feed", "Feeds", "Mailbox", "Post"]
 

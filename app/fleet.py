@@ -20,9 +20,9 @@ from typing import Protocol
 from app.discovery import Entry
 from app.stop_lane import Report, StopLane
 from app.stopping import DOUBT, silence
+from bridge.discovery.network import NetworkThread
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
 from bridge.msgs.std_msgs import Time
-from bridge.network import NetworkThread
 
 __all__ = ["MOST", "Connected", "Fleet", "Row", "known"]
 

@@ -22,7 +22,7 @@ from app.layout_faults import (
     said,
 )
 from app.piloting import PARTS
-from bridge.topics import TOPICS, topic
+from bridge.core.topics import TOPICS, topic
 
 __all__ = [
     "ACTIONS",

@@ -8,8 +8,8 @@ from typing import Any
 
 import widgets
 from app.layout_faults import LayoutError, one_of, said
+from bridge.core.topics import topic
 from bridge.msgs.geometry_msgs import PoseStamped
-from bridge.topics import topic
 from widgets.base import Control
 from widgets.grip import Grip
 from widgets.icons import ICONS

@@ -19,15 +19,15 @@ from app.feeds import Mailbox
 from app.offer import DRIVE, MANOEUVRE, Offer, ask
 from app.origin import NOBODY, origins
 from app.sources import Peek, Seen, Sources
-from bridge.choice import drive_message
-from bridge.client import BridgeClient, CameraStream, LinkState, Phase
-from bridge.errors import BridgeError, NoReply, NotConnected
-from bridge.frames import Frame
+from bridge.client.client import BridgeClient, CameraStream, LinkState, Phase
+from bridge.core.choice import drive_message
+from bridge.core.errors import BridgeError, NoReply, NotConnected
+from bridge.core.frames import Frame
+from bridge.discovery.network import NetworkThread
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist, TwistStamped
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, GetEventsResponse, Manoeuvre
 from bridge.msgs.sensor_msgs import CompressedImage
-from bridge.network import NetworkThread
 
 __all__ = ["EVENT", "KNOWN", "LINK", "MISSED", "OFFER", "OUTCOME", "SEEN", "Link"]
 

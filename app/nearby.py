@@ -13,8 +13,8 @@ from urllib.parse import urlsplit
 from app.device import sees_broadcasts
 from app.discovery import Entry
 from app.feeds import Mailbox
-from bridge.beacon import Hello, Listener
-from bridge.network import NetworkThread
+from bridge.discovery.beacon import Hello, Listener
+from bridge.discovery.network import NetworkThread
 
 __all__ = ["HELLO", "LATENCY", "Nearby"]
 

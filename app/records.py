@@ -10,9 +10,9 @@ from pathlib import Path
 from app.link import EVENT
 from app.recorder import Recorder
 from app.session import Session
-from bridge.frames import Frame
+from bridge.core.frames import Frame
+from bridge.core.topics import TOPICS
 from bridge.msgs import Msg
-from bridge.topics import TOPICS
 
 __all__ = ["Records"]
 

@@ -24,7 +24,7 @@ from app.refusals import Refusals
 from app.settings import Settings
 from app.stopping import Stopping
 from app.tasking import Tasking
-from bridge.client import LinkState, Phase
+from bridge.client.client import LinkState, Phase
 from bridge.msgs.geometry_msgs import (
     Point,
     Pose,

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.offer import CAMERA, POSE, Offer
-from bridge.client import BridgeClient
-from bridge.errors import BridgeError
+from bridge.client.client import BridgeClient
+from bridge.core.errors import BridgeError
+from bridge.core.topics import TOPICS, Topic
 from bridge.msgs import TYPES, Msg, ros1_name
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import CompressedImage
-from bridge.topics import TOPICS, Topic
 
 __all__ = ["Peek", "Seen", "Sources"]
 

@@ -16,9 +16,9 @@ from app.commands import Commands, Outcome
 from app.local_stop import LocalStop
 from app.offer import DRIVE, NOTHING, Offer, ask
 from app.stopping import Stopping
-from bridge.choice import drive_message
-from bridge.client import BridgeClient, LinkState, Phase
-from bridge.errors import BridgeError
+from bridge.client.client import BridgeClient, LinkState, Phase
+from bridge.core.choice import drive_message
+from bridge.core.errors import BridgeError
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.msgs.nav_msgs import Odometry
@@ -56,7 +56,7 @@ class Report:
 
 
 class Client(Protocol):
-    """What is needed of `bridge.client.BridgeClient`."""
+    """What is needed of `bridge.client.client.BridgeClient`."""
 
     @property
     def foreign(self) -> bool:

@@ -10,8 +10,8 @@ from app.link import LINK, OFFER, SEEN
 from app.offer import CAMERA, Offer
 from app.session import Session
 from app.sources import Seen
+from bridge.core.topics import TOPICS, Topic
 from bridge.msgs import Msg
-from bridge.topics import TOPICS, Topic
 
 __all__ = ["Line", "Topics"]
 

@@ -195,7 +195,7 @@ def trips(kind: str) -> dict[str, float]:
 
 def foreign(client: Callable[[str], Coroutine[Any, Any, list[float]]]) -> dict[str, float]:
     """Round trips [ms] through a server with Nagle on, to which another client publishes the load."""
-    with child("tests.bridge.foreign_server", "--port", "0") as server:
+    with child("tests.bridge.client.foreign_server", "--port", "0") as server:
         url = server.line().split()[-1]
         with child("bench.support.crowd", url) as crowd:
             crowd.hear()

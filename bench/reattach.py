@@ -20,6 +20,7 @@ from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
 from bench.support.pair import PHONE, app
 from bench.support.station import ROUND, order, serving
+from bridge.client.remote import RemoteRobot
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
     Event,
@@ -31,7 +32,6 @@ from bridge.msgs.pilothouse_msgs import (
     TaskProgress,
     TaskStatus,
 )
-from bridge.remote import RemoteRobot
 
 FIGURES = (
     Figure("attached", "s", "from Connect until it knows everything, the longest", 2.0),

@@ -20,10 +20,10 @@ from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
 from bench.support.planning import DEEP, LAKE, SHALLOW, lake, longest, trap
 from bench.support.station import ROUND, Serving, patrol, serving
-from bridge.frames import Frame
+from bridge.core.frames import Frame
+from bridge.discovery.network import NetworkThread
 from bridge.msgs.pilothouse_msgs import Mission, SetMissionRequest, StartTaskRequest, TaskProgress
-from bridge.network import NetworkThread
-from bridge.server import Session
+from bridge.server.server import Session
 from robotside.records import Records
 from robotside.services.orders import services
 from robotside.station.station import Station

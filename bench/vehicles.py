@@ -27,9 +27,9 @@ import psutil
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
 from bench.support.station import Serving, serving
+from bridge.client.remote import RemoteRobot
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from bridge.remote import RemoteRobot
 from sim.backend_bullet import STEPS_PER_SECOND
 from sim.camera import jpeg
 from sim.renderer import Renderer

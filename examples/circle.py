@@ -2,8 +2,8 @@
 
 import time
 
+from bridge.client.remote import RemoteRobot
 from bridge.msgs.geometry_msgs import Twist
-from bridge.remote import RemoteRobot
 
 with RemoteRobot("ws://127.0.0.1:9090") as robot:
     robot.wait()

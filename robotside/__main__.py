@@ -15,8 +15,8 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from bridge.address import BadAddress, host_and_port
-from bridge.errors import BridgeError
+from bridge.core.address import BadAddress, host_and_port
+from bridge.core.errors import BridgeError
 from robotside import options as said
 from robotside.core.clock import RobotClock
 from robotside.core.config import BadConfig, Config

@@ -24,7 +24,7 @@ from PIL import Image, ImageDraw, ImageFilter
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT))
 
-from bridge.geo import Datum  # noqa: E402
+from bridge.core.geo import Datum  # noqa: E402
 
 TILE = 256
 """Edge of a tile [pixel]."""

@@ -1,10 +1,10 @@
-"""Writes the table of topics, as bridge/topics.py has it, into README.md and docs/bridge.md."""
+"""Writes the table of topics, as bridge/core/topics.py has it, into README.md and docs/bridge.md."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from bridge.topics import TOPICS, Topic
+from bridge.core.topics import TOPICS, Topic
 
 ROOT = Path(__file__).parents[1]
 DOCUMENTS = (ROOT / "README.md", ROOT / "docs" / "bridge.md")

@@ -16,11 +16,11 @@ from kivy.metrics import dp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
 from kivy.uix.widget import Widget
 
+from bridge.core.units import heading_from_yaw
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.msgs.sensor_msgs import Imu
-from bridge.units import heading_from_yaw
 from widgets.geometry import dial_point, dial_text, heading_of, heading_text
 from widgets.ink import Drawing, Ink, Word, Words, tint
 from widgets.shapes import Shapes

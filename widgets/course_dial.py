@@ -19,8 +19,8 @@ from kivy.metrics import dp, sp
 from kivy.properties import BooleanProperty, NumericProperty, OptionProperty
 from kivy.uix.widget import Widget
 
+from bridge.core.units import heading_from_yaw, yaw_from_heading
 from bridge.msgs.pilothouse_msgs import Compass, Manoeuvre
-from bridge.units import heading_from_yaw, yaw_from_heading
 from widgets.base import fitting_size
 from widgets.gauge import Gauge
 from widgets.geometry import DASH, HULL, dial_point, dial_text, heading_text, shortest_turn

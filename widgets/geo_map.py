@@ -19,7 +19,7 @@ from kivy.properties import ObjectProperty, StringProperty
 from kivy.uix.widget import Widget
 from kivy_garden.mapview import MapView
 
-from bridge.geo import Datum
+from bridge.core.geo import Datum
 from widgets.geometry import View, tween
 from widgets.grid_map import fenced, patrol
 from widgets.ink import Word, tint
@@ -54,7 +54,7 @@ class GeoMap(MapOverlay):
     tiles = StringProperty("")
     """Path of the MBTiles file; empty shows a plain ground. `MBTiles` says what is wrong with a file."""
     datum = ObjectProperty(None, allownone=True)
-    """Where the map's origin is on earth, a `bridge.geo.Datum`; None while that is not known."""
+    """Where the map's origin is on earth, a `bridge.core.geo.Datum`; None while that is not known."""
 
     def __init__(self, **kwargs: Any) -> None:
         self._pictures: _Pictures | None = None

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bridge.core.units import heading_from_yaw, yaw_from_heading
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import Imu
-from bridge.units import heading_from_yaw, yaw_from_heading
 
 __all__ = [
     "CARDINALS",

@@ -17,7 +17,7 @@ from app.scanning.naming import beside, intent_of, slug, words_of
 from app.scanning.openings import Openings
 from app.scanning.ring import Ring
 from app.screens.dialogs import Question
-from bridge.beacon import broadcast_addresses
+from bridge.discovery.beacon import broadcast_addresses
 from bridge.msgs.pilothouse_msgs import PlaceArray
 from widgets.cards import ActionToast
 from widgets.scan_pad import PadButton, ScanPad

@@ -10,7 +10,7 @@ import widgets
 from app.dashboard import Dashboard
 from app.screens.pointing import Pointing
 from app.session import Session
-from bridge.geo import Datum
+from bridge.core.geo import Datum
 from widgets import GridMap
 
 __all__ = ["Maps"]

@@ -18,7 +18,7 @@ from websockets.exceptions import ConnectionClosed
 
 from bench.support.kinds import Kind
 from bench.support.wire import Wire, wire
-from bridge.client import BridgeClient, LinkState, Phase
+from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.msgs.geometry_msgs import Twist
 
 __all__ = ["VALID", "Cut", "Driver", "cut", "judge", "naive", "ours"]

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 
 from websockets.asyncio.client import ClientConnection, connect
 
-from bridge.client import BridgeClient, Phase
+from bridge.client.client import BridgeClient, Phase
 from bridge.msgs import Msg
 from bridge.msgs.std_msgs import String
 

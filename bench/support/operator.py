@@ -13,8 +13,8 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 
+from bridge.client.remote import RemoteRobot
 from bridge.msgs.geometry_msgs import Twist
-from bridge.remote import RemoteRobot
 
 PERIOD = 0.05
 """[s]"""

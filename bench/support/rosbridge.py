@@ -27,7 +27,7 @@ from websockets.exceptions import ConnectionClosed
 from bench.support.traffic import MESSAGES
 from bridge.codec import to_json
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
-from bridge.server import BridgeServer, Service, Session
+from bridge.server.server import BridgeServer, Service, Session
 
 SETTLE = 0.05
 """After the last message until the time is taken [s]: what waited has left."""

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import psutil
 
 from bench.support.child import Child, child
-from bridge.errors import BridgeError
+from bridge.client.remote import RemoteRobot
+from bridge.core.errors import BridgeError
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
     CommandResponse,
@@ -20,7 +21,6 @@ from bridge.msgs.pilothouse_msgs import (
     StartTaskRequest,
     Waypoint,
 )
-from bridge.remote import RemoteRobot
 
 __all__ = ["ROUND", "Serving", "patrol", "serving"]
 

@@ -10,7 +10,7 @@ import cbor2
 import msgspec
 
 from bridge.codec.cbor_writing import ARRAY, MAP, TAGS, head, little, message_writer
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.msgs.arrays import ARRAYS
 

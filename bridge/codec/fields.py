@@ -11,7 +11,7 @@ from typing import Any
 
 import msgspec
 
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.msgs.arrays import Float32Array, Float64Array, Int8Array
 from bridge.msgs.std_msgs import Time

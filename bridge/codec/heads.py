@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 
 __all__ = ["check_cbor"]
 

@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 
 import msgspec
 
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.msgs.arrays import ARRAYS
 

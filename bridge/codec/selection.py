@@ -10,7 +10,7 @@ from typing import Any
 import msgspec
 
 from bridge.codec.fields import Field, fields_of, is_time
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
 
 __all__ = ["check_paths", "select"]

@@ -11,7 +11,7 @@ import msgspec
 
 from bridge.codec.reader import from_builtins
 from bridge.codec.stamps import named_for_ros2
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
 
 __all__ = ["from_json", "to_json"]

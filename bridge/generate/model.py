@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import Enum
 
-from bridge.errors import BridgeError
+from bridge.core.errors import BridgeError
 
 __all__ = ["Constant", "Definition", "Field", "Kind", "Many", "Part", "TextError", "Value"]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.protocol.fragments import Fragments
 from bridge.protocol.names import wrong
 from bridge.protocol.ops import BinaryPublish, Fragment, Op, Png

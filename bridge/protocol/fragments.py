@@ -11,7 +11,7 @@ import msgspec
 from msgspec import UNSET
 
 from bridge.codec import shown
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.protocol.names import checked_id, plain_id, wrong
 from bridge.protocol.ops import Fragment, Id
 

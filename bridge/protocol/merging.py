@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from msgspec import UNSET
 
 from bridge.codec import shown
-from bridge.compat import Compat
+from bridge.core.compat import Compat
 from bridge.protocol.names import LONGEST_NAME, spells_ros2, wrong
 from bridge.protocol.ops import COMPRESSIONS, Op, Reduction, Subscribe
 

@@ -6,7 +6,7 @@ import re
 
 from msgspec import UNSET
 
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.protocol.ops import CallService, Id, Op
 
 __all__ = [

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import msgspec
 
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.protocol.names import absolute
 from bridge.protocol.ops import (
     ActionFeedback,

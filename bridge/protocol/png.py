@@ -12,7 +12,7 @@ import zlib
 from collections.abc import Iterator
 from itertools import accumulate
 
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.protocol.names import wrong
 from bridge.protocol.ops import Png
 

@@ -9,8 +9,8 @@ import msgspec
 from msgspec import UNSET, Raw
 
 from bridge.codec import shown
-from bridge.compat import Compat
-from bridge.errors import ProtocolError
+from bridge.core.compat import Compat
+from bridge.core.errors import ProtocolError
 from bridge.protocol.arrivals import Arrival, Arrivals
 from bridge.protocol.merging import Subscribed, checked_size, merged, wish
 from bridge.protocol.names import LONGEST_NAME, absolute, checked_id, checked_name, spells_ros2, wrong

@@ -10,7 +10,7 @@ import msgspec
 from msgspec import UNSET, Raw, UnsetType
 
 from bridge.codec import check_cbor, from_cbor, from_json, shown
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.protocol.names import LONGEST_ID
 from bridge.protocol.ops import LEVELS, OPS, ActionResult, BinaryPublish, Op, Status

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bridge.codec.fields import CODES, TIMES, Field, fields_of
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.msgs.std_msgs import Duration
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar, cast
 
 from bridge.codec.fields import CODES, Field, bare, is_time
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.rosbytes.layout import CDR_LITTLE_ENDIAN, counted, fields_with_widths, time_codes
 

@@ -11,7 +11,7 @@ from operator import attrgetter
 from typing import Any
 
 from bridge.codec.fields import CODES, Field, is_time
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.rosbytes.layout import CDR_LITTLE_ENDIAN, counted, fields_with_widths, time_codes
 

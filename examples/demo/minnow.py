@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from bridge.units import yaw_from_heading
+from bridge.core.units import yaw_from_heading
 from examples.demo.scene import Scene, Wait
 from examples.demo.vehicle import (
     act,

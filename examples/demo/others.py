@@ -6,8 +6,8 @@ import math
 import uuid
 from typing import Any
 
+from bridge.client.remote import RemoteRobot
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
-from bridge.remote import RemoteRobot
 from examples.demo.scene import Scene, Wait
 
 __all__ = ["Colleague", "hand_over", "lose_power"]

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from bridge.liveness import LAPSE
+from bridge.core.liveness import LAPSE
 from robotside.core.words import number, plain
 
 __all__ = ["AGAIN", "REMEMBERED", "SILENT", "TO_OBJECT", "Asker", "Authority", "Driver", "Operator"]

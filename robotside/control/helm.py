@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from bridge.liveness import LAPSE
+from bridge.core.liveness import LAPSE
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.control.authority import TO_OBJECT, Operator

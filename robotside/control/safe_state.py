@@ -10,9 +10,9 @@ import math
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 
+from bridge.core.units import wrap
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from bridge.units import wrap
 from robotside.core.config import SafeStateSettings
 from robotside.limits.limits import Measured
 from robotside.motion.slower import within

@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bridge.core.units import wrap
 from bridge.msgs.geometry_msgs import Point, Pose, Quaternion
-from bridge.units import wrap
 
 __all__ = ["ORIGIN", "Points", "Pose2"]
 

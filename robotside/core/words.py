@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from bridge.units import heading_from_yaw
+from bridge.core.units import heading_from_yaw
 
 __all__ = ["heading", "number", "plain"]
 

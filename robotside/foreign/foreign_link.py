@@ -12,15 +12,15 @@ from typing import Any, Protocol
 
 from msgspec import structs
 
-from bridge.address import host_and_port
-from bridge.choice import drive_message
-from bridge.client import BridgeClient, LinkState, Phase
-from bridge.errors import BridgeError, NotConnected
+from bridge.client.client import BridgeClient, LinkState, Phase
+from bridge.core.address import host_and_port
+from bridge.core.choice import drive_message
+from bridge.core.errors import BridgeError, NotConnected
+from bridge.discovery.network import NetworkThread
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, ControlStatus
 from bridge.msgs.rosapi_msgs import TopicsResponse
-from bridge.network import NetworkThread
 from robotside.core.words import plain
 from robotside.foreign.foreign_topics import CONTROL, Found, match, usual
 from robotside.tasks.autonomy import CAMERA

@@ -9,10 +9,10 @@ import math
 import re
 from collections.abc import Iterable
 
+from bridge.core.topics import SONARS, Topic
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import MotorArray, SonarRing
 from bridge.msgs.sensor_msgs import Range, Temperature
-from bridge.topics import SONARS, Topic
 from robotside.core.bus import Bus
 
 __all__ = ["Apart"]

@@ -12,8 +12,8 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, Response
 from starlette.routing import Route
 
-from bridge.errors import BridgeError
-from bridge.topics import CAMERA, TOPICS, camera_topics
+from bridge.core.errors import BridgeError
+from bridge.core.topics import CAMERA, TOPICS, camera_topics
 from robotside.control.authority import LONGEST_NAME
 from robotside.core.words import plain
 from robotside.gateways.streams import MEDIA_TYPE, BadViewError, FullError, Streams, View, view_of

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from bridge.core.topics import SONARS, TOPICS, camera_topics
 from bridge.msgs.pilothouse_msgs import RobotInfo, SonarRing
-from bridge.topics import SONARS, TOPICS, camera_topics
 from robotside.core.bus import Bus
 
 __all__ = ["FITTED", "Offered"]

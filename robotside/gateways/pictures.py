@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from PIL import Image
 
-from bridge.errors import BridgeError
+from bridge.core.errors import BridgeError
 from robotside.perception.watch import jpeg_size
 
 __all__ = ["LEVELS", "Pictures", "Superseded", "smaller"]
@@ -57,7 +57,7 @@ class Pictures:
         self._busy: asyncio.Task[None] | None = None
 
     def shrink(self, jpeg: bytes, level: int) -> asyncio.Future[bytes]:
-        """`jpeg` at `level`, 1 to 3, as `bridge.server.BridgeServer` wants it. Fails as `make` does."""
+        """`jpeg` at `level`, 1 to 3, as `bridge.server.server.BridgeServer` wants it. Fails as `make` does."""
         part, quality = LEVELS[level - 1]
         return self.make(jpeg, part if part < 1.0 else None, quality)
 

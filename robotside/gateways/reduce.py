@@ -9,7 +9,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from bridge.errors import BridgeError
+from bridge.core.errors import BridgeError
 from bridge.msgs import Msg
 from bridge.msgs.arrays import Float32Array, Int8Array
 from bridge.msgs.nav_msgs import OccupancyGrid

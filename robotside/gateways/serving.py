@@ -9,13 +9,13 @@ from functools import partial
 
 import uvicorn
 
-from bridge import frames
-from bridge.beacon import Beacon, Hello
-from bridge.errors import BridgeError
+from bridge.core import frames
+from bridge.core.errors import BridgeError
+from bridge.core.topics import TOPICS, camera_topics
+from bridge.discovery.beacon import Beacon, Hello
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import CompressedImage
-from bridge.server import BridgeServer
-from bridge.topics import TOPICS, camera_topics
+from bridge.server.server import BridgeServer
 from robotside.core.clock import RobotClock
 from robotside.gateways.apart import Apart
 from robotside.gateways.http import site

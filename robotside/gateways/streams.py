@@ -13,7 +13,7 @@ from collections.abc import Awaitable, Callable, Iterator, Mapping, MutableMappi
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
-from bridge.errors import BridgeError
+from bridge.core.errors import BridgeError
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import CompressedImage
 from robotside.core.bus import Bus

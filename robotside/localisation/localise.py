@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bridge.units import wrap
+from bridge.core.units import wrap
 from robotside.core.pose2 import Points, Pose2
 from robotside.mapping.grid import Grid
 from robotside.mapping.nearness import distance_from

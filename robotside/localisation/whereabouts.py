@@ -9,7 +9,8 @@ from collections import deque
 import numpy as np
 from numpy.typing import NDArray
 
-from bridge.geo import Datum
+from bridge.core.geo import Datum
+from bridge.core.units import wrap
 from bridge.msgs.geometry_msgs import (
     PoseWithCovariance,
     PoseWithCovarianceStamped,
@@ -23,7 +24,6 @@ from bridge.msgs.pilothouse_msgs import Bumper, RobotInfo
 from bridge.msgs.sensor_msgs import Imu, NavSatFix
 from bridge.msgs.std_msgs import Header, Time
 from bridge.msgs.tf2_msgs import TFMessage
-from bridge.units import wrap
 from robotside.core.bus import Publish
 from robotside.core.kinds import kind_of
 from robotside.core.pose2 import Points, Pose2

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from msgspec.structs import replace
 
+from bridge.core.units import wrap
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
-from bridge.units import wrap
 from robotside.core.kinds import kind_of
 from robotside.motion.drifting import CREEP
 from robotside.motion.slower import slower, within

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from bridge.core.units import wrap
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from bridge.units import wrap
 from robotside.core.kinds import kind_of
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Manoeuvrable, Robot

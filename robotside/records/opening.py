@@ -15,7 +15,7 @@ from sqlalchemy import Connection, Engine, inspect, text
 from sqlalchemy.engine import URL, make_url
 from sqlalchemy.exc import ArgumentError, NoSuchModuleError, SQLAlchemyError
 
-from bridge.errors import BridgeError
+from bridge.core.errors import BridgeError
 from robotside.records.database.files import BACKUPS_KEPT, PATIENCE, Files, Taken
 from robotside.records.database.legacy import left_behind, put_away
 from robotside.records.database.rows import Content, Put

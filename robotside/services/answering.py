@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from bridge.codec import to_json
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
-from bridge.server import Service, Session
+from bridge.server.server import Service, Session
 from robotside.control.authority import Operator
 from robotside.records import Job, NotRecorded
 from robotside.records.database.rows import Answered

@@ -15,7 +15,7 @@ from bridge.msgs.pilothouse_msgs import (
     SetLightsRequest,
     SetLightsResponse,
 )
-from bridge.server import Service
+from bridge.server.server import Service
 from robotside.control.authority import Operator
 from robotside.control.controls import STOP_SENTENCE
 from robotside.core.pose2 import Pose2

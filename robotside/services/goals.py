@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 
 import msgspec
 
-from bridge.errors import Refused
+from bridge.core.errors import Refused
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (
     CommandResponse,
@@ -17,7 +17,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskProgress,
     TaskStatus,
 )
-from bridge.server import Action, Session
+from bridge.server.server import Action, Session
 from robotside.services.orders import runner
 from robotside.station.station import Station
 

@@ -19,7 +19,7 @@ from bridge.msgs.pilothouse_msgs import (
     SetPlaceResponse,
 )
 from bridge.msgs.std_msgs import Time
-from bridge.server import Service
+from bridge.server.server import Service
 from robotside.control.authority import Operator
 from robotside.core.words import plain
 from robotside.records.places import LONGEST

@@ -28,7 +28,7 @@ from bridge.msgs.pilothouse_msgs import (
     Waypoint,
 )
 from bridge.msgs.std_msgs import Time
-from bridge.server import Service, Session
+from bridge.server.server import Service, Session
 from robotside.control.authority import Operator
 from robotside.core.pose2 import Pose2
 from robotside.core.words import plain

@@ -12,7 +12,7 @@ from bridge.msgs.pilothouse_msgs import (
     SetOptionRequest,
     SetOptionResponse,
 )
-from bridge.server import Service
+from bridge.server.server import Service
 from robotside.control.authority import Operator
 from robotside.control.controls import STOP_SENTENCE
 from robotside.control.helm import FOLLOW_LINK, LOST_LINK_STOPS_TASK

@@ -17,7 +17,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskOrder,
     Waypoint,
 )
-from bridge.server import Service
+from bridge.server.server import Service
 from robotside.control.authority import Operator
 from robotside.services.answering import Answering
 from robotside.services.commands import Refusal

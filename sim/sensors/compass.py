@@ -6,9 +6,9 @@ import math
 
 import msgspec
 
+from bridge.core.units import heading_from_yaw
 from bridge.msgs.pilothouse_msgs import Compass as Told
 from bridge.msgs.std_msgs import Header, Time
-from bridge.units import heading_from_yaw
 from sim.backend_bullet import GRAVITY, State
 from sim.sensors.noise import Noise
 from sim.shapes import Vec3, rotate_back

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import msgspec
 
-import bridge.geo
+import bridge.core.geo
 from bridge.msgs.sensor_msgs import NavSatFix, NavSatStatus
 from bridge.msgs.std_msgs import Header, Time
 from sim.backend_bullet import State
@@ -33,7 +33,7 @@ class Gps:
         """A receiver in the world whose map's origin lies at `datum`."""
         self._parameters, self._noise = parameters, noise
         self._altitude = datum.altitude
-        self._origin = bridge.geo.Datum(datum.latitude, datum.longitude)
+        self._origin = bridge.core.geo.Datum(datum.latitude, datum.longitude)
         self._errors = tuple(
             Wander(noise, parameters.wander_error * worse, parameters.wander, 1 / parameters.rate)
             for worse in (1.0, 1.0, 2.0)

@@ -8,7 +8,7 @@ from typing import Self
 
 from msgspec.structs import replace
 
-from bridge.units import wrap
+from bridge.core.units import wrap
 from sim.backend_bullet import STEPS_PER_SECOND
 from sim.sensors.compass import CompassParameters
 from sim.sensors.gps import GpsParameters

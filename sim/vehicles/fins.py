@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from bridge.units import wrap
+from bridge.core.units import wrap
 from sim.backend_bullet import STEPS_PER_SECOND
 from sim.shapes import Vec3
 from sim.vehicles.control import towards, within

@@ -12,6 +12,7 @@ from typing import Any
 
 import msgspec
 
+from bridge.discovery.network import NetworkThread
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
@@ -59,8 +60,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskRun,
 )
 from bridge.msgs.std_msgs import Time
-from bridge.network import NetworkThread
-from bridge.server import BridgeServer, Service, Session
+from bridge.server.server import BridgeServer, Service, Session
 
 __all__ = ["FakeRobot"]
 

@@ -7,9 +7,9 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from bridge.network import NetworkThread
+from bridge.discovery.network import NetworkThread
+from tests.bridge.client.foreign_server import ForeignServer
 from tests.bridge.foreign_robot import ForeignRobot
-from tests.bridge.foreign_server import ForeignServer
 
 __all__ = ["Strange", "strange_robot"]
 

@@ -12,7 +12,7 @@ import pytest
 from app.acting import ALONE, Acting
 from app.intents import INTENTS
 from app.origin import origins
-from bridge.client import LinkState, Phase
+from bridge.client.client import LinkState, Phase
 from bridge.msgs.pilothouse_msgs import ControlStatus, LightState, RobotInfo, TaskOrder, TaskStatus
 from tests.app.test_actions import SERVICES, Asked
 

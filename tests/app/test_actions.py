@@ -16,7 +16,7 @@ from app.layout import Action as Line
 from app.offer import Offer
 from app.session import Session
 from app.settings import Settings
-from bridge.client import LinkState, Phase
+from bridge.client.client import LinkState, Phase
 from bridge.msgs.pilothouse_msgs import ControlStatus, LightState, RobotInfo, TaskStatus
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
 from widgets.icons import ICONS

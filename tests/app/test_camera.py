@@ -10,7 +10,7 @@ from PIL import Image
 
 from app.camera import PICTURE, Camera, Decoder, _kivy, _pillow, best_decoder
 from app.feeds import Mailbox
-from bridge.frames import Frame
+from bridge.core.frames import Frame
 
 
 def jpeg() -> bytes:

@@ -10,7 +10,7 @@ import pytest
 
 from app.commands import COMMANDS, Commands, Outcome
 from app.origin import Origin
-from bridge.errors import NoReply, NotConnected, Refused
+from bridge.core.errors import NoReply, NotConnected, Refused
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
     CommandResponse,

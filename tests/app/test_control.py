@@ -12,7 +12,7 @@ from app.link import LINK
 from app.screens import standing
 from app.session import Session
 from app.settings import Settings
-from bridge.client import LinkState, Phase
+from bridge.client.client import LinkState, Phase
 from bridge.msgs.pilothouse_msgs import ControlStatus
 from bridge.msgs.std_msgs import Time
 from tests.bridge.wires import Clock

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from app.discovery import Robots, check_address
-from bridge.beacon import Hello
+from bridge.discovery.beacon import Hello
 
 A, B = "ws://10.0.0.3:9090", "ws://10.0.0.4:9091"
 

@@ -16,9 +16,9 @@ from app.link import Link
 from app.logbook import marks
 from app.session import Session
 from app.settings import Settings
+from bridge.discovery.network import NetworkThread
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, Mission, Waypoint
-from bridge.network import NetworkThread
 from tests.app.fakes import FakeRobot
 
 PATIENCE = 10.0

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 from app.offer import CAMERA, Offer, ask
-from bridge.errors import NoReply, NotConnected, ProtocolError, Refused
-from bridge.topics import TOPICS
+from bridge.core.errors import NoReply, NotConnected, ProtocolError, Refused
+from bridge.core.topics import TOPICS
 from tests.app import virtual
 
 OURS = {entry.name: entry.type.MSGTYPE for entry in TOPICS}

@@ -16,7 +16,7 @@ from app.offer import Offer
 from app.own_name import OwnName
 from app.session import Session
 from app.settings import Settings
-from bridge.client import LinkState, Phase
+from bridge.client.client import LinkState, Phase
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskProgress, TaskStatus
 from tests.headless import Stage
 

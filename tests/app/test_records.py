@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from app.records import Records
-from bridge.frames import Frame
+from bridge.core.frames import Frame
 from bridge.msgs import Msg
 from bridge.msgs.nav_msgs import Odometry
 

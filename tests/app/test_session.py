@@ -14,7 +14,7 @@ from app.origin import Origin
 from app.session import Session
 from app.settings import Settings
 from app.stopping import COMES_TO_REST
-from bridge.client import LinkState, Phase
+from bridge.client.client import LinkState, Phase
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskStatus
 from tests.bridge.wires import Clock
 

@@ -10,7 +10,7 @@ import pytest
 
 from app import arrange
 from app.arrange import Rect
-from bridge.beacon import Hello
+from bridge.discovery.beacon import Hello
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass

@@ -12,8 +12,8 @@ from typing import Any
 import pytest
 
 from app.stop_lane import StopLane
-from bridge.client import LinkState, Phase
-from bridge.errors import NoReply, NotConnected, Refused
+from bridge.client.client import LinkState, Phase
+from bridge.core.errors import NoReply, NotConnected, Refused
 from bridge.msgs.geometry_msgs import Twist, TwistStamped, TwistWithCovariance
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import CommandResponse, ControlStatus, RobotInfo

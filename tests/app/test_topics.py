@@ -12,10 +12,10 @@ from app.link import LINK, OFFER, SEEN
 from app.offer import Offer
 from app.sources import Seen
 from app.topics import Topics
+from bridge.core.topics import TOPICS
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import OccupancyGrid
 from bridge.msgs.sensor_msgs import Imu, LaserScan
-from bridge.topics import TOPICS
 
 FOREIGN = Offer.of(
     {

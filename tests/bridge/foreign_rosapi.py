@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from tests.bridge.foreign_types import Unfit, internal, spelled, typedefs
 
 if TYPE_CHECKING:
-    from tests.bridge.foreign_server import ForeignServer
+    from tests.bridge.client.foreign_server import ForeignServer
 
 SERVICES = {
     "/reset_odometry": "std_srvs/Empty",

@@ -12,7 +12,7 @@ from typing import Any
 import cbor2
 from websockets.asyncio.client import ClientConnection, connect
 
-from bridge.server import BridgeServer
+from bridge.server.server import BridgeServer
 from tests.bridge.wires import PATIENCE, Wire, url
 
 __all__ = ["Peer", "bare", "peer"]

@@ -7,8 +7,8 @@ import logging
 
 import pytest
 
+from bridge.core.topics import TOPICS, Topic
 from bridge.msgs.std_msgs import String
-from bridge.topics import TOPICS, Topic
 from tests.bridge.peers import peer
 from tests.bridge.wires import Record, server
 

@@ -7,9 +7,9 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from typing import Any
 
-from bridge.client import BridgeClient, LinkState, Phase
+from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
-from bridge.server import BridgeServer, Service
+from bridge.server.server import BridgeServer, Service
 
 PATIENCE = 5.0
 """How long a test waits for what must happen [s]; a fault, not a delay, uses it up."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 
 from bridge.msgs import Msg
-from bridge.server import Action
+from bridge.server.server import Action
 from tests.bridge.wires import server
 from tests.clients.peers import BOTH, peer
 

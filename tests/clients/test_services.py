@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from bridge.compat import Compat
+from bridge.core.compat import Compat
 from tests.bridge.wires import server
 from tests.clients.peers import BOTH, both, peer
 

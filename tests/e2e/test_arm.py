@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from bridge.client.remote import RemoteRobot
 from bridge.msgs.pilothouse_msgs import ArmState, LightState
-from bridge.remote import RemoteRobot
 from examples.demo.robot import RobotProcess
 from tests.e2e.handheld import Handheld, handheld
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from bridge.client import Phase
+from bridge.client.client import Phase
 from examples.demo.witness import Witness
 from tests.e2e.handheld import Cable, Handheld, handheld
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from bridge.client.remote import RemoteRobot
 from bridge.msgs.geometry_msgs import Twist
-from bridge.remote import RemoteRobot
 from examples.demo.robot import RobotProcess
 from examples.demo.witness import Witness
 from tests.e2e.handheld import handheld

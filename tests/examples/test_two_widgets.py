@@ -9,11 +9,11 @@ import time
 
 import pytest
 
+from bridge.client.remote import RemoteRobot
 from bridge.msgs.geometry_msgs import Quaternion, Twist
 from bridge.msgs.sensor_msgs import Imu
-from bridge.remote import RemoteRobot
 from examples.two_widgets import two_widgets
-from tests.bridge.test_remote import Served
+from tests.bridge.client.test_remote import Served
 from tests.bridge.wires import PATIENCE
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from bridge.geo import Datum
+from bridge.core.geo import Datum
 from widgets.compass import Compass
 from widgets.geo_map import GeoMap
 from widgets.geometry import View

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from bridge.geo import Datum
+from bridge.core.geo import Datum
 from scripts import make_mbtiles as script
 
 WORLD = tomllib.loads((script.ROOT / "sim/worlds/parking_lot.toml").read_text())

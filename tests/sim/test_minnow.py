@@ -8,9 +8,9 @@ import statistics
 import msgspec
 import pytest
 
+from bridge.core.units import heading_from_yaw
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from bridge.units import heading_from_yaw
 from sim.backend_bullet import GRAVITY, STEPS_PER_SECOND, State
 from sim.sensors.compass import Compass, levelled
 from sim.sensors.noise import Noise

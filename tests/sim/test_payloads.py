@@ -9,10 +9,10 @@ import msgspec
 import numpy as np
 import pytest
 
+from bridge.core.topics import topic
 from bridge.msgs.arrays import Float64Array
 from bridge.msgs.geometry_msgs import Point, Twist
 from bridge.msgs.pilothouse_msgs import ArmOrder, LightState, TagRead
-from bridge.topics import topic
 from sim.payloads import PAYLOADS, load, mount
 from sim.payloads.kinematics import Arm
 from sim.robot import ROBOTS, SimRobot, make

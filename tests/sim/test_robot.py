@@ -6,8 +6,8 @@ import math
 import msgspec
 import pytest
 
+from bridge.core.topics import topic
 from bridge.msgs.geometry_msgs import Twist
-from bridge.topics import topic
 from sim.robot import ROBOTS, WORLDS, make
 from sim.vehicles.model import Model
 from sim.vehicles.patrol import PARAMETERS, Patrol

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
+from bridge.core.units import yaw_from_heading
 from bridge.msgs.pilothouse_msgs import Compass, Manoeuvre
-from bridge.units import yaw_from_heading
 from widgets.course_dial import HOLD, INNER, KNOB, CourseDial
 from widgets.geometry import dial_point
 

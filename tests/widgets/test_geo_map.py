@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from bridge.geo import Datum
+from bridge.core.geo import Datum
 from widgets.geo_map import GeoMap, samples
 from widgets.geometry import View
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import msgspec
 
 from bridge.codec import from_json
-from bridge.errors import BridgeError
+from bridge.core.errors import BridgeError
 from bridge.msgs.pilothouse_msgs import Mission
 
 __all__ = ["LeftBehind", "left_behind", "put_away"]

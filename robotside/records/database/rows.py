@@ -12,7 +12,7 @@ from sqlalchemy import delete, select
 from sqlalchemy.orm import Session
 
 from bridge.codec import from_json, to_json
-from bridge.errors import BridgeError
+from bridge.core.errors import BridgeError
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event, Mission, Place, ScheduledTask, TaskOrder, TaskRun
 from bridge.msgs.std_msgs import Time

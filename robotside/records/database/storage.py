@@ -11,7 +11,7 @@ from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 from sqlalchemy.orm import Session
 from sqlalchemy.pool import StaticPool
 
-from bridge.errors import BridgeError
+from bridge.core.errors import BridgeError
 from robotside.records.database.files import PATIENCE
 from robotside.records.database.rows import Content, Put, read_all, write
 from robotside.records.database.tables import Base

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from bridge.core.units import wrap
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from bridge.units import wrap
 from sim.backend_bullet import GRAVITY, STEPS_PER_SECOND
 from sim.shapes import Vec3
 from sim.vehicles.control import filled, given, within

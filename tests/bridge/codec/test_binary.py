@@ -11,7 +11,7 @@ import msgspec
 import pytest
 
 from bridge.codec import from_builtins, from_cbor, to_cbor
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist, Vector3
 from bridge.msgs.nav_msgs import Odometry

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bridge.codec import check_cbor
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 
 PLAIN = st.recursive(
     st.none() | st.booleans() | st.floats() | st.integers(-(2**63), 2**63 - 1) | st.text() | st.binary(),

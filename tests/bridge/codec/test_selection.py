@@ -6,7 +6,7 @@ import msgspec
 import pytest
 
 from bridge.codec import from_builtins, from_cbor, from_json, select, to_cbor, to_json
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import Mission, Waypoint

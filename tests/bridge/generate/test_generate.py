@@ -14,13 +14,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bridge.codec import from_builtins, from_cbor, from_json, to_cbor, to_json
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.generate import TextError, generate
 from bridge.msgs.arrays import Float32Array, UInt16Array
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.std_msgs import Header
-from bridge.typedefs import typedefs
+from bridge.server.rosapi.typedefs import typedefs
 from tests.bridge.strategies import messages
 
 ROOT = Path(__file__).parents[3]

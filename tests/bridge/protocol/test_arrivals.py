@@ -10,7 +10,7 @@ import cbor2
 import pytest
 from PIL import Image
 
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.protocol import (
     Arrivals,
     BinaryPublish,

@@ -6,7 +6,7 @@ import cbor2
 import pytest
 from msgspec import UNSET, Raw
 
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.msgs.geometry_msgs import Twist
 from bridge.protocol import (
     ActionFeedback,

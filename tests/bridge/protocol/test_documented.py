@@ -9,9 +9,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from bridge import server_connection, serving
-from bridge.compat import Compat
-from bridge.params import Params
+from bridge.core.compat import Compat
 from bridge.protocol import (
     LARGEST_ARGUMENTS,
     LARGEST_HEARD,
@@ -21,7 +19,9 @@ from bridge.protocol import (
     Op,
     Reduction,
 )
-from bridge.rosapi import Graph, RosApi
+from bridge.server import server_connection, serving
+from bridge.server.rosapi.params import Params
+from bridge.server.rosapi.rosapi import Graph, RosApi
 
 TEXT = (Path(__file__).parents[3] / "docs" / "bridge.md").read_text()
 TABLE = TEXT.split("<!-- operations:")[1].split("<!-- end of operations -->")[0]

@@ -12,7 +12,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from msgspec import UNSET
 
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.protocol import Fragment, Fragments, split
 from bridge.protocol.fragments import MOST_SLICES, SLICE_COST
 

@@ -11,7 +11,7 @@ import random
 import cbor2
 import pytest
 
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.msgs.pilothouse_msgs import CommandRequest
 from bridge.protocol import (
     ActionFeedback,

@@ -7,8 +7,8 @@ import itertools
 
 import pytest
 
-from bridge.compat import Compat
-from bridge.errors import ProtocolError
+from bridge.core.compat import Compat
+from bridge.core.errors import ProtocolError
 from bridge.protocol import COMPRESSIONS, Reduction, Subscribe, Subscribed
 from bridge.protocol.merging import merged, wish
 

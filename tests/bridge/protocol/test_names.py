@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from msgspec import UNSET
 
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.protocol import CallService, Subscribe, absolute, ros2_name, service_and_id, spells_ros2
 from bridge.protocol.names import checked_id, checked_name, wrong
 

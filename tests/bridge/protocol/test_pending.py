@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from msgspec import UNSET, Raw
 
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.protocol import (
     ActionFeedback,
     ActionResult,

@@ -15,7 +15,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.protocol import MOST_FILTERED, Png, dump, parse, pixels, to_png
 
 LIMIT = 1_000_000

@@ -6,8 +6,8 @@ import msgspec
 import pytest
 from msgspec import UNSET, Raw
 
-from bridge.compat import Compat
-from bridge.errors import ProtocolError
+from bridge.core.compat import Compat
+from bridge.core.errors import ProtocolError
 from bridge.protocol import (
     ActionFeedback,
     ActionResult,

@@ -16,8 +16,8 @@ from hypothesis.stateful import (
 )
 from msgspec import UNSET
 
-from bridge.compat import Compat
-from bridge.errors import ProtocolError
+from bridge.core.compat import Compat
+from bridge.core.errors import ProtocolError
 from bridge.protocol import (
     COMPRESSIONS,
     ActionFeedback,

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from msgspec import Raw
 
 from bridge import protocol
-from bridge.errors import ProtocolError
+from bridge.core.errors import ProtocolError
 from bridge.msgs.pilothouse_msgs import CommandRequest
 from bridge.protocol import (
     Publish,

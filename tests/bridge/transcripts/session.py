@@ -6,8 +6,8 @@ import asyncio
 from collections.abc import Awaitable, Callable
 from typing import Any
 
-from bridge.client import BridgeClient
-from bridge.errors import BridgeError, Refused
+from bridge.client.client import BridgeClient
+from bridge.core.errors import BridgeError, Refused
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from bridge.liveness import LAPSE
+from bridge.core.liveness import LAPSE
 from robotside.control.authority import AGAIN, REMEMBERED, SILENT, TO_OBJECT, Authority
 from tests.fakes import FakeClient
 

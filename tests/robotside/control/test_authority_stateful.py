@@ -7,7 +7,7 @@ import itertools
 from hypothesis import HealthCheck, settings, strategies
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
-from bridge.liveness import LAPSE
+from bridge.core.liveness import LAPSE
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.control.authority import TO_OBJECT

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from bridge.liveness import LAPSE
+from bridge.core.liveness import LAPSE
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.control.authority import SILENT

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from bridge.address import BadAddress
-from bridge.client import BridgeClient
+from bridge.client.client import BridgeClient
+from bridge.core.address import BadAddress
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
@@ -34,7 +34,7 @@ from robotside.foreign.foreign_topics import Found
 from robotside.gateways.serving import Addresses, Serving
 from robotside.station.station import Station
 from robotside.tasks.autonomy import CAMERA
-from tests.bridge.foreign_server import ForeignServer, foreign
+from tests.bridge.client.foreign_server import ForeignServer, foreign
 from tests.bridge.wires import wire
 from tests.fakes import FakeRobot
 from tests.robotside.gateways.test_serving import connected

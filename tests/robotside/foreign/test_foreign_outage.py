@@ -8,14 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from bridge.connection import Connection
+from bridge.client.connection import Connection
 from bridge.msgs.geometry_msgs import PoseWithCovariance, Twist, TwistWithCovariance
 from bridge.msgs.nav_msgs import Odometry
 from robotside.control.sticks import LET_GO
 from robotside.foreign.foreign import SILENT, ForeignRobot
 from robotside.foreign.foreign_link import Listener
 from robotside.foreign.foreign_topics import Found
-from tests.bridge.foreign_server import foreign
+from tests.bridge.client.foreign_server import foreign
 from tests.robotside.foreign.test_foreign_link import reached, until
 from tests.robotside.scene import Scene
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from bridge.client import BridgeClient
+from bridge.client.client import BridgeClient
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import (
     Point,
@@ -33,8 +33,8 @@ from bridge.msgs.pilothouse_msgs import (
     Waypoint,
 )
 from bridge.msgs.sensor_msgs import LaserScan
+from tests.bridge.client.foreign_server import ForeignServer, foreign
 from tests.bridge.foreign_robot import chart
-from tests.bridge.foreign_server import ForeignServer, foreign
 from tests.bridge.wires import Wire, link, wire
 from tests.robotside.foreign.test_foreign_link import until
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from bridge.core.topics import TOPICS
 from bridge.msgs.pilothouse_msgs import RobotInfo
-from bridge.topics import TOPICS
 from robotside.core.bus import Bus
 from robotside.gateways.offered import Offered
 from robotside.services.orders import services

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from bridge.errors import BridgeError
+from bridge.core.errors import BridgeError
 from robotside.gateways import pictures
 from robotside.gateways.pictures import LEVELS, Pictures, Superseded, smaller
 

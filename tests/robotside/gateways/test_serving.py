@@ -18,8 +18,8 @@ import httpx
 import msgspec
 import pytest
 
-from bridge.client import BridgeClient, Phase
-from bridge.errors import BridgeError
+from bridge.client.client import BridgeClient, Phase
+from bridge.core.errors import BridgeError
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, ControlStatus, RobotInfo

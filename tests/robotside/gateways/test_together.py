@@ -13,8 +13,8 @@ from typing import TypeVar
 
 import pytest
 
-from bridge.client import BridgeClient
-from bridge.errors import BridgeError
+from bridge.client.client import BridgeClient
+from bridge.core.errors import BridgeError
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from bridge.errors import Refused
+from bridge.core.errors import Refused
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from bridge.codec import to_json
+from bridge.core.topics import TOPICS
 from bridge.msgs.geometry_msgs import (
     Point,
     Pose,
@@ -26,7 +27,6 @@ from bridge.msgs.pilothouse_msgs import (
     TaskStatus,
     Waypoint,
 )
-from bridge.topics import TOPICS
 from robotside.control.controls import STOP_SENTENCE
 from robotside.records.database.storage import NotWritten, Storage
 from tests.fakes import FakeRobot

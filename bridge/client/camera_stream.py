@@ -1,0 +1,74 @@
+"""The handheld's end of a camera's own WebSocket."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import random
+import time
+from collections.abc import Callable
+
+from bridge.client.connection import Connection, dial
+from bridge.core.address import BadAddress, LinkLost
+from bridge.core.errors import ProtocolError
+from bridge.core.frames import Frame, unpack
+from bridge.discovery.reconnecting import Reconnecting
+
+__all__ = ["CameraStream"]
+
+log = logging.getLogger(__name__)
+OPEN_TIMEOUT = 3.0
+"""How long looking up a name may take, and then opening the connection [s]."""
+
+
+class CameraStream(Reconnecting):
+    """The pictures of one camera, over a WebSocket of their own; connects again by itself."""
+
+    def __init__(
+        self,
+        url: str,
+        on_frame: Callable[[Frame, float], None],
+        *,
+        now: Callable[[], float] = time.monotonic,
+        backoff: tuple[float, float] = (0.5, 5.0),
+        rng: random.Random | None = None,
+    ) -> None:
+        """`url` is `ws://HOST:PORT/camera/NAME`; `on_frame(frame, received)`, `received` by `now()` [s]."""
+        super().__init__(url, now, backoff, rng)
+        self._on_frame = on_frame
+
+    async def stay_connected(self) -> None:
+        """Connect again and again; returns when the address can never work."""
+        attempt = 0
+        while True:
+            attempt += 1
+            try:
+                connection = await dial(self.url, OPEN_TIMEOUT, ping_interval=2.0)
+                attempt = 0
+                await self._watch(connection)
+            except BadAddress as error:
+                log.warning("No pictures: %s", error)
+                return
+            except LinkLost as error:
+                log.info("No pictures: %s", error)
+            await asyncio.sleep(self.wait_before(max(1, attempt)))
+
+    async def _watch(self, connection: Connection) -> None:
+        try:
+            async for raw in connection.arriving():
+                try:
+                    frame = unpack(raw)
+                except ProtocolError as error:
+                    log.debug("%s: %s", self.url, error)
+                    continue
+                connection.post(f"ack {frame.seq}")
+                self._show(frame)
+        finally:
+            await connection.hang_up()
+        raise LinkLost(f"The pictures from {self.place} were cut off.")
+
+    def _show(self, frame: Frame) -> None:
+        try:
+            self._on_frame(frame, self._now())
+        except Exception:
+            log.exception("Showing a picture of %s failed", self.url)

@@ -1,0 +1,114 @@
+"""Goals of actions as a client sends them: what takes a while, tells how it goes and can be taken back."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Callable
+from typing import Any, Generic, TypeVar, cast
+
+import msgspec
+from msgspec import Raw
+
+from bridge.codec import from_json
+from bridge.core.errors import NoReply, NotConnected, ProtocolError, Refused
+from bridge.msgs import TYPES, Msg
+from bridge.protocol import ActionFeedback, ActionResult, goal_status
+
+__all__ = ["CANCELED", "SUCCEEDED", "Goal", "action_of", "part_of", "reason"]
+
+log = logging.getLogger(__name__)
+R = TypeVar("R", bound=Msg)
+
+EXECUTING, SUCCEEDED, CANCELED, ABORTED = 2, 4, 5, 6
+"""Of action_msgs/GoalStatus."""
+
+
+class Goal(Generic[R]):
+    """One goal on its way; made by `BridgeClient.goal` and used in its event loop."""
+
+    def __init__(
+        self,
+        action: str,
+        result: type[R],
+        feedback: type[Msg] | None,
+        on_feedback: Callable[[Any], object] | None,
+        cancel: Callable[[], bool],
+    ) -> None:
+        self.action = action
+        self.status = EXECUTING
+        """As in action_msgs/GoalStatus: 2 under way, 4 succeeded, 5 canceled, 6 aborted; 0 when nobody can say."""
+        self._type = result
+        self._feedback = feedback
+        self._on_feedback = on_feedback
+        self._cancel = cancel
+        self._over: asyncio.Future[ActionResult | None] = asyncio.get_running_loop().create_future()
+
+    @property
+    def done(self) -> bool:
+        """What became of it is known, or never will be."""
+        return self._over.done()
+
+    def cancel(self) -> bool:
+        """Take it back; `result` says what became of it. False when it is over or there is no connection."""
+        return not self.done and self._cancel()
+
+    async def result(self, timeout: float | None = None) -> R:
+        """Wait for what comes of it, `timeout` at most [s]; the goal goes on when that is over.
+
+        Refused when it was refused, aborted or cancelled, NotConnected when the connection was cut, NoReply when the time
+        is over, ProtocolError when what came is no such result.
+        """
+        try:
+            async with asyncio.timeout(timeout):
+                found = await asyncio.shield(self._over)
+        except TimeoutError as error:
+            raise NoReply(f"The robot did not finish {self.action} within {timeout:g} s.") from error
+        if found is None:
+            raise NotConnected(f"The connection was cut before {self.action} was finished.")
+        if not found.result:
+            raise Refused(reason(found.values) or f"The robot refused {self.action}.")
+        if self.status in (CANCELED, ABORTED):
+            word = "cancelled" if self.status == CANCELED else "aborted"
+            raise Refused(f"{self.action} was {word}.")
+        return from_json(found.values, self._type)
+
+    def hear(self, op: ActionFeedback) -> None:
+        """The robot says how far it is; what does not fit is logged and left out."""
+        if self._on_feedback is None or self._feedback is None:
+            return
+        try:
+            self._on_feedback(from_json(op.values, self._feedback))
+        except ProtocolError as error:
+            log.warning("Feedback of %s is left out: %s", self.action, error)
+        except Exception:
+            log.exception("Showing the feedback of %s failed", self.action)
+
+    def end(self, op: ActionResult | None) -> None:
+        """The robot says what became of it; None when it never will."""
+        if self._over.done():
+            return
+        self.status = 0 if op is None else goal_status(op)
+        self._over.set_result(op)
+
+
+def action_of(goal: Msg) -> str:
+    """The ROS name of the action that `goal` is a goal of; ProtocolError when it is none of any."""
+    name = goal.MSGTYPE
+    if not name.endswith("Goal"):
+        raise ProtocolError(f"{name or type(goal).__name__} is not the goal of an action.")
+    return name.removesuffix("Goal")
+
+
+def reason(values: Raw) -> str:
+    """Why a call or a goal was refused, which stands in the place of its values; empty when nothing was said."""
+    said = cast(object, msgspec.json.decode(values))
+    return said if isinstance(said, str) else ""
+
+
+def part_of(name: str, part: str) -> type[Msg]:
+    """A service's or action's `Request`, `Response`, `Goal`, `Result` or `Feedback`; ProtocolError when it is not known."""
+    found = TYPES.get(f"{name}{part}")
+    if found is None:
+        raise ProtocolError(f"{name}{part} is no known type.")
+    return found

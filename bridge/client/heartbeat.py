@@ -1,0 +1,106 @@
+"""The heartbeat of one connection: what the robot's clock says, how long the way takes, and whether the link still lives."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+from collections import deque
+from collections.abc import Callable
+
+from bridge.client.connection import Connection
+from bridge.client.pings import Ping, Pings
+from bridge.codec import from_json
+from bridge.core.address import LinkLost
+from bridge.core.errors import ProtocolError
+from bridge.core.liveness import Liveness
+from bridge.discovery.route import Changes, Network
+from bridge.msgs.rosapi_msgs import GetTimeResponse
+from bridge.protocol import ClientSession, Id, Op, ServiceResponse
+
+__all__ = ["Heartbeat"]
+
+PING_PERIOD = 0.5
+"""[s]"""
+_ASKED = 10
+"""So many questions for the time wait for their answer at most."""
+
+
+class Heartbeat:
+    """Pings over one connection until it is lost."""
+
+    def __init__(
+        self,
+        connection: Connection,
+        session: ClientSession,
+        *,
+        send: Callable[[Op], bool],
+        place: str,
+        now: Callable[[], float],
+        network: Network,
+        on_robot: Callable[[], object],
+    ) -> None:
+        """`on_robot` is called once, when the other end has shown to be a robot's server."""
+        self.pings = Pings()
+        self.life = Liveness(place, connection.ours, now())
+        self._connection = connection
+        self._session = session
+        self._send = send
+        self._place = place
+        self._now = now
+        self._network = network
+        self._on_robot = on_robot
+        self._told = False
+        self._asked: deque[Id] = deque()
+
+    async def run(self) -> None:
+        """Ping; raises LinkLost when the link is silent, was cut off by a change of the network, or never was a robot's."""
+        changes = Changes(self._network, self._connection.address)
+        while True:
+            self._beat()
+            await asyncio.sleep(PING_PERIOD)
+            now, local = self._now(), self._connection.local
+            if local and not self._network.has(local):
+                raise LinkLost(f"The network changed: this device is no longer {local}.")
+            if changes.seen():
+                self.life.alert(now)
+            self.life.check(now)
+            self._tell()
+
+    def _beat(self) -> None:
+        ping = self.pings.send(self._now())
+        if not self._connection.ours:
+            self._connection.ping(lambda: self._ponged(ping))
+        if not self.life.beat():
+            return
+        op = self._session.call("/rosapi/get_time", b"{}", lambda found: self._answered(ping, found))
+        self._asked.append(op.id)
+        if len(self._asked) > _ASKED:
+            self._session.calls.forget(self._asked.popleft())
+        self._send(op)
+
+    def _ponged(self, ping: Ping) -> None:
+        now = self._now()
+        self.life.pong(now)
+        if math.isnan(ping.rtt):
+            self.pings.answer(ping, now, math.nan)
+
+    def _answered(self, ping: Ping, answer: ServiceResponse | None) -> None:
+        if answer is None:
+            return
+        told = _time_in(answer)
+        self.pings.answer(ping, self._now(), told)
+        self.life.time(not math.isnan(told))
+        self._tell()
+
+    def _tell(self) -> None:
+        if self.life.robot and not self._told:
+            self._told = True
+            self._on_robot()
+
+
+def _time_in(answer: ServiceResponse) -> float:
+    """The operators' clock [s]; NaN when the robot cannot say."""
+    try:
+        return from_json(answer.values, GetTimeResponse).time.seconds if answer.result else math.nan
+    except ProtocolError:
+        return math.nan

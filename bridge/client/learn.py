@@ -1,0 +1,272 @@
+"""Message classes made at run time from what `/rosapi/message_details` tells, for types that nobody generated."""
+
+from __future__ import annotations
+
+import builtins
+import functools
+import keyword
+import re
+import typing
+from collections.abc import Callable, Mapping, Sequence
+from typing import Annotated, Any
+
+import msgspec
+from msgspec import Meta
+
+from bridge.codec.fields import CODES, fields_of
+from bridge.core.errors import ProtocolError
+from bridge.msgs import TYPES, Msg, base
+from bridge.msgs.arrays import ARRAYS
+from bridge.msgs.builtin_interfaces import Duration, Time
+
+__all__ = ["learn"]
+
+MOST_TYPES = 500
+"""How many definitions one answer may hold."""
+MOST_FIELDS = 1000
+"""How many fields one type may have."""
+MOST_DEEP = 50
+"""How deep types may lie in each other."""
+MOST_ELEMENTS = 1_000_000
+"""How many values the fixed arrays of an empty message may hold together."""
+
+_SCALARS: dict[str, Any] = {
+    "bool": bool,
+    "string": str,
+    "wstring": str,
+    "float32": float,
+    "float64": float,
+    "char": base.char,
+    "byte": base.byte,
+    **{
+        f"{sign}int{bits}": getattr(base, f"{sign}int{bits}")
+        for sign in ("", "u")
+        for bits in (8, 16, 32, 64)
+    },
+}
+_OTHER_NAMES = {
+    "boolean": "bool",
+    "octet": "byte",
+    "float": "float32",
+    "double": "float64",
+    "builtins/str": "string",
+    "builtin_interfaces/Time": "time",
+    "builtin_interfaces/Duration": "duration",
+    "Header": "std_msgs/Header",
+}
+"""What rosapi calls types beside their names in ROS text: those of IDL, and a bounded text's class."""
+_ARRAY_OF = {kind: cls for kind, code in CODES.items() for cls in ARRAYS.values() if cls.code == code}
+_ZEROS: dict[Any, Any] = {"bool": False, "string": "", "wstring": "", "float32": 0.0, "float64": 0.0}
+_BYTES = ("uint8", "char", "byte")
+_BUILT_IN: dict[str, type[Msg]] = {"time": Time, "duration": Duration}
+_NAME = re.compile(r"[A-Za-z]\w{0,199}", re.ASCII)
+_TYPE = re.compile(r"[A-Za-z]\w{0,99}(?:/[A-Za-z]\w{0,99}){1,2}", re.ASCII)
+_BOUND = re.compile(
+    r"(?P<base>[\w/]+)(?:<=?\d+>?)?(?:, ?\d+)?(?:\[(?P<bound><=)?(?P<length>\d*)\])?", re.ASCII
+)
+_SEQUENCE = re.compile(r"sequence<(?P<inner>.+)>")
+_PART = re.compile(r"_(Request|Response|Goal|Result|Feedback)$")
+_CONSTANT = re.compile(r"(?!SLOT_TYPES$|MSGTYPE$|ROSTYPES$)[A-Z][A-Z0-9_]*")
+
+
+class _Typedef(msgspec.Struct, frozen=True):
+    """One entry of the answer, as rosapi_msgs/TypeDef says."""
+
+    type: str
+    fieldnames: list[str] = []
+    fieldtypes: list[str] = []
+    fieldarraylen: list[int] = []
+    constnames: list[str] = []
+    constvalues: list[str] = []
+
+
+def learn(typedefs: Sequence[Mapping[str, Any]]) -> type[Msg]:
+    """The class of the first type in an answer of `/rosapi/message_details`; the others are what it is made of.
+
+    Names of ROS 1 and ROS 2 are understood. A type that is told as `bridge.msgs` has it is that class. The same answer
+    gives the same class. ProtocolError says what is wrong with an answer.
+    """
+    try:
+        return _learned(msgspec.json.encode(typedefs))
+    except (TypeError, ValueError, OverflowError, RecursionError) as error:
+        raise ProtocolError(f"This tells no message type: {error}.") from error
+
+
+@functools.lru_cache(maxsize=256)
+def _learned(answer: bytes) -> type[Msg]:
+    try:
+        told = msgspec.json.decode(answer, type=list[_Typedef])
+    except msgspec.MsgspecError as error:
+        raise ProtocolError(f"This tells no message type: {error}.") from error
+    if not told:
+        raise ProtocolError("The robot tells nothing about this type.")
+    if len(told) > MOST_TYPES:
+        raise ProtocolError(f"{told[0].type} is made of {len(told)} types; at most {MOST_TYPES} are taken.")
+    known = {_named(each.type): each for each in told}
+    return _made(_named(told[0].type), known, dict(_BUILT_IN), ())
+
+
+def _made(
+    name: str, told: Mapping[str, _Typedef], made: dict[str, type[Msg]], way: tuple[str, ...]
+) -> type[Msg]:
+    """The class of `name`; `made` are those made for this answer, `way` the types that it is needed for."""
+    if name in made:
+        return made[name]
+    if name in way or len(way) > MOST_DEEP:
+        raise ProtocolError(f"{way[0]} holds {name}, which holds itself or lies too deep.")
+    definition = told.get(name)
+    if definition is None:
+        if name not in TYPES:
+            raise ProtocolError(f"{(*way, name)[0]} needs {name}, of which nothing is told.")
+        return TYPES[name]
+    kinds = _kinds(name, definition)
+    fields = tuple(
+        (field, kind, None if kind[0] in _SCALARS else _made(kind[0], told, made, (*way, name)))
+        for field, kind in kinds.items()
+    )
+    made[name] = _class(name, fields, _constants(definition, kinds))
+    return made[name]
+
+
+def _kinds(name: str, told: _Typedef) -> dict[str, tuple[str, int]]:
+    """The type of one element and the array length of each field."""
+    if not len(told.fieldnames) == len(told.fieldtypes) == len(told.fieldarraylen):
+        raise ProtocolError(
+            f"{name} is told with {len(told.fieldnames)} fields, {len(told.fieldtypes)} types and "
+            f"{len(told.fieldarraylen)} lengths; they must be as many."
+        )
+    if len(told.fieldnames) > MOST_FIELDS:
+        raise ProtocolError(f"{name} has {len(told.fieldnames)} fields; at most {MOST_FIELDS} are taken.")
+    kinds: dict[str, tuple[str, int]] = {}
+    for field, kind, length in zip(told.fieldnames, told.fieldtypes, told.fieldarraylen, strict=True):
+        if not _NAME.fullmatch(field) or field in kinds:
+            raise ProtocolError(
+                f"{name} has a field called {field!r:.60}, which cannot be or is there twice."
+            )
+        kinds[field] = _kind(kind, length, f"{name}.{field}")
+    return kinds
+
+
+def _kind(told: str, length: int, where: str) -> tuple[str, int]:
+    """`told` may hold the array as well, as in `sequence<double, 8>` or `double[3]`."""
+    sequence = _SEQUENCE.fullmatch(told)
+    if sequence:
+        told, length = sequence["inner"], 0
+    found = _BOUND.fullmatch(told)
+    if found is None or not -1 <= length <= MOST_ELEMENTS:
+        raise ProtocolError(f"{where} is told as {told!r:.60} with array length {length}, which is no type.")
+    if found["length"] is not None and length < 0:
+        length = int(found["length"]) if found["length"] and not found["bound"] else 0
+    return _named(found["base"]), length
+
+
+def _named(told: str) -> str:
+    """The ROS 1 name of a type: `std_srvs/srv/SetBool_Request` is `std_srvs/SetBoolRequest`."""
+    if told in _SCALARS or told in _BUILT_IN:
+        return told
+    if told in _OTHER_NAMES:
+        return _OTHER_NAMES[told]
+    if not _TYPE.fullmatch(told):
+        raise ProtocolError(f"{told!r:.60} is no type; one is called as in sensor_msgs/Imu.")
+    package, *_, name = told.split("/")
+    plain = f"{package}/{_PART.sub(lambda found: found[1], name)}"
+    return _OTHER_NAMES.get(plain, plain)
+
+
+def _constants(told: _Typedef, kinds: Mapping[str, Any]) -> tuple[tuple[str, Any], ...]:
+    """What can be a constant; rosapi of ROS 2 tells defaults and Python's own attributes among them."""
+    return tuple(
+        (name, _value(value))
+        for name, value in zip(told.constnames, told.constvalues, strict=False)
+        if _CONSTANT.fullmatch(name) and name not in kinds
+    )
+
+
+def _value(text: str) -> bool | int | float | str:
+    if text in ("True", "False"):
+        return text == "True"
+    for read in (int, float):
+        try:
+            return read(text)
+        except ValueError:
+            pass
+    return text
+
+
+@functools.lru_cache(maxsize=1024)
+def _class(
+    name: str,
+    fields: tuple[tuple[str, tuple[str, int], type[Msg] | None], ...],
+    constants: tuple[tuple[str, Any], ...],
+) -> type[Msg]:
+    rostypes = tuple(_rostype(*kind) for _, kind, _ in fields)
+    known = TYPES.get(name)
+    if known is not None and _same(known, fields, rostypes):
+        return known
+    if sum(_elements(length, inner) for _, (_, length), inner in fields) > MOST_ELEMENTS:
+        raise ProtocolError(f"{name} holds more than {MOST_ELEMENTS} values when it is empty.")
+    namespace = dict(constants) | {
+        "MSGTYPE": name,
+        "ROSTYPES": rostypes,
+        "__doc__": f"{name}, as it was told.",
+    }
+    parts = [_field(field, kind, length, inner) for field, (kind, length), inner in fields]
+    called = name.partition("/")[2]
+    made = msgspec.defstruct(
+        called, parts, bases=(Msg,), namespace=namespace, module=__name__, frozen=True, gc=False
+    )
+    return typing.cast(type[Msg], made)
+
+
+def _same(
+    known: type[Msg], fields: Sequence[tuple[str, Any, type[Msg] | None]], rostypes: tuple[str, ...]
+) -> bool:
+    """`known` has these fields, of classes that are known themselves; bounds are not told and do not count."""
+    names = [field.encode_name for field in msgspec.structs.fields(known)]
+    inside = all(inner is None or TYPES.get(inner.MSGTYPE) is inner for _, _, inner in fields)
+    bare = tuple(re.sub(r"<=\d+", "", rostype) for rostype in known.ROSTYPES)
+    return inside and [name for name, _, _ in fields] == names and rostypes == bare
+
+
+def _rostype(kind: str, length: int) -> str:
+    return kind if length < 0 else f"{kind}[{length or ''}]"
+
+
+def _elements(length: int, inner: type[Msg] | None) -> int:
+    """How many values an empty field holds; one of any length holds none."""
+    return (1 if length < 0 else length) * (_held(inner) if inner else 1)
+
+
+@functools.lru_cache(maxsize=1024)
+def _held(type: builtins.type[Msg]) -> int:
+    lengths = [((field.length or 0) if field.array else -1, field.type) for field in fields_of(type)]
+    return max(sum(_elements(length, inner) for length, inner in lengths), 1)
+
+
+def _field(name: str, kind: str, length: int, inner: type[Msg] | None) -> tuple[str, Any, Any]:
+    attribute = f"{name}_" if keyword.iskeyword(name) or name == "ROSTYPES" or hasattr(Msg, name) else name
+    hint, default = _hint(kind, length, inner)
+    renamed = name if attribute != name else None
+    if callable(default):
+        return attribute, hint, msgspec.field(default_factory=default, name=renamed)
+    return attribute, hint, msgspec.field(default=default, name=renamed)
+
+
+def _hint(kind: str, length: int, inner: type[Msg] | None) -> tuple[Any, Any]:
+    """The annotation of a field and its default, or what makes that."""
+    item: Any = _SCALARS[kind] if inner is None else inner
+    if length < 0:
+        return item, inner if inner is not None else _ZEROS.get(kind, 0)
+    size = Meta(min_length=length, max_length=length)
+    if kind in _BYTES:
+        return (Annotated[bytes, size] if length else bytes), bytes(length)
+    if not length:
+        return (_ARRAY_OF[kind],) * 2 if kind in _ARRAY_OF else (list[item], list)
+    return Annotated[list[item], size], _filled(kind, length, inner)
+
+
+def _filled(kind: str, length: int, inner: type[Msg] | None) -> Callable[[], list[Any]]:
+    if inner is not None:
+        return lambda: [inner() for _ in range(length)]
+    zero = _ZEROS.get(kind, 0)
+    return lambda: [zero] * length

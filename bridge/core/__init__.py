@@ -1,0 +1,1 @@
+"""What both ends of the socket share and nothing else: topics, units, geodesy, errors."""

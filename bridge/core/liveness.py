@@ -1,0 +1,110 @@
+"""What a link's other end is, and whether it still lives, judged by what comes; without I/O.
+
+Our own servers tell their time at once, and without it no link to them counts. Others may have no rosapi: they refuse to
+tell the time, or do not answer at all. There an answer to any question of ours, a message that was subscribed, or in the
+end that pings are answered and nothing strange came, makes a robot of a WebSocket.
+"""
+
+from __future__ import annotations
+
+import math
+
+from bridge.core.address import LinkLost
+
+__all__ = ["LAPSE", "SILENCE", "Liveness"]
+
+SILENCE = 3.0
+"""A link on which nothing came for this long is lost [s]."""
+LAPSE = 2.0
+"""Who has control and was not heard by the robot for this long has lost it [s]."""
+ALERT_SILENCE = 1.0
+"""As `SILENCE`, after the network changed or the machine slept [s]."""
+LATE = 1.0
+"""When nothing came for this long, what is sent now may arrive late [s]; a link that lives brings something twice a second."""
+GRACE = 1.0
+"""A server that answers other questions may still tell its time, for this long from the beginning [s]."""
+_TIME_EVERY = 4
+"""A foreign server that tells its time is asked for it with each so many pings."""
+_TIME_SELDOM = 20
+"""As `_TIME_EVERY`, when it does not."""
+
+
+class Liveness:
+    """One connection's life, from its opening on. Times are [s] on one clock that only goes forward."""
+
+    def __init__(self, place: str, ours: bool, now: float) -> None:
+        """`place` is the address as people say it; `ours` whether the other end calls itself a Pilothouse server."""
+        self.ours = ours
+        self.robot = False
+        """The other end has shown to be a robot's server."""
+        self.tells_time: bool | None = None
+        """It tells its clock; None until it answered."""
+        self._place = place
+        self._opened = self._heard = now
+        self._alert = math.inf
+        self._answers = False
+        self._strange = False
+        self._pong = False
+        self._beats = -1
+
+    def beat(self) -> bool:
+        """Count one ping; whether it is to ask for the time."""
+        self._beats += 1
+        if self.ours:
+            return True
+        if self.tells_time is None:
+            return self._beats < _TIME_EVERY or self._beats % _TIME_SELDOM == 0
+        return self._beats % (_TIME_EVERY if self.tells_time else _TIME_SELDOM) == 0
+
+    def heard(self, now: float) -> None:
+        """Something came."""
+        self._heard = now
+        self._alert = math.inf
+
+    def pong(self, now: float) -> None:
+        """A WebSocket ping was answered."""
+        self.heard(now)
+        self._pong = True
+
+    @property
+    def pongs(self) -> bool:
+        """It answers pings of WebSocket."""
+        return self._pong
+
+    def answered(self) -> None:
+        """A question of ours was answered, or something came that we subscribed."""
+        self._answers = True
+
+    def time(self, known: bool) -> None:
+        """The question for the time was answered; `known` tells whether with a time."""
+        self.tells_time = known
+        self.robot = True
+
+    def strange(self) -> None:
+        """Something came that no robot's server sends: what is no operation, or a question that nobody may ask."""
+        self._strange = True
+
+    def alert(self, now: float) -> None:
+        """The network changed or the machine slept: the link has to show soon that it lives."""
+        self._alert = min(self._alert, now)
+
+    def late(self, now: float) -> bool:
+        """What is sent now may wait on its way."""
+        return now - self._heard > LATE
+
+    def check(self, now: float) -> None:
+        """LinkLost when it is silent, or has not shown in time to be a robot's server."""
+        if now - self._heard >= SILENCE:
+            raise LinkLost(f"Nothing came from {self._place} for {SILENCE:g} s.")
+        if now - self._alert >= ALERT_SILENCE:
+            raise LinkLost(f"Nothing came from {self._place} after the network changed.")
+        self.robot = self.robot or self._shown(now - self._opened)
+        if not self.robot and now - self._opened >= SILENCE:
+            raise LinkLost(
+                f"{self._place} is a WebSocket but no robot: it did not answer within {SILENCE:g} s."
+            )
+
+    def _shown(self, age: float) -> bool:
+        if self.ours or self._strange:
+            return False
+        return (self._answers and age >= GRACE) or (self._pong and age >= SILENCE)

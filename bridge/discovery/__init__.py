@@ -1,0 +1,1 @@
+"""How robots and handhelds find each other on the local network."""

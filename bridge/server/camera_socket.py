@@ -1,0 +1,66 @@
+"""The server's side of one connection of somebody who watches a camera."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+
+from bridge.server.flow.levels import Picture
+from bridge.server.flow.quality import COARSEST, Quality
+from bridge.server.flow.sockets import Socket, end, wait
+
+__all__ = ["CameraSocket"]
+
+
+class CameraSocket:
+    """Somebody who watches one camera; gets the newest picture, as good and as often as the link carries it."""
+
+    def __init__(
+        self, socket: Socket, clock: Callable[[], float] | None = None, *, coarsest: int = COARSEST
+    ) -> None:
+        """`clock` tells the time that acknowledgements take [s], None is the loop's; `coarsest` as in Quality."""
+        self._socket = socket
+        self._newest: Picture | None = None
+        self._clock = clock or asyncio.get_running_loop().time
+        self.quality = Quality(coarsest)
+        """What may be sent when."""
+        self._wake = asyncio.Event()
+
+    async def run(self) -> None:
+        """Serve until the connection ends; raises what the socket raises when it ends badly."""
+        writer = asyncio.create_task(self._write())
+        try:
+            async for text in self._socket:
+                self._acknowledge(text)
+        finally:
+            await end({writer})
+
+    def offer(self, picture: Picture) -> None:
+        """Have a picture sent as soon as there is room for it; a newer one replaces one that still waits."""
+        self._newest = picture
+        self._wake.set()
+
+    def _acknowledge(self, text: str | bytes) -> None:
+        word, _, number = str(text).partition(" ")
+        if word == "ack" and number.isdecimal() and len(number) < 11:
+            self.quality.acknowledged(int(number), self._clock())
+            self._wake.set()
+
+    async def _write(self) -> None:
+        while True:
+            delay = self.quality.delay(self._clock()) if self._newest else None
+            if delay != 0.0:
+                await wait(self._wake, delay)
+                continue
+            picture, level = self._take(), self.quality.level
+            if picture is None:
+                continue
+            frame = await picture.at(level)
+            if level and frame is picture.frame and self._newest is not None:
+                continue  # it could not be made smaller in time, and a newer one can
+            self.quality.sent(picture.seq, len(frame), level, self._clock())
+            await self._socket.send(frame)
+
+    def _take(self) -> Picture | None:
+        picture, self._newest = self._newest, None
+        return picture

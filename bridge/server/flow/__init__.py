@@ -1,0 +1,1 @@
+"""How much goes to one client, in which order, and how good its pictures are."""

@@ -1,0 +1,211 @@
+"""Messages on their way out: encoded and put into WebSocket frames once for all who want them in the same form."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import struct
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeVar
+
+import msgspec
+from msgspec import Raw
+
+from bridge.codec import Unread, select, to_cbor, to_json, weight
+from bridge.core.errors import ProtocolError
+from bridge.msgs import Msg
+from bridge.msgs.std_msgs import Time
+from bridge.protocol import Op, Reduction, Subscribed, encode, split, to_png
+from bridge.rosbytes import serialize
+
+__all__ = ["Form", "Outgoing", "Reduce", "ping_frame", "said", "text_frame"]
+
+K = TypeVar("K")
+V = TypeVar("V")
+Reduce = Callable[[Msg, Reduction], Msg]
+"""Makes less of a message; itself where nothing can be made less. Does not look at `Reduction.fields`."""
+
+MOST_FORMS = 16
+"""In so many forms a message is kept; what is latched lives long, and a client may ask for any number one after the other."""
+MOST_LARGE = 2
+"""In so many forms a message is kept that is `LARGE` in them."""
+LARGE = 1_048_576
+"""[byte]"""
+_TEXT, _BINARY, _PING = 0x81, 0x82, 0x89
+_HEAD_16, _HEAD_64 = struct.Struct(">BBH").pack, struct.Struct(">BBQ").pack
+"""The head of a longer frame: its kind, what says how its length is told, and its length."""
+_numbers = itertools.count(1)
+_made = itertools.count(1)
+
+
+class Form(NamedTuple):
+    """In what form a message goes out: all that decides over its bytes."""
+
+    name: str
+    """The topic as the client wrote it."""
+    compression: str = "none"
+    """One of `bridge.protocol.COMPRESSIONS`."""
+    fragment_size: int | None = None
+    """Longest text frame [characters]; None for no end."""
+    reduction: Reduction | None = None
+    """How much of it goes out; None for all."""
+    ros2: bool = False
+    """Times are named as in ROS 2."""
+
+    @classmethod
+    def of(cls, wanted: Subscribed) -> Form:
+        """What a client asked for."""
+        return cls(wanted.name, wanted.compression, wanted.fragment_size, wanted.reduction, wanted.ros2)
+
+
+def text_frame(text: bytes) -> bytes:
+    """`text` as one text message of a server."""
+    return _head(_TEXT, len(text)) + text
+
+
+def ping_frame(content: bytes) -> bytes:
+    """A server's ping with up to 125 bytes in it."""
+    return _head(_PING, len(content)) + content
+
+
+def said(op: Op, size: int | None = None) -> bytes:
+    """An operation as frames of at most `size` characters of it each; ProtocolError when it cannot be encoded."""
+    return _cut(encode(op), size)
+
+
+class Outgoing:
+    """One published message; encoded when first needed and once per form, however many clients want it."""
+
+    __slots__ = ("_bodies", "_frames", "_lesser", "_msg", "_now", "_reduce", "_weight", "number", "topic")
+
+    def __init__(
+        self,
+        topic: str,
+        msg: Msg | Raw | Unread,
+        reduce: Reduce | None = None,
+        now: Callable[[], float] = float,
+    ) -> None:
+        """`msg` as Raw is JSON text of a type that is not known; it can be passed on, but not as `cbor-raw`. Unread it
+        is passed on as it is to all who want it as it is.
+
+        `now` is the operators' clock [s].
+        """
+        self.topic = topic
+        self.number = next(_made)
+        """Of two messages the older one's is smaller."""
+        self._weight = -1
+        self._msg = msg
+        self._reduce = reduce
+        self._now = now
+        self._frames: dict[Form, bytes] = {}
+        self._bodies: dict[tuple[Reduction | None, bool], bytes] = {}
+        if type(msg) is Unread:
+            self._bodies[None, False] = msg.text
+        self._lesser: dict[Reduction, Msg | Raw] = {}
+
+    def frame(self, form: Form) -> bytes:
+        """The message in WebSocket frames; ProtocolError when it cannot be encoded."""
+        frame = self._frames.get(form)
+        if frame is None:
+            frame = self._encode(form)
+            _keep(self._frames, form, frame, len(frame))
+        return frame
+
+    @property
+    def size(self) -> int:
+        """What it takes, about [byte]; not counted are the forms in which it goes out."""
+        if self._weight < 0:
+            msg = self._msg.text if isinstance(self._msg, Unread) else self._msg
+            self._weight = weight(msg) if isinstance(msg, Msg) else len(msg)
+        return self._weight
+
+    @property
+    def msg(self) -> Msg | Raw:
+        """All of it."""
+        if isinstance(self._msg, Unread):
+            self._msg = self._msg.read()
+        return self._msg
+
+    def lesser(self, reduction: Reduction | None) -> Msg | Raw:
+        """As much of the message as is wanted; ProtocolError when it has no such fields."""
+        msg = self.msg
+        if reduction is None or isinstance(msg, Raw):
+            return msg
+        found = self._lesser.get(reduction)
+        if found is None:
+            found = msg if self._reduce is None else self._reduce(msg, reduction)
+            if reduction.fields is not None:
+                found = select(found, reduction.fields)
+            _keep(self._lesser, reduction, found, 0)
+        return found
+
+    def _encode(self, form: Form) -> bytes:
+        name, compression, size, reduction, ros2 = form
+        if compression == "cbor":
+            return self._cbor(form, _plain(self.lesser(reduction)))
+        if compression == "cbor-raw":
+            return self._cbor(form, self._bytes_of_ros(form))
+        beginning, body = _beginning(name), self._body(reduction, ros2)
+        if compression == "none" and size is None:
+            return b"".join((_head(_TEXT, len(beginning) + len(body) + 1), beginning, body, b"}"))
+        text = b"".join((beginning, body, b"}"))
+        return _cut(encode(to_png(text)) if compression == "png" else text, size)
+
+    def _body(self, reduction: Reduction | None, ros2: bool) -> bytes:
+        body = self._bodies.get((reduction, ros2))
+        if body is None:
+            msg = self.msg if reduction is None else self.lesser(reduction)
+            body = bytes(msg) if isinstance(msg, Raw) else to_json(msg, ros2)
+            _keep(self._bodies, (reduction, ros2), body, len(body))
+        return body
+
+    def _cbor(self, form: Form, msg: object) -> bytes:
+        beginning, body = _binary_beginning(form.name), to_cbor(msg, form.ros2)
+        return b"".join((_head(_BINARY, len(beginning) + len(body)), beginning, body))
+
+    def _bytes_of_ros(self, form: Form) -> dict[str, Any]:
+        msg = self.lesser(form.reduction)
+        if isinstance(msg, Raw):
+            raise ProtocolError(
+                f"The type of {form.name} is not known here, so it cannot be sent as cbor-raw."
+            )
+        now = Time.at(self._now())
+        return {"secs": now.secs, "nsecs": now.nsecs, "bytes": serialize(msg, cdr=form.ros2)}
+
+
+def _keep(forms: dict[K, V], key: K, form: V, size: int) -> None:
+    """Keep a form of `size` [byte] in the place of the oldest when there are many."""
+    most = MOST_LARGE if size > LARGE else MOST_FORMS
+    while len(forms) >= most:
+        forms.pop(next(iter(list(forms))), None)  # a copy: a worker thread may be at it as well
+    forms[key] = form
+
+
+def _plain(msg: Msg | Raw) -> object:
+    return msgspec.json.decode(msg) if isinstance(msg, Raw) else msg
+
+
+@functools.lru_cache(maxsize=1024)
+def _beginning(name: str) -> bytes:
+    return b'{"op":"publish","topic":' + msgspec.json.encode(name) + b',"msg":'
+
+
+@functools.lru_cache(maxsize=1024)
+def _binary_beginning(name: str) -> bytes:
+    two = to_cbor({"op": "publish", "topic": name})
+    return bytes((two[0] + 1,)) + two[1:] + to_cbor("msg")  # a third pair follows, of which this is the key
+
+
+def _cut(text: bytes, size: int | None) -> bytes:
+    if size is None:
+        return text_frame(text)
+    return b"".join(text_frame(each) for each in split(text, size, f"fragment:{next(_numbers)}"))
+
+
+def _head(kind: int, length: int) -> bytes:
+    """The head of a frame that is not masked, as RFC 6455, 5.2 has it."""
+    if length < 126:
+        return bytes((kind, length))
+    if length < 65536:
+        return _HEAD_16(kind, 126, length)
+    return _HEAD_64(kind, 127, length)

@@ -1,0 +1,74 @@
+"""The parameters that clients keep on the robot for each other: names and JSON texts, bounded."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import msgspec
+
+from bridge.core.errors import ProtocolError
+
+__all__ = ["Params"]
+
+MOST = 1000
+"""So many parameters may there be."""
+MOST_BYTES = 1_048_576
+"""Bytes of all names and values together."""
+
+
+class Params:
+    """Values by name, as JSON texts."""
+
+    def __init__(self, first: Mapping[str, Any] | None = None) -> None:
+        """`first` are values that are there from the start."""
+        self._values: dict[str, str] = {}
+        self._bytes = 0
+        for name, value in (first or {}).items():
+            self.set(name, msgspec.json.encode(value).decode())
+
+    @property
+    def names(self) -> list[str]:
+        """Of all that there are."""
+        return list(self._values)
+
+    def has(self, name: str) -> bool:
+        """Whether there is one of this name."""
+        return _resolved(name) in self._values
+
+    def get(self, name: str, default: str = "") -> str:
+        """The JSON text of a value; `default`, or `null` without one, when there is none."""
+        return self._values.get(_resolved(name), default or "null")
+
+    def set(self, name: str, value: str) -> None:
+        """Keep a value; ProtocolError when it is no JSON or there is no room for it."""
+        try:
+            msgspec.json.decode(value, type=msgspec.Raw)
+        except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
+            raise ProtocolError(f"The value of a parameter must be JSON, not {value[:60]!r}.") from error
+        name = _resolved(name)
+        grown = self._bytes - _size(name, self._values.get(name)) + _size(name, value)
+        if grown > MOST_BYTES or (name not in self._values and len(self._values) >= MOST):
+            raise ProtocolError(
+                f"There is room for {MOST} parameters with {MOST_BYTES} bytes; {name[:60]} is too much."
+            )
+        self._values[name] = value
+        self._bytes = grown
+
+    def delete(self, name: str) -> bool:
+        """Forget a value; False when there was none."""
+        name = _resolved(name)
+        value = self._values.pop(name, None)
+        self._bytes -= _size(name, value)
+        return value is not None
+
+
+def _resolved(name: str) -> str:
+    """ROS 2 writes `node:param` and ROS 1 `/ns/param`; a relative name is under the root."""
+    return name if name.startswith("/") else f"/{name}"
+
+
+def _size(name: str, value: str | None) -> int:
+    return (
+        0 if value is None else len(name.encode("utf-8", "replace")) + len(value.encode("utf-8", "replace"))
+    )

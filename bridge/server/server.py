@@ -1,0 +1,286 @@
+"""The robot's end of the socket: a rosbridge v2 server that publishes, answers services and hears commands.
+
+Each message is encoded once in each form, however many clients want it. Each client has its own way out, where
+a newer message of a stream replaces one that still waits, so that a slow client costs the others nothing.
+Clients may publish to each other on topics that are not the robot's own, and offer each other services and actions.
+Camera frames travel on WebSockets of their own at `/camera/NAME`.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import errno
+import itertools
+import logging
+import re
+import socket
+import time
+from collections.abc import Callable, Iterable, Mapping
+from http import HTTPStatus
+from typing import Any
+
+from websockets.asyncio.server import Server, ServerConnection, serve
+from websockets.exceptions import ConnectionClosed
+from websockets.http11 import Request, Response
+
+from bridge.core.compat import Compat
+from bridge.core.errors import BridgeError
+from bridge.core.offer import Action, Service, Session
+from bridge.core.topics import TOPICS, Topic
+from bridge.msgs import Msg
+from bridge.protocol import LARGEST_HEARD
+from bridge.server.camera_socket import CameraSocket
+from bridge.server.exchange import Exchange
+from bridge.server.flow.levels import Levels, Shrink
+from bridge.server.flow.outgoing import Reduce
+from bridge.server.flow.outlet import Round
+from bridge.server.flow.pulse import PERIOD
+from bridge.server.flow.reducing import Reducing
+from bridge.server.flow.sockets import end
+from bridge.server.rosapi.params import Params
+from bridge.server.rosapi.rosapi import RosApi
+from bridge.server.rosapi.who import Who
+from bridge.server.server_connection import HeardConnection
+from bridge.server.serving import Client, Offer
+from bridge.server.switchboard import Switchboard
+
+__all__ = ["Action", "BridgeServer", "Service", "Session"]
+
+log = logging.getLogger(__name__)
+
+_CAMERA_PATH = re.compile(r"/camera/([\w-]+)/?(?:\?.*)?$")
+_UNSENT = 65536
+"""Bytes that may wait for one client in this process and again in the kernel; then newer messages replace older."""
+
+_DEAD = 15_000
+"""How long a client may leave unacknowledged what was sent to it [ms]; then it is disconnected."""
+_BEAT = 1.0
+"""How often every client is looked after [s]."""
+_FAREWELL = 0.5
+"""How long clients have to say goodbye before they are cut off [s]."""
+
+
+def _ignore(*_: object) -> None:
+    """What an owner does who does not care."""
+
+
+def _any(_: str) -> bool:
+    return True
+
+
+class BridgeServer:
+    """Serves any number of clients; all methods belong to the event loop it was started in."""
+
+    def __init__(
+        self,
+        *,
+        services: Iterable[Service],
+        on_message: Callable[[Session, str, Any, float | None], None],
+        topics: Iterable[Topic] = TOPICS,
+        offers: Callable[[str], bool] = _any,
+        now: Callable[[], float] = time.time,
+        on_gone: Callable[[Session], None] = _ignore,
+        on_demand: Callable[[str, bool], None] = _ignore,
+        cameras: Iterable[str] | None = None,
+        shrink: Shrink | None = None,
+        actions: Iterable[Action] = (),
+        reduce: Reduce | None = None,
+        params: Mapping[str, Any] | None = None,
+        compat: Compat | None = None,
+    ) -> None:
+        """`now` is the operators' clock [s], told by `/rosapi/get_time`.
+
+        `topics` are the robot's own, which no client may publish on; it `offers` those of them that `rosapi` tells of.
+        `on_message(session, topic, msg, stamp)` hears what clients publish on topics to the robot; `stamp` is
+        when the sender meant it [s], operators' clock, None when it does not say. `on_gone(session)` hears that a
+        client left. `on_demand(topic, wanted)` hears that the first one came who wants a topic, or that the
+        last one left. `cameras` are the names that may be asked for; None allows any.
+        `shrink` makes their pictures smaller for slow watchers; without it they only come less often.
+        `reduce` makes less of a message for subscribers who ask for fewer beams, smaller pictures or coarser maps; of
+        pictures and maps in a worker thread. `params` are there from the start, for `/rosapi/get_param`.
+        """
+        self.port = 0
+        """Where it listens; 0 until started."""
+        self.sessions: set[Session] = set()
+        """The clients connected now; who only watches a camera is none."""
+        cameras = None if cameras is None else list(cameras)
+        self._switchboard = Switchboard(topics, on_demand, reduce=reduce, now=now, cameras=cameras or ())
+        by_name = {service.name: service for service in services}
+        acts = {action.name: action for action in actions}
+        exchange = Exchange(by_name, acts)
+        self._clients: dict[Session, Client] = {}
+        who = Who(self._switchboard, by_name, acts, exchange, self._clients, offers)
+        self._reducing = Reducing()
+        self._offer = Offer(
+            switchboard=self._switchboard,
+            services=by_name,
+            actions=acts,
+            exchange=exchange,
+            rosapi=RosApi(who.graph(), Params(params), now),
+            reducing=self._reducing,
+            compat=compat or Compat(),
+            now=now,
+            on_message=on_message,
+        )
+        self._on_gone = on_gone
+        self._cameras = None if cameras is None else frozenset(cameras)
+        self._levels = Levels(shrink)
+        self._numbers = itertools.count(1)
+        self._open: set[ServerConnection] = set()
+        self._crowd: dict[HeardConnection, None] = {}
+        self._server: Server | None = None
+        self._round: Round | None = None
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    async def start(self, host: str = "127.0.0.1", port: int = 9090) -> None:
+        """Begin to listen; port 0 takes a free one. BridgeError when that is not possible."""
+        self._round = Round(asyncio.get_running_loop().call_soon)
+        try:
+            self._server = await serve(
+                self._serve,
+                host,
+                port,
+                process_request=self._admit,
+                compression=None,
+                create_connection=self._connection,  # type: ignore[arg-type]  # it is only called
+                open_timeout=5,
+                ping_interval=5,
+                ping_timeout=10,
+                close_timeout=_FAREWELL,
+                max_size=LARGEST_HEARD,
+                write_limit=_UNSENT,
+                server_header="Pilothouse",
+                logger=_quiet_log(),
+            )
+        except OSError as error:
+            raise BridgeError(_cannot_listen(host, port, error)) from error
+        self.port = next(iter(self._server.sockets)).getsockname()[1]
+        self._tasks |= {asyncio.create_task(self._beat()), asyncio.create_task(self._measure())}
+
+    async def close(self) -> None:
+        """Close all connections and stop listening; nothing is left running. Takes a second at most."""
+        await self._levels.close()
+        await self._reducing.close()
+        await end(self._tasks)
+        server, self._server = self._server, None
+        if server is None:
+            return
+        server.close()
+        try:
+            async with asyncio.timeout(_FAREWELL):
+                await server.wait_closed()
+        except TimeoutError:
+            for ws in list(self._open):
+                ws.transport.abort()
+            await server.wait_closed()
+
+    def publish(self, topic: str, msg: Msg) -> None:
+        """Send `msg` to everybody who subscribed; BridgeError for a topic that is not in the table.
+
+        It leaves at the end of this step of the loop. Of a stream a newer message replaces one that still waits for a
+        slow client. All others are kept in order; a client for whom too many wait is disconnected.
+        """
+        self._switchboard.publish(topic, msg)
+
+    def publish_frame(self, camera: str, frame: bytes) -> None:
+        """Send a packed camera frame to whoever watches `camera`; it replaces one that still waits."""
+        self._switchboard.publish_frame(camera, self._levels.picture(frame))
+
+    def _connection(self, *args: Any, **options: Any) -> HeardConnection:
+        connection = HeardConnection(*args, **options)
+        connection.crowd = self._crowd
+        return connection
+
+    def _admit(self, connection: ServerConnection, request: Request) -> Response | None:
+        camera = _CAMERA_PATH.match(request.path)
+        if camera is None:
+            connection.ping_interval = None  # a client's outlet asks for signs of life itself
+        if camera is None or self._cameras is None or camera[1] in self._cameras:
+            return None
+        names = ", ".join(sorted(self._cameras)) or "none"
+        return connection.respond(HTTPStatus.NOT_FOUND, f"No camera {camera[1]} here; there is: {names}.\n")
+
+    async def _serve(self, ws: ServerConnection) -> None:
+        _tune(ws)
+        camera = _CAMERA_PATH.match(ws.request.path) if ws.request else None
+        self._open.add(ws)
+        try:
+            if camera:
+                await self._serve_camera(ws, camera[1])
+            elif isinstance(ws, HeardConnection) and self._round is not None:
+                await self._serve_client(ws, self._round)
+        except ConnectionClosed:
+            log.info("%s was cut off", _address(ws))
+        except Exception:
+            log.exception("Serving %s failed", _address(ws))
+        finally:
+            self._open.discard(ws)
+
+    async def _serve_client(self, ws: HeardConnection, round: Round) -> None:
+        session = Session(str(next(self._numbers)), _address(ws), self._offer.now())
+        client = Client(ws, round, session, self._offer)
+        ws.round = round
+        self.sessions.add(session)
+        self._clients[session] = client
+        client.measure()
+        try:
+            await ws.heard_by(client)
+        finally:
+            self.sessions.discard(session)
+            del self._clients[session]
+            try:
+                self._on_gone(session)
+            finally:
+                await client.close()
+
+    async def _beat(self) -> None:
+        """Look after the clients."""
+        while True:
+            await asyncio.sleep(_BEAT)
+            for client in list(self._clients.values()):
+                client.beat()
+
+    async def _measure(self) -> None:
+        """Measure the ways to the clients."""
+        while True:
+            await asyncio.sleep(PERIOD)
+            for client in list(self._clients.values()):
+                client.measure()
+
+    async def _serve_camera(self, ws: ServerConnection, camera: str) -> None:
+        watcher = CameraSocket(ws, coarsest=self._levels.coarsest)
+        self._switchboard.watch(watcher, camera)
+        try:
+            await watcher.run()
+        finally:
+            self._switchboard.unwatch(watcher, camera)
+
+
+def _address(ws: ServerConnection) -> str:
+    host, port = (*(ws.remote_address or ("unknown", 0)),)[:2]
+    return f"{host}:{port}"
+
+
+def _tune(ws: ServerConnection) -> None:
+    """Keep the kernel from queueing old news for a slow client, and from waiting long for a dead one."""
+    sock = ws.transport.get_extra_info("socket")
+    for option, value in (("TCP_NOTSENT_LOWAT", _UNSENT), ("TCP_USER_TIMEOUT", _DEAD)):
+        if hasattr(socket, option):
+            with contextlib.suppress(OSError):
+                sock.setsockopt(socket.IPPROTO_TCP, getattr(socket, option), value)
+
+
+def _cannot_listen(host: str, port: int, error: OSError) -> str:
+    if error.errno == errno.EADDRINUSE:
+        return f"Port {port} on {host} is taken by another program; stop that one or choose another port."
+    if error.errno == errno.EACCES:
+        return f"Port {port} may be used by the system only; choose one above 1023."
+    return f"Cannot listen on {host}:{port} ({error.strerror or error})."
+
+
+def _quiet_log() -> logging.Logger:
+    """A log for the WebSocket library: what it calls errors are strangers who knock and leave."""
+    quiet = logging.getLogger("bridge.server.server.websockets")
+    quiet.setLevel(logging.CRITICAL)
+    return quiet

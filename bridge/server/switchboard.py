@@ -1,0 +1,282 @@
+"""Who wants which topic, who publishes on it, and what the last message of each latched one was."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Protocol
+
+from msgspec import Raw
+
+from bridge.codec import Unread, check_paths
+from bridge.core.errors import BridgeError, ProtocolError
+from bridge.core.topics import CAMERA as CAMERA_TOPIC
+from bridge.core.topics import Topic, camera_topics
+from bridge.msgs import TYPES, Msg, ros1_name
+from bridge.protocol import Subscribed
+from bridge.protocol.merging import MOST_FIELDS
+from bridge.server.flow.lanes import Lane, Stream
+from bridge.server.flow.levels import Picture
+from bridge.server.flow.outgoing import Outgoing, Reduce
+
+__all__ = ["CAMERA_TOPIC", "MOST_TOPICS", "Channel", "Listener", "Switchboard", "Watcher"]
+
+MOST_TOPICS = 2000
+"""So many topics of clients may there be at a time."""
+MOST_LATCHED = 67_108_864
+"""What one client may have kept for later subscribers [byte]."""
+MOST_LATCHED_IN_ALL = 268_435_456
+"""What all of them may [byte]."""
+LARGE = frozenset(
+    {
+        "nav_msgs/OccupancyGrid",
+        "sensor_msgs/CompressedImage",
+        "sensor_msgs/Image",
+        "sensor_msgs/PointCloud",
+        "sensor_msgs/PointCloud2",
+    }
+)
+"""Types whose messages let the others go first."""
+KEPT = 100
+"""Messages of a client's topic that wait for a slow subscriber when they are no samples of a stream."""
+
+
+MsgClass = type[Msg]
+
+
+class Listener(Protocol):
+    """Takes the messages of the topics it subscribed to."""
+
+    def deliver(self, stream: Stream, message: Outgoing) -> None:
+        """Take one message; returns at once."""
+
+
+class Watcher(Protocol):
+    """Takes the frames of one camera."""
+
+    def offer(self, picture: Picture) -> None:
+        """Take one picture; returns at once."""
+
+
+class Channel:
+    """One topic: the robot's own, or one that clients made."""
+
+    def __init__(self, name: str, type: str, entry: Topic | None = None) -> None:
+        self.name = name
+        self.type = type
+        """ROS 1 name."""
+        self.entry = entry
+        """Its line in the robot's table; None for a topic of clients."""
+        self.cls: MsgClass | None = entry.type if entry else TYPES.get(type)
+        """None when the type is not known here: its messages are passed on as they are."""
+        self.streams: dict[Listener, Stream] = {}
+        """Who wants it, and in what form."""
+        self.publishers: set[object] = set()
+        """Clients that said they publish on it."""
+        self.last: dict[object, Outgoing] = {}
+        """The last message of each publisher who latches; the robot itself is None."""
+        self.lane, self.keep = _manner(self)
+
+    @property
+    def idle(self) -> bool:
+        """Whether nobody needs it any more."""
+        return self.entry is None and not self.streams and not self.publishers
+
+
+def _manner(channel: Channel) -> tuple[Lane, int]:
+    """In which lane its messages go and how many may wait, 0 for all."""
+    entry, cls = channel.entry, channel.cls
+    if channel.type in LARGE:
+        return Lane.BULK, 1
+    if entry is not None:
+        return (Lane.TELEMETRY, 1) if entry.rate > 0 else (Lane.EVENT, 0)
+    sampled = cls is not None and "header" in cls.__struct_fields__
+    return Lane.TELEMETRY, 1 if sampled else KEPT
+
+
+class Switchboard:
+    """Passes messages on to listeners and frames on to watchers, and says which topics are wanted at all."""
+
+    def __init__(
+        self,
+        topics: Iterable[Topic],
+        on_demand: Callable[[str, bool], None],
+        *,
+        reduce: Reduce | None = None,
+        now: Callable[[], float] = float,
+        cameras: Iterable[str] = (),
+    ) -> None:
+        """`on_demand(topic, wanted)` hears that the first one came who wants `topic`, or that the last one left.
+
+        Who watches one of `cameras` wants its topic, and who watches any other that of the first.
+        `reduce` makes less of messages for who wants less; `now` is the operators' clock [s].
+        """
+        self.topics = {entry.name: entry for entry in topics}
+        """The robot's own."""
+        self.channels = {
+            entry.name: Channel(entry.name, entry.type.MSGTYPE, entry) for entry in self.topics.values()
+        }
+        """All topics there are, by absolute name."""
+        self._on_demand = on_demand
+        self._reduce = reduce
+        self._now = now
+        self._cameras = camera_topics(cameras)
+        self._watchers: dict[str, set[Watcher]] = {}
+        self._latched: dict[object, int] = {}
+
+    def publish(self, topic: str, msg: Msg) -> None:
+        """Pass a message of the robot on; BridgeError for a topic that is not in its table."""
+        channel = self.channels.get(topic)
+        if channel is None or channel.entry is None:
+            raise BridgeError(f"There is no topic {topic} in the table.")
+        self.pass_on(channel, msg, None, latch=channel.entry.latched)
+
+    def pass_on(self, channel: Channel, msg: Msg | Raw | Unread, publisher: object, *, latch: bool) -> None:
+        """Pass a message of `publisher`, None is the robot, on to all who want it, and to later ones when latched.
+
+        ProtocolError when clients have too much latched already: nobody gets it then.
+        """
+        if not channel.streams and not latch:
+            return
+        message = Outgoing(channel.name, msg, self._reduce, self._now)
+        if latch:
+            self._latch(channel, message, publisher)
+        for listener, stream in channel.streams.items():
+            listener.deliver(stream, message)
+
+    def subscribe(self, listener: Listener, topic: str, wanted: Subscribed, type: str = "") -> None:
+        """`listener` wants `topic` in this form from now on, and at once what is latched there.
+
+        ProtocolError when there is no such topic and its type is not told, or too many topics.
+        """
+        channel = self.channels.get(topic) or self._make(topic, type)
+        if not self.wanted(topic) and channel.entry is not None:
+            self._on_demand(topic, True)
+        stream = channel.streams.get(listener)
+        if stream is None:
+            stream = channel.streams[listener] = Stream(topic, channel.lane, wanted, channel.keep)
+        else:
+            stream.want(wanted, channel.keep)
+        for message in list(channel.last.values()):
+            listener.deliver(stream, message)
+
+    def alter(self, listener: Listener, topic: str, wanted: Subscribed) -> None:
+        """`listener` wants `topic` in this form from now on; no error when it does not want it at all."""
+        channel = self.channels.get(topic)
+        if channel is not None and listener in channel.streams:
+            channel.streams[listener].want(wanted, channel.keep)
+
+    def unsubscribe(self, listener: Listener, topic: str) -> Stream | None:
+        """`listener` no longer wants `topic`; gives what was delivered by, None when it never did."""
+        channel = self.channels.get(topic)
+        stream = channel.streams.pop(listener, None) if channel else None
+        if channel is not None and stream is not None:
+            if channel.entry is not None:
+                self._left(topic)
+            self._tidy(channel)
+        return stream
+
+    def advertise(self, publisher: object, topic: str, type: str) -> Channel:
+        """`publisher` is going to publish on `topic`; ProtocolError as for `subscribe`."""
+        channel = self.channels.get(topic) or self._make(topic, type)
+        channel.publishers.add(publisher)
+        return channel
+
+    def unadvertise(self, publisher: object, topic: str) -> None:
+        """`publisher` no longer publishes on `topic`, and what it latched there is forgotten."""
+        channel = self.channels.get(topic)
+        if channel is not None:
+            channel.publishers.discard(publisher)
+            forgotten = channel.last.pop(publisher, None)
+            if forgotten is not None:
+                self._count(publisher, -forgotten.size)
+            self._tidy(channel)
+
+    def check(self, topic: str, type: str | None) -> None:
+        """ProtocolError when there is `topic` already and it is of another type."""
+        channel = self.channels.get(topic)
+        if channel is not None and type and type != "*" and ros1_name(type) != channel.type:
+            raise ProtocolError(f"{topic} is {channel.type}, not {type[:100]}.")
+
+    def check_fields(self, topic: str, paths: Sequence[str] | None) -> None:
+        """ProtocolError when `topic` is one of the robot's and has not the fields that `paths` name.
+
+        More than a subscription may name are not looked at.
+        """
+        entry = self.topics.get(topic)
+        if entry is not None and paths is not None and len(paths) <= MOST_FIELDS:
+            check_paths(entry.type, paths)
+
+    def watch(self, watcher: Watcher, camera: str) -> None:
+        """`watcher` wants the frames of `camera` from now on."""
+        topic = self._topic_of(camera)
+        if not self.wanted(topic):
+            self._on_demand(topic, True)
+        self._watchers.setdefault(camera, set()).add(watcher)
+
+    def unwatch(self, watcher: Watcher, camera: str) -> None:
+        """`watcher` no longer wants the frames of `camera`."""
+        self._watchers[camera].discard(watcher)
+        if not self._watchers[camera]:
+            del self._watchers[camera]
+        self._left(self._topic_of(camera))
+
+    def _topic_of(self, camera: str) -> str:
+        return self._cameras.get(camera, CAMERA_TOPIC)
+
+    def publish_frame(self, camera: str, picture: Picture) -> None:
+        """Pass a picture on to whoever watches `camera`."""
+        for watcher in self._watchers.get(camera, ()):
+            watcher.offer(picture)
+
+    def wanted(self, topic: str) -> bool:
+        """Whether anybody wants `topic`."""
+        channel = self.channels.get(topic)
+        subscribed = channel is not None and bool(channel.streams)
+        return subscribed or any(self._topic_of(camera) == topic for camera in self._watchers)
+
+    def _latch(self, channel: Channel, message: Outgoing, publisher: object) -> None:
+        """Keep a message for later subscribers in the place of the publisher's last one; the robot's own are not counted."""
+        if publisher is not None:
+            before = channel.last.get(publisher)
+            freed = 0 if before is None else before.size
+            own = self._latched.get(publisher, 0) - freed
+            others = sum(self._latched.values()) - freed
+            for held, most, whose in (
+                (own, MOST_LATCHED, "one client"),
+                (others, MOST_LATCHED_IN_ALL, "all clients"),
+            ):
+                if held + message.size > most:
+                    raise ProtocolError(
+                        f"A message of {message.size} bytes on {channel.name[:100]} cannot be latched: what {whose} latched"
+                        f" may have at most {most} bytes, and {held} are taken."
+                    )
+            self._count(publisher, message.size - freed)
+        channel.last[publisher] = message
+
+    def _count(self, publisher: object, more: int) -> None:
+        """`publisher` has so much more latched, None is the robot [byte]."""
+        if publisher is not None:
+            self._latched[publisher] = self._latched.get(publisher, 0) + more
+            if not self._latched[publisher]:
+                del self._latched[publisher]
+
+    def _make(self, topic: str, type: str) -> Channel:
+        name = ros1_name(type)
+        if "/" not in name:
+            raise ProtocolError(
+                f"There is no topic {topic[:100]} here, and to make one its type must be told."
+            )
+        if len(self.channels) - len(self.topics) >= MOST_TOPICS:
+            raise ProtocolError(
+                f"There are {MOST_TOPICS} topics of clients already; {topic[:100]} is one too many."
+            )
+        channel = self.channels[topic] = Channel(topic, name)
+        return channel
+
+    def _tidy(self, channel: Channel) -> None:
+        if channel.idle:
+            self.channels.pop(channel.name, None)
+
+    def _left(self, topic: str) -> None:
+        if not self.wanted(topic):
+            self._on_demand(topic, False)
