@@ -17,14 +17,14 @@ from typing import Any
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
 from bridge.msgs.geometry_msgs import Twist, Vector3
-from sim.backend_bullet import STEPS_PER_SECOND, Bullet
-from sim.renderer import Renderer
+from sim.core.noise import Noise
+from sim.core.shapes import from_yaw, rotate
+from sim.physics.backend_bullet import STEPS_PER_SECOND, Bullet
+from sim.rendering.renderer import Renderer
+from sim.rendering.view import View
 from sim.robot import SimRobot, make
 from sim.sensors.laser import Laser
-from sim.sensors.noise import Noise
-from sim.shapes import from_yaw, rotate
 from sim.vehicles.patrol import PARAMETERS
-from sim.view import View
 
 FIGURES = (
     Figure("step", "µs", "a step of 1/240 s with every sensor but the camera"),

@@ -30,18 +30,18 @@ from bench.support.station import Serving, serving
 from bridge.client.remote import RemoteRobot
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from sim.backend_bullet import STEPS_PER_SECOND
-from sim.camera import jpeg
-from sim.renderer import Renderer
+from sim.core.noise import Noise
+from sim.core.shapes import from_yaw
+from sim.physics.backend_bullet import STEPS_PER_SECOND
+from sim.rendering.camera import jpeg
+from sim.rendering.renderer import Renderer
+from sim.rendering.view import View
 from sim.robot import CAMERA_TOPIC, ROBOTS
 from sim.sensors.laser import Laser
-from sim.sensors.noise import Noise
-from sim.shapes import from_yaw
-from sim.simulation import Simulation
+from sim.simulation.simulation import Simulation
 from sim.vehicles.commander import PARAMETERS
 from sim.vehicles.model import Vehicle
-from sim.view import View
-from sim.world import Start, World, load, parse
+from sim.world.world import Start, World, load, parse
 
 KINDS = tuple(ROBOTS)
 CROWDS = (1, 5, 20)

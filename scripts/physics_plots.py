@@ -17,8 +17,8 @@ import msgspec
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from scripts.plots import BLUE, GREEN, ORANGE, Plot, Series, page
-from sim.backend_bullet import GRAVITY, STEPS_PER_SECOND, State
-from sim.simulation import Simulation
+from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND, State
+from sim.simulation.simulation import Simulation
 from sim.vehicles.aqua import AQUA
 from sim.vehicles.aqua import PARAMETERS as SWIMMER
 from sim.vehicles.ardrone import ARDRONE
@@ -28,8 +28,8 @@ from sim.vehicles.minnow import MINNOW
 from sim.vehicles.minnow import PARAMETERS as BOAT
 from sim.vehicles.model import Model
 from sim.vehicles.scout import SCOUT
-from tests.sim.otter import PUBLISHED, TOLD, sail
 from tests.sim.rooms import plain
+from tests.sim.vehicles.otter import PUBLISHED, TOLD, sail
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
 WATER = "[water]\ndepth = 15.0\n"

@@ -13,13 +13,13 @@ from typing import NoReturn
 
 from PIL import Image
 
-from sim.renderer import NoRendererError, Renderer
-from sim.shapes import Shape, from_yaw
-from sim.starts import starts
-from sim.tables import FileFault
+from sim.core.shapes import Shape, from_yaw
+from sim.core.tables import FileFault
+from sim.rendering.renderer import NoRendererError, Renderer
+from sim.rendering.view import View
 from sim.vehicles.model import Model, numbered
-from sim.view import View
-from sim.world import World, load
+from sim.vehicles.starts import starts
+from sim.world.world import World, load
 
 try:
     from sim.robot import ROBOTS, WORLDS, home_of, make_several, model_of

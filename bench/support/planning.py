@@ -13,8 +13,8 @@ from robotside.core.robot import Robot
 from robotside.mapping.grid import Grid
 from robotside.mapping.obstacles import FADES
 from robotside.navigation.guide import Goal, Guide, Leg
-from sim.occupancy import occupancy
-from sim.world import load
+from sim.world.occupancy import occupancy
+from sim.world.world import load
 
 __all__ = ["DEEP", "LAKE", "SHALLOW", "lake", "longest", "trap"]
 

@@ -11,6 +11,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
+from sim.core.parameters import Table
+from sim.core.tables import read, text_of
 from sim.payloads.arm import ArmParameters, MountedArm
 from sim.payloads.mounted import (
     CameraMount,
@@ -31,9 +33,7 @@ from sim.payloads.simple import (
     MountedTagReader,
     MountedUltrasound,
 )
-from sim.tables import read, text_of
 from sim.vehicles.model import Model, Vehicle
-from sim.vehicles.parameters import Table
 
 __all__ = ["PAYLOADS", "Figures", "laden", "load", "mount"]
 

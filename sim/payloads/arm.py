@@ -11,14 +11,14 @@ from bridge.msgs.arrays import Float64Array
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import ArmOrder, ArmState
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import State
+from sim.core.parameters import Positive
+from sim.core.shapes import Shape, Vec3, compose, from_yaw
 from sim.payloads.kinematics import Angles, Arm
 from sim.payloads.mounted import Mount
 from sim.payloads.simple import on_deck
-from sim.shapes import Shape, Vec3, compose, from_yaw
+from sim.physics.backend_bullet import State
 from sim.vehicles.control import given, towards
 from sim.vehicles.model import Vehicle
-from sim.vehicles.parameters import Positive
 from sim.vehicles.suite import Measurement
 
 __all__ = ["JOINTS", "ArmParameters", "MountedArm"]

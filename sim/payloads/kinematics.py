@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from sim.shapes import Vec3
+from sim.core.shapes import Vec3
 
 __all__ = ["Angles", "Arm", "Reach"]
 

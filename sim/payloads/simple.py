@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import LightState, TagRead
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import State
-from sim.paint import Paint
+from sim.core.parameters import CameraParameters
+from sim.core.shapes import Quat, Shape, Vec3, place
 from sim.payloads.mounted import (
     CameraMount,
     LaserMount,
@@ -19,14 +19,14 @@ from sim.payloads.mounted import (
     TagReaderMount,
     UltrasoundMount,
 )
+from sim.physics.backend_bullet import State
 from sim.sensors.laser import Laser, LaserParameters
 from sim.sensors.line import LineCells, LineParameters
 from sim.sensors.sonar import Sonar, SonarParameters
 from sim.sensors.ultrasound import SIDES, UltrasoundParameters, Ultrasounds
-from sim.shapes import Quat, Shape, Vec3, place
 from sim.vehicles.model import Vehicle
-from sim.vehicles.parameters import CameraParameters
 from sim.vehicles.suite import Measurement
+from sim.world.paint import Paint
 
 __all__ = [
     "MountedCamera",

@@ -6,8 +6,8 @@ import math
 
 from bridge.msgs.pilothouse_msgs import Bumper
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import STEPS_PER_SECOND, Contact, State
-from sim.shapes import rotate_back
+from sim.core.shapes import rotate_back
+from sim.physics.backend_bullet import STEPS_PER_SECOND, Contact, State
 
 __all__ = ["BumperRing"]
 

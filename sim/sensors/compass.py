@@ -9,9 +9,9 @@ import msgspec
 from bridge.core.units import heading_from_yaw
 from bridge.msgs.pilothouse_msgs import Compass as Told
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import GRAVITY, State
-from sim.sensors.noise import Noise
-from sim.shapes import Vec3, rotate_back
+from sim.core.noise import Noise
+from sim.core.shapes import Vec3, rotate_back
+from sim.physics.backend_bullet import GRAVITY, State
 
 __all__ = ["Compass", "CompassParameters", "levelled"]
 

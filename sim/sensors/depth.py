@@ -6,9 +6,9 @@ import msgspec
 
 from bridge.msgs.sensor_msgs import FluidPressure
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import GRAVITY, State
-from sim.sensors.noise import Noise
-from sim.weather import Weather
+from sim.core.noise import Noise
+from sim.physics.backend_bullet import GRAVITY, State
+from sim.physics.weather import Weather
 
 __all__ = ["AIR_PRESSURE", "DepthGauge", "DepthParameters"]
 

@@ -7,9 +7,9 @@ import msgspec
 import bridge.core.geo
 from bridge.msgs.sensor_msgs import NavSatFix, NavSatStatus
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import State
-from sim.sensors.noise import Noise, Wander
-from sim.world import Datum
+from sim.core.noise import Noise, Wander
+from sim.physics.backend_bullet import State
+from sim.world.world import Datum
 
 __all__ = ["Gps", "GpsParameters"]
 

@@ -8,10 +8,10 @@ import msgspec
 
 from bridge.msgs.sensor_msgs import Range
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import Bullet, State
-from sim.sensors.noise import Noise
-from sim.shapes import rotate
-from sim.weather import Weather
+from sim.core.noise import Noise
+from sim.core.shapes import rotate
+from sim.physics.backend_bullet import Bullet, State
+from sim.physics.weather import Weather
 
 __all__ = ["Height", "HeightParameters"]
 

@@ -9,9 +9,9 @@ import msgspec
 from bridge.msgs.geometry_msgs import Quaternion, Vector3
 from bridge.msgs.sensor_msgs import Imu
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import GRAVITY, State
-from sim.sensors.noise import Noise, Wander
-from sim.shapes import Vec3, compose, rotate_back
+from sim.core.noise import Noise, Wander
+from sim.core.shapes import Vec3, compose, rotate_back
+from sim.physics.backend_bullet import GRAVITY, State
 
 __all__ = ["ImuParameters", "InertialUnit"]
 

@@ -10,8 +10,8 @@ import numpy as np
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.sensor_msgs import LaserScan
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import Bullet
-from sim.sensors.noise import Noise
+from sim.core.noise import Noise
+from sim.physics.backend_bullet import Bullet
 
 __all__ = ["Laser", "LaserParameters"]
 

@@ -10,10 +10,10 @@ import numpy as np
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.pilothouse_msgs import LineSensor
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import State
-from sim.paint import Paint
-from sim.sensors.noise import Noise
-from sim.shapes import place, rotate
+from sim.core.noise import Noise
+from sim.core.shapes import place, rotate
+from sim.physics.backend_bullet import State
+from sim.world.paint import Paint
 
 __all__ = ["LineCells", "LineParameters"]
 

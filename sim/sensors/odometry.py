@@ -11,8 +11,8 @@ from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, Quaternio
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import JointState
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import Joint
-from sim.sensors.noise import Noise
+from sim.core.noise import Noise
+from sim.physics.backend_bullet import Joint
 
 __all__ = ["OdometryParameters", "WheelOdometry"]
 

@@ -17,9 +17,9 @@ from bridge.msgs.geometry_msgs import (
 )
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import State
-from sim.sensors.noise import Noise, Wander
-from sim.shapes import Quat, compose, from_yaw, rotate, rotate_back
+from sim.core.noise import Noise, Wander
+from sim.core.shapes import Quat, compose, from_yaw, rotate, rotate_back
+from sim.physics.backend_bullet import State
 
 __all__ = ["Reckoning", "ReckoningParameters"]
 

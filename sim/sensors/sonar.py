@@ -10,8 +10,8 @@ import numpy as np
 from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.pilothouse_msgs import SonarRing
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import Bullet
-from sim.sensors.noise import Noise
+from sim.core.noise import Noise
+from sim.physics.backend_bullet import Bullet
 
 __all__ = ["Sonar", "SonarParameters"]
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from bridge.msgs.sensor_msgs import Range
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import Bullet
-from sim.sensors.noise import Noise
-from sim.shapes import Vec3
+from sim.core.noise import Noise
+from sim.core.shapes import Vec3
+from sim.physics.backend_bullet import Bullet
 
 __all__ = ["SIDES", "UltrasoundParameters", "Ultrasounds"]
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from sim.backend_bullet import STEPS_PER_SECOND, Bullet, WheeledBody
-from sim.shapes import Shape
+from sim.core.parameters import Limits, Positive, Table
+from sim.core.shapes import Shape
+from sim.physics.backend_bullet import STEPS_PER_SECOND, Bullet, WheeledBody
 from sim.vehicles.control import towards, within
-from sim.vehicles.parameters import Limits, Positive, Table
 
 __all__ = ["AckermannBody", "AckermannDrive", "AckermannLimits", "Axles", "body_of"]
 

@@ -11,18 +11,18 @@ import msgspec
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import State
-from sim.motors import Motors
-from sim.scene import Scene
+from sim.core.parameters import Parameters
+from sim.core.shapes import Shape
+from sim.physics.backend_bullet import State
+from sim.physics.motors import Motors
 from sim.sensors.battery import Battery
 from sim.sensors.bumper import BumperRing
 from sim.sensors.imu import InertialUnit
 from sim.sensors.reckoning import Reckoning, ReckoningParameters
-from sim.shapes import Shape
-from sim.starts import places
-from sim.vehicles.parameters import Parameters
+from sim.vehicles.scene import Scene
+from sim.vehicles.starts import places
 from sim.vehicles.suite import Measure, Measurement, Suite, as_odometry
-from sim.world import Start
+from sim.world.world import Start
 
 __all__ = ["Chassis"]
 

@@ -8,12 +8,12 @@ from typing import Self
 from msgspec.structs import replace
 
 from bridge.msgs.geometry_msgs import Twist
-from sim.backend_bullet import STEPS_PER_SECOND, Bullet, WheeledBody
+from sim.core.parameters import CameraParameters, Limits, Parameters, Positive, Table
+from sim.core.shapes import Shape
+from sim.physics.backend_bullet import STEPS_PER_SECOND, Bullet, WheeledBody
 from sim.sensors.odometry import OdometryParameters
-from sim.shapes import Shape
 from sim.vehicles.control import towards
 from sim.vehicles.load import Load, loaded
-from sim.vehicles.parameters import CameraParameters, Limits, Parameters, Positive, Table
 
 __all__ = ["DifferentialDrive", "DifferentialLimits", "DifferentialParameters", "Wheels", "body_of"]
 

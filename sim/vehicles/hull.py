@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sim.backend_bullet import GRAVITY
-from sim.shapes import Vec3
-from sim.vehicles.parameters import Positive, Table
+from sim.core.parameters import Positive, Table
+from sim.core.shapes import Vec3
+from sim.physics.backend_bullet import GRAVITY
+from sim.physics.weather import Weather
 from sim.vehicles.sixdof import Inertia, SixDof
-from sim.weather import Weather
 
 __all__ = ["Hull", "HullParameters", "inertia_of"]
 

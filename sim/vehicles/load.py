@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from sim.shapes import Vec3
+from sim.core.shapes import Vec3
 
 __all__ = ["Heavy", "Load", "about", "loaded", "mass_of"]
 

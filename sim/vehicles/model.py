@@ -12,14 +12,14 @@ from msgspec import structs
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from sim.backend_bullet import State
-from sim.scene import Scene
+from sim.core.parameters import CameraParameters, Parameters
+from sim.core.shapes import Shape
+from sim.physics.backend_bullet import State
 from sim.sensors.battery import Battery
 from sim.sensors.bumper import BumperRing
-from sim.shapes import Shape
-from sim.vehicles.parameters import CameraParameters, Parameters
+from sim.vehicles.scene import Scene
 from sim.vehicles.suite import Suite
-from sim.world import World
+from sim.world.world import World
 
 __all__ = ["Model", "Vehicle", "numbered", "suits"]
 

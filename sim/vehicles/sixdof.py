@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.backend_bullet import GRAVITY, Bullet
-from sim.shapes import Vec3
+from sim.core.shapes import Vec3
+from sim.physics.backend_bullet import GRAVITY, Bullet
 
 __all__ = ["Inertia", "SixDof"]
 

@@ -16,9 +16,9 @@ from bridge.msgs.geometry_msgs import (
 )
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import State
-from sim.schedule import Schedule
-from sim.shapes import rotate_back
+from sim.core.schedule import Schedule
+from sim.core.shapes import rotate_back
+from sim.physics.backend_bullet import State
 
 __all__ = ["Measure", "Measurement", "Suite", "as_odometry"]
 

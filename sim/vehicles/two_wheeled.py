@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from typing import TypeVar
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from sim.backend_bullet import GRAVITY, State
-from sim.motors import Motors
-from sim.scene import Scene
+from sim.core.shapes import from_yaw
+from sim.physics.backend_bullet import GRAVITY, State
+from sim.physics.motors import Motors
 from sim.sensors.odometry import WheelOdometry
-from sim.shapes import from_yaw
 from sim.vehicles.differential import DifferentialDrive, DifferentialParameters, body_of
+from sim.vehicles.scene import Scene
 from sim.vehicles.suite import Measurement
 from sim.vehicles.wheeled import Wheeled
 

@@ -13,7 +13,7 @@ from robotside.core.config import NOTHING_SET, Config
 from robotside.motion.manoeuvres import Order
 from robotside.services.orders import services
 from robotside.station.station import Station
-from sim.backend_bullet import State
+from sim.physics.backend_bullet import State
 from sim.robot import make
 from tests.fakes import FakeClient
 from tests.robotside.scene import records_at

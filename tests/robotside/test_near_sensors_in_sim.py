@@ -9,9 +9,9 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import LineSensor
 from bridge.msgs.sensor_msgs import JointState, Range
 from sim.robot import SimRobot
-from sim.simulation import Simulation
+from sim.simulation.simulation import Simulation
 from sim.vehicles.patrol import PATROL
-from sim.world import parse
+from sim.world.world import parse
 from tests.robotside.sim_run import Run
 from tests.sim.rooms import ROOM
 

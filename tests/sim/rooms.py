@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from bridge.msgs import Msg
 from sim.robot import SimRobot
-from sim.simulation import Simulation
+from sim.simulation.simulation import Simulation
 from sim.vehicles.model import Model
 from sim.vehicles.patrol import PATROL
-from sim.world import World, parse
+from sim.world.world import World, parse
 
 ROOM = """
 name = "room"

@@ -15,9 +15,9 @@ import pytest
 from PIL import Image
 
 from sim.__main__ import main
+from sim.core.shapes import Shape
+from sim.core.tables import FileFault
 from sim.robot import ROBOTS
-from sim.shapes import Shape
-from sim.tables import FileFault
 from sim.vehicles.model import Model
 from sim.vehicles.patrol import PARAMETERS, Patrol
 

@@ -11,17 +11,17 @@ from PIL import Image
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
-from sim.orders import cut
+from sim.core.orders import cut
 from sim.robot import CAMERA_TOPIC, ROBOTS, SimRobot, make_several
-from sim.run import Run
-from sim.simulation import Simulation
+from sim.simulation.run import Run
+from sim.simulation.simulation import Simulation
 from sim.vehicles.aqua import AQUA
 from sim.vehicles.ardrone import ARDRONE
 from sim.vehicles.commander import COMMANDER
 from sim.vehicles.minnow import MINNOW
 from sim.vehicles.patrol import PATROL
 from sim.vehicles.scout import SCOUT
-from sim.world import Start
+from sim.world.world import Start
 from tests.sim.rooms import alone, plain, room, until
 
 WATER = "[water]\ndepth = 6.0\n"

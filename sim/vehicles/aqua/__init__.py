@@ -10,19 +10,19 @@ from bridge.msgs.arrays import Float64Array
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.msgs.sensor_msgs import JointState
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import STEPS_PER_SECOND, State
-from sim.bodies import Floating
-from sim.motors import Motors
-from sim.scene import Scene
+from sim.core.parameters import load
+from sim.core.shapes import Shape, from_yaw
+from sim.physics.backend_bullet import STEPS_PER_SECOND, State
+from sim.physics.bodies import Floating
+from sim.physics.motors import Motors
 from sim.sensors.compass import Compass
 from sim.sensors.depth import DepthGauge
-from sim.shapes import Shape, from_yaw
 from sim.vehicles.aqua.looks import looks
 from sim.vehicles.aqua.pilot import Pilot
 from sim.vehicles.chassis import Chassis
 from sim.vehicles.fins import LEGS, Fins
 from sim.vehicles.model import Model
-from sim.vehicles.parameters import load
+from sim.vehicles.scene import Scene
 from sim.vehicles.sixdof import SixDof
 from sim.vehicles.suite import Measurement
 from sim.vehicles.swimmer import Float, SwimmerBody, SwimmerParameters, inertia_of

@@ -6,8 +6,8 @@ import math
 
 from bridge.core.units import wrap
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from sim.backend_bullet import GRAVITY, STEPS_PER_SECOND
-from sim.shapes import Vec3
+from sim.core.shapes import Vec3
+from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND
 from sim.vehicles.control import filled, given, within
 from sim.vehicles.sixdof import SixDof
 from sim.vehicles.swimmer import SwimmerParameters

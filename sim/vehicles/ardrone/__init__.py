@@ -9,19 +9,19 @@ from typing import ClassVar
 
 from bridge.msgs.pilothouse_msgs import FlightState, Manoeuvre
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import GRAVITY, STEPS_PER_SECOND, State
-from sim.bodies import Floating
-from sim.motors import Motors
-from sim.scene import Scene
+from sim.core.parameters import load
+from sim.core.shapes import Shape, from_yaw, rotate
+from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND, State
+from sim.physics.bodies import Floating
+from sim.physics.motors import Motors
 from sim.sensors.height import Height
-from sim.shapes import Shape, from_yaw, rotate
 from sim.vehicles.ardrone.looks import looks
 from sim.vehicles.ardrone.pilot import LOWEST, TUMBLED, Motion, Pilot
 from sim.vehicles.chassis import Chassis
 from sim.vehicles.control import within
 from sim.vehicles.model import Model
-from sim.vehicles.parameters import load
 from sim.vehicles.quadrotor import ROTORS, QuadrotorBody, QuadrotorParameters, Rotors
+from sim.vehicles.scene import Scene
 from sim.vehicles.sixdof import Inertia, SixDof
 from sim.vehicles.suite import Measurement
 

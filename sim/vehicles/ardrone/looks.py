@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from sim.shapes import Quat, Shape, Vec3, from_yaw
+from sim.core.shapes import Quat, Shape, Vec3, from_yaw
 
 if TYPE_CHECKING:
     from sim.vehicles.quadrotor import QuadrotorParameters

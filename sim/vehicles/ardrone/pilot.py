@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from bridge.core.units import wrap
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from sim.backend_bullet import GRAVITY, STEPS_PER_SECOND
-from sim.shapes import Vec3
+from sim.core.shapes import Vec3
+from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND
 from sim.vehicles.control import filled, given, within
 from sim.vehicles.quadrotor import QuadrotorParameters
 

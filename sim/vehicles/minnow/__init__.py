@@ -10,20 +10,20 @@ from typing import ClassVar
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RudderState
 from bridge.msgs.std_msgs import Header, Time
-from sim.backend_bullet import STEPS_PER_SECOND, State
-from sim.bodies import Floating
-from sim.motors import Motors
-from sim.scene import Scene
+from sim.core.parameters import load
+from sim.core.shapes import Shape, from_yaw, yaw_of
+from sim.physics.backend_bullet import STEPS_PER_SECOND, State
+from sim.physics.bodies import Floating
+from sim.physics.motors import Motors
 from sim.sensors.compass import Compass
 from sim.sensors.gps import Gps
-from sim.shapes import Shape, from_yaw, yaw_of
 from sim.vehicles.boat import BoatParameters, Drive, Helmsman
 from sim.vehicles.chassis import Chassis
 from sim.vehicles.control import filled, given
 from sim.vehicles.hull import Hull, HullParameters, inertia_of
 from sim.vehicles.minnow.looks import looks
 from sim.vehicles.model import Model
-from sim.vehicles.parameters import load
+from sim.vehicles.scene import Scene
 from sim.vehicles.sixdof import SixDof
 from sim.vehicles.suite import Measurement
 

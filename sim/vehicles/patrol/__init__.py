@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from sim.backend_bullet import State
-from sim.paint import Paint
+from sim.core.parameters import load
+from sim.physics.backend_bullet import State
 from sim.sensors.gps import Gps, GpsParameters
 from sim.sensors.laser import Laser, LaserParameters
 from sim.sensors.line import LineCells, LineParameters
 from sim.sensors.ultrasound import UltrasoundParameters, Ultrasounds
 from sim.vehicles.differential import DifferentialParameters
 from sim.vehicles.model import Model
-from sim.vehicles.parameters import load
 from sim.vehicles.patrol.looks import looks
 from sim.vehicles.suite import Measurement
 from sim.vehicles.two_wheeled import TwoWheeled
+from sim.world.paint import Paint
 
 __all__ = ["PARAMETERS", "PATROL", "Patrol", "PatrolParameters"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sim.shapes import Quat, Shape, Vec3
+from sim.core.shapes import Quat, Shape, Vec3
 
 if TYPE_CHECKING:
     from sim.vehicles.patrol import PatrolParameters

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from sim.core.parameters import load
 from sim.sensors.sonar import Sonar, SonarParameters
 from sim.vehicles.differential import DifferentialParameters
 from sim.vehicles.model import Model
-from sim.vehicles.parameters import load
 from sim.vehicles.scout.looks import looks
 from sim.vehicles.two_wheeled import TwoWheeled
 

@@ -15,7 +15,7 @@ from robotside.limits.touching import kept_off
 from robotside.motion.manoeuvres import Order
 from robotside.services.orders import listener
 from sim.robot import ROBOTS, SimRobot
-from sim.simulation import Simulation
+from sim.simulation.simulation import Simulation
 from tests.robotside.sim_run import Run
 from tests.sim.rooms import room
 

@@ -1,0 +1,1 @@
+"""What all rooms of the simulator share: tables of figures, noise, the schedule of sensors, limits of orders."""

@@ -1,0 +1,1 @@
+"""The physics engine and what pushes bodies: motors, wind, waves."""

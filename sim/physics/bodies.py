@@ -1,0 +1,89 @@
+"""Rigid bodies as the physics engine is told of them, and what it tells of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sim.core.shapes import Quat, Shape, Vec3
+
+__all__ = ["GRAVITY", "STEPS_PER_SECOND", "Contact", "Floating", "Joint", "State", "WheeledBody"]
+
+STEPS_PER_SECOND = 240
+"""Fixed physics steps in a second of simulated time."""
+GRAVITY = 9.81
+"""[m/s2]"""
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """Where a body is and how it moves, in the world's frame."""
+
+    position: Vec3
+    """Of its frame's origin [m]."""
+    rotation: Quat
+    velocity: Vec3
+    """Of its centre of mass [m/s]."""
+    turning: Vec3
+    """[rad/s]"""
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """A wheel's joint."""
+
+    angle: float
+    """[rad], not wrapped."""
+    speed: float
+    """[rad/s]"""
+    torque: float
+    """That its motor gave in the last step [N m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """A place where a vehicle's shell touches something."""
+
+    body: int
+    """What it touches."""
+    position: Vec3
+    """In the world's frame [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class WheeledBody:
+    """A body on driven wheels, and casters or steered wheels; its frame lies on the ground, x forward."""
+
+    shell: Shape
+    mass: float
+    """Of the whole without wheels and casters [kg]."""
+    inertia: Vec3
+    """About the axes through the centre of mass [kg m2]."""
+    centre_of_mass: Vec3
+    wheels: tuple[Vec3, ...]
+    """Centres of the driven wheels; they turn about y."""
+    wheel_radius: float
+    wheel_mass: float
+    wheel_friction: float
+    friction: float
+    """Of the shell against other things."""
+    casters: tuple[Vec3, ...] = ()
+    """Centres of the casters, which slide without friction."""
+    caster_radius: float = 0.0
+    caster_mass: float = 0.0
+    steered: tuple[Vec3, ...] = ()
+    """Centres of the wheels that roll freely on steered knuckles; of the same make as the driven ones."""
+
+
+@dataclass(frozen=True, slots=True)
+class Floating:
+    """A single free body, which a vehicle's own model moves by the force and torque of each step."""
+
+    shell: Shape
+    """In the body's frame."""
+    mass: float
+    """[kg]"""
+    inertia: Vec3
+    """About the axes through the centre of mass [kg m2]."""
+    centre_of_mass: Vec3
+    friction: float
+    """Against other things."""

@@ -1,0 +1,342 @@
+"""Pictures of a world by OpenGL without a window (EGL): quick enough on one CPU core for a camera at 15 Hz."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.core.shapes import Colour, Shape
+from sim.rendering.mipmaps import add_mipmaps
+from sim.rendering.sky import HORIZON, SIZE, ZENITH, dome, grain, panorama, seen
+from sim.rendering.view import View
+from sim.world.ground import SUN, markings
+from sim.world.solids import FLOATS, KINDS, mesh, rows
+from sim.world.world import World
+
+__all__ = ["NoRendererError", "Renderer", "paint"]
+
+HAZE: Colour = (0.72, 0.78, 0.80)
+DEEP: Colour = (0.09, 0.33, 0.38)
+"""What everything fades to under water."""
+MURK = 0.16
+"""How much of it a metre of water brings."""
+GRAIN = 0.43
+"""Of the ground, how often it is repeated in a metre; `ground.frag.glsl` has it, too."""
+LOOKS = ("asphalt", "water", "floor", "grass", "sand")
+"""As `ground.frag.glsl` numbers them."""
+
+_SHADERS = Path(__file__).parent / "shaders"
+_LAYOUT = "3f 4f 3f 2f 3f 2f/i"
+_FIELDS = ("position", "rotation", "size", "taper", "tint", "finish")
+_SMALLEST = 0.0032
+"""Radius over distance below which a shape is left out: less than a pixel or so."""
+
+
+class NoRendererError(RuntimeError):
+    """OpenGL without a window is not to be had on this machine; the text says why."""
+
+
+def _context() -> moderngl.Context:
+    # Mesa's software renderer would else take every core for pictures that one core draws in 10 ms.
+    os.environ.setdefault("LP_NUM_THREADS", "1")
+    backend: Any = "egl"
+    try:
+        return moderngl.create_context(standalone=True, backend=backend)
+    except Exception as fault:
+        # glcontext raises plain Exception for every cause.
+        raise NoRendererError(f"Pictures cannot be drawn by OpenGL here: {fault}.") from fault
+
+
+def paint(world: World) -> None:
+    """Paint the pictures of ground and sky beforehand, which takes most of the time that a Renderer of `world` takes."""
+    markings(world)
+    panorama()
+
+
+class _Solids:
+    """All shapes of one kind, polished or matt: the fixed ones as a table, and the buffer from which the visible ones are drawn."""
+
+    def __init__(self, kind: str, fixed: Iterable[Shape], context: moderngl.Context, *, glossy: bool) -> None:
+        self._kind, self._glossy, self._context = kind, glossy, context
+        corners, order = mesh(kind)
+        self.fixed = rows(filter(self._takes, fixed))
+        self._reach = _reach(self.fixed)
+        self._buffer = context.buffer(reserve=max(len(self.fixed) + 64, 1) * FLOATS * 4)
+        self._order = context.buffer(order)
+        self._content = [
+            (context.buffer(corners), "3f 3f", "corner", "normal"),
+            (self._buffer, _LAYOUT, *_FIELDS),
+        ]
+        self._arrays: dict[moderngl.Program, moderngl.VertexArray] = {}
+
+    def draw(self, program: moderngl.Program, view: View, moving: Sequence[Shape]) -> None:
+        table = _nearest_first(self.fixed[_visible(self.fixed, self._reach, view)], view)
+        others = rows(filter(self._takes, moving))
+        if len(others):
+            table = np.concatenate((table, others))
+        if len(table):
+            self._buffer.orphan(max(self._buffer.size, table.nbytes))
+            self._buffer.write(np.ascontiguousarray(table))
+            if program not in self._arrays:
+                self._arrays[program] = self._context.vertex_array(
+                    program, self._content, index_buffer=self._order
+                )
+            self._arrays[program].render(moderngl.TRIANGLES, instances=len(table))
+
+    def _takes(self, shape: Shape) -> bool:
+        return shape.kind == self._kind and (shape.gloss > 0.0) == self._glossy
+
+
+def _reach(table: NDArray[np.float32]) -> NDArray[Any]:
+    """Radius of the ball round each shape [m]."""
+    return np.asarray(np.linalg.norm(table[:, 7:10], axis=1) / 2)
+
+
+def _visible(table: NDArray[np.float32], reach: NDArray[Any], view: View) -> NDArray[np.bool_]:
+    """Which shapes the view can see and are large enough to be worth it."""
+    if view.flat:
+        return np.ones(len(table), dtype=np.bool_)
+    offset = table[:, :3] - np.array(view.eye, dtype=np.float32)
+    right, up, back = view.axes.T.astype(np.float32)
+    ahead, sideways, high = -offset @ back, np.abs(offset @ right), np.abs(offset @ up)
+    half_x, half_y = view.half_extent
+    inside = (sideways < ahead * half_x + reach * np.hypot(1, half_x)) & (
+        high < ahead * half_y + reach * np.hypot(1, half_y)
+    )
+    return np.asarray(inside & (ahead > -reach) & (reach > ahead * _SMALLEST))
+
+
+def _nearest_first(table: NDArray[np.float32], view: View) -> NDArray[np.float32]:
+    """What hides other things is drawn before them, so that nothing is coloured that cannot be seen."""
+    offset = table[:, :3] - np.array(view.eye, dtype=np.float32)
+    return np.asarray(table[np.argsort((offset * offset).sum(axis=1), kind="stable")])
+
+
+class Renderer:
+    """Draws one world. Calls may come from different threads, one at a time."""
+
+    def __init__(self, world: World, *, samples: int = 0) -> None:
+        """Prepare the pictures of `world`; 4 `samples` a pixel smooth the edges but cost ten times the time.
+
+        Raises NoRendererError.
+        """
+        self._context = _context()
+        self._samples = min(samples, self._context.max_samples)
+        self._pixels = np.empty((0, 0, 4), dtype=np.uint8)
+        self._targets: dict[tuple[int, int], tuple[moderngl.Framebuffer, moderngl.Framebuffer]] = {}
+        with self._context:
+            self._prepare(world)
+
+    def render(self, view: View, moving: Sequence[Shape] = ()) -> NDArray[np.uint8]:
+        """What `view` sees of the world and of the `moving` shapes: (height, width, 3) RGB, top row first."""
+        return self.draw(view, moving)[:, :, :3].copy()
+
+    def draw(self, view: View, moving: Sequence[Shape] = ()) -> NDArray[np.uint8]:
+        """The same with a fourth byte a pixel that means nothing, and only until it draws again: quicker than `render`."""
+        width, height = view.size
+        with self._context:
+            drawn, resolved = self._target(view.size)
+            drawn.use()
+            self._under = self._world.water is not None and not view.flat and view.eye[2] < 0.0
+            drawn.clear(*(DEEP if self._under else HAZE), 1.0)
+            self._draw(view, moving)
+            if resolved is not drawn:
+                self._context.copy_framebuffer(resolved, drawn)
+            if self._pixels.shape != (height, width, 4):
+                self._pixels = np.empty((height, width, 4), dtype=np.uint8)
+            resolved.read_into(self._pixels, components=4, alignment=1)
+        return self._pixels
+
+    def close(self) -> None:
+        """Free the context; closing twice does nothing."""
+        self._context.release()
+
+    def _prepare(self, world: World) -> None:
+        context = self._context
+        self._world, self._under = world, False
+        self._made: dict[tuple[str, tuple[tuple[str, int], ...]], moderngl.Program] = {}
+        self._square = context.buffer(
+            np.array([-1, -1, 1, -1, 1, 1, -1, -1, 1, 1, -1, 1], dtype=np.float32).tobytes()
+        )
+        self._sky = self._program("sky")
+        corners, order = dome()
+        self._sky_array = context.vertex_array(
+            self._sky, [(context.buffer(corners), "3f 2f", "direction", "mark")], context.buffer(order)
+        )
+        self._grounds: dict[moderngl.Program, moderngl.VertexArray] = {}
+        self._solids = [
+            (glossy, _Solids(kind, world.visuals, context, glossy=glossy))
+            for glossy in (False, True)
+            for kind in KINDS
+        ]
+        self._load_textures(world)
+
+    def _program(self, name: str, **constants: int) -> moderngl.Program:
+        """The program of this name with these constants, made when it is first asked for."""
+        key = (name, tuple(constants.items()))
+        if key not in self._made:
+            head = "".join(f"\n#define {constant} {value}" for constant, value in constants.items())
+            vertex, fragment = (
+                _source(f"{name}.{stage}.glsl").replace("#version 330", f"#version 330{head}", 1)
+                for stage in ("vert", "frag")
+            )
+            made = self._context.program(vertex_shader=vertex, fragment_shader=fragment)
+            self._set_constants(made)
+            self._made[key] = made
+        return self._made[key]
+
+    def _set_constants(self, program: moderngl.Program) -> None:
+        """What does not change while this world is drawn."""
+        world = self._world
+        length = float(np.linalg.norm(SUN))
+        for name, value in {
+            "panorama": 2,
+            "markings": 0,
+            "grain": 1,
+            "extent": (world.ground.length, world.ground.width),
+            "sun": tuple(part / length for part in SUN),
+            "zenith": ZENITH,
+            "horizon": HORIZON,
+            "murk": MURK,
+        }.items():
+            _set(program, name, value)
+        if "rows" in program:
+            self._paint(program)
+
+    def _load_textures(self, world: World) -> None:
+        size, data = markings(world)
+        if _grained(world):
+            data = _with_grain(world, size, data)
+        self._markings = self._context.texture(size, 2, data, alignment=1)
+        self._markings.repeat_x = self._markings.repeat_y = False
+        # Mesa's software renderer looks four bytes up quicker than one.
+        pattern = np.repeat((grain() * 255).astype(np.uint8).reshape(-1, 1), 4, axis=1).tobytes()
+        self._grain = self._context.texture((256, 256), 4, pattern)
+        for unit, (texture, its) in enumerate(((self._markings, data), (self._grain, pattern))):
+            add_mipmaps(texture, its, unit)
+            # Both are soft: one level of detail gives way to the next unseen, and a look-up costs half.
+            texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+        self._panorama = self._context.texture(SIZE, 4, panorama())
+        self._panorama.repeat_y = False
+        self._panorama.use(2)
+
+    def _ground(self, view: View) -> moderngl.Program:
+        """Draws what is seen of the ground: from under water its bottom."""
+        world = self._world
+        marked = bool(world.bays or world.lines)
+        program = self._program(
+            "ground",
+            LOOK=LOOKS.index("sand" if self._under else world.ground.look),
+            MURKY=int(self._under),
+            SIGNS=int(bool(world.arrows)),
+            GRAINED=int(_grained(world)),
+            ROWS=max(len(world.bays), 1) if marked else 0,
+            LINES=max(len(world.lines), 1) if marked else 0,
+        )
+        # a map shows what lies under water
+        _set(program, "level", world.bottom if self._under or (world.water and view.flat) else 0.0)
+        return program
+
+    def _paint(self, program: moderngl.Program) -> None:
+        """Hand the painted lines over; a world without any of one sort gets one far away."""
+        world = self._world
+        rows_ = [(row.x, row.y, row.width, row.depth) for row in world.bays] or [(1e6, 1e6, 1.0, 1.0)]
+        lines = [(*line.start, *line.end, line.width) for line in world.lines] or [
+            (1e6, 1e6, 1e6 + 1, 1e6, 0.1)
+        ]
+        lengths = [math.hypot(c - a, d - b) for a, b, c, d, _ in lines]
+        _fill(program, "rows", rows_)
+        _fill(program, "bays", [(row.count, 1 / row.width) for row in world.bays] or [(1.0, 1.0)])
+        _fill(
+            program,
+            "lines",
+            [
+                (a, b, (c - a) / way, (d - b) / way)
+                for (a, b, c, d, _), way in zip(lines, lengths, strict=True)
+            ],
+        )
+        _fill(program, "widths", [(line[4] / 2, way) for line, way in zip(lines, lengths, strict=True)])
+
+    def _target(self, size: tuple[int, int]) -> tuple[moderngl.Framebuffer, moderngl.Framebuffer]:
+        if size not in self._targets:
+            context = self._context
+            colour = context.renderbuffer(size, 3, samples=self._samples)
+            depth = context.depth_renderbuffer(size, samples=self._samples)
+            drawn = context.framebuffer([colour], depth)
+            resolved = context.framebuffer([context.renderbuffer(size, 3)]) if self._samples else drawn
+            self._targets[size] = drawn, resolved
+        return self._targets[size]
+
+    def _draw(self, view: View, moving: Sequence[Shape]) -> None:
+        context = self._context
+        context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        # The picture is drawn upside down, which turns the triangles round.
+        context.front_face = "cw"
+        matrix = np.ascontiguousarray(view.matrix().T, dtype=np.float32).tobytes()
+        for glossy, solids in self._solids:
+            program = self._program("solid", GLOSSY=int(glossy), MURKY=int(self._under))
+            self._aim(program, view, matrix)
+            solids.draw(program, view, moving)
+        context.enable_only(moderngl.DEPTH_TEST)
+        ground = self._ground(view)
+        self._aim(ground, view, matrix)
+        ground["centre"], ground["reach"] = view.eye[:2], 390.0
+        if ground not in self._grounds:
+            self._grounds[ground] = context.vertex_array(ground, [(self._square, "2f", "corner")])
+        self._grounds[ground].render()
+        if not (view.flat or self._under):
+            self._aim(self._sky, view, matrix)
+            # The dome lies at the very end of the depth range.
+            context.depth_func = "<="
+            first, count = seen(*view.round)
+            self._sky_array.render(moderngl.TRIANGLES, count, first=first)
+            context.depth_func = "<"
+
+    def _aim(self, program: moderngl.Program, view: View, matrix: bytes) -> None:
+        uniform: Any = program["view_projection"]
+        uniform.write(matrix)
+        _set(program, "eye", view.eye)
+        _set(program, "haze", DEEP if self._under else HAZE)
+
+
+def _grained(world: World) -> bool:
+    """The grain of the ground is fine enough on the picture of its shadows, which has room for it."""
+    return world.ground.look == "floor" and not world.arrows
+
+
+def _with_grain(world: World, size: tuple[int, int], data: bytes) -> bytes:
+    """The `markings` with the grain in place of the signs, of which there are none."""
+    pattern = grain()
+    soft = (pattern + np.roll(pattern, 1, 0) + np.roll(pattern, 1, 1) + np.roll(pattern, (1, 1), (0, 1))) / 4
+    columns, lines = (
+        (((np.arange(count) + 0.5) / count - 0.5) * extent * GRAIN % 1.0 * len(soft)).astype(int)
+        for count, extent in zip(size, (world.ground.length, world.ground.width), strict=True)
+    )
+    both = np.frombuffer(data, dtype=np.uint8).reshape(size[1], size[0], 2).copy()
+    both[:, :, 0] = soft[np.ix_(lines, columns)] * 255
+    return both.tobytes()
+
+
+def _source(name: str) -> str:
+    """A shader's text with what it includes."""
+    lines = (_SHADERS / name).read_text("utf-8").splitlines()
+    return "\n".join(_source(line.split('"')[1]) if line.startswith("#include") else line for line in lines)
+
+
+def _set(program: moderngl.Program, name: str, value: Any) -> None:
+    """Set a uniform, if this program looks at it."""
+    if name in program:
+        program[name] = value
+
+
+def _fill(program: moderngl.Program, name: str, values: Any) -> None:
+    """Set a uniform from many numbers."""
+    uniform: Any = program[name]
+    uniform.write(np.ascontiguousarray(values, dtype=np.float32).tobytes())

@@ -1,0 +1,149 @@
+"""Pictures where OpenGL without a window is missing: drawn by pybullet's own renderer in a process of its own.
+
+It is slow and would hold up the physics, so it draws small pictures, one at a time, next to it.
+"""
+
+from __future__ import annotations
+
+import logging
+import multiprocessing
+from collections.abc import Iterator, Sequence
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.core.shapes import Shape, from_yaw, rotate
+from sim.physics.backend_bullet import Bullet
+from sim.rendering.view import View
+from sim.world.world import World
+
+__all__ = ["SIZE", "TinyRenderer"]
+
+SIZE = (320, 240)
+"""Of its pictures [px]."""
+PATIENCE = 5.0
+"""How long to wait for one picture before giving up on the process [s]."""
+
+START = 30.0
+"""How long the process may take to start [s]."""
+
+_SMALLEST = 0.11
+"""What fits into a ball of this radius is not drawn [m]."""
+
+_log = logging.getLogger(__name__)
+
+Picture = NDArray[np.uint8]
+
+
+class TinyRenderer:
+    """Draws `world`; a picture is ready a little after it was asked for."""
+
+    def __init__(self, world: World) -> None:
+        """Start the process and wait until it can draw."""
+        context = multiprocessing.get_context("spawn")
+        self._pipe, theirs = context.Pipe()
+        self._process: BaseProcess | None = context.Process(target=_draw, args=(world, theirs), daemon=True)
+        self._process.start()
+        theirs.close()
+        self._stamp: float | None = None
+        self._receive(START)
+
+    def show(self, view: View, stamp: float, moving: Sequence[Shape] = ()) -> list[tuple[float, Picture]]:
+        """Ask for `view` as of `stamp`; gives the picture asked for before, waiting for it if need be.
+
+        What is `moving` is left out.
+        """
+        pictures = self._take(PATIENCE)
+        if self._process is not None:
+            self._stamp = stamp
+            self._send(view)
+        return pictures
+
+    def ready(self) -> list[tuple[float, Picture]]:
+        """The picture asked for last, if it is ready by now."""
+        return self._take(0.0)
+
+    def close(self) -> None:
+        """End the process; closing twice does nothing."""
+        if self._process is not None:
+            process, self._process = self._process, None
+            self._pipe.close()
+            process.join(PATIENCE)
+            if process.is_alive():
+                process.kill()
+                process.join()
+            process.close()
+
+    def _take(self, wait: float) -> list[tuple[float, Picture]]:
+        if self._stamp is None or self._process is None:
+            return []
+        picture = self._receive(wait)
+        if picture is None:
+            return []
+        stamp, self._stamp = self._stamp, None
+        return [(stamp, picture)]
+
+    def _receive(self, wait: float) -> Picture | None:
+        """What the process sends within `wait` [s]; None when it does not, which is its end unless `wait` is 0."""
+        try:
+            if self._pipe.poll(wait):
+                picture: Picture = self._pipe.recv()
+                return picture
+        except (EOFError, OSError):
+            self._give_up()
+        else:
+            if wait:
+                self._give_up()
+        return None
+
+    def _send(self, view: View) -> None:
+        try:
+            self._pipe.send(view)
+        except OSError:
+            self._give_up()
+
+    def _give_up(self) -> None:
+        _log.warning("The process that draws the camera's pictures has ended; there are no more.")
+        self.close()
+
+
+def _draw(world: World, pipe: Connection) -> None:
+    """The process: draw every view that comes through `pipe` until it closes."""
+    backend = Bullet()
+    for shape in scene(world):
+        backend.add_looks(shape)
+    try:
+        pipe.send(None)
+        while True:
+            pipe.send(_picture(backend, pipe.recv()))
+    except (EOFError, OSError, KeyboardInterrupt):
+        backend.close()
+
+
+def _picture(backend: Bullet, view: View) -> Picture:
+    ahead, up = rotate(view.rotation, (1.0, 0.0, 0.0)), rotate(view.rotation, (0.0, 0.0, 1.0))
+    x, y, z = view.eye
+    target = (x + ahead[0], y + ahead[1], z + ahead[2])
+    return backend.picture(view.eye, target, up, 2 * float(np.arctan(view.half_extent[1])), SIZE)
+
+
+def scene(world: World) -> Iterator[Shape]:
+    """What is drawn: lawn, asphalt, paint, and the things without their details."""
+    length, width = world.ground.length, world.ground.width
+    yield Shape("box", (200.0, 200.0, 0.02), (0.0, 0.0, -0.05), colour=(0.40, 0.50, 0.27))
+    yield Shape("box", (length, width, 0.02), (0.0, 0.0, -0.015), colour=(0.44, 0.45, 0.47))
+    for row in world.bays:
+        for number in range(row.count + 1):
+            middle = (row.x + number * row.width, row.y + row.depth / 2, 0.0)
+            yield Shape("box", (0.12, row.depth, 0.01), middle, colour=(0.92, 0.92, 0.92))
+    for line in world.lines:
+        (ax, ay), (bx, by) = line.start, line.end
+        size = (float(np.hypot(bx - ax, by - ay)), line.width, 0.01)
+        turn = from_yaw(float(np.arctan2(by - ay, bx - ax)))
+        yield Shape("box", size, ((ax + bx) / 2, (ay + by) / 2, 0.0), turn, colour=(0.92, 0.92, 0.92))
+    for prop in world.props:
+        for shape in prop.visuals:
+            if prop.kind == "cone" or np.linalg.norm(shape.size) / 2 > _SMALLEST:
+                yield shape

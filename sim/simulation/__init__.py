@@ -1,0 +1,1 @@
+"""A world and its robots, stepped together."""

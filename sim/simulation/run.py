@@ -1,0 +1,50 @@
+"""A simulation that one or several robots share: whoever asks first moves it on, and nobody misses anything."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from sim.physics.backend_bullet import STEPS_PER_SECOND
+from sim.simulation.simulation import Simulation
+
+__all__ = ["Run"]
+
+_SLACK = 1e-3
+"""Part of a step by which `now` may fall short of it: the clock's own rounding is no reason to wait."""
+
+
+class Run:
+    """Owns the simulation; it is freed when the last of its robots leaves."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        """Nothing has moved yet."""
+        self.simulation = simulation
+        self.origin: float | None = None
+        """Time of the first step [s, robots' clock]; None until somebody asks."""
+        self._listeners: list[Callable[[], None]] = []
+
+    def join(self, collect: Callable[[], None]) -> None:
+        """Let `collect` be called after every step."""
+        self._listeners.append(collect)
+
+    def leave(self, collect: Callable[[], None]) -> None:
+        """No longer; frees the simulation when nobody is left. Leaving twice does nothing."""
+        if collect in self._listeners:
+            self._listeners.remove(collect)
+            if not self._listeners:
+                self.simulation.close()
+
+    @property
+    def now(self) -> float:
+        """[s, robots' clock]"""
+        return (self.origin or 0.0) + self.simulation.time
+
+    def advance(self, now: float) -> None:
+        """Simulate up to `now` [s]; the first call sets the origin and simulates nothing."""
+        if self.origin is None:
+            self.origin = now
+        goal = int((now - self.origin) * STEPS_PER_SECOND + _SLACK)
+        while self.simulation.steps < goal:
+            self.simulation.advance()
+            for collect in tuple(self._listeners):
+                collect()

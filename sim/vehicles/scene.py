@@ -1,0 +1,33 @@
+"""What a vehicle is put into: the physics, the world with its weather, and what decides the random errors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sim.core.noise import Noise
+from sim.physics.backend_bullet import Bullet
+from sim.physics.weather import Weather
+from sim.world.world import Start, World
+
+__all__ = ["Scene"]
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """Everything round one vehicle."""
+
+    backend: Bullet
+    world: World
+    weather: Weather
+    start: Start
+    """Where it stands, floats or lies at first."""
+    seed: int = 0
+    noise: bool = True
+    """With False every sensor is exact."""
+    number: int = 0
+    """Which of the vehicles of this world it is, from 0 on."""
+
+    def generator(self, sensor: str) -> Noise:
+        """The random errors of one of its sensors, independent of all others."""
+        name = sensor if self.number == 0 else f"{self.number}/{sensor}"
+        return Noise(self.seed, name, on=self.noise)

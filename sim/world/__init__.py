@@ -1,0 +1,1 @@
+"""Worlds from their files: shapes, props, paint, the robot's own map."""

@@ -1,0 +1,76 @@
+"""The robot's own map: which cells of the ground stand full, drawn from the world without what does not belong there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bridge.msgs.arrays import Int8Array
+from bridge.msgs.geometry_msgs import Point, Pose
+from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
+from bridge.msgs.std_msgs import Header, Time
+from sim.core.shapes import Shape, rotate, rotate_back
+from sim.world.world import World
+
+__all__ = ["occupancy"]
+
+Grid = NDArray[np.floating[Any]]
+
+RESOLUTION = 0.1
+"""Edge of a cell [m]."""
+MARGIN = 1.0
+"""Of unknown round the ground [m]."""
+CLEARANCE = 0.45
+"""What hangs higher than this is no obstacle for a ground robot [m]."""
+
+
+def occupancy(world: World, stamp: float) -> OccupancyGrid:
+    """The map of `world` in the frame `map`, loaded at `stamp` [s, robot clock].
+
+    A cell is full when an obstacle covers its middle or comes within half a cell of it; off the ground is unknown.
+    """
+    length, width = world.ground.length, world.ground.width
+    columns, rows = (round((extent + 2 * MARGIN) / RESOLUTION) for extent in (length, width))
+    west, south = -length / 2 - MARGIN, -width / 2 - MARGIN
+    x = west + (np.arange(columns) + 0.5) * RESOLUTION
+    y = south + (np.arange(rows) + 0.5) * RESOLUTION
+    cells = np.full((rows, columns), -1, dtype=np.int8)
+    cells[np.ix_(np.abs(y) < width / 2, np.abs(x) < length / 2)] = 0
+    cells[_full(world.mapped, x, y)] = 100
+    time = Time.at(stamp)
+    info = MapMetaData(time, RESOLUTION, columns, rows, Pose(Point(west, south)))
+    return OccupancyGrid(Header(time, "map"), info, Int8Array(cells.tobytes()))
+
+
+def _full(shapes: Iterable[Shape], x: Grid, y: Grid) -> NDArray[np.bool_]:
+    full = np.zeros((len(y), len(x)), dtype=np.bool_)
+    for shape in shapes:
+        if shape.position[2] - shape.size[2] / 2 < CLEARANCE:
+            # only the cells round it: of all of them at once a large ground has too many
+            east, north, _ = map(abs, rotate(shape.rotation, (1.0, 0.0, 0.0)))
+            long, wide, _ = shape.size
+            columns = _near(x, shape.position[0], (long * east + wide * north) / 2 + RESOLUTION)
+            rows = _near(y, shape.position[1], (long * north + wide * east) / 2 + RESOLUTION)
+            full[rows, columns] |= _covers(shape, *np.meshgrid(x[columns], y[rows]))
+    return full
+
+
+def _near(middles: Grid, at: float, reach: float) -> slice:
+    """Which of the `middles`, which rise, are no farther than `reach` from `at` [m]."""
+    return slice(
+        int(np.searchsorted(middles, at - reach)), int(np.searchsorted(middles, at + reach, "right"))
+    )
+
+
+def _covers(shape: Shape, x: Grid, y: Grid) -> NDArray[np.bool_]:
+    """The cells under an upright `shape`, given the middles of all cells."""
+    cosine, minus_sine, _ = rotate_back(shape.rotation, (1.0, 0.0, 0.0))
+    dx, dy = x - shape.position[0], y - shape.position[1]
+    along, across = cosine * dx - minus_sine * dy, minus_sine * dx + cosine * dy
+    half_x, half_y = shape.size[0] / 2 + RESOLUTION / 2, shape.size[1] / 2 + RESOLUTION / 2
+    if shape.kind == "box":
+        return (np.abs(along) < half_x) & (np.abs(across) < half_y)
+    return np.asarray(along**2 + across**2 < half_x**2)

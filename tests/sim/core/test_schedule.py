@@ -1,0 +1,26 @@
+from __future__ import annotations
+
+import pytest
+
+from sim.core.schedule import Schedule
+
+
+@pytest.mark.parametrize("rate", [1, 5, 10, 15, 20, 50, 240])
+def test_a_sensor_falls_due_exactly_as_often_as_its_rate_says(rate):
+    schedule = Schedule({"it": rate})
+    due = [step for step in range(2400) if schedule.due(step)]
+    assert due[0] == 0
+    assert len(due) == 10 * rate
+
+
+def test_names_that_fall_due_together_keep_their_order():
+    schedule = Schedule({"second": 10, "first": 20})
+    assert schedule.due(0) == ("second", "first")
+    assert [schedule.due(step) for step in range(1, 13)][-1] == ("first",)
+
+
+def test_a_period_that_is_no_whole_number_of_steps_does_not_drift():
+    schedule = Schedule({"imu": 50})
+    due = [step for step in range(241) if schedule.due(step)]
+    assert due[:6] == [0, 5, 10, 15, 20, 24]
+    assert due[-1] == 240
