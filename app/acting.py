@@ -9,7 +9,7 @@ from typing import Any
 
 from app.intents import INTENTS
 from bridge.msgs.pilothouse_msgs import LightState, TaskOrder, TaskStatus
-from widgets.task_words import TASKS, title
+from widgets.core.task_words import TASKS, title
 
 __all__ = ["STEP", "Acting"]
 

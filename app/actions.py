@@ -9,8 +9,8 @@ from typing import Any, Protocol
 
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import LightState, TaskOrder, TaskStatus
-from widgets.action_column import Action
-from widgets.task_words import TASKS
+from widgets.controls.action_column import Action
+from widgets.core.task_words import TASKS
 
 __all__ = ["ACTIONS", "CARRIED", "Actions", "Line"]
 

@@ -50,7 +50,7 @@ from bridge.core.frames import Frame
 from bridge.discovery.network import NetworkThread
 from bridge.msgs.pilothouse_msgs import Event
 from widgets import CATALOGUE
-from widgets.theme import theme
+from widgets.core.theme import theme
 
 __all__ = ["PilothouseApp"]
 

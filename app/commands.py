@@ -46,7 +46,7 @@ from bridge.msgs.pilothouse_msgs import (
     SetScheduleResponse,
     StartTaskRequest,
 )
-from widgets.task_words import title
+from widgets.core.task_words import title
 
 __all__ = ["COMMANDS", "Commands", "Kind", "Outcome"]
 

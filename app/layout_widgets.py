@@ -10,10 +10,10 @@ import widgets
 from app.layout_faults import LayoutError, one_of, said
 from bridge.core.topics import topic
 from bridge.msgs.geometry_msgs import PoseStamped
-from widgets.base import Control
-from widgets.grip import Grip
-from widgets.icons import ICONS
-from widgets.stick import Stick
+from widgets.controls.stick import Stick
+from widgets.core.base import Control
+from widgets.core.grip import Grip
+from widgets.core.icons import ICONS
 
 __all__ = ["check_control", "check_icon", "check_instrument", "drives"]
 
@@ -68,7 +68,7 @@ def check_icon(where: str, name: str) -> None:
     if name not in ICONS:
         near = difflib.get_close_matches(name, ICONS, 3, 0.4)
         hint = f", as {', '.join(near)}" if near else ""
-        raise LayoutError(f"{where}: icon is a name in widgets/icons.py{hint}, not {said(name)}.")
+        raise LayoutError(f"{where}: icon is a name in widgets/core/icons.py{hint}, not {said(name)}.")
 
 
 def _only_shows(kind: Any) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from app.feeds import Feeds
 from app.mission import Draft
 from bridge.msgs.pilothouse_msgs import Limits, Place, PlaceArray, RobotInfo, TaskOrder
-from widgets.fence import Fence
+from widgets.map.fence import Fence
 
 __all__ = ["Refusals", "summary"]
 

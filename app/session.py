@@ -36,7 +36,7 @@ from bridge.msgs.geometry_msgs import (
 from bridge.msgs.pilothouse_msgs import ControlStatus, Mission, RobotInfo, TaskStatus
 from bridge.msgs.std_msgs import Header, Time
 from bridge.msgs.vision_msgs import Detection2DArray
-from widgets.task_words import known
+from widgets.core.task_words import known
 
 __all__ = ["Session"]
 

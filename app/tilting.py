@@ -17,7 +17,7 @@ from app.press import Press
 from app.switched import Switched
 from app.telling import tell
 from app.tilt import Level, Tilt, TiltSettings, turned
-from widgets.tilt_circle import TiltCircle
+from widgets.controls.tilt_circle import TiltCircle
 
 __all__ = ["LEAST", "Tilting"]
 

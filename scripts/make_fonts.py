@@ -23,7 +23,7 @@ from fontTools.subset import Options, Subsetter
 from fontTools.ttLib import TTFont, newTable
 from fontTools.varLib.instancer import instantiateVariableFont
 
-from widgets.icons import FILLED, OUTLINED, filled_code
+from widgets.core.icons import FILLED, OUTLINED, filled_code
 
 FONTS = Path(__file__).parents[1] / "widgets" / "fonts"
 TEXT = [*range(0x20, 0x180), *range(0x2010, 0x2030), *map(ord, "′″←↑→↓−≈≠≤≥×÷±°²³µ€")]
@@ -81,7 +81,7 @@ def quadratic(glyph: object) -> object:
 
 
 def make_icons(source: Path) -> TTFont:
-    """Outlined icons and filled ones, each at its code point in `widgets.icons`."""
+    """Outlined icons and filled ones, each at its code point in `widgets.core.icons`."""
     outlined = instance(source, 0, list(OUTLINED.values()))
     filled = instance(source, 1, [OUTLINED[name] for name in FILLED])
     glyphs = filled.getBestCmap()

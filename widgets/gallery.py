@@ -15,31 +15,31 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from widgets import CATALOGUE
-from widgets.kit import SectionLabel, Text
-from widgets.theme import PALETTES, theme
+from widgets.core.theme import PALETTES, theme
+from widgets.parts.kit import SectionLabel, Text
 
 __all__ = ["KIT", "Exhibit", "Gallery", "Sample", "all_samples", "modules", "page", "write_pictures"]
 
 KIT = {
-    "Labels": "widgets.labels",
-    "Cards": "widgets.cards",
-    "Buttons": "widgets.buttons",
-    "Choices": "widgets.choices",
-    "Stepper": "widgets.stepper",
-    "Amounts": "widgets.amounts",
-    "TextField": "widgets.text_field",
-    "Rows": "widgets.rows",
-    "EventRow": "widgets.event_row",
-    "PromptCard": "widgets.prompt_card",
-    "ResponseChart": "widgets.response_chart",
-    "ScoreHistory": "widgets.score_history",
-    "SuccessBars": "widgets.success_bars",
-    "Crosshair": "widgets.crosshair",
-    "NoiseMeter": "widgets.noise_meter",
-    "ReactionTest": "widgets.reaction_test",
-    "ScanKeyboard": "widgets.scan_keyboard",
-    "ScanPad": "widgets.scan_pad",
-    "ShakeLesson": "widgets.shake_lesson",
+    "Labels": "widgets.parts.labels",
+    "Cards": "widgets.parts.cards",
+    "Buttons": "widgets.parts.buttons",
+    "Choices": "widgets.parts.choices",
+    "Stepper": "widgets.parts.stepper",
+    "Amounts": "widgets.parts.amounts",
+    "TextField": "widgets.parts.text_field",
+    "Rows": "widgets.parts.rows",
+    "EventRow": "widgets.status.event_row",
+    "PromptCard": "widgets.study.prompt_card",
+    "ResponseChart": "widgets.study.response_chart",
+    "ScoreHistory": "widgets.study.score_history",
+    "SuccessBars": "widgets.study.success_bars",
+    "Crosshair": "widgets.controls.crosshair",
+    "NoiseMeter": "widgets.inputs.noise_meter",
+    "ReactionTest": "widgets.inputs.reaction_test",
+    "ScanKeyboard": "widgets.inputs.scan_keyboard",
+    "ScanPad": "widgets.inputs.scan_pad",
+    "ShakeLesson": "widgets.inputs.shake_lesson",
 }
 """The kit's modules, shown after the robot widgets."""
 

@@ -8,9 +8,9 @@ from kivy.metrics import dp
 
 from app.scanning import finger
 from app.scanning.finding import in_window
-from widgets.crosshair import Crosshair
-from widgets.map_gestures import HELD, MapGestures
-from widgets.scan_pad import PadKey, ScanPad
+from widgets.controls.crosshair import Crosshair
+from widgets.inputs.scan_pad import PadKey, ScanPad
+from widgets.map.map_gestures import HELD, MapGestures
 
 __all__ = ["Area"]
 

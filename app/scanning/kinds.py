@@ -11,16 +11,16 @@ from kivy.uix.textinput import TextInput
 from kivy.uix.widget import Widget
 
 from widgets import HeadingDial, StopAll, StopButton
-from widgets.amounts import Fader
-from widgets.cards import Banner, Sheet, SheetGrip
-from widgets.choices import Toggle
-from widgets.grip import Grip
-from widgets.hold import Hold
-from widgets.map_gestures import MapGestures
-from widgets.rows import DragHandle
-from widgets.slide_confirm import SlideToConfirm
-from widgets.stepper import StepperEnd
-from widgets.stick import Stick
+from widgets.controls.slide_confirm import SlideToConfirm
+from widgets.controls.stick import Stick
+from widgets.core.grip import Grip
+from widgets.core.hold import Hold
+from widgets.map.map_gestures import MapGestures
+from widgets.parts.amounts import Fader
+from widgets.parts.cards import Banner, Sheet, SheetGrip
+from widgets.parts.choices import Toggle
+from widgets.parts.rows import DragHandle
+from widgets.parts.stepper import StepperEnd
 
 __all__ = ["kind_of"]
 

@@ -9,7 +9,7 @@ from typing import Any
 from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
-from widgets.buttons import PushButton
+from widgets.parts.buttons import PushButton
 
 __all__ = ["intent_of", "slug", "words_of"]
 

@@ -16,10 +16,10 @@ from app.scanning import finger
 from app.scanning.area import Area
 from app.scanning.finding import Box, in_window
 from app.scanning.placing import beside
-from widgets.hold import HOLD
-from widgets.scan_keyboard import ScanKeyboard
-from widgets.scan_pad import PadKey, ScanPad
-from widgets.stop_button import LONG_HOLD
+from widgets.controls.stop.stop_button import LONG_HOLD
+from widgets.core.hold import HOLD
+from widgets.inputs.scan_keyboard import ScanKeyboard
+from widgets.inputs.scan_pad import PadKey, ScanPad
 
 __all__ = ["MOMENT", "Openings"]
 

@@ -13,8 +13,8 @@ from kivy.graphics import Color, InstructionGroup, Line, Mesh, Rectangle, Rounde
 from kivy.metrics import dp, sp
 
 from app.scanning.finding import Box
-from widgets.base import text_texture
-from widgets.theme import theme
+from widgets.core.base import text_texture
+from widgets.core.theme import theme
 
 __all__ = ["THICK", "Ring"]
 

@@ -19,8 +19,8 @@ from app.scanning.ring import Ring
 from app.screens.dialogs import Question
 from bridge.discovery.beacon import broadcast_addresses
 from bridge.msgs.pilothouse_msgs import PlaceArray
-from widgets.cards import ActionToast
-from widgets.scan_pad import PadButton, ScanPad
+from widgets.inputs.scan_pad import PadButton, ScanPad
+from widgets.parts.cards import ActionToast
 
 __all__ = ["OnGlass"]
 

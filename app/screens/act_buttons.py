@@ -10,7 +10,7 @@ from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
 from app.arrange import Rect
-from widgets.kit import PrimaryButton, QuietButton
+from widgets.parts.kit import PrimaryButton, QuietButton
 
 __all__ = ["Act", "ActButtons"]
 

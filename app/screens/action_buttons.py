@@ -11,9 +11,9 @@ from kivy.uix.widget import Widget
 
 from app.actions import CARRIED, Actions
 from app.layout import Layout
-from widgets.action_column import Action
-from widgets.gauge import wide
-from widgets.kit import Card, QuietButton, Text
+from widgets.controls.action_column import Action
+from widgets.parts.gauge import wide
+from widgets.parts.kit import Card, QuietButton, Text
 
 __all__ = ["ActionButtons"]
 

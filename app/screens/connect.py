@@ -14,9 +14,9 @@ from kivy.uix.floatlayout import FloatLayout
 from app.arrange import connect_columns
 from app.discovery import Entry
 from app.screens.inputs.chip import InputsChip  # noqa: F401 - its rule draws what is used here
-from widgets.frames import EdgedBox  # noqa: F401 - its rule draws the bar
-from widgets.kit import Banner, Card, Text
-from widgets.theme import theme
+from widgets.core.frames import EdgedBox  # noqa: F401 - its rule draws the bar
+from widgets.core.theme import theme
+from widgets.parts.kit import Banner, Card, Text
 
 __all__ = ["ConnectScreen", "RobotCard"]
 

@@ -12,8 +12,8 @@ from app.screens.notices import LONG, Notices
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import TaskQueue, TaskStatus
 from widgets import HandoverCard, ModeCard, PausedCard, SpeedCap
-from widgets.notice_card import TINY
-from widgets.task_words import TASKS
+from widgets.core.task_words import TASKS
+from widgets.status.notice_card import TINY
 
 __all__ = ["ControlCards"]
 

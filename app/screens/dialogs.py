@@ -11,7 +11,7 @@ from kivy.metrics import dp
 from kivy.properties import ListProperty, StringProperty
 from kivy.uix.floatlayout import FloatLayout
 
-import widgets.kit  # noqa: F401 - its rules draw what is used here
+import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.rects import Rect
 from widgets import StopAll, StopButton
 

@@ -12,8 +12,8 @@ from app.rects import Rect, StopPlace
 from app.screens.driving import Driving
 from app.screens.placing import AWAY, off, put
 from widgets import ActionColumn
-from widgets.action_column import Action as Offered
-from widgets.kit import Card
+from widgets.controls.action_column import Action as Offered
+from widgets.parts.kit import Card
 
 __all__ = ["DiveScreen"]
 

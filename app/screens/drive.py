@@ -16,9 +16,9 @@ from app.screens.driving import Driving
 from app.screens.placing import off, put
 from app.screens.sight import Sight
 from widgets import SlideToConfirm
-from widgets.choices import Segmented
-from widgets.kit import Card
-from widgets.stick import Stick
+from widgets.controls.stick import Stick
+from widgets.parts.choices import Segmented
+from widgets.parts.kit import Card
 
 __all__ = ["DriveScreen"]
 

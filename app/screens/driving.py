@@ -26,7 +26,7 @@ from app.screens.senses import Senses
 from app.session import Session
 from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import Video
-from widgets.stick import Stick
+from widgets.controls.stick import Stick
 
 __all__ = ["Driving"]
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from kivy.lang import Builder
 
-import widgets.key_help  # noqa: F401 - its rule draws what is used here
+import widgets.inputs.key_help  # noqa: F401 - its rule draws what is used here
 from app.key_table import ARROWS, DRIVING, KeyTable, key_words
 from app.mapped import Mapped
 from app.meaning import MEANINGS, meaning_words

@@ -7,11 +7,11 @@ from typing import Any
 from kivy.lang import Builder
 from kivy.uix.gridlayout import GridLayout
 
-import widgets.kit  # noqa: F401 - its rules draw what is used here
+import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.dashboard import Dashboard
 from app.offer import POSE
 from widgets import Readout
-from widgets.column import Column
+from widgets.parts.column import Column
 
 __all__ = ["Figures", "Lacking"]
 

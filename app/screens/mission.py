@@ -31,7 +31,7 @@ from app.session import Session
 from bridge.msgs.pilothouse_msgs import Place, RobotInfo, TaskStatus
 from bridge.msgs.vision_msgs import Detection2DArray
 from widgets import Compass, Video
-from widgets.kit import IconButton
+from widgets.parts.kit import IconButton
 
 __all__ = ["MissionScreen"]
 

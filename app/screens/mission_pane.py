@@ -13,8 +13,8 @@ from app.missions import LONGEST
 from app.screens.pane_head import PaneHead
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import KeptMission
-from widgets.kit import TextField
-from widgets.mission_list import mission_words
+from widgets.parts.kit import TextField
+from widgets.tasks.mission_list import mission_words
 
 __all__ = ["MissionPane"]
 

@@ -13,7 +13,7 @@ from kivy.uix.widget import Widget
 
 from app.arrange import Rect
 from app.screens.placing import AWAY
-from widgets.kit import ActionToast, Banner, Toast
+from widgets.parts.kit import ActionToast, Banner, Toast
 
 __all__ = ["BRIEF", "LONG", "Notices"]
 

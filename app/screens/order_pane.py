@@ -12,8 +12,8 @@ from kivy.uix.boxlayout import BoxLayout
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import RobotInfo, ScheduledTask, TaskOrder, TaskStatus
 from widgets import OrderForm, TaskChooser, WhenPicker
-from widgets.kit import IconButton, ListRow, Roll, Segmented
-from widgets.task_words import TASKS, known, rhythm, title
+from widgets.core.task_words import TASKS, known, rhythm, title
+from widgets.parts.kit import IconButton, ListRow, Roll, Segmented
 
 __all__ = ["OrderPane", "why_not_now"]
 

@@ -7,8 +7,8 @@ from typing import Any
 from kivy.lang import Builder
 from kivy.properties import BooleanProperty, StringProperty
 
-from widgets.column import Column
-from widgets.kit import IconButton
+from widgets.parts.column import Column
+from widgets.parts.kit import IconButton
 
 __all__ = ["PaneHead"]
 

@@ -17,10 +17,10 @@ from app.screens.lacking import Figures, Lacking
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import TaskProgress, TaskStatus
 from widgets import EventLog, MotionSelector, Readout, TaskButtons
-from widgets.column import Column
-from widgets.event_log import ago, look
-from widgets.kit import Card
-from widgets.task_card import figures_words
+from widgets.parts.column import Column
+from widgets.parts.kit import Card
+from widgets.status.event_log import ago, look
+from widgets.tasks.task_card import figures_words
 
 __all__ = ["MissionPanel"]
 

@@ -14,7 +14,7 @@ from app.mission import Draft
 from app.screens.selection import SelectionBar
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import Place, PlaceArray
-from widgets.kit import IconButton, PrimaryButton, QuietButton
+from widgets.parts.kit import IconButton, PrimaryButton, QuietButton
 
 __all__ = ["MODES", "Pointing"]
 

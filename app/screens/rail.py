@@ -13,9 +13,9 @@ from app.arrange import Rect
 from app.screens.connect import THEMES
 from app.screens.placing import put
 from bridge.msgs.pilothouse_msgs import Event
-from widgets.frames import Edged
-from widgets.kit import NavButton, PushButton
-from widgets.theme import theme
+from widgets.core.frames import Edged
+from widgets.core.theme import theme
+from widgets.parts.kit import NavButton, PushButton
 
 __all__ = ["Rail"]
 

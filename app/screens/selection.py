@@ -6,8 +6,8 @@ from kivy.lang import Builder
 from kivy.properties import StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
-import widgets.kit  # noqa: F401 - its rules draw what is used here
-from widgets.frames import Outlined
+import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
+from widgets.core.frames import Outlined
 
 __all__ = ["SelectionBar"]
 

@@ -12,8 +12,8 @@ from app.arrange import Rect
 from app.feeds import Feeds
 from app.screens.placing import put
 from bridge.msgs import Msg
-from widgets.gauge import Gauge
-from widgets.kit import Card, Icon
+from widgets.parts.gauge import Gauge
+from widgets.parts.kit import Card, Icon
 
 __all__ = ["Senses"]
 

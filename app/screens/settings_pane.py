@@ -12,7 +12,7 @@ from app.screens.pane_head import PaneHead
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import ControlStatus
 from widgets import OptionList
-from widgets.kit import QuietButton
+from widgets.parts.kit import QuietButton
 
 __all__ = ["SettingsPane"]
 

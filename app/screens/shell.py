@@ -28,9 +28,9 @@ from app.session import Session
 from app.stopping import silence
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets import QuestionCard, StopButton
-from widgets.base import age_text
-from widgets.kit import Banner
-from widgets.theme import theme
+from widgets.core.base import age_text
+from widgets.core.theme import theme
+from widgets.parts.kit import Banner
 
 __all__ = ["Shell"]
 

@@ -13,7 +13,7 @@ from app.offer import POSE
 from app.screens.placing import put
 from app.session import Session
 from widgets import IntruderBadge, Video
-from widgets.nearness import away_text
+from widgets.core.nearness import away_text
 
 __all__ = ["Sight"]
 

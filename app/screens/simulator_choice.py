@@ -10,12 +10,12 @@ from kivy.metrics import dp
 from kivy.properties import BooleanProperty, NumericProperty, ObjectProperty, StringProperty
 from kivy.uix.gridlayout import GridLayout
 
-import widgets.kit  # noqa: F401 - its rules draw what is used here
+import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.screens.connect import KINDS
 from app.screens.dialogs import Question
 from app.simulated import Choice, Offered
-from widgets.labels import Icon
-from widgets.rows import ListRow
+from widgets.parts.labels import Icon
+from widgets.parts.rows import ListRow
 
 __all__ = ["SimulatorChoice"]
 

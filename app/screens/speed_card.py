@@ -9,7 +9,7 @@ from kivy.metrics import dp
 from kivy.properties import AliasProperty, NumericProperty, StringProperty
 
 from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
-from widgets.kit import Card
+from widgets.parts.kit import Card
 
 __all__ = ["SPEED", "YAW_RATE", "SpeedCard", "allowed"]
 

@@ -7,7 +7,7 @@ import math
 from app.session import Session
 from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
 from bridge.msgs.sensor_msgs import NavSatFix
-from widgets.task_words import TASKS
+from widgets.core.task_words import TASKS
 
 __all__ = ["control", "control_nav", "fix", "mode"]
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from app.arrange import Rect
 from app.screens.act_buttons import ActButtons
 from bridge.msgs.pilothouse_msgs import Place
-from widgets.task_words import title
+from widgets.core.task_words import title
 
 if TYPE_CHECKING:
     from app.screens.tasks import TasksScreen

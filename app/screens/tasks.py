@@ -35,7 +35,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskStatus,
 )
 from widgets import MissionList, PlaceList, RunList, ScheduleList
-from widgets.kit import Text
+from widgets.parts.kit import Text
 
 __all__ = ["TasksScreen"]
 

@@ -11,15 +11,15 @@ from kivy.metrics import Metrics, dp
 from kivy.properties import BooleanProperty, NumericProperty, OptionProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
-import widgets.battery
-import widgets.kit
-import widgets.link_quality  # noqa: F401 - their rules draw what is used here
+import widgets.instruments.battery
+import widgets.instruments.link_quality  # noqa: F401 - their rules draw what is used here
+import widgets.parts.kit
 from app.screens import standing
 from app.screens.inputs.chip import InputsChip  # noqa: F401 - its rule draws what is used here
 from app.session import Session
-from widgets.base import text_texture
-from widgets.frames import EdgedBox
-from widgets.theme import theme
+from widgets.core.base import text_texture
+from widgets.core.frames import EdgedBox
+from widgets.core.theme import theme
 
 __all__ = ["TopBar"]
 

@@ -13,7 +13,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.recycleview.views import RecycleDataViewBehavior
 
-import widgets.kit  # noqa: F401 - its rules draw what is used here
+import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app import arrange
 from app.arrange import Rect
 from app.camera import Picture
@@ -22,8 +22,8 @@ from app.screens.placing import above, put
 from app.session import Session
 from app.topics import Line, Topics
 from widgets import FieldView
-from widgets.base import age_text
-from widgets.cards import Card
+from widgets.core.base import age_text
+from widgets.parts.cards import Card
 
 __all__ = ["TopicRow", "TopicsScreen"]
 

@@ -136,7 +136,7 @@ class Script:
 
     def _waiting(self) -> list[str]:
         """Widgets that are not live yet."""
-        from widgets.base import RobotWidget
+        from widgets.core.base import RobotWidget
 
         seen = [w for w in self.app.shell.walk() if isinstance(w, RobotWidget) and w.accepts]
         late = [type(w).__name__ for w in seen if w.state not in ("live", "alarm")]

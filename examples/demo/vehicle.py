@@ -16,7 +16,7 @@ from examples.demo.fingers import Finger, Point
 from examples.demo.glass import middle
 from examples.demo.scene import Scene, Wait
 from widgets import CATALOGUE
-from widgets.theme import theme
+from widgets.core.theme import theme
 
 __all__ = [
     "act",

@@ -36,7 +36,7 @@ def glass(stage: Stage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iter
         garbage,
     )  # Kivy: where this folder is named, this file is read before tests/conftest.py prepares it
     from app.application import PilothouseApp
-    from widgets.theme import theme
+    from widgets.core.theme import theme
 
     monkeypatch.setattr(
         garbage, "OLD", 10**9

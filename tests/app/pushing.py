@@ -238,7 +238,7 @@ def hands(stage: Stage) -> Iterator[Hands]:
 
 
 def small_card(hands: Hands, pos: tuple[int, int] = (40, 90)) -> None:
-    from widgets.kit import Card
+    from widgets.parts.kit import Card
 
     hands.page.add_widget(Card(size_hint=(None, None), size=(120, 60), pos=pos))
 

@@ -19,7 +19,7 @@ from app.settings import Settings
 from bridge.client.client import LinkState, Phase
 from bridge.msgs.pilothouse_msgs import ControlStatus, LightState, RobotInfo, TaskStatus
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
-from widgets.icons import ICONS
+from widgets.core.icons import ICONS
 
 SERVICES = frozenset({"/stop", "/task/start", "/task/go_home", "/task/pause", "/lights/set", "/robot/reset"})
 AQUA = RobotInfo(

@@ -20,7 +20,7 @@ from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 from tests.headless import Stage
 from tests.thrown import Lasting, throw_away
-from widgets.theme import theme
+from widgets.core.theme import theme
 
 
 def push(glass: Glass, robot: FakeRobot) -> Any:

@@ -60,7 +60,7 @@ def test_what_touches_only_the_corner_beside_the_round_is_not_over_the_stick(han
 def test_what_is_being_laid_out_is_over_the_stick_for_a_frame_and_does_not_end_the_drive(
     hands: Hands,
 ) -> None:
-    from widgets.kit import Card
+    from widgets.parts.kit import Card
 
     hands.push()
     card = Card(size_hint=(None, None), size=(120, 60), pos=(100, 100))

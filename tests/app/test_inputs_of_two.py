@@ -126,7 +126,7 @@ def test_the_tablet_whose_clutch_is_held_takes_both_from_the_gamepad(hands: Thum
 
 
 def test_what_lies_over_one_of_them_takes_both_from_the_gamepad(hands: Thumbs) -> None:
-    from widgets.kit import Card
+    from widgets.parts.kit import Card
 
     both(hands)
     hands.page.add_widget(Card(size_hint=(None, None), size=(120, 60), pos=(640, 150)))

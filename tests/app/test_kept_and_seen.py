@@ -9,8 +9,8 @@ import pytest
 from bridge.msgs.pilothouse_msgs import Event, Mission, Waypoint
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
-from widgets.cards import ActionToast
-from widgets.rows import ListRow
+from widgets.parts.cards import ActionToast
+from widgets.parts.rows import ListRow
 
 NIGHT = Mission(name="Night", waypoints=[Waypoint(5.0, 5.0)])
 

@@ -86,7 +86,7 @@ def control(**changes: str) -> str:
             "action is one of .*, not None",
         ),
         (control(action="pause"), "Joystick confirms nothing, so it has no action"),
-        (control(icon="nonsense"), "icon is a name in widgets/icons.py.*, not 'nonsense'"),
+        (control(icon="nonsense"), "icon is a name in widgets/core/icons.py.*, not 'nonsense'"),
         (
             "[[action]]\nwhat = 'pause'\nicon = 'puase'",
             "action 1: icon is a name .*, as pause, .*, not 'puase'",

@@ -7,7 +7,7 @@ import pytest
 from bridge.msgs.geometry_msgs import Point32, Polygon
 from bridge.msgs.pilothouse_msgs import Checklist, Limits, Place, RobotInfo
 from tests.app.glass import Glass
-from widgets.check_list import GOOD, UNTESTED
+from widgets.status.check_list import GOOD, UNTESTED
 
 SQUARE = Polygon([Point32(x, y) for x, y in ((0, 0), (10, 0), (10, 10), (0, 10))])
 

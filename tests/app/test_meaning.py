@@ -15,7 +15,7 @@ from app.meaning import MEANINGS, Meanings, meaning_icon, meaning_words
 from app.pad_map import MEANT, Profile
 from app.press import Press
 from app.shortcuts import Shortcuts
-from widgets.icons import OUTLINED
+from widgets.core.icons import OUTLINED
 
 
 class Intents:

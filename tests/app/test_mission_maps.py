@@ -5,7 +5,7 @@ import pytest
 from bridge.msgs.geometry_msgs import Point32, Polygon
 from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
 from tests.app.glass import Glass
-from widgets.geo_map import GeoMap
+from widgets.map.geo_map import GeoMap
 
 LOT = RobotInfo(name="Fake-1", world="parking_lot", latitude=45.5069, longitude=-73.579, radius=0.2)
 

@@ -9,7 +9,7 @@ from app import arrange
 from app.arrange import Rect
 from app.screens.rail import Rail
 from tests.headless import Stage
-from widgets.theme import theme
+from widgets.core.theme import theme
 
 FORMS = {"tall": Rect(0, 0, 412, 137), "short": Rect(0, 0, 68, 344), "wide": Rect(0, 0, 76, 744)}
 

@@ -15,8 +15,8 @@ from bridge.msgs.pilothouse_msgs import TaskStatus
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 from widgets import StopAll
-from widgets.buttons import NavButton, PushButton
-from widgets.theme import theme
+from widgets.core.theme import theme
+from widgets.parts.buttons import NavButton, PushButton
 
 TABS = ("now", "schedule", "places", "missions", "history", "events")
 SIZES = [(412, 892), (892, 412), (1280, 800), (1920, 1200)]

@@ -22,8 +22,8 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.std_msgs import Time
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
-from widgets.place_list import SOME
-from widgets.rows import ListRow
+from widgets.parts.rows import ListRow
+from widgets.tasks.place_list import SOME
 
 LAB, OFFICE = SOME[2], SOME[0]
 GO, PATROL = TaskOrder(id=3, task="go_to", places=["Lab"]), TaskOrder(id=4, task="patrol")

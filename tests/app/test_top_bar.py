@@ -8,7 +8,7 @@ import pytest
 
 from app.screens.top_bar import TopBar
 from bridge.msgs.sensor_msgs import BatteryState
-from widgets.base import text_texture
+from widgets.core.base import text_texture
 
 
 @pytest.mark.parametrize("mode", ["AUTO", "STOPPED", "no link"])

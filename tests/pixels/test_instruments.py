@@ -12,15 +12,15 @@ import pytest
 from PIL import Image
 
 from bridge.core.geo import Datum
-from widgets.compass import Compass
-from widgets.geo_map import GeoMap
-from widgets.geometry import View
-from widgets.grid_map import GridMap
-from widgets.horizon import ArtificialHorizon
-from widgets.ink import Ink
-from widgets.shapes import Shapes
-from widgets.theme import theme
-from widgets.video import Video
+from widgets.core.geometry import View
+from widgets.core.ink import Ink
+from widgets.core.shapes import Shapes
+from widgets.core.theme import theme
+from widgets.instruments.compass import Compass
+from widgets.instruments.horizon import ArtificialHorizon
+from widgets.map.geo_map import GeoMap
+from widgets.map.grid_map import GridMap
+from widgets.sensors.video import Video
 
 DATUM = Datum(45.5069, -73.579)
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from kivy.uix.floatlayout import FloatLayout
 
-from widgets.column import Column
-from widgets.rows import ListRow, Roll
-from widgets.score_history import ScoreHistory
+from widgets.parts.column import Column
+from widgets.parts.rows import ListRow, Roll
+from widgets.study.score_history import ScoreHistory
 
 
 @pytest.mark.parametrize("at", [0, 0.5, 1])

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from kivy.utils import get_color_from_hex
 
-from widgets.base import RobotWidget
+from widgets.core.base import RobotWidget
+from widgets.core.theme import PALETTES, theme
 from widgets.gallery import MARGIN, all_samples, framed, write_pictures
-from widgets.theme import PALETTES, theme
 
 SAMPLES = list(all_samples())
 NAMES = [f"{title}-{state}" for title, state, _ in SAMPLES]

@@ -9,7 +9,9 @@ from pathlib import Path
 import kivy
 import pytest
 
-from widgets import horizon, ink, video
+from widgets.core import ink
+from widgets.instruments import horizon
+from widgets.sensors import video
 
 GLSL = Path(kivy.__file__).parent / "data/glsl"
 COMPILE = """

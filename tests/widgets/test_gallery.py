@@ -9,10 +9,10 @@ from kivy.uix.label import Label
 
 import widgets
 from widgets import CATALOGUE
-from widgets.base import STATES, Control, RobotWidget
+from widgets.core.base import STATES, Control, RobotWidget
+from widgets.core.theme import PALETTES, theme
 from widgets.gallery import Exhibit, Gallery, all_samples, modules, page
-from widgets.labels import Icon
-from widgets.theme import PALETTES, theme
+from widgets.parts.labels import Icon
 
 SAMPLES = list(all_samples())
 SLACK = 1.5
@@ -77,15 +77,15 @@ def test_the_states_of_the_robot_widgets_are_all_shown():
 
 
 def test_a_name_picks_one_widget_or_says_what_there_is():
-    assert modules("joystick") == {"Joystick": "widgets.joystick"}
-    assert modules("stop_button") == {"StopButton": "widgets.stop_button"}
+    assert modules("joystick") == {"Joystick": "widgets.controls.joystick"}
+    assert modules("stop_button") == {"StopButton": "widgets.controls.stop.stop_button"}
     with pytest.raises(KeyError, match="There is no widget 'wheel'; there are .*Joystick"):
         modules("wheel")
 
 
 def test_the_wall_hangs_every_sample_of_a_widget(stage):
     wall = stage.show(Gallery("Joystick"), size=(1280, 800))
-    assert len(of(wall, Exhibit)) == len(import_module("widgets.joystick").samples())
+    assert len(of(wall, Exhibit)) == len(import_module("widgets.controls.joystick").samples())
     wall.set_theme("night")
     assert theme.name == "night"
 

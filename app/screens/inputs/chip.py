@@ -10,9 +10,9 @@ from kivy.properties import BooleanProperty, ListProperty
 from kivy.uix.boxlayout import BoxLayout
 
 from app.screens.inputs import PANES
-from widgets.frames import Pressable
-from widgets.kit import Icon, Text
-from widgets.theme import theme
+from widgets.core.frames import Pressable
+from widgets.core.theme import theme
+from widgets.parts.kit import Icon, Text
 
 __all__ = ["InputsChip"]
 

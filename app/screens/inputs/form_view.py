@@ -10,7 +10,7 @@ from kivy.uix.widget import Widget
 
 from app.screens.inputs.zip_row import SURE
 from widgets import SusForm, TlxScales
-from widgets.kit import Column, PrimaryButton, QuietButton, Remark
+from widgets.parts.kit import Column, PrimaryButton, QuietButton, Remark
 
 __all__ = ["FormView"]
 

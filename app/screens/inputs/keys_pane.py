@@ -12,9 +12,9 @@ from app.meaning import HOLDS, MEANINGS
 from app.press import Press
 from app.screens.inputs.setting_row import number_row, switch_row
 from app.screens.pane_head import PaneHead
-from widgets.key_help import KeyCap
-from widgets.kit import Column, ListRow, QuietButton, Roll
-from widgets.rows import group_label
+from widgets.inputs.key_help import KeyCap
+from widgets.parts.kit import Column, ListRow, QuietButton, Roll
+from widgets.parts.rows import group_label
 
 __all__ = ["KeysPane"]
 

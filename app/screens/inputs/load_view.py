@@ -11,8 +11,8 @@ from app.screens.inputs.form_view import FormView
 from app.screens.inputs.log_view import look_of
 from app.screens.inputs.setting_row import switch_row
 from app.workload import BASELINE, SUS_ABOVE
-from widgets.kit import Column, QuietButton, Remark
-from widgets.score_history import ScoreHistory
+from widgets.parts.kit import Column, QuietButton, Remark
+from widgets.study.score_history import ScoreHistory
 
 __all__ = ["LoadView"]
 

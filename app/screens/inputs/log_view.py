@@ -25,9 +25,9 @@ from app.responses_stats import (
 from app.screens.inputs import PANES
 from app.screens.inputs.setting_row import switch_row
 from app.screens.inputs.zip_row import SURE, ZipRow
-from widgets.kit import Column, QuietButton, Remark, Segmented, Toggle
-from widgets.response_chart import ResponseChart
-from widgets.success_bars import SuccessBars
+from widgets.parts.kit import Column, QuietButton, Remark, Segmented, Toggle
+from widgets.study.response_chart import ResponseChart
+from widgets.study.success_bars import SuccessBars
 
 __all__ = ["LogView", "facts", "look_of"]
 

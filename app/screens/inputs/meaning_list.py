@@ -8,7 +8,7 @@ from kivy.uix.boxlayout import BoxLayout
 
 from app.meaning import MEANINGS
 from app.screens.pane_head import PaneHead
-from widgets.kit import Column, ListRow, Roll
+from widgets.parts.kit import Column, ListRow, Roll
 
 __all__ = ["MeaningList"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from widgets.kit import ListRow, Toggle
+from widgets.parts.kit import ListRow, Toggle
 
 __all__ = ["MethodRow"]
 

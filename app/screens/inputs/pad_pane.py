@@ -15,9 +15,9 @@ from app.screens.inputs.meaning_list import MeaningList
 from app.screens.inputs.setting_row import number_row
 from app.sdl import PadState
 from widgets import PadPicture
-from widgets.kit import Column, IconButton, ListRow, QuietButton, Roll, Segmented
-from widgets.labels import Remark
-from widgets.rows import group_label
+from widgets.parts.kit import Column, IconButton, ListRow, QuietButton, Roll, Segmented
+from widgets.parts.labels import Remark
+from widgets.parts.rows import group_label
 
 __all__ = ["PadPane"]
 

@@ -12,8 +12,8 @@ from kivy.uix.floatlayout import FloatLayout
 from app import arrange
 from app.arrange import Body
 from app.screens.inputs.screen import InputsScreen
-from widgets.frames import EdgedBox  # noqa: F401 - its rule draws the bar
-from widgets.kit import IconButton, Text
+from widgets.core.frames import EdgedBox  # noqa: F401 - its rule draws the bar
+from widgets.parts.kit import IconButton, Text
 
 __all__ = ["InputsPage"]
 

@@ -18,7 +18,7 @@ from app.screens.inputs import panes
 from app.screens.inputs.method_row import MethodRow
 from app.screens.pane_head import PaneHead
 from app.screens.placing import Area, put  # noqa: F401 - a rule names the area
-from widgets.kit import Column, Remark, Roll
+from widgets.parts.kit import Column, Remark, Roll
 
 __all__ = ["InputsScreen"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from widgets.kit import ListRow, Stepper, Toggle
+from widgets.parts.kit import ListRow, Stepper, Toggle
 
 __all__ = ["number_row", "switch_row"]
 

@@ -7,7 +7,7 @@ from typing import Any
 from app.screens.inputs.log_view import look_of
 from app.screens.inputs.setting_row import number_row, switch_row
 from app.study import COMMANDS, POSTURES, TRIGGERS, Plan
-from widgets.kit import Column, PrimaryButton, Remark, SectionLabel, Segmented, Toggle
+from widgets.parts.kit import Column, PrimaryButton, Remark, SectionLabel, Segmented, Toggle
 
 __all__ = ["PROMPTED", "SetupView", "commands_of"]
 

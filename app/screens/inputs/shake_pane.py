@@ -12,10 +12,10 @@ from app.screens.inputs.meaning_list import MeaningList
 from app.screens.inputs.setting_row import switch_row
 from app.shake import AXES, WORDS, Axis
 from app.shaking import CHOICES, Shaking
-from widgets.kit import Column, ListRow, PrimaryButton, QuietButton, Roll
-from widgets.labels import Remark
-from widgets.rows import group_label
-from widgets.shake_lesson import ShakeLesson
+from widgets.inputs.shake_lesson import ShakeLesson
+from widgets.parts.kit import Column, ListRow, PrimaryButton, QuietButton, Roll
+from widgets.parts.labels import Remark
+from widgets.parts.rows import group_label
 
 __all__ = ["ShakePane"]
 

@@ -18,7 +18,7 @@ from app.screens.inputs.log_view import LogView
 from app.screens.inputs.setup_view import SetupView
 from app.screens.inputs.trial_view import TrialView
 from app.worker import NewestWorker
-from widgets.kit import Roll, Segmented
+from widgets.parts.kit import Roll, Segmented
 
 __all__ = ["StudyPane"]
 

@@ -13,9 +13,9 @@ from app.scanning.reaction import Reaction
 from app.scanning.settings import DEFAULTS, MOST_KEYS, RANGES, Key, Options
 from app.scanning.switches import Switches
 from app.screens.inputs.setting_row import number_row, switch_row
-from widgets.kit import Column, IconButton, ListRow, PrimaryButton, QuietButton, Remark, Roll, Segmented
-from widgets.reaction_test import ReactionTest
-from widgets.rows import group_label
+from widgets.inputs.reaction_test import ReactionTest
+from widgets.parts.kit import Column, IconButton, ListRow, PrimaryButton, QuietButton, Remark, Roll, Segmented
+from widgets.parts.rows import group_label
 
 __all__ = ["SwitchPane"]
 

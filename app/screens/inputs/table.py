@@ -10,7 +10,7 @@ from kivy.uix.boxlayout import BoxLayout
 from app.intents import INTENTS, METHODS, PRESSED, Intent
 from app.permits import ALWAYS, SAYS
 from app.screens.inputs import PANES
-from widgets.kit import Column, ListRow, QuietButton, Remark, Roll, Segmented, Toggle
+from widgets.parts.kit import Column, ListRow, QuietButton, Remark, Roll, Segmented, Toggle
 
 __all__ = ["TablePane", "how"]
 

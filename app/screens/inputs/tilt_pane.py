@@ -13,7 +13,7 @@ from kivy.uix.widget import Widget
 from app.tilt import RANGES
 from app.tilting import LEAST, Tilting
 from widgets import TiltCircle
-from widgets.kit import Card, Column, ListRow, Remark, Roll, Stepper, Text, Toggle
+from widgets.parts.kit import Card, Column, ListRow, Remark, Roll, Stepper, Text, Toggle
 
 __all__ = ["TiltPane"]
 

@@ -11,8 +11,8 @@ from app.intents import INTENTS, Heard
 from app.origin import origins
 from app.screens.inputs.log_view import look_of
 from app.study import Trials
-from widgets.kit import Column, Grid, PrimaryButton, QuietButton, Remark, SectionLabel
-from widgets.prompt_card import PromptCard
+from widgets.parts.kit import Column, Grid, PrimaryButton, QuietButton, Remark, SectionLabel
+from widgets.study.prompt_card import PromptCard
 
 __all__ = ["TrialView"]
 

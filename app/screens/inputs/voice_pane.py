@@ -16,10 +16,10 @@ from app.voice.mouth import VOICES
 from app.voice.noise import TOO_LOUD
 from app.voice.phrases import LANGUAGES, PHRASES
 from app.voice.recognizer import Level, Result
-from widgets.kit import Column, ListRow, PrimaryButton, QuietButton, Roll, Segmented
-from widgets.labels import Remark
-from widgets.noise_meter import NoiseMeter
-from widgets.rows import group_label
+from widgets.inputs.noise_meter import NoiseMeter
+from widgets.parts.kit import Column, ListRow, PrimaryButton, QuietButton, Roll, Segmented
+from widgets.parts.labels import Remark
+from widgets.parts.rows import group_label
 
 __all__ = ["VoicePane"]
 

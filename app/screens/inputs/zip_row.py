@@ -8,7 +8,7 @@ from pathlib import Path
 
 from kivy.uix.boxlayout import BoxLayout
 
-from widgets.kit import Column, QuietButton, Remark
+from widgets.parts.kit import Column, QuietButton, Remark
 
 __all__ = ["SURE", "ZipRow"]
 

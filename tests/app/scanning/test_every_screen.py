@@ -18,7 +18,7 @@ from tests.app.glass import Glass
 from tests.app.scanning.probing import bound, box, taken
 from tests.app.test_dive import AQUA
 from tests.app.test_profiles import BOAT, DRONE, SCOUT, TRUCK
-from widgets.place_list import SOME
+from widgets.tasks.place_list import SOME
 
 FORMS = {"tablet": (1280, 800), "phone": (412, 892), "phone on its side": (892, 412)}
 TASKS = ("patrol", "deliver", "guide", "go_to", "go_home", "hold", "follow_heading", "dock")

@@ -10,7 +10,7 @@ from kivy.uix.floatlayout import FloatLayout
 from app.scanning import Mark, Target
 from app.scanning.targets import OnGlass
 from tests.headless import Stage
-from widgets.cards import ActionToast
+from widgets.parts.cards import ActionToast
 
 
 def test_an_offer_stays_until_the_mark_has_been_on_it_and_gone_on(stage: Stage) -> None:

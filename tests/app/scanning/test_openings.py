@@ -13,8 +13,8 @@ from app.scanning.finding import in_window
 from app.scanning.openings import MOMENT, Openings
 from tests.headless import Stage
 from widgets import GridMap, Joystick, LiftLever, SlideToConfirm, StopButton
-from widgets.amounts import Fader
-from widgets.kit import TextField
+from widgets.parts.amounts import Fader
+from widgets.parts.kit import TextField
 
 SIZE = (412, 892)
 

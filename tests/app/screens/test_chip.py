@@ -6,7 +6,7 @@ import pytest
 
 from app.screens.inputs.chip import InputsChip, MethodSign
 from tests.headless import Stage
-from widgets.kit import Text
+from widgets.parts.kit import Text
 
 SIX = [
     ("voice", True),

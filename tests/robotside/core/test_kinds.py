@@ -30,7 +30,7 @@ from robotside.tasks.assignments import tasks_of
 from sim.robot import ROBOTS
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
-from widgets.task_words import GOES, HOLDS
+from widgets.core.task_words import GOES, HOLDS
 
 EVERYWHERE = ["patrol", "deliver", "guide", "go_to", "go_home", "hold", "follow_heading"]
 

@@ -1,0 +1,171 @@
+from __future__ import annotations
+
+import pytest
+
+from widgets.controls.stop.stop_button import PHASES, StopButton
+
+
+@pytest.fixture
+def stop(stage):
+    button = stage.show(StopButton(), size=(300, 80))
+    button.heard = []
+    button.bind(
+        on_command=lambda _: button.heard.append("stop"),
+        on_release_stop=lambda _: button.heard.append("release"),
+    )
+    return button
+
+
+def test_stop_is_commanded_when_the_finger_comes_down(stage, stop):
+    stage.touch(150, 40).touch_down()
+    assert stop.heard == ["stop"]
+
+
+def test_a_second_finger_commands_again(stage, stop):
+    stage.touch(50, 40).touch_down()
+    stage.touch(250, 40).touch_down()
+    assert stop.heard == ["stop", "stop"]
+
+
+def test_a_finger_beside_it_commands_nothing(stage, stop):
+    stage.tap(400, 40)
+    assert stop.heard == []
+
+
+@pytest.mark.parametrize("phase", ["ready", "sent", "no_answer"])
+def test_it_can_be_pressed_in_every_phase_but_stopped(stage, stop, phase):
+    stop.phase = phase
+    stage.tap(150, 40)
+    assert stop.heard == ["stop"]
+
+
+def test_a_disabled_look_does_not_take_stop_away(stage, stop):
+    stop.state = "stale"
+    stage.tap(150, 40)
+    assert stop.heard == ["stop"]
+
+
+def test_one_second_releases_and_less_does_not(stage, stop):
+    stop.phase = "stopped"
+    finger = stage.touch(150, 40)
+    finger.touch_down()
+    stage.run_for(0.9)
+    finger.touch_up()
+    assert stop.heard == []
+    assert stop.held == 0.0
+    finger = stage.touch(150, 40)
+    finger.touch_down()
+    stage.run_for(0.9)
+    assert 0.8 < stop.held < 1.0
+    stage.run_for(0.2)
+    assert stop.heard == ["release"]
+
+
+def test_a_hold_releases_once(stage, stop):
+    stop.phase = "stopped"
+    stage.touch(150, 40).touch_down()
+    stage.run_for(3.0)
+    assert stop.heard == ["release"]
+
+
+def test_the_finger_that_stopped_does_not_release(stage, stop):
+    stage.touch(150, 40).touch_down()
+    stop.phase = "stopped"
+    stage.run_for(2.0)
+    assert stop.heard == ["stop"]
+
+
+def test_a_stop_held_here_alone_can_be_released_unconfirmed_but_not_by_a_frightened_press(stage, stop):
+    stop.local, stop.phase = True, "no_answer"
+    finger = stage.touch(150, 40)
+    finger.touch_down()
+    stage.run_for(2.5)
+    assert stop.heard == ["stop"]
+    stage.run_for(0.7)
+    assert stop.heard == ["stop", "release"]
+    finger.touch_up()
+
+
+def test_a_stop_that_the_robot_owes_an_answer_to_is_not_released(stage, stop):
+    for local, phase in ((False, "no_answer"), (True, "sent"), (True, "ready")):
+        stop.local, stop.phase = local, phase
+        finger = stage.touch(150, 40)
+        finger.touch_down()
+        stage.run_for(4.0)
+        finger.touch_up()
+    assert stop.heard == ["stop"] * 3
+
+
+def test_rest_forgets_the_hold(stage, stop):
+    stop.phase = "stopped"
+    stage.touch(150, 40).touch_down()
+    stage.run_for(0.5)
+    stop.rest()
+    stage.run_for(2.0)
+    assert stop.heard == []
+
+
+def test_every_phase_says_something_else(stop):
+    said = set()
+    for phase in PHASES:
+        stop.phase = phase
+        said.add((stop.word, stop.sentence))
+    assert len(said) == len(PHASES)
+
+
+@pytest.mark.parametrize(
+    ("size", "upright"),
+    [
+        ((329, 76), False),
+        ((210, 180), True),
+        ((110, 173), True),
+        ((150, 94), False),
+        ((184, 68), False),
+        ((128, 68), False),
+    ],
+)
+@pytest.mark.parametrize("local", [False, True])
+@pytest.mark.parametrize("phase", PHASES)
+def test_its_words_fit_into_it_and_can_be_read(stage, size, upright, phase, local):
+    button = stage.show(StopButton(phase=phase, local=local, ago="12 min"), size=size)
+    stage.frames(3)
+    column = button.children[0]
+    assert button.upright is (upright or (phase == "ready" and size[0] < 2 * size[1]))
+    assert column.width <= button.width
+    assert column.height <= button.height
+    assert min(button.ids.sentence.font_size, button.word_size) >= 14
+
+
+@pytest.mark.parametrize("local", [False, True])
+@pytest.mark.parametrize("phase", PHASES)
+def test_on_a_phones_corner_its_words_keep_off_its_edges(stage, phase, local):
+    button = stage.show(StopButton(phase=phase, local=local), size=(158, 106))
+    stage.frames(3)
+    assert button.children[0].height <= button.height - 12
+    assert button.upright is (phase == "ready")
+
+
+def test_without_a_link_it_says_what_was_heard_last_and_lets_nothing_go(stage, stop):
+    stop.phase, stop.ago = "lost", "8 s"
+    assert stop.word.replace("\u200a", "") != "STOPPED"
+    assert stop.sentence == "no link, was STOPPED 8\u00a0s\u00a0ago"
+    stage.touch(150, 40).touch_down()
+    stage.run_for(4.0)
+    assert stop.heard == ["stop"], "it can be pressed, and holding it releases nothing"
+
+
+def test_one_that_is_pressed_and_moves_can_be_let_go_by_a_long_hold(stage, stop):
+    stop.local, stop.phase = True, "moves"
+    stage.touch(150, 40).touch_down()
+    stage.run_for(3.2)
+    assert stop.heard == ["stop", "release"]
+
+
+@pytest.mark.parametrize(("local", "phase"), [(False, "stopped"), (True, "no_answer")])
+def test_a_frame_that_takes_long_is_no_hold(stage, stop, local, phase):
+    stop.local, stop.phase = local, phase
+    finger = stage.touch(150, 40)
+    finger.touch_down()
+    stage.run_for(9.9, 3.3)
+    finger.touch_up()
+    assert "release" not in stop.heard

@@ -1,0 +1,51 @@
+from __future__ import annotations
+
+import pytest
+from kivy.uix.widget import Widget
+
+from widgets.core.hold import FRAME, HOLD, Hold
+
+
+class Held(Hold, Widget):
+    """What is held, and nothing else."""
+
+
+@pytest.fixture
+def held(stage):
+    widget = stage.show(Held(), size=(100, 100))
+    widget.heard = []
+    widget.bind(on_held_long=lambda _: widget.heard.append("held"))
+    return widget
+
+
+def test_a_hold_that_ends_early_does_nothing_and_counts_for_nothing(stage, held):
+    held.hold()
+    stage.run_for(0.9 * HOLD)
+    held.rest()
+    assert held.held == 0
+    held.hold()
+    stage.run_for(0.9 * HOLD)
+    assert not held.heard
+    assert held.held == pytest.approx(0.9, abs=0.03)
+
+
+def test_it_is_told_once_and_begins_anew(stage, held):
+    held.hold()
+    stage.run_for(1.5 * HOLD)
+    assert held.heard == ["held"]
+    assert held.held == 0
+
+
+def test_a_frame_that_took_long_does_not_count_for_a_finger_that_may_have_left(stage, held):
+    held.hold()
+    stage.frames(3, period=2.0)
+    assert not held.heard
+    assert held.held <= 3 * FRAME / HOLD
+
+
+def test_it_may_take_longer(stage, held):
+    held.hold(3.0)
+    stage.run_for(2.8)
+    assert not held.heard
+    stage.run_for(0.3)
+    assert held.heard == ["held"]

@@ -1,0 +1,158 @@
+from __future__ import annotations
+
+import gc
+import re
+import weakref
+
+import numpy as np
+import pytest
+
+from widgets.core import ink
+from widgets.core.ink import Drawing, Ink, Word, Words, tint
+from widgets.core.shapes import FLOATS, Shapes
+from widgets.core.theme import theme
+from widgets.instruments import horizon
+from widgets.sensors import video
+
+SHADERS = {
+    "ink vertex": ink.VERTEX,
+    "ink": ink.FRAGMENT,
+    "horizon": horizon.FRAGMENT,
+    "video": video.FRAGMENT,
+}
+
+
+class Counted(Drawing):
+    """Counts how often it is drawn."""
+
+    drawn_from = ("age",)
+
+    def __init__(self, **kwargs):
+        self.count = 0
+        super().__init__(**kwargs)
+
+    def draw(self):
+        self.count += 1
+
+
+@pytest.fixture
+def counted(stage):
+    made = stage.show(Counted(), size=(50, 50))
+    made.count = 0
+    return made
+
+
+def test_a_drawing_is_made_anew_once_a_frame_however_much_changes(counted, stage):
+    counted.age = 1.0
+    counted.age = 2.0
+    counted.state = "stale"
+    assert counted.count == 0
+    stage.frames()
+    assert counted.count == 1
+    stage.frames(5)
+    assert counted.count == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("pos", (5, 5)), ("size", (60, 60)), ("state", "alarm"), ("age", 3.0)]
+)
+def test_a_drawing_follows_what_it_depends_on(counted, stage, name, value):
+    setattr(counted, name, value)
+    stage.frames()
+    assert counted.count == 1
+
+
+def test_a_drawing_follows_the_theme(counted, stage):
+    before = theme.name
+    theme.name = "night"
+    stage.frames()
+    theme.name = before
+    assert counted.count == 1
+
+
+def test_a_widget_without_room_is_not_drawn(counted, stage):
+    counted.size = 0, 50
+    stage.frames()
+    assert counted.count == 0
+
+
+def test_words_are_written_on_instructions_that_are_kept():
+    words = Words()
+    words.write([Word("a", 10, 10, 20, (1, 1, 1, 1)), Word("b", 30, 10, 20, (1, 1, 1, 1))])
+    kept = list(words.canvas.children)
+    words.write([Word("c", 10, 10, 20, (1, 0, 0, 1))], strength=0.5)
+    assert words.texts == ["c"]
+    assert list(words.canvas.children) == kept
+    (colour, first), (_, second) = words._slots
+    assert colour.rgba == [1, 0, 0, 0.5]
+    assert second.size == (0, 0)
+    assert first.size == first.texture.size
+    words.write([Word("a", 0, 0, 20, (1, 1, 1, 1)), Word("b", 0, 0, 20, (1, 1, 1, 1))])
+    assert second.size == second.texture.size
+
+
+@pytest.mark.parametrize(("anchor", "share"), [((0, 0), 0), ((0.5, 0.5), 0.5), ((1, 1), 1)])
+def test_a_word_is_held_at_its_anchor(anchor, share):
+    words = Words()
+    words.write([Word("word", 100, 100, 20, (1, 1, 1, 1), anchor=anchor)])
+    rectangle = words._slots[0][1]
+    assert rectangle.pos[0] == pytest.approx(100 - share * rectangle.size[0], abs=0.5)
+    assert rectangle.pos[1] == pytest.approx(100 - share * rectangle.size[1], abs=0.5)
+
+
+def test_ink_can_be_wiped_away():
+    drawn = Ink()
+    shapes = Shapes()
+    shapes.disc(1, 1, 5, (1, 1, 1, 1))
+    drawn.draw(shapes)
+    assert len(drawn._mesh.vertices) == 4 * FLOATS
+    drawn.draw(Shapes())
+    assert not np.asarray(drawn._mesh.vertices).any()
+
+
+def test_a_tint_keeps_the_hue():
+    assert tint((0.1, 0.2, 0.3, 1.0), 0.5) == (0.1, 0.2, 0.3, 0.5)
+
+
+@pytest.mark.parametrize("name", SHADERS)
+def test_shaders_have_no_whole_numbers_which_gles_would_refuse(name):
+    text = "\n".join(line for line in SHADERS[name].splitlines() if not line.startswith("#"))
+    assert re.findall(r"(?<![\w.])\d+(?![\w.])", text) == []
+
+
+@pytest.mark.parametrize("name", ["ink", "horizon", "video"])
+def test_shaders_say_their_precision_and_write_one_colour(name):
+    assert "$HEADER$" in SHADERS[name] or "precision highp float;" in SHADERS[name]
+    assert SHADERS[name].count("gl_FragColor =") == 1
+
+
+def test_the_inks_vertices_are_as_long_as_the_shapes_make_them():
+    assert sum(count for _, count, _ in ink.FORMAT) == FLOATS
+    for name, _, _ in ink.FORMAT:
+        assert name.decode() in ink.VERTEX
+
+
+def test_a_widget_that_is_dropped_goes(stage):
+    made = Counted()
+    gone = weakref.ref(made)
+    stage.frames(2)
+    del made
+    gc.collect()
+    assert gone() is None
+
+
+def test_shapes_are_as_see_through_as_their_widget(stage):
+    class Inked(Drawing):
+        def __init__(self, **kwargs):
+            self.ink = Ink()
+            super().__init__(**kwargs)
+            self.canvas.add(self.ink)
+
+        def draw(self):
+            pass
+
+    made = stage.show(Inked(opacity=0), size=(50, 50))
+    stage.frames(2)
+    assert made.ink["seen"] == 0
+    made.opacity = 0.5
+    assert made.ink["seen"] == 0.5

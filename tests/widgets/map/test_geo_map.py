@@ -1,0 +1,121 @@
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from bridge.core.geo import Datum
+from widgets.core.geometry import View
+from widgets.map.geo_map import GeoMap, samples
+
+DATUM = Datum(45.5069, -73.579)
+TILES = str(Path(__file__).parents[3] / "widgets/data/parking_lot.mbtiles")
+
+
+@pytest.fixture
+def map_(stage):
+    made = stage.show(GeoMap(tiles=TILES, datum=DATUM), size=(600, 400))
+    made.look(View.centred(0, 0, at=(300, 200), scale=20))
+    stage.frames(3)
+    return made
+
+
+def on_pictures(map_: GeoMap, x: float, y: float) -> tuple[float, float]:
+    """Where the pictures have a place of the map [px]."""
+    latitude, longitude = map_.datum.to_geographic(x, y)
+    pictures = map_._pictures
+    return pictures.get_window_xy_from(latitude, longitude, pictures.zoom)
+
+
+def agree(map_: GeoMap, x: float, y: float) -> bool:
+    """Whether picture and mark of a place agree to 0.3 % of their distance from the middle, or half a pixel."""
+    picture, mark = on_pictures(map_, x, y), map_.view.to_screen(x, y)
+    return math.dist(picture, mark) < 0.5 + 0.003 * math.dist(mark, map_.center)
+
+
+@pytest.mark.parametrize("scale", [3.0, 8.0, 20.0, 45.0, 130.0])
+@pytest.mark.parametrize("place", [(0, 0), (12, -7), (-17, 12)])
+def test_pictures_and_marks_agree(map_, stage, scale, place):
+    map_.look(View.centred(3, -2, at=(310, 190), scale=scale))
+    stage.frames(2)
+    assert agree(map_, *place)
+
+
+def test_pictures_and_marks_agree_after_a_pan_and_a_new_place_on_the_window(map_, stage):
+    stage.drag([(300, 100), (340, 130), (390, 160)])
+    map_.pos = 50, 30
+    map_.size = 500, 420
+    stage.frames(3)
+    assert agree(map_, 4, 5)
+
+
+def test_a_tap_gives_metres_of_the_map(map_, stage):
+    taps = []
+    map_.bind(on_add=lambda _, x, y: taps.append((x, y)))
+    map_.mode = "points"
+    stage.tap(400, 180)
+    assert taps == [pytest.approx((5, -1))]
+
+
+def test_two_fingers_zoom_and_do_not_turn(map_, stage):
+    one, two = stage.touch(200, 200), stage.touch(400, 200)
+    one.touch_down()
+    two.touch_down()
+    two.touch_move(200, 500)
+    one.touch_up()
+    two.touch_up()
+    assert map_.view.turn == 0
+    assert map_.view.scale == pytest.approx(30)
+
+
+def test_the_pictures_set_the_limits_of_the_zoom(map_):
+    map_.look(View.centred(0, 0, at=(300, 200), scale=0.001))
+    farthest = map_.view.scale
+    map_.look(View.centred(0, 0, at=(300, 200), scale=9999))
+    assert map_.view.scale / farthest == pytest.approx(2**5 * 8, rel=1e-3)
+
+
+def test_the_zoom_level_is_the_one_whose_pictures_are_enlarged_least(map_, stage):
+    for scale, zoom in ((2.0, 17), (10.0, 20), (30.0, 21), (50.0, 22), (200.0, 22)):
+        map_.look(View.centred(0, 0, at=(300, 200), scale=scale))
+        stage.frames(1)
+        assert map_._pictures.zoom == zoom
+
+
+def test_nothing_goes_on_when_the_map_stands_still(map_, stage):
+    stage.frames(20)
+    waiting = [event.callback for event in stage.clock.get_events() if event.is_triggered]
+    assert not [
+        callback for callback in waiting if "mapview" in str(callback) or "_Pictures" in str(callback)
+    ]
+
+
+def test_without_a_datum_or_a_file_it_is_a_plain_map(stage):
+    made = stage.show(GeoMap(tiles=TILES), size=(300, 200))
+    assert made._pictures is None
+    made.datum = DATUM
+    stage.frames()
+    assert made._pictures is not None
+    made.tiles = ""
+    stage.frames()
+    assert made._pictures is None
+
+
+def test_a_file_that_cannot_be_read_is_said_at_once(tmp_path):
+    with pytest.raises(ValueError, match="cannot be read"):
+        GeoMap(tiles=str(tmp_path / "none.mbtiles"), datum=DATUM)
+
+
+def test_the_default_source_of_mapview_is_never_asked(stage, monkeypatch):
+    from kivy_garden.mapview.downloader import Downloader
+
+    monkeypatch.setattr(Downloader, "instance", lambda **_: pytest.fail("a tile was asked of the internet"))
+    made = stage.show(GeoMap(tiles=TILES, datum=DATUM), size=(300, 200))
+    made.zoom_in()
+    stage.frames(3)
+
+
+@pytest.mark.parametrize("name", samples())
+def test_every_sample_can_be_shown(stage, name):
+    assert stage.show(samples()[name]()).height > 0

@@ -1,0 +1,104 @@
+from __future__ import annotations
+
+import pytest
+from kivy.uix.button import Button
+from kivy.uix.floatlayout import FloatLayout
+
+from bridge.msgs.pilothouse_msgs import Check, Checklist
+from widgets.status.check_list import GOOD, UNTESTED, CheckList, samples
+
+BAD = Check("battery", "bad", "The battery is below 20%; charge it first.")
+
+
+@pytest.fixture
+def card(stage):
+    card = CheckList(state="live", open=True, wide=330)
+    stage.show(card)
+    card.asked = []
+    card.bind(on_fold=lambda _, unfold: card.asked.append(unfold))
+    return card
+
+
+def told(stage, card, *checks):
+    card.show(Checklist(checks=list(checks)))
+    stage.frames(3)
+    return [line.text for line in reversed(card.ids.lines.children)]
+
+
+def test_before_the_first_list_there_is_nothing_to_see_or_to_touch(stage, card):
+    stage.frames(2)
+    assert (card.width, card.height) == (0, 0)
+
+
+def test_what_is_not_good_is_said_the_worst_first_and_what_is_good_named(stage, card):
+    lines = told(stage, card, GOOD[1], UNTESTED, BAD)
+    assert lines == [BAD.text, UNTESTED.text, "Good: sensors."]
+    assert (card.title, card.role) == ("Before it moves: 1 of 3 good", "danger")
+
+
+def test_where_there_is_little_room_only_what_is_not_good_is_said(stage, card):
+    card.brief = True
+    assert told(stage, card, GOOD[1], UNTESTED) == [UNTESTED.text]
+    card.brief = False
+    assert len(card.ids.lines.children) == 2
+
+
+def test_only_what_nobody_knows_is_a_warning(stage, card):
+    told(stage, card, *GOOD[:3], UNTESTED)
+    assert (card.role, card.icon) == ("warn", "help")
+
+
+def test_a_state_of_another_day_is_not_taken_for_good(stage, card):
+    assert told(stage, card, GOOD[0], Check("tilt", "odd", "")) == ["The tilt is not good.", "Good: battery."]
+    assert not card.ready
+
+
+def test_all_good_is_green_and_says_what_was_found(stage, card):
+    assert told(stage, card, *GOOD) == [check.text for check in GOOD]
+    assert (card.title, card.role, card.ready) == ("Checks good", "ok", True)
+
+
+def test_folded_it_is_a_line_as_wide_as_its_words(stage, card):
+    told(stage, card, *GOOD[:3], UNTESTED)
+    high = card.height
+    card.open = False
+    stage.frames(2)
+    assert card.title == "Checks: 3 of 4"
+    assert card.ids.head.height == card.height < high
+    assert card.ids.head.ids.words.right < card.right < card.x + 250
+
+
+def test_a_finger_asks_for_folding_and_unfolding(stage, card):
+    told(stage, card, UNTESTED)
+    stage.tap(card.x + 20, card.top - 20)
+    card.open = False
+    stage.frames(2)
+    stage.tap(card.x + 20, card.top - 20)
+    assert card.asked == [False, True]
+
+
+def test_a_finger_on_a_sentence_goes_no_farther(stage):
+    below, card, reached = Button(), CheckList(state="live", open=True), []
+    below.bind(on_press=reached.append)
+    ground = FloatLayout()
+    for widget in (below, card):
+        ground.add_widget(widget)
+    stage.show(ground, size=(600, 400))
+    told(stage, card, UNTESTED, GOOD[0])
+    stage.tap(card.center_x, card.y + 20)
+    assert reached == []
+    stage.tap(card.right + 20, card.y + 20)
+    assert reached == [below]
+
+
+def test_what_has_no_room_scrolls(stage, card):
+    told(stage, card, BAD, UNTESTED, GOOD[0])
+    card.room = 120
+    stage.frames(2)
+    assert card.height == 120
+    assert card.ids.lines.height > card.ids.roll.height
+
+
+@pytest.mark.parametrize("name", samples())
+def test_every_sample_can_be_shown(stage, name):
+    assert stage.show(samples()[name]()).height >= 0

@@ -1,0 +1,1 @@
+"""What a finger drives and commands with."""

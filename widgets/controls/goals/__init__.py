@@ -1,0 +1,1 @@
+"""Goals and poses that are set and sent: where the robot goes, where its arm points."""

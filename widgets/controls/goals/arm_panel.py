@@ -1,0 +1,406 @@
+"""An arm from the side whose tip a finger drags, with a button for each pose that has a name and one for its gripper.
+
+arm = ArmPanel()
+robot.on("/arm", arm.show)
+arm.bind(on_command=lambda _, order: robot.call("/arm/move", order))
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any, ClassVar
+
+import numpy as np
+from kivy.clock import Clock
+from kivy.metrics import dp, sp
+from kivy.properties import (
+    BooleanProperty,
+    ListProperty,
+    NumericProperty,
+    ObjectProperty,
+    OptionProperty,
+)
+from kivy.uix.widget import Widget
+
+from bridge.msgs.arrays import Float64Array
+from bridge.msgs.geometry_msgs import Point
+from bridge.msgs.pilothouse_msgs import ArmOrder, ArmState
+from widgets.controls.goals.arm_keys import ArmKeys, said
+from widgets.controls.goals.arm_picture import (
+    Links,
+    Side,
+    draw_aim,
+    draw_arm,
+    draw_deck,
+    moved_tip,
+    side_points,
+)
+from widgets.controls.slide_confirm import OUTCOMES
+from widgets.core.geometry import DASH, dial_point
+from widgets.core.ink import Word
+from widgets.core.shapes import Shapes
+from widgets.core.theme import theme
+from widgets.instruments.readout import figure
+from widgets.parts.gauge import first_fitting, wide
+
+__all__ = ["ArmPanel", "samples"]
+
+TOLD = 3.0
+"""How long an outcome is told [s]."""
+SEEN = (-0.20, 0.42, -0.12, 0.44)
+"""What the picture shows: behind and ahead of, below and above the foot [m]."""
+STILL = 0.02
+"""Joints nearer than this to where they go are there [rad]."""
+MOST = 32
+"""Poses that are taken from a message."""
+LEAST = 6
+"""A finger that went no further meant nothing [dp]."""
+THERE = 0.015
+"""A tip nearer than this to where it was sent is there [m]."""
+
+
+class ArmPanel(ArmKeys):
+    """Dispatches `on_command(order)` for a pose, the gripper, a point for the tip, or a turn of the foot.
+
+    A finger drags the tip, or the hand of the dial; what it means is asked for when it is lifted. Where the panel is small
+    one button opens the poses.
+    """
+
+    accepts: ClassVar = (ArmState,)
+    sends: ClassVar = (ArmOrder,)
+    drawn_from: ClassVar = (
+        "angles",
+        "wanted",
+        "gripper",
+        "pose",
+        "tip",
+        "touching",
+        "choosing",
+        "outcome",
+        "links",
+        "held",
+        "aim",
+        "bearing",
+    )
+
+    angles = ListProperty()
+    """Of the joints from the foot on [rad]; empty before the first, or while one is not known."""
+    wanted = ListProperty()
+    """Where each is going [rad]; empty when that is not known."""
+    tip = ListProperty()
+    """Between the fingertips, in `base_link` [m]; empty before the first."""
+    touching = BooleanProperty(False)
+    """The hand touches something."""
+    links = ObjectProperty(Links())
+    """Lengths for the picture."""
+    outcome = OptionProperty("ready", options=list(OUTCOMES))
+    """What became of the last order."""
+    held = OptionProperty("", options=["", "tip", "turn"])
+    """What a finger drags; empty without one."""
+    aim = ListProperty()
+    """Where the tip is wanted, ahead of and above the foot in the plane of the arm [m]; empty where nobody pointed."""
+    bearing = NumericProperty(math.nan)
+    """Where its foot is being turned to [rad]; NaN while no finger turns it."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        self._start = (0.0, 0.0)
+        self._joints: list[float] = []
+        """Where they go, or are while that is not known, unrounded [rad]."""
+        self._forget = Clock.create_trigger(lambda _: self.answer("ready"), TOLD)
+        super().__init__(**{"title": "Arm", **kwargs})
+
+    def show(self, msg: ArmState) -> None:
+        """Show where the arm is and where it goes; one joint that is not known is a dash for all."""
+        self.angles, self.wanted = _whole(msg.angles), _whole(msg.wanted)
+        self.gripper = round(msg.gripper, 3) if math.isfinite(msg.gripper) else math.nan
+        tip = [round(value, 3) for value in (msg.tip.x, msg.tip.y, msg.tip.z)]
+        self.tip = tip if all(map(math.isfinite, tip)) else []
+        self.poses, self.pose, self.touching = [*msg.poses[:MOST]], msg.pose, msg.touching
+        self._joints = [*(msg.wanted if self.wanted else msg.angles)]
+        if self.aim and not self.held and self._arrived():
+            self.aim = []
+
+    def _arrived(self) -> bool:
+        """It is where it was sent, or rests and nothing is heard any more of the order."""
+        if len(self.angles) != 4:
+            return False
+        tip = side_points(tuple(self.angles), self.links)[-1]
+        near = math.hypot(tip[0] - self.aim[0], tip[1] - self.aim[1]) < THERE
+        return near or (self.outcome == "ready" and not self.moving)
+
+    @property
+    def moving(self) -> bool:
+        """It is on its way."""
+        pairs = zip(self.angles, self.wanted, strict=False)
+        return any(abs(now - goal) > STILL for now, goal in pairs)
+
+    def press(self, pose: str) -> None:
+        """Go to a pose as a finger would say it, and no longer to a point."""
+        self.aim = []
+        super().press(pose)
+
+    def reach(self, out: float, up: float) -> None:
+        """Send the tip there in the plane of the arm, ahead of and above the foot [m], as a finger would."""
+        self.aim = [out, up]
+        x, y, z = moved_tip(tuple(self.tip), tuple(self.angles), (out, up), self.links)
+        self.dispatch("on_command", ArmOrder(point=Point(x, y, z)))
+
+    def turn(self, bearing: float) -> None:
+        """Turn the foot to `bearing` [rad], to the left positive, as a finger would; the other joints stay as they are."""
+        self.aim = []
+        self.dispatch("on_command", ArmOrder(angles=Float64Array([bearing, *self._joints[1:]])))
+
+    def spring(self) -> None:
+        """What was being dragged is forgotten; where the arm was sent before stays."""
+        if self.held == "tip":
+            self.aim = []
+        self.held, self.bearing = "", math.nan
+
+    # what the finger drags
+
+    def holds(self, x: float, y: float) -> bool:
+        """On the tip, or on the dial of the foot."""
+        return bool(self._handle(x, y))
+
+    @property
+    def tip_on_glass(self) -> tuple[float, float]:
+        """Where the tip is drawn [px]; only while all joints are known."""
+        return self.side.at(side_points(tuple(self.angles), self.links)[-1])
+
+    def _handle(self, x: float, y: float) -> str:
+        if len(self.angles) != 4 or not self.tip or (self.choosing and not self.beside):
+            return ""
+        tip, dial = self.tip_on_glass, self._dial()
+        far = {"tip": math.dist((x, y), tip), "turn": math.dist((x, y), dial[:2]) if dial[2] else math.inf}
+        nearest = min(far, key=lambda name: far[name])
+        return nearest if far[nearest] <= theme.target * (0.75 if nearest == "tip" else 0.5) else ""
+
+    def follow(self, touch: Any) -> None:
+        """Move what is dragged as far as the finger went, so that it is seen beside it."""
+        if not self.held:
+            self.held, self._start = self._handle(*touch.pos), touch.pos
+        if math.dist(touch.pos, self._start) < dp(LEAST) and not self.aim and math.isnan(self.bearing):
+            return
+        if self.held == "tip":
+            tip = self.tip_on_glass
+            place = tip[0] + touch.x - self._start[0], tip[1] + touch.y - self._start[1]
+            self.aim = [round(value, 3) for value in self.side.point(place)]
+        elif self.held == "turn":
+            x, y, _ = self._dial()
+            self.bearing = math.atan2(x - touch.x, touch.y - y)
+
+    def on_touch_up(self, touch: Any) -> bool:
+        """Ask for what was dragged, where it was."""
+        held, aim, bearing = (
+            (self.held, [*self.aim], self.bearing) if touch.grab_current is self else ("", [], 0)
+        )
+        done = bool(super().on_touch_up(touch))
+        if held == "tip" and aim:
+            self.reach(*aim)
+        elif held == "turn" and not math.isnan(bearing):
+            self.turn(bearing)
+        return done
+
+    def answer(self, outcome: str) -> None:
+        """Say what became of an order: `sent`, `accepted`, `refused` or `no_reply`; all but the first for three seconds."""
+        self._forget.cancel()
+        if outcome == "ready" and self.outcome in ("refused", "no_reply") and not self.held:
+            self.aim = []
+        self.outcome = outcome
+        if outcome not in ("ready", "sent"):
+            self._forget()
+
+    # where things are
+
+    @property
+    def view(self) -> tuple[float, float, float, float]:
+        """Left, low, width and height of the picture [px]."""
+        left, low, width, height = self.inside
+        if self.beside or self.stacked:
+            return left, low, width - self._keys_wide(width) - dp(10), height
+        foot = theme.target + dp(8)
+        return left, low + foot, width, max(height - foot, 1.0)
+
+    @property
+    def side(self) -> Side:
+        """How metres in the plane of the arm lie in the picture."""
+        left, low, width, height = self.view
+        roomy = height >= dp(118)
+        foot = sp(18) if roomy else 0.0
+        scale = min(width / (SEEN[1] - SEEN[0]), (height - foot) / (SEEN[3] - SEEN[2]))
+        x = left + (width - (SEEN[1] - SEEN[0]) * scale) / 2 - SEEN[0] * scale
+        if not roomy:
+            x = left + width - dp(6) - SEEN[1] * scale
+        y = low + foot - SEEN[2] * scale + max(0.0, height - foot - (SEEN[3] - SEEN[2]) * scale) / 2
+        return Side(x, y, scale, (left, low + foot, left + width, low + height))
+
+    def _dial(self) -> tuple[float, float, float]:
+        """Centre and radius of what shows how its foot is turned [px]; radius 0 where it has no room."""
+        left, low, _, height = self.view
+        radius = dp(15 if height >= dp(118) else 12) if height >= dp(62) else 0.0
+        return left + radius, low + height - radius - dp(1), radius
+
+    # the picture
+
+    def marks(self, shapes: Shapes) -> Iterator[Word]:
+        """The header, and the arm from the side where the poses do not lie over it."""
+        words, role = self._standing()
+        yield from self.header(words, role)
+        if self.choosing and not self.beside:
+            return
+        left, low, width, height = self.view
+        if height < dp(36):
+            return
+        if len(self.angles) != 4:
+            yield Word(DASH, left + width / 2, low + height / 2, sp(20), theme.muted)
+            return
+        roomy, side = height >= dp(118), self.side
+        draw_deck(shapes, (side.x, side.y), (left, left + width), side.scale, self.links)
+        if self.moving and len(self.wanted) == 4:
+            goal = side_points(tuple(self.wanted), self.links) * side.scale + (side.x, side.y)
+            shapes.dashes(goal, dp(3), theme.plan, period=dp(10), dash=dp(4))
+        points = side_points(tuple(self.angles), self.links) * side.scale + (side.x, side.y)
+        draw_arm(shapes, points, side.scale, opening=self.gripper, touching=self.touching)
+        if self.tip and self.state != "disabled":
+            shapes.ring(
+                float(points[-1][0]),
+                float(points[-1][1]),
+                dp(14),
+                dp(1.5),
+                theme.text if self.held == "tip" else theme.muted,
+            )
+        if self.aim:
+            role = theme.danger if self.outcome in ("refused", "no_reply") and not self.held else theme.plan
+            draw_aim(shapes, points[-1], side.at(self.aim), role)
+        yield from self._figures((left, low, width, height), roomy)
+        if height >= dp(62):
+            yield from self._foot(shapes, roomy)
+
+    def _standing(self) -> tuple[tuple[str, ...], str]:
+        """What it does, or what became of an order, longest first, and the role of that."""
+        word, role, _ = OUTCOMES[self.outcome]
+        if self.outcome in ("sent", "refused", "no_reply"):
+            return (word,), role
+        if not self.angles:
+            return (), "muted"
+        if self.touching:
+            return ("touches something", "touches"), "warn"
+        if self.moving:
+            return ("moving",), "plan"
+        return (said(self.pose),) if self.pose else ("at rest",), "text"
+
+    def _figures(self, box: tuple[float, float, float, float], roomy: bool) -> Iterator[Word]:
+        """Where the tip is and how wide the gripper is open."""
+        left, low, width, _ = box
+        wide_open = "" if math.isnan(self.gripper) else f"{figure(self.gripper * 1000, 0)} mm"
+        if not roomy:
+            yield Word("GRIP", left, low + sp(22), sp(11), theme.muted, anchor=(0, 0.5))
+            yield Word(wide_open or DASH, left, low + sp(8), sp(13), theme.text, bold=True, anchor=(0, 0.5))
+            return
+        y, held = low + sp(7), self.held == "tip" and bool(self.aim)
+        grip = "" if held else f"grip {wide_open or DASH}"
+        yield Word(grip, left + width, y, sp(12.5), theme.text, anchor=(1, 0.5))
+        if not self.tip:
+            return
+        word, tip, role = "tip", tuple(self.tip), theme.muted
+        if held:
+            word, role = "to", theme.plan
+            tip = moved_tip(tip, tuple(self.angles), (self.aim[0], self.aim[1]), self.links)
+        out, up = math.hypot(tip[0], tip[1]), tip[2]
+        room = width - (0 if held else wide(grip, sp(12.5)) + dp(8))
+        texts = (f"{word} {out:.2f} m out, {figure(up, 2)} m up", f"{word} {out:.2f}, {figure(up, 2)} m")
+        yield Word(first_fitting(texts, sp(12.5), room), left, y, sp(12.5), role, anchor=(0, 0.5))
+
+    def _foot(self, shapes: Shapes, roomy: bool) -> Iterator[Word]:
+        """How far its foot is turned, seen from above, or is to be."""
+        x, y, radius = self._dial()
+        turning = not math.isnan(self.bearing)
+        shapes.disc(x, y, radius, theme.raised)
+        shapes.ring(x, y, radius - dp(0.75), dp(1.5), theme.plan if turning else theme.line)
+        degrees = math.degrees(self.angles[0])
+        end = dial_point(-degrees, radius * 0.8)
+        shapes.line(np.array([[x, y], [x + end[0], y + end[1]]]), dp(3), theme.accent)
+        if turning:
+            degrees = math.degrees(self.bearing)
+            end = dial_point(-degrees, radius * 0.8)
+            shapes.line(np.array([[x, y], [x + end[0], y + end[1]]]), dp(3), theme.plan)
+        shapes.disc(x, y, dp(2.5), theme.text)
+        side = "" if abs(degrees) < 0.5 else " left" if degrees > 0 else " right"
+        text = f"{abs(degrees):.0f}°{side}" if roomy else f"{abs(degrees):.0f}°{side[:2].upper()}"
+        role = theme.plan if turning else theme.muted
+        yield Word(text, x + radius + dp(6), y, sp(12.5 if roomy else 12), role, anchor=(0, 0.5))
+
+
+def _whole(values: Float64Array) -> list[float]:
+    """Rounded to what is seen; empty when one of them is no number."""
+    told = [round(float(value), 2) for value in values]
+    return told if all(map(math.isfinite, told)) else []
+
+
+POSES = {
+    "rest": (0.0, -1.6, 1.25, 0.35),
+    "home": (0.0, -1.05, 0.35, 0.70),
+    "stretch": (0.0, 0.9, -0.55, -0.35),
+    "look_down": (0.0, -0.6, 0.2, 1.6),
+}
+"""Of the samples."""
+SMALL = (176.0, 176.0)
+
+
+def _state(pose: str, **figures: Any) -> ArmState:
+    """In that pose, or as `figures` have it."""
+    angles = figures.get("angles", POSES[pose])
+    return ArmState(
+        angles=Float64Array(angles),
+        wanted=Float64Array(figures.get("wanted", angles)),
+        gripper=figures.get("gripper", 0.04),
+        pose="" if "angles" in figures else pose,
+        poses=figures.get("poses", list(POSES)),
+        tip=Point(0.29, 0.05, 0.21),
+        touching=figures.get("touching", False),
+    )
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """The states of the panel by name."""
+
+    def made(
+        msg: ArmState | None, size: tuple[float, float] = (326.0, 228.0), **more: Any
+    ) -> Callable[[], Widget]:
+        def build() -> ArmPanel:
+            panel = ArmPanel(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
+            if msg is not None:
+                panel.show(msg)
+            return panel
+
+        return build
+
+    home, stretch = _state("home"), _state("stretch")
+    moving = _state("home", angles=(0.4, -0.5, 0.1, 0.3), wanted=POSES["stretch"])
+    many = _state("home", poses=[*POSES, "pick", "place", "wave"])
+    return {
+        "never": made(None, state="never"),
+        "live": made(home),
+        "moving": made(moving),
+        "touching": made(_state("stretch", gripper=0.02, touching=True)),
+        "look down": made(_state("look_down", gripper=0.075)),
+        "refused": made(home, outcome="refused", aim=[0.38, 0.36]),
+        "dragged": made(home, held="tip", aim=[0.33, 0.04]),
+        "turned": made(home, held="turn", bearing=0.9),
+        "many poses": made(many),
+        "small": made(home, SMALL),
+        "small moving": made(moving, SMALL),
+        "stacked": made(home, (268.0, 176.0)),
+        "stacked dragged": made(home, (268.0, 176.0), held="tip", aim=[0.3, 0.05]),
+        "small dragged": made(home, SMALL, held="tip", aim=[0.2, 0.1]),
+        "small poses": made(home, SMALL, choosing=True),
+        "small many poses": made(many, SMALL, choosing=True),
+        "small never": made(None, SMALL, state="never"),
+        "tall": made(stretch, (228.0, 330.0)),
+        "large": made(home, (520.0, 330.0)),
+        "not known": made(_state("home", angles=(0.0, math.nan, 0.0, 0.0))),
+        "stale": made(home, state="stale", age=2.0),
+        "alarm": made(home, state="alarm"),
+        "disabled": made(home, state="disabled"),
+    }

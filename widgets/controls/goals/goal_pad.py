@@ -1,0 +1,481 @@
+"""Where a robot is to go: buttons move the goal by a quarter of a metre and turn it by 15°, and Go sends it there.
+
+pad = GoalPad()
+robot.on("/pose", pad.show)
+pad.bind(on_command=lambda _, goal: robot.publish("/goal_pose", goal))
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any, ClassVar
+
+import numpy as np
+from kivy.clock import Clock
+from kivy.metrics import dp, sp
+from kivy.properties import ListProperty, NumericProperty, ObjectProperty, OptionProperty
+from kivy.uix.widget import Widget
+
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Pose,
+    PoseStamped,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Quaternion,
+)
+from bridge.msgs.nav_msgs import Path
+from bridge.msgs.pilothouse_msgs import TaskStatus
+from bridge.msgs.std_msgs import Header
+from widgets.controls.goals.errand import Errand
+from widgets.controls.goals.goal_picture import Box, draw, ground
+from widgets.core.base import fitting_size
+from widgets.core.geometry import DASH
+from widgets.core.grip import Grip
+from widgets.core.icons import icon
+from widgets.core.ink import Word, tint
+from widgets.core.shapes import Shapes
+from widgets.core.theme import theme
+from widgets.instruments.readout import figure
+from widgets.parts.gauge import Gauge
+
+__all__ = ["STEP", "TURN", "GoalPad", "samples"]
+
+STEP, TURN = 0.25, math.radians(15)
+"""By which a press moves the goal [m] and turns it [rad]."""
+FARTHEST = 1000.0
+"""From the map's origin, along x and y, that a goal may be [m]."""
+THERE = 0.3, math.radians(20)
+"""A robot that is no farther from its goal has reached it [m], [rad]."""
+REPEAT_AFTER, REPEAT_EVERY = 0.45, 0.12
+"""A held button goes on moving the goal [s]."""
+CELL = 53
+"""Least side of a button for which a picture or a table may take room from the buttons [dp]."""
+LEAST_WORDS = 46
+"""Lower buttons have their icon only [sp]."""
+GAP = 3
+"""Between the buttons [dp]."""
+
+BUTTONS: dict[str, tuple[int, int, str, tuple[int, int, int]]] = {
+    "turn left": (0, 0, "rotate_left", (0, 0, 1)),
+    "north": (1, 0, "arrow_upward", (0, 1, 0)),
+    "turn right": (2, 0, "rotate_right", (0, 0, -1)),
+    "west": (0, 1, "arrow_back", (-1, 0, 0)),
+    "go": (1, 1, "near_me", (0, 0, 0)),
+    "east": (2, 1, "arrow_forward", (1, 0, 0)),
+    "here": (0, 2, "my_location", (0, 0, 0)),
+    "south": (1, 2, "arrow_downward", (0, -1, 0)),
+}
+"""Name to column, row from above, icon, and steps in x, y and yaw. `here` puts the goal where the robot is."""
+AXES = {"north": "y+", "south": "y−", "east": "x+", "west": "x−"}
+AXIS_NAMES = ("x", "y", "yaw")
+OUTCOMES = {
+    "": ("Go", "near_me"),
+    "sent": ("Sent", "hourglass_top"),
+    "accepted": ("Going", "route"),
+    "waiting": ("Waiting", "hourglass_top"),
+    "paused": ("Paused", "pause"),
+    "there": ("There", "check"),
+    "canceled": ("Canceled", "cancel"),
+    "failed": ("Failed", "block"),
+    "interrupted": ("Cut off", "pause"),
+    "refused": ("Refused", "block"),
+    "no_reply": ("No reply", "help"),
+}
+"""What became of the goal to what the button says."""
+UNDER_WAY = ("sent", "accepted", "waiting", "paused")
+"""The robot has the goal, and has not done with it."""
+
+
+class GoalPad(Grip, Gauge):
+    """Dispatches `on_command(pose)`, a PoseStamped in `map`, when Go is pressed, and only then."""
+
+    accepts: ClassVar = (PoseWithCovarianceStamped, Path, TaskStatus)
+    sends = (PoseStamped,)
+    drawn_from: ClassVar = ("actual", "wanted", "followed", "outcome", "way", "pressed")
+
+    actual = ListProperty()
+    """Where the robot is: x, y [m], yaw [rad]; empty while that is not known."""
+    wanted = ListProperty()
+    """Where it is to go: x, y [m], yaw [rad]; empty before anybody said."""
+    followed = ListProperty()
+    """Where the robot goes while another goal is being set here: x, y [m], yaw [rad]; empty where it goes to no other."""
+    outcome = OptionProperty("", options=list(OUTCOMES))
+    """What became of the goal: empty while it has not been sent as it is."""
+    way = ObjectProperty(np.zeros((0, 2)), force_dispatch=True, comparator=lambda *_: False)
+    """The way that the robot means to take, shape (n, 2) [m]; empty when it has none."""
+    pressed = OptionProperty("", options=["", *BUTTONS])
+    """The button under the finger; empty without one."""
+    step = NumericProperty(STEP)
+    """By which a press moves the goal [m]."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**{"title": "Goal", **kwargs})
+        self.veil_radius = theme.radius
+        self._errand = Errand()
+        self._end: list[float] = []
+        self._left: tuple[int, list[float]] = 0, []
+        self._taken = False
+        self._repeat = Clock.create_trigger(lambda _: self.press(self.pressed), REPEAT_EVERY, interval=True)
+        self._held = Clock.create_trigger(lambda _: self._repeat(), REPEAT_AFTER)
+
+    def show(self, msg: PoseWithCovarianceStamped | Path | TaskStatus) -> None:
+        """Show where the robot is, the way it means to take, or what it does.
+
+        The end of the way of a robot that goes to a goal is the goal while none is being set here; another task's is not.
+        """
+        if isinstance(msg, Path | TaskStatus):
+            if isinstance(msg, Path):
+                self._show_way(msg)
+            else:
+                self._show_task(msg)
+            self._follow_up()
+            return
+        pose = msg.pose.pose
+        place = [round(value, 3) for value in (pose.position.x, pose.position.y, pose.orientation.yaw)]
+        self.actual = place if all(map(math.isfinite, place)) else []
+
+    def _show_way(self, path: Path) -> None:
+        places = [(one.pose.position.x, one.pose.position.y) for one in path.poses]
+        if not places and len(self.way) and not self._errand.heard and self.outcome == "accepted":
+            self.outcome = ""  # who says nothing of its tasks says only so that it has ended
+        self.way = np.array(places, dtype=np.float64).reshape(-1, 2)
+        yaw = path.poses[-1].pose.orientation.yaw if places else 0.0
+        end = [*places[-1], yaw] if places else []
+        self._end = end if all(map(math.isfinite, end)) else []
+        self._take_end()
+
+    def _show_task(self, status: TaskStatus) -> None:
+        outcome = self._errand.hear(status)
+        if outcome is not None:
+            self.outcome = outcome
+        self._take_end()
+
+    def _take_end(self) -> None:
+        """Where the robot goes by somebody else's order is its goal here too, until one is set by a finger."""
+        if self._end and (self._taken or not self.wanted) and self._errand.adopt():
+            self.wanted, self._taken = self._end, True
+            if self.outcome not in UNDER_WAY:
+                self.outcome = "accepted"
+
+    def _follow_up(self) -> None:
+        """Keep in sight where the robot goes: the end of its way, or the goal that it had when another one was begun here."""
+        going = self._errand.going
+        run, left = self._left
+        now = (self._end or (left if run == going else [])) if going and self.wanted else []
+        other = (
+            bool(now)
+            and self.outcome != "sent"
+            and going != self._errand.run
+            and math.dist(now[:2], self.wanted[:2]) > self.step / 2
+        )
+        self.followed = now if other else []
+
+    @property
+    def goal(self) -> PoseStamped:
+        """The goal as a message; ValueError while there is none."""
+        if not self.wanted:
+            raise ValueError(
+                "There is no goal yet: the robot has not said where it is, and nobody where it is to go."
+            )
+        x, y, yaw = self.wanted
+        return PoseStamped(Header(frame_id="map"), Pose(Point(x, y), Quaternion.from_yaw(yaw)))
+
+    @property
+    def there(self) -> bool:
+        """The robot is where it is wanted."""
+        if not (self.actual and self.wanted):
+            return False
+        (x, y, yaw), (goal_x, goal_y, goal_yaw) = self.actual, self.wanted
+        turn = abs(math.remainder(goal_yaw - yaw, math.tau))
+        return math.hypot(goal_x - x, goal_y - y) <= THERE[0] and turn <= THERE[1]
+
+    @property
+    def says(self) -> tuple[str, str]:
+        """Words and icon of the button in the middle."""
+        return ("There", "check") if self.outcome == "accepted" and self.there else OUTCOMES[self.outcome]
+
+    def can(self, name: str) -> bool:
+        """Whether a press of that button does anything."""
+        if name == "go":
+            return bool(self.wanted) and self.outcome != "sent"
+        return bool(self.actual or (self.wanted and name != "here"))
+
+    def answer(self, outcome: str) -> None:
+        """What became of the goal that was sent: `sent`, `accepted`, `refused` or `no_reply`; what the robot says of it comes by `show`."""
+        if outcome == "refused":
+            self._errand.drop()
+        if outcome != "accepted" or not self._errand.run:  # what it does may be heard before its answer
+            self.outcome = outcome
+        self._follow_up()
+
+    def press(self, name: str) -> None:
+        """Do what a button says, as a finger would."""
+        if not name or not self.can(name):
+            return
+        if name == "go":
+            self.outcome, self._taken = "sent", False
+            self._errand.ask()
+            self.dispatch("on_command", self.goal)
+        elif name == "here":
+            self._want(self._snapped())
+        else:
+            x, y, yaw = self.wanted or self._snapped()
+            across, up, turn = BUTTONS[name][3]
+            self._want([x + across * self.step, y + up * self.step, yaw + turn * TURN])
+
+    def _snapped(self) -> list[float]:
+        """Where the robot is, on whole steps, so that the goal's figures are round."""
+        x, y, yaw = self.actual
+        return [round(x / self.step) * self.step, round(y / self.step) * self.step, round(yaw / TURN) * TURN]
+
+    def _want(self, place: list[float]) -> None:
+        x, y = (max(-FARTHEST, min(FARTHEST, value)) + 0.0 for value in place[:2])
+        if self._errand.run:
+            self._left = self._errand.run, list(self.wanted)
+        self._errand.drop()
+        self._taken = False
+        self.wanted, self.outcome = [x, y, math.remainder(place[2], math.tau)], ""
+        self._follow_up()
+
+    def spring(self) -> None:
+        """Count no further; the goal stays."""
+        self.pressed = ""
+        self._held.cancel()
+        self._repeat.cancel()
+
+    def holds(self, x: float, y: float) -> bool:
+        """On a button."""
+        return bool(self._button_at(x, y))
+
+    def follow(self, touch: Any) -> None:
+        """Count at once where the finger comes down, and on while it stays; Go waits until it is lifted."""
+        name = self._button_at(*touch.pos)
+        if self.pressed and name != self.pressed:
+            self.rest()
+        elif name and not self.pressed:
+            self.pressed = name
+            if name not in ("go", "here"):
+                self.press(name)
+                self._held()
+
+    def on_touch_up(self, touch: Any) -> bool:
+        """Go, where the finger is still on it."""
+        name = self.pressed if touch.grab_current is self else ""
+        done = bool(super().on_touch_up(touch))
+        if name in ("go", "here"):
+            self.press(name)
+        return done
+
+    def _button_at(self, x: float, y: float) -> str:
+        for name in BUTTONS:
+            left, low, width, height = self.button(name)
+            if left <= x <= left + width and low <= y <= low + height:
+                return name
+        return ""
+
+    def button(self, name: str) -> Box:
+        """Where a button is."""
+        column, row, *_ = BUTTONS[name]
+        return self._cell(column, row)
+
+    def _cell(self, column: int, row: int) -> Box:
+        left, low, width, height = self.layout[0]
+        gap = dp(GAP)
+        wide, high = (width - 2 * gap) / 3, (height - 2 * gap) / 3
+        return left + column * (wide + gap), low + (2 - row) * (high + gap), wide, high
+
+    @property
+    def layout(self) -> tuple[Box, Box | None, Box | None]:
+        """Of the pad, of the picture and of the figures; None for what has no room: the figures are in corners then."""
+        # a whole target each where there is room; nine of them would fill half a phone, so on a small card less
+        edge, least, wanted = dp(5), 3 * dp(CELL) + 2 * dp(GAP), 3 * theme.target + 2 * dp(GAP)
+        left, low = self.x + edge, self.y + edge
+        width, height = self.width - 2 * edge, self.height - 2 * edge
+        gap, table = dp(10), sp(62)
+        if width >= least + gap + dp(116) and height < 2 * least + table:
+            wide = min(max(wanted, width * 0.54), max(height * 1.1, wanted), width - gap - dp(116))
+            rest = left + dp(5), low + dp(4), width - wide - gap, height - dp(8)
+            figures = rest[0], rest[1], rest[2], table
+            picture = rest[0], rest[1] + table + dp(6), rest[2], rest[3] - table - dp(6)
+            return (left + width - wide, low, wide, height), picture, figures
+        pad = min(max(wanted, min(width * 0.75, height * 0.45)), height - table - dp(10))
+        if pad < least:
+            return (left, low, width, height), None, None
+        figures = left + dp(6), low + height - table - dp(4), width - dp(12), table
+        free = height - pad - table - dp(10)
+        if free < dp(90):
+            return (left, low, width, height - table - dp(8)), None, figures
+        picture = left + dp(6), low + pad + dp(6), width - dp(12), free - dp(8)
+        return (left, low, width, pad), picture, figures
+
+    def marks(self, shapes: Shapes) -> Iterator[Word]:
+        """The buttons, the picture, the figures."""
+        _, picture, figures = self.layout
+        for name in BUTTONS:
+            if name != "here" or figures is not None:
+                yield from self._draw_button(shapes, name)
+        if picture is not None:
+            sent = self.outcome in UNDER_WAY
+            yield from draw(
+                shapes,
+                picture,
+                self.actual,
+                self.wanted,
+                self.way,
+                self.step,
+                sent=sent,
+                followed=self.followed,
+            )
+        if figures is None:
+            yield from self._in_corners(shapes)
+        else:
+            yield from self._table(figures)
+            left, low, width, height = self._cell(2, 2)
+            for row, step in ((-1, f"{self.step:g} m"), (1, f"{math.degrees(TURN):.0f}°")):
+                yield Word(step, left + width / 2, low + height / 2 - row * sp(9), sp(12), theme.muted)
+
+    def _draw_button(self, shapes: Shapes, name: str) -> Iterator[Word]:
+        left, low, width, height = box = self.button(name)
+        x, y, can = left + width / 2, low + height / 2, self.can(name)
+        main = name == "go" and can and self.outcome not in UNDER_WAY
+        if name == "go" and self.outcome in ("refused", "failed"):
+            fill, ink = theme.danger, theme.ink_danger
+        else:
+            fill, ink = (theme.accent, theme.ink_accent) if main else (theme.raised, theme.text)
+        if name == "go" and self.outcome in UNDER_WAY:
+            ink = theme.plan
+        elif not can:
+            ink = theme.faint
+        ground(shapes, box, fill, fill if main else theme.line)
+        if self.pressed == name:
+            ground(shapes, box, tint(ink, 0.18), ink)
+        words, sign = self.says if name == "go" else (AXES.get(name, ""), BUTTONS[name][2])
+        if height < sp(LEAST_WORDS):
+            words = ""
+        shift = sp(9) if words else 0
+        yield Word(icon(sign), x, y + shift, sp(24), ink, font=theme.icons)
+        if words:
+            size = fitting_size([words], sp(14), width - dp(6), bold=name == "go")
+            yield Word(words, x, y - sp(14), size, ink, bold=name == "go")
+
+    def _figures(self, place: list[float]) -> tuple[str, str, str]:
+        if not place:
+            return DASH, DASH, DASH
+        x, y = (figure(value, 2 if abs(value) < 99.995 else 1) for value in place[:2])
+        return x, y, f"{figure(math.degrees(place[2]), 0)}°"
+
+    def _in_corners(self, shapes: Shapes) -> Iterator[Word]:
+        """Where the robot is in the lower left corner, which is a button too, where it is to go in the lower right one."""
+        for column, name, place, colour in (
+            (0, "ROBOT", self.actual, theme.accent),
+            (2, "NEW" if self.followed else "GOAL", self.wanted, theme.plan),
+        ):
+            left, low, width, height = box = self._cell(column, 2)
+            if column == 0:
+                fill = tint(theme.accent, 0.25) if self.pressed == "here" else theme.raised
+                ground(shapes, box, fill, theme.line)
+            if height < sp(LEAST_WORDS):
+                sign, ink = icon("my_location") if column == 0 else "", theme.text
+                yield Word(sign, left + width / 2, low + height / 2, sp(24), ink, font=theme.icons)
+                continue
+            y, step = low + height - sp(9), (height - sp(20)) / 3
+            most = sp(15 if height >= dp(68) else 12)
+            figures, roomy, told = self._figures(place), width > dp(66), name
+            if column == 2 and not place:  # until there is a goal it says what a press does
+                told, figures = "STEP", (f"{self.step:g}", f"{self.step:g}", f"{math.degrees(TURN):.0f}°")
+            unit = " m" if roomy and (place or told == "STEP") else ""
+            shown = [text if text.endswith("°") else text + unit for text in figures]
+            size = fitting_size(shown, most, width - dp(20), bold=True)
+            aside = dp(6) if column == 0 and roomy else 0
+            if aside:
+                yield Word(icon("my_location"), left + dp(11), y, sp(12), theme.text, font=theme.icons)
+            yield Word(told, left + width / 2 + aside, y, sp(10), colour, bold=True)
+            for row, (axis, text) in enumerate(zip(AXIS_NAMES, shown, strict=True), 1):
+                at = y - row * step + sp(1)
+                if axis != "yaw" or width > dp(66):  # the degree says it too
+                    yield Word(axis, left + dp(5), at, sp(11), theme.muted, anchor=(0, 0.5))
+                yield Word(text, left + width - dp(4), at, size, theme.text, bold=True, anchor=(1, 0.5))
+
+    def _table(self, box: Box) -> Iterator[Word]:
+        """Two columns under their names: where it is, where it is to go."""
+        left, low, width, height = box
+        right, rows = left + width, height / 4
+        middle = left + sp(22) + (width - sp(22)) / 2
+        new = "NEW GOAL" if width > sp(170) else "NEW"
+        for x, name, place, colour in (
+            (middle, "ROBOT", self.actual, theme.accent),
+            (right, new if self.followed else "GOAL", self.wanted, theme.plan),
+        ):
+            yield Word(name, x, low + rows * 3.5, sp(11), colour, bold=True, anchor=(1, 0.5))
+            units = (" m", " m", "") if width > dp(116) else ("", "", "")
+            told = zip(self._figures(place), units, strict=True)
+            shown = [text + (unit if place else "") for text, unit in told]
+            size = fitting_size(shown, sp(14), (width - sp(22)) / 2 - dp(6), bold=True)
+            for row, text in enumerate(shown):
+                yield Word(text, x, low + rows * (2.5 - row), size, theme.text, bold=True, anchor=(1, 0.5))
+        for row, axis in enumerate(AXIS_NAMES):
+            yield Word(axis, left, low + rows * (2.5 - row), sp(12), theme.muted, anchor=(0, 0.5))
+
+
+def _pose(x: float, y: float, degrees: float) -> PoseWithCovarianceStamped:
+    pose = Pose(Point(x, y), Quaternion.from_yaw(math.radians(degrees)))
+    return PoseWithCovarianceStamped(pose=PoseWithCovariance(pose))
+
+
+def _made(
+    *presses: str,
+    size: tuple[float, float] = (176, 176),
+    outcome: str = "",
+    at: PoseWithCovarianceStamped | None = None,
+    followed: tuple[float, ...] = (),
+    **more: Any,
+) -> Callable[[], Widget]:
+    """A pad on which these buttons were pressed, before the robot went to `at`."""
+
+    def build() -> GoalPad:
+        pad = GoalPad(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
+        if presses:
+            pad.show(_pose(1.27, -0.49, 62.0))
+        for name in presses:
+            pad.press(name)
+        if at is not None:
+            pad.show(at)
+        pad.answer(outcome)
+        pad.followed = list(followed)
+        return pad
+
+    return build
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """Each state of the goal, in the sizes that screens give it."""
+    steps = ("east",) * 5 + ("north",) * 4 + ("turn right",) * 3
+    large, wide = (326, 228), (242, 242)
+    return {
+        "never": _made(state="never"),
+        "live": _made(*steps),
+        "held": _made(*steps, pressed="east"),
+        "far away": _made("east", at=_pose(-123.4, 87.66, 180.0)),
+        "sent": _made(*steps, outcome="sent"),
+        "going": _made(*steps, outcome="accepted"),
+        "waiting": _made(*steps, outcome="waiting"),
+        "paused": _made(*steps, outcome="paused"),
+        "canceled": _made(*steps, outcome="canceled"),
+        "failed": _made(*steps, outcome="failed"),
+        "refused": _made(*steps, outcome="refused"),
+        "no reply": _made(*steps, outcome="no_reply"),
+        "there": _made(*steps, outcome="accepted", at=_pose(2.45, 0.52, 16.0)),
+        "square": _made(*steps, size=wide),
+        "large": _made(*steps, size=large),
+        "large never": _made(size=large, state="never"),
+        "large going": _made(*steps, size=large, outcome="accepted"),
+        "other goal": _made(*steps, size=large, followed=(-1.0, 1.5, 0.5)),
+        "other goal, huge": _made(*steps, size=(420, 470), followed=(-1.0, 1.5, 0.5)),
+        "huge": _made(*steps, size=(420, 470), outcome="accepted"),
+        "broad": _made(*steps, size=(420, 190)),
+        "stale": _made(*steps, size=large, state="stale", age=3.0),
+        "alarm": _made(*steps, size=large, state="alarm"),
+        "disabled": _made(*steps, state="disabled"),
+    }

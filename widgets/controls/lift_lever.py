@@ -1,0 +1,117 @@
+"""A lever for one thumb: pushed up what swims or flies goes up, pulled down it goes down, let go it springs back.
+
+lever = LiftLever(max_climb=0.3)
+lever.bind(on_command=lambda _, twist: drive.command(twist))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, ClassVar
+
+import numpy as np
+from kivy.metrics import dp
+from kivy.properties import NumericProperty
+from kivy.uix.widget import Widget
+
+from bridge.msgs.geometry_msgs import Twist, Vector3
+from widgets.controls.stick import DEAD, Stick
+from widgets.core.ink import tint
+from widgets.core.shapes import Shapes
+from widgets.core.theme import theme
+from widgets.parts.caption import Captioned
+
+__all__ = ["LiftLever"]
+
+
+class LiftLever(Captioned, Stick):
+    """Dispatches `on_command(twist)` at every change: a climb and nothing else."""
+
+    sends = (Twist,)
+    drawn_from: ClassVar[tuple[str, ...]] = ("forward", "left", "max_climb")
+
+    max_climb = NumericProperty(0.3)
+    """Speed up at its upper end [m/s], 0 or more."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.fbind("size", self._round_veil)
+        self._round_veil()
+
+    def _round_veil(self, *_: object) -> None:
+        self.veil_radius = self.width / 2
+
+    @property
+    def caption_drop(self) -> float:
+        """Between the knob at rest and the arrow."""
+        return float((self.knob_radius + self.height / 2 - dp(16)) / 2)
+
+    @property
+    def order(self) -> Twist:
+        """What it commands now."""
+        return Twist(Vector3(0.0, 0.0, self.forward * self.max_climb + 0.0), Vector3())
+
+    @property
+    def knob_radius(self) -> float:
+        """[px]"""
+        return min(self.width * 0.36, theme.target * 0.6)
+
+    @property
+    def travel(self) -> tuple[float, float]:
+        """Up and down only."""
+        return 1.0, max(1.0, self.height / 2 - self.knob_radius - dp(8))
+
+    @property
+    def knob_pos(self) -> tuple[float, float]:
+        """The knob's middle [px]."""
+        return self.center_x, self.center_y + self.forward * self.travel[1]
+
+    def shaped(self, forward: float, left: float) -> tuple[float, float]:
+        """Nothing near the middle, never beyond its ends, and nothing aside."""
+        return (0.0 if abs(forward) < DEAD else max(-1.0, min(1.0, forward))), 0.0
+
+    def holds(self, x: float, y: float) -> bool:
+        """Anywhere on it."""
+        return bool(self.collide_point(x, y))
+
+    def draw(self) -> None:
+        """The slot with its ends, the way from the middle to the knob, the knob."""
+        shapes, (x, y), radius = Shapes(), self.center, self.width / 2 - dp(1)
+        up = self.height / 2 - radius - dp(1)
+        ends = np.array([(x, y - up), (x, y + up)])
+        for width, colour in ((radius * 2, theme.line), (radius * 2 - dp(3), theme.surface)):
+            shapes.line(ends, width, colour)
+            for _, end in ends:
+                shapes.disc(x, end, width / 2, colour)
+        shapes.line(np.array([(x - radius * 0.4, y), (x + radius * 0.4, y)]), dp(1.5), theme.line)
+        for sign, share in ((1.0, self.forward), (-1.0, -self.forward)):
+            tip, size = y + sign * (self.height / 2 - dp(8)), radius * 0.26
+            corners = [(x, tip), (x - size, tip - sign * size * 1.3), (x + size, tip - sign * size * 1.3)]
+            shapes.polygon(corners, theme.accent if share > DEAD else theme.muted)
+        knob = self.knob_pos
+        if self.forward:
+            shapes.line(np.array([self.center, knob]), dp(5), theme.accent)
+        shapes.disc(*knob, self.knob_radius, theme.accent)
+        shapes.ring(*knob, self.knob_radius - dp(5), dp(2), tint(theme.knob, 0.6))
+        self._ink.draw(shapes)
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """At rest, pushed up and down, disabled."""
+
+    def make(forward: float = 0.0, **kwargs: Any) -> Callable[[], Widget]:
+        def build() -> Widget:
+            lever = LiftLever(**{"size_hint": (None, None), "size": ("84dp", "200dp"), **kwargs})
+            lever.lean(forward, 0.0)
+            return lever
+
+        return build
+
+    return {
+        "at rest": make(),
+        "up": make(0.7),
+        "down": make(-1.0),
+        "captioned": make(caption="climb"),
+        "disabled": make(state="disabled"),
+        "small": make(size=("60dp", "120dp")),
+    }

@@ -1,0 +1,169 @@
+"""STOP ALL: the small one beside STOP, for every robot that is known; afterwards it counts how many are stopped.
+
+stop_all = StopAll(robots=3)
+stop_all.bind(on_command=lambda _: fleet.press(robots.entries()))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.metrics import dp, sp
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
+from kivy.uix.anchorlayout import AnchorLayout
+from kivy.uix.widget import Widget
+
+from widgets.core.base import Control, fitting_size
+from widgets.core.frames import Outlined
+
+__all__ = ["StopAll"]
+
+LEAST = 14.0
+"""Smallest type that anything is written in [sp]; a note that would need a smaller one is left out."""
+LINE = 1.25
+"""Height of a line of type in its size."""
+TIGHT = 1.5
+"""Narrower than so many heights its word goes on two lines."""
+
+Builder.load_string("""
+<StopAll>:
+    rim: 'stop'
+    ground: 'stop' if root.filled else 'raised'
+    corner: theme.radius
+    rim_width: dp(2)
+    canvas.before:
+        Color:
+            rgba: theme.shade[:3] + [.22 if root.pressed else 0]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.radius]
+    BoxLayout:
+        orientation: 'vertical'
+        size_hint: None, None
+        size: self.minimum_size
+        Label:
+            text: root.word
+            font_name: theme.font
+            font_size: root.word_size
+            bold: True
+            halign: 'center'
+            line_height: .95
+            color: theme.roles[root.ink]
+            disabled_color: self.color
+            size_hint: None, None
+            size: self.texture_size
+            pos_hint: {'center_x': .5}
+        Label:
+            text: root.note
+            font_name: theme.font
+            font_size: sp(14)
+            color: theme.roles[root.ink if root.filled else 'text']
+            disabled_color: self.color
+            size_hint: None, None
+            size: self.texture_size if root.note else (0, 0)
+            pos_hint: {'center_x': .5}
+""")
+
+
+class StopAll(Outlined, Control, AnchorLayout):
+    """Dispatches `on_command` the moment a finger comes down, however often."""
+
+    veiled = False
+
+    robots = NumericProperty(0)
+    """So many are known."""
+    active = BooleanProperty(False)
+    """It was pressed and not let go."""
+    stopped = NumericProperty(0)
+    """So many say that they are stopped and rest."""
+    total = NumericProperty(0)
+    """Of so many that it was meant for."""
+    pressed = NumericProperty(0)
+    """Fingers on it."""
+
+    def _filled(self) -> bool:
+        return self.active and self.stopped < self.total
+
+    filled = AliasProperty(_filled, bind=["active", "stopped", "total"], cache=True)
+    """Not all of them are stopped."""
+
+    def _ink(self) -> str:
+        return "ink_stop" if self.filled else "danger"
+
+    ink = AliasProperty(_ink, bind=["filled"], cache=True)
+    """Role of the word."""
+
+    def _tight(self) -> bool:
+        return self.width < self.height * TIGHT
+
+    tight = AliasProperty(_tight, bind=["size"], cache=True)
+
+    def _word(self) -> str:
+        if self.active:
+            return f"{self.stopped}/{self.total}" if self.tight else f"{self.stopped} of {self.total}"
+        return "STOP\nALL" if self.tight else "STOP ALL"
+
+    word = AliasProperty(_word, bind=["active", "stopped", "total", "tight"], cache=True)
+
+    def _note(self) -> str:
+        note = "STOPPED" if self.active else f"{self.robots} robot{'' if self.robots == 1 else 's'}"
+        across = fitting_size([note], sp(LEAST), self.width - dp(8)) >= sp(LEAST)
+        lines = 2 if self.tight and not self.active else 1
+        below = self.height - lines * self.word_size * LINE >= sp(LEAST) * LINE
+        return note if across and below else ""
+
+    note = AliasProperty(_note, bind=["active", "robots", "size", "word_size"], cache=True)
+    """Below the word, where there is room for it."""
+
+    def _word_size(self) -> float:
+        lines = 2 if self.tight and not self.active else 1
+        most = max(min(self.height * (0.36 if lines == 1 else 0.24), sp(26)), sp(LEAST))
+        return fitting_size(self.word.split("\n"), most, self.width - dp(8), bold=True)
+
+    word_size = AliasProperty(_word_size, bind=["size", "word", "tight", "active"], cache=True)
+    """Height of the type [px]."""
+
+    def on_touch_down(self, touch: Any) -> bool:
+        """Command at once."""
+        if not self.collide_point(*touch.pos):
+            return False
+        touch.grab(self)
+        self.pressed += 1
+        self.dispatch("on_command")
+        return True
+
+    def on_touch_up(self, touch: Any) -> bool:
+        """Letting go changes nothing."""
+        if touch.grab_current is not self:
+            return False
+        touch.ungrab(self)
+        self.pressed = max(0, self.pressed - 1)
+        return True
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """As it waits, while robots have not confirmed, and when all have; narrow, flat and as on the connect screen."""
+
+    def make(width: str, height: str, **kwargs: Any) -> Callable[[], Widget]:
+        return lambda: StopAll(size_hint=(None, None), size=(width, height), **kwargs)
+
+    states: dict[str, dict[str, Any]] = {
+        "ready": {"robots": 3},
+        "waiting": {"robots": 3, "active": True, "stopped": 2, "total": 3},
+        "stopped": {"robots": 3, "active": True, "stopped": 3, "total": 3},
+    }
+    shapes = {
+        "": ("240dp", "64dp"),
+        " narrow": ("54dp", "68dp"),
+        " side": ("84dp", "76dp"),
+        " flat": ("111dp", "54dp"),
+    }
+    found = {
+        f"{state}{shape}": make(*size, **kwargs)
+        for state, kwargs in states.items()
+        for shape, size in shapes.items()
+    }
+    return found | {"fifty": make("64dp", "76dp", robots=50, active=True, stopped=48, total=50)}

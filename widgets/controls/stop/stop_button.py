@@ -1,0 +1,249 @@
+"""STOP: the largest thing to touch, in the same corner of every screen.
+
+stop = StopButton()
+stop.bind(on_command=lambda _: commands.stop(), on_release_stop=lambda _: commands.release())
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.metrics import dp, sp
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty, StringProperty
+from kivy.uix.anchorlayout import AnchorLayout
+from kivy.uix.widget import Widget
+
+from widgets.core.base import Control
+from widgets.core.frames import Outlined
+from widgets.core.hold import HOLD, Hold
+from widgets.parts.labels import spaced
+
+__all__ = ["PHASES", "StopButton"]
+
+LONG_HOLD = 3.0
+"""How long the finger must stay to release a STOP held here alone that is not confirmed [s]: who presses it again and
+stays on it wants it to stop."""
+
+ROOMY = 130
+"""Lower than this it has the icon beside the word while it says a sentence [dp]."""
+NO_BREAK = "\u00a0"
+"""A space at which no line ends."""
+LOW = 72
+"""Lower than this its word is smaller, so that two lines fit below it [dp]."""
+WORDY = 110
+"""Smaller than a square with this side it says only what can be done, and not how long ago something was [dp]."""
+LEAST = 14.0
+"""Smallest type that anything is written in [sp]."""
+
+PHASES = {
+    "ready": ("STOP", "", "pan_tool_fill"),
+    "sent": ("STOP", "sent, not confirmed", "pan_tool_fill"),
+    "stopped": ("STOPPED", "hold to release", "lock"),
+    "moves": ("STOP", "pressed, and it still moves", "warning"),
+    "no_answer": ("STOP", "no answer, sending again", "signal_disconnected"),
+    "lost": ("STOP", "no link, was STOPPED", "signal_disconnected"),
+}
+"""Phase to its word, its sentence and its icon."""
+LOCAL = {
+    "sent": "zero speed is sent",
+    "moves": "still moves · hold 3 s to release",
+    "no_answer": "not confirmed · hold 3 s to release",
+}
+"""Sentences of a STOP that this handheld alone holds, or that is pressed and not obeyed, where they are others."""
+
+Builder.load_string("""
+<StopButton>:
+    veil_radius: theme.radius * 1.3
+    rim: 'stop'
+    ground: 'surface' if root.phase == 'stopped' else 'stop'
+    corner: theme.radius * 1.3
+    rim_width: dp(3)
+    canvas.before:
+        Color:
+            rgba: (theme.stop if root.phase == 'stopped' else theme.shade)[:3] + [.4 if root.held else 0]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: max(self.width * root.held, theme.radius * 2.6), self.height
+            radius: [theme.radius * 1.3]
+        Color:
+            rgba: theme.shade[:3] + [.22 if root.pressed and root.phase != 'stopped' else 0]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [theme.radius * 1.3]
+    BoxLayout:
+        orientation: 'vertical'
+        size_hint: None, None
+        size: self.minimum_size
+        spacing: dp(2)
+        BoxLayout:
+            orientation: 'vertical' if root.upright else 'horizontal'
+            size_hint: None, None
+            size: self.minimum_size
+            spacing: 0 if root.upright else root.word_size * .28
+            pos_hint: {'center_x': .5}
+            Icon:
+                name: root.icon
+                role: root.ink
+                font_size: root.word_size * (1.5 if root.upright else 1.25)
+                pos_hint: {'center_x': .5, 'center_y': .5}
+            Label:
+                text: root.word
+                font_name: theme.font
+                font_size: root.word_size
+                bold: True
+                color: theme.roles[root.ink]
+                disabled_color: self.color
+                size_hint: None, None
+                size: self.texture_size
+                pos_hint: {'center_x': .5, 'center_y': .5}
+        Label:
+            id: sentence
+            text: root.sentence
+            font_name: theme.font
+            font_size: root.sentence_size
+            color: theme.roles[root.ink]
+            disabled_color: self.color
+            text_size: root.width - dp(16), None
+            halign: 'center'
+            size_hint: None, None
+            size: self.texture_size if root.sentence else (0, 0)
+            pos_hint: {'center_x': .5}
+""")
+
+
+class StopButton(Outlined, Hold, Control, AnchorLayout):
+    """Dispatches `on_command` the moment a finger comes down, and `on_release_stop` after a hold once stopped."""
+
+    veiled = False
+    __events__ = ("on_release_stop",)
+
+    phase = OptionProperty("ready", options=list(PHASES))
+    """`ready`; `sent`, not confirmed; `stopped`, confirmed and latched; `moves`, latched and not at rest in time;
+    `no_answer`, sent and not confirmed in time; `lost`, stopped when the link was lost: nobody knows whether it still is."""
+    local = BooleanProperty(False)
+    """It is latched, or the robot has no STOP of its own: a hold releases it even while it is not confirmed."""
+    ago = StringProperty("")
+    """How long ago the link was lost, as in `8 s`; for `lost`."""
+    pressed = NumericProperty(0)
+    """Fingers on it."""
+
+    def _sentence(self) -> str:
+        sentence = PHASES[self.phase][1]
+        if self.local:
+            sentence = LOCAL.get(self.phase, sentence)
+        if self.width * self.height < dp(WORDY) * dp(WORDY):
+            return sentence.rpartition(" · ")[2]
+        if self.phase == "lost" and self.ago:
+            return f"{sentence} " + f"{self.ago} ago".replace(" ", NO_BREAK)
+        return sentence
+
+    sentence = AliasProperty(_sentence, bind=["phase", "local", "ago", "size"], cache=True)
+
+    def _icon(self) -> str:
+        return PHASES[self.phase][2]
+
+    icon = AliasProperty(_icon, bind=["phase"], cache=True)
+
+    def _word(self) -> str:
+        return spaced(PHASES[self.phase][0])
+
+    word = AliasProperty(_word, bind=["phase"], cache=True)
+
+    def _ink(self) -> str:
+        return "danger" if self.phase == "stopped" else "ink_stop"
+
+    ink = AliasProperty(_ink, bind=["phase"], cache=True)
+    """Role of the words."""
+
+    def _upright(self) -> bool:
+        low = bool(self.sentence) and self.height < dp(ROOMY)
+        return self.width < self.height * 2 and not low
+
+    upright = AliasProperty(_upright, bind=["size", "sentence"], cache=True)
+    """Icon above the word, because it is not wide and there is room below for what it says."""
+
+    def _word_size(self) -> float:
+        width, height = self.size
+        across = width / (5.2 if self.upright else 6.4) * (0.78 if self.phase == "stopped" else 1.0)
+        low = bool(self.sentence) and height < dp(LOW)
+        return max(min(across, height * (0.23 if self.upright else 0.27 if low else 0.36)), sp(LEAST))
+
+    word_size = AliasProperty(_word_size, bind=["size", "phase", "upright", "sentence"], cache=True)
+    """Height of the type [px]."""
+
+    def _sentence_size(self) -> float:
+        return max(min(self.word_size * 0.55, self.width / 16), sp(LEAST))
+
+    sentence_size = AliasProperty(_sentence_size, bind=["word_size", "size", "upright"], cache=True)
+    """Height of the sentence's type [px]; it goes on two lines where it is too long."""
+
+    def on_phase(self, *_: object) -> None:
+        """A hold belongs to the phase that it began in."""
+        self.rest()
+
+    def on_held_long(self) -> None:
+        """It was held long enough."""
+        self.dispatch("on_release_stop")
+
+    def on_release_stop(self) -> None:
+        """It was held long enough: the operator wants to drive again."""
+
+    def on_touch_down(self, touch: Any) -> bool:
+        """Command at once; when stopped already, or held here alone without an answer, begin to count the hold."""
+        if not self.collide_point(*touch.pos):
+            return False
+        touch.grab(self)
+        self.pressed += 1
+        unanswered = self.local and self.phase in ("no_answer", "moves")
+        if self.phase == "stopped" or unanswered:
+            self.hold(HOLD if self.phase == "stopped" else LONG_HOLD)
+        if self.phase != "stopped":
+            self.dispatch("on_command")
+        return True
+
+    def on_touch_up(self, touch: Any) -> bool:
+        """A hold that ends early releases nothing."""
+        if touch.grab_current is not self:
+            return False
+        touch.ungrab(self)
+        self.pressed = max(0, self.pressed - 1)
+        if not self.pressed:
+            self.rest()
+        return True
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """Every phase, wide as on a tablet's side and square as on the drive screen."""
+
+    def make(width: str, height: str, **kwargs: Any) -> Callable[[], Widget]:
+        return lambda: StopButton(size_hint=(None, None), size=(width, height), **kwargs)
+
+    wide = {phase: make("329dp", "76dp", phase=phase, ago="8 s") for phase in PHASES}
+    square = {f"{phase} square": make("210dp", "180dp", phase=phase, ago="8 s") for phase in PHASES}
+    return {
+        **wide,
+        **square,
+        "phone stopped": make("112dp", "172dp", phase="stopped"),
+        "phone no answer": make("112dp", "172dp", phase="no_answer"),
+        "phone lost": make("112dp", "172dp", phase="lost", ago="8 s"),
+        "phone moves": make("177dp", "118dp", phase="moves", local=True),
+        "small lost": make("128dp", "68dp", phase="lost", ago="8 s"),
+        "small latched": make("128dp", "68dp", phase="stopped"),
+        "small local no answer": make("128dp", "68dp", phase="no_answer", local=True),
+        "small sent": make("160dp", "64dp", phase="sent"),
+        "small": make("160dp", "64dp"),
+        "local sent": make("329dp", "76dp", phase="sent", local=True),
+        "local no answer": make("329dp", "76dp", phase="no_answer", local=True),
+        "phone local no answer": make("112dp", "172dp", phase="no_answer", local=True),
+        "small stopped": make("160dp", "64dp", phase="stopped"),
+        "being released": _being_released,
+    }
+
+
+def _being_released() -> StopButton:
+    button = StopButton(size_hint=(None, None), size=("329dp", "76dp"), phase="stopped")
+    button.held = 0.6
+    return button

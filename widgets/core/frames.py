@@ -1,0 +1,112 @@
+"""What cards, rows, buttons and bars lie on: a ground within a border, or glass over a picture. Colours are named by role.
+
+class Tile(Outlined, BoxLayout): ...
+<Tile>:
+    rim: 'plan' if root.chosen else 'line'
+"""
+
+from __future__ import annotations
+
+from kivy.lang import Builder
+from kivy.properties import BooleanProperty, NumericProperty, OptionProperty, StringProperty
+from kivy.uix.behaviors import ButtonBehavior
+from kivy.uix.boxlayout import BoxLayout
+
+from widgets.core.theme import theme
+
+__all__ = ["Edged", "EdgedBox", "Glass", "Outlined", "Pressable"]
+
+Builder.load_string("""
+<Outlined>:
+    canvas.before:
+        Color:
+            rgba: theme.roles[self.rim] if self.rim else (0, 0, 0, 0)
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [self.corner]
+        Color:
+            rgba: theme.roles[self.ground] if self.ground else (0, 0, 0, 0)
+        SmoothRoundedRectangle:
+            pos: self.x + self.rim_width, self.y + self.rim_width
+            size: self.width - 2 * self.rim_width, self.height - 2 * self.rim_width
+            radius: [self.corner - self.rim_width]
+
+<Pressable>:
+    canvas.before:
+        Color:
+            rgba: theme.roles[self.press_role][:3] + [self.press_share if self.state == 'down' else 0]
+        RoundedRectangle:
+            pos: self.pos
+            size: self.size
+            radius: [self.corner]
+
+<Edged>:
+    canvas.before:
+        Color:
+            rgba: theme.surface
+        Rectangle:
+            pos: self.pos
+            size: self.size
+        Color:
+            rgba: theme.line
+        Rectangle:
+            pos: self.right - theme.outline if self.edge == 'right' else self.x, self.top - theme.outline if self.edge == 'top' else self.y
+            size: theme.outline if self.edge == 'right' else self.width, self.height if self.edge == 'right' else theme.outline
+
+<Glass>:
+    canvas.before:
+        Color:
+            rgba: theme.glass if self.card else (0, 0, 0, 0)
+        RoundedRectangle:  # the smooth one draws its edge beyond a roll that it is cut off by, unless it is opaque
+            pos: self.pos
+            size: self.size
+            radius: [self.card_corner]
+        Color:
+            rgba: theme.line if self.card else (0, 0, 0, 0)
+        SmoothLine:
+            rounded_rectangle: self.pos + self.size + [self.card_corner]
+            width: theme.outline
+""")
+
+
+class Outlined:
+    """Lies on a ground within a border."""
+
+    rim = StringProperty("line")
+    """Role of its border; empty for none."""
+    ground = StringProperty("raised")
+    """Role of what is within the border; empty for nothing."""
+    corner = NumericProperty(theme.corner)
+    """Radius of its corners [px]."""
+    rim_width = NumericProperty(theme.outline)
+    """Width of its border [px]."""
+
+
+class Pressable(Outlined, ButtonBehavior):
+    """A button on such a ground, which changes under a finger."""
+
+    press_role = StringProperty("text")
+    """Role of what comes over it while a finger is down."""
+    press_share = NumericProperty(0.12)
+    """How much of that, 0 to 1."""
+
+
+class Edged:
+    """A bar along an edge of the glass, with a line where the screen begins."""
+
+    edge = OptionProperty("bottom", options=["bottom", "right", "top"])
+    """Its edge with the line."""
+
+
+class EdgedBox(Edged, BoxLayout):
+    """Such a bar with things side by side."""
+
+
+class Glass:
+    """Lies over a picture, of which it lets a little through."""
+
+    card = BooleanProperty(True)
+    """Draw on a card of its own."""
+    card_corner = NumericProperty(theme.radius)
+    """Radius of the card's corners [px]."""

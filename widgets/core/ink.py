@@ -1,0 +1,233 @@
+"""Ink: smooth shapes and texts on a canvas, in one draw call for the shapes and few instructions for the texts.
+
+self.ink, self.words = Ink(), Words()
+self.canvas.add(self.ink), self.canvas.add(self.words.canvas)
+self.ink.draw(shapes)
+self.words.write([Word("N", x, y, sp(16), theme.danger)])
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+from kivy.clock import Clock
+from kivy.graphics import Color, InstructionGroup, Mesh, Rectangle, RenderContext
+from kivy.metrics import dp
+
+from widgets.core.base import RobotWidget, text_texture
+from widgets.core.shapes import FLOATS, Shapes
+from widgets.core.theme import theme
+
+__all__ = ["Drawing", "Ink", "Word", "Words", "ground", "shader", "tint"]
+
+VERTEX = """
+#ifdef GL_ES
+precision highp float;
+#endif
+attribute vec2 at_place;
+attribute vec2 at_local;
+attribute vec4 at_form;
+attribute vec4 at_ink;
+varying vec2 local;
+varying vec4 form;
+varying vec4 ink;
+uniform mat4 modelview_mat;
+uniform mat4 projection_mat;
+void main() {
+    local = at_local;
+    form = at_form;
+    ink = at_ink;
+    gl_Position = projection_mat * modelview_mat * vec4(at_place, 0.0, 1.0);
+}
+"""
+
+FRAGMENT = """
+#ifdef GL_ES
+precision highp float;
+#endif
+varying vec2 local;
+varying vec4 form;
+varying vec4 ink;
+uniform float strength;
+uniform float seen;
+float dashed(float along, float across, float half_width, float period, float half_dash) {
+    float from_middle = abs(mod(along, period) - period * 0.5);
+    return half_width - length(vec2(max(from_middle - half_dash, 0.0), across));
+}
+void main() {
+    float inside = 0.0;
+    if (form.x > -0.5) {
+        float across = length(local) - form.x;
+        inside = form.y - abs(across);
+        if (form.z > 0.0) {
+            inside = dashed(atan(local.y, local.x) * form.x, across, form.y, form.z, form.w);
+        }
+    } else if (form.x > -1.5) {
+        inside = form.y - abs(local.y);
+        if (form.z > 0.0) {
+            inside = dashed(local.x, local.y, form.y, form.z, form.w);
+        }
+    } else if (form.x > -2.5) {
+        inside = min(min(local.x, local.y), form.y);
+    } else {
+        float side = local.x * form.z - abs(local.y) * form.w;
+        inside = min(form.y - length(local), side);
+    }
+    gl_FragColor = vec4(ink.rgb, ink.a * strength * seen * clamp(inside + 0.5, 0.0, 1.0));
+}
+"""
+
+NO_VERTICES, NO_INDICES = np.zeros(FLOATS, np.float32), np.zeros(3, np.uint16)
+
+FORMAT = [
+    (b"at_place", 2, "float"),
+    (b"at_local", 2, "float"),
+    (b"at_form", 4, "float"),
+    (b"at_ink", 4, "float"),
+]
+
+
+def tint(colour: Sequence[float], alpha: float) -> tuple[float, ...]:
+    """A role's colour made see-through: `alpha` 0 to 1."""
+    return (*colour[:3], alpha)
+
+
+def shader(fragment: str, **uniforms: float) -> RenderContext:
+    """A context that draws Kivy's textured rectangles with `fragment`, whose uniforms start as given."""
+    context = RenderContext(fs=fragment, use_parent_projection=True, use_parent_modelview=True)
+    for key, value in uniforms.items():
+        context[key] = float(value)
+    return context
+
+
+class Ink(RenderContext):
+    """An instruction that draws `Shapes`, with edges smooth at any size."""
+
+    def __init__(self) -> None:
+        super().__init__(vs=VERTEX, fs=FRAGMENT, use_parent_projection=True, use_parent_modelview=True)
+        self["strength"] = self["seen"] = 1.0
+        self._mesh = Mesh(fmt=FORMAT, mode="triangles")
+        self.add(self._mesh)
+
+    def draw(self, shapes: Shapes) -> None:
+        """Show these shapes instead of those before."""
+        vertices, indices = shapes.arrays()
+        # Kivy's mesh cannot be emptied: nothing is drawn as a triangle without area
+        self._mesh.vertices = vertices if len(vertices) else NO_VERTICES
+        self._mesh.indices = indices if len(indices) else NO_INDICES
+
+    def fade(self, strength: float) -> None:
+        """Multiply the opacity of all shapes by `strength`, 0 to 1."""
+        self["strength"] = float(strength)
+
+    def see(self, opacity: float) -> None:
+        """Follow the opacity of the widget, 0 to 1: Kivy keeps that from whoever has a shader of its own."""
+        self["seen"] = float(opacity)
+
+
+@dataclass(slots=True)
+class Word:
+    """A piece of text on the canvas."""
+
+    text: str
+    x: float
+    """[px]"""
+    y: float
+    size: float
+    """Height of the type [px]."""
+    colour: Sequence[float]
+    bold: bool = False
+    font: str = "B612"
+    """Registered name; `Icons` shows a symbol."""
+    anchor: tuple[float, float] = (0.5, 0.5)
+    """Which point of the text (x, y) is: 0 left or bottom, 1 right or top."""
+
+
+def ground(shapes: Shapes, word: Word, colour: Sequence[float]) -> None:
+    """Put a small ground of `colour` behind a word, so that it can be read over lines and dots."""
+    width, height = text_texture(word.text, round(word.size, 1), word.font, bold=word.bold).size
+    left, y = word.x - width * word.anchor[0], word.y + height * (0.5 - word.anchor[1])
+    shapes.line(np.array([[left - dp(3), y], [left + width + dp(3), y]]), height, colour)
+
+
+class Words:
+    """A set of texts that is rewritten as a whole; instructions are made once and used again."""
+
+    def __init__(self) -> None:
+        self.canvas = InstructionGroup()
+        self._slots: list[tuple[Color, Rectangle]] = []
+        self._shown = 0
+        self.texts: list[str] = []
+        """What is written now."""
+
+    def write(self, words: Iterable[Word], strength: float = 1.0) -> None:
+        """Show these texts instead of those before; `strength` multiplies their opacity."""
+        shown = [word for word in words if word.text]
+        for index, word in enumerate(shown):
+            self._put(index, word, strength)
+        self.texts, count = [word.text for word in shown], len(shown)
+        for _, rectangle in self._slots[count : self._shown]:
+            rectangle.size = 0, 0
+        self._shown = count
+
+    def _put(self, index: int, word: Word, strength: float) -> None:
+        if index == len(self._slots):
+            self._slots.append((Color(), Rectangle(size=(0, 0))))
+            for instruction in self._slots[index]:
+                self.canvas.add(instruction)
+        colour, rectangle = self._slots[index]
+        texture = text_texture(word.text, round(word.size, 1), word.font, bold=word.bold)
+        red, green, blue, alpha = word.colour
+        colour.rgba = red, green, blue, alpha * strength
+        if rectangle.texture is not texture:
+            rectangle.texture = texture
+            rectangle.size = texture.size
+        elif rectangle.size != texture.size:
+            rectangle.size = texture.size
+        width, height = texture.size
+        rectangle.pos = round(word.x - width * word.anchor[0]), round(word.y - height * word.anchor[1])
+
+
+def _see(group: InstructionGroup, opacity: float) -> None:
+    for part in group.children:
+        if isinstance(part, Ink):
+            part.see(opacity)
+        elif isinstance(part, InstructionGroup):
+            _see(part, opacity)
+
+
+class Drawing(RobotWidget):
+    """A robot widget that draws itself anew, once before the next frame, when something it shows has changed.
+
+    A subclass names its properties in `drawn_from` and draws in `draw`.
+    """
+
+    drawn_from: ClassVar[tuple[str, ...]] = ()
+    """Properties whose change calls for a new drawing, besides place, size, state and theme."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        self.redraw = Clock.create_trigger(self._draw_now, -1)
+        super().__init__(**kwargs)
+        for name in ("pos", "size", "state", *self.drawn_from):
+            self.fbind(name, self.redraw)
+        self.fbind("opacity", self._on_opacity)
+        theme.bind(name=self._on_theme, gloves=self._on_theme)
+        self.redraw()
+
+    def _on_theme(self, *_: object) -> None:
+        self.redraw()
+
+    def _on_opacity(self, *_: object) -> None:
+        _see(self.canvas, self.opacity)
+
+    def _draw_now(self, *_: object) -> None:
+        self._on_opacity()
+        if self.width > 1 and self.height > 1:
+            self.draw()
+
+    def draw(self) -> None:
+        """Bring the canvas up to date. Called at most once a frame."""
+        raise NotImplementedError(f"{type(self).__name__} does not say how it is drawn")

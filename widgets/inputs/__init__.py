@@ -1,0 +1,1 @@
+"""Keys, pads, switches, shakes and voices, as pictures and tests."""

@@ -1,0 +1,224 @@
+"""The battery: how full, for how long still, and whether that is enough.
+
+battery = Battery()
+robot.on("/battery_state", battery.show)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, ClassVar
+
+from kivy.lang import Builder
+from kivy.metrics import dp
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
+from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.widget import Widget
+
+from bridge.msgs.sensor_msgs import BatteryState
+from widgets.core.base import RobotWidget, age_text
+from widgets.parts.labels import Chip
+
+__all__ = ["Battery", "BatteryChip", "charge_role", "time_left_text"]
+
+LOW, EMPTY = 0.4, 0.2
+"""Shares of the charge below which the colour warns, and is danger."""
+
+CHARGING = 1
+"""In BatteryState.power_supply_status."""
+
+Builder.load_string("""
+<Battery>:
+    orientation: 'vertical'
+    spacing: dp(4)
+    padding: dp(8)
+    Widget:
+    BatteryCell:
+        share: root.share
+        role: root.role
+        pos_hint: {'center_x': .5}
+    Label:
+        text: root.text
+        font_name: theme.font
+        font_size: theme.size_value
+        bold: True
+        color: theme.roles['danger' if root.role == 'danger' else 'text']
+        disabled_color: self.color
+        size_hint_y: None
+        height: self.texture_size[1]
+    Label:
+        text: root.sentence
+        font_name: theme.font
+        font_size: sp(14)
+        color: theme.muted
+        disabled_color: self.color
+        size_hint_y: None
+        height: self.texture_size[1]
+    Widget:
+
+<BatteryCell>:
+    size_hint: None, None
+    size: dp(74), dp(38)
+    canvas:
+        Color:
+            rgba: theme.roles[root.role]
+        SmoothRoundedRectangle:
+            pos: self.right - dp(5), self.center_y - dp(7)
+            size: dp(5), dp(14)
+            radius: [dp(2.5)]
+        SmoothRoundedRectangle:
+            pos: self.pos
+            size: self.width - dp(7), self.height
+            radius: [dp(7)]
+        Color:
+            rgba: theme.surface
+        SmoothRoundedRectangle:
+            pos: self.x + dp(2.5), self.y + dp(2.5)
+            size: self.width - dp(12), self.height - dp(5)
+            radius: [dp(5)]
+        Color:
+            rgba: theme.roles[root.role] if root.filled else (0, 0, 0, 0)
+        SmoothRoundedRectangle:
+            pos: self.x + dp(5), self.y + dp(5)
+            size: root.filled, self.height - dp(10)
+            radius: [dp(3)]
+""")
+
+
+def charge_role(share: float) -> str:
+    """Role of a charge of `share`, 0 to 1: ok, warn below 0.4, danger below 0.2, muted for NaN."""
+    if math.isnan(share):
+        return "muted"
+    return "danger" if share < EMPTY else "warn" if share < LOW else "ok"
+
+
+def time_left_text(hours: float) -> str:
+    """How long it still lasts [h], in words; empty for NaN."""
+    if not math.isfinite(hours) or hours < 0:
+        return ""
+    minutes = round(hours * 60)
+    return (
+        f"about {minutes // 60} h {minutes % 60} min left" if minutes >= 60 else f"about {minutes} min left"
+    )
+
+
+class BatteryCell(Widget):
+    """The drawing of a cell that is `share` full."""
+
+    share = NumericProperty(math.nan)
+    """0 to 1; NaN is drawn empty."""
+    role = StringProperty("muted")
+
+    def _filled(self) -> float:
+        share = 0.0 if math.isnan(self.share) else max(0.0, min(1.0, self.share))
+        return max(share * (self.width - dp(17)), dp(6)) if share else 0.0
+
+    filled = AliasProperty(_filled, bind=["share", "size"], cache=True)
+    """Length of the filling [px]."""
+
+
+class _Charge(RobotWidget):
+    """What both drawings of the battery know."""
+
+    accepts: ClassVar = (BatteryState,)
+
+    share = NumericProperty(math.nan)
+    """0 empty to 1 full; NaN unknown."""
+    hours_left = NumericProperty(math.nan)
+    """At the present current [h]; NaN when charging or not measured."""
+    charging = BooleanProperty(False)
+
+    def _text(self) -> str:
+        known = self.state != "never" and math.isfinite(self.share)
+        return f"{max(0.0, min(1.0, self.share)) * 100:.0f} %" if known else "—"
+
+    text = AliasProperty(_text, bind=["share", "state"], cache=True)
+
+    def _role(self) -> str:
+        return "muted" if self.state in {"never", "stale"} else charge_role(self.share)
+
+    role = AliasProperty(_role, bind=["share", "state"], cache=True)
+    """Role of its colour."""
+
+    def _sentence(self) -> str:
+        if self.state in {"never", "stale"}:
+            return "not heard yet" if self.state == "never" else ""
+        return "charging" if self.charging else time_left_text(self.hours_left) or "battery"
+
+    sentence = AliasProperty(_sentence, bind=["state", "charging", "hours_left"], cache=True)
+
+    def show(self, msg: BatteryState) -> None:
+        """Take over charge, current and whether it is being charged."""
+        self.share = msg.percentage
+        self.charging = msg.power_supply_status == CHARGING
+        draining = math.isfinite(msg.current) and msg.current < 0
+        self.hours_left = msg.charge / -msg.current if draining and not self.charging else math.nan
+
+
+class Battery(_Charge, BoxLayout):
+    """The battery as a card of a dashboard."""
+
+
+class BatteryChip(_Charge, BoxLayout):
+    """The battery as a chip for a bar. With `brief` it is as narrow as can be."""
+
+    veiled = False
+    brief = BooleanProperty(False)
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(size_hint=(None, None), height=dp(34), **kwargs)
+        self._chip = Chip()
+        self._chip.bind(width=self.setter("width"))
+        self.add_widget(self._chip)
+        for name in ("text", "role", "charging", "brief", "state", "age"):
+            self.fbind(name, self._write)
+        self._write()
+
+    def _write(self, *_: object) -> None:
+        old = age_text(self.age) if self.state == "stale" and not self.brief else ""
+        self._chip.text = f"{self.text} · {old}" if old else self.text
+        self._chip.tinted = self.state == "stale"
+        self._chip.usual, self._chip.edge = ("288 ms", dp(7)) if self.brief else ("100 %", dp(13))
+        self._chip.role = self.role
+        alarming = self.role == "danger" and not self.charging
+        self._chip.icon = (
+            "battery_charging_full" if self.charging else "battery_alert" if alarming else "bolt"
+        )
+        self.width = self._chip.width
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """Every state, and a battery that is full, low, nearly empty and charging."""
+
+    def make(
+        share: float, kind: type[_Charge] = Battery, status: int = 2, **kwargs: Any
+    ) -> Callable[[], Widget]:
+        def build() -> Widget:
+            box = {"size_hint": (None, None), "size": ("230dp", "150dp")} if kind is Battery else {}
+            widget = kind(**{"state": "live", **box, **kwargs})
+            if widget.state != "never":
+                widget.show(
+                    BatteryState(
+                        percentage=share, charge=share * 3.0, current=-1.2, power_supply_status=status
+                    )
+                )
+            return widget
+
+        return build
+
+    return {
+        "never": make(math.nan, state="never"),
+        "live": make(0.87),
+        "stale": make(0.87, state="stale", age=12.0),
+        "alarm": make(0.08, state="alarm"),
+        "disabled": make(0.87, state="disabled"),
+        "low": make(0.34),
+        "charging": make(0.55, status=CHARGING),
+        "chip": make(0.87, BatteryChip),
+        "chip brief": make(0.87, BatteryChip, brief=True),
+        "chip low": make(0.34, BatteryChip),
+        "chip empty": make(0.12, BatteryChip),
+        "chip stale": make(0.87, BatteryChip, state="stale", age=12.0),
+        "chip never": make(math.nan, BatteryChip, state="never"),
+    }

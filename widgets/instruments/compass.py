@@ -1,0 +1,159 @@
+"""A compass card: it turns under a fixed pointer, and says the heading in the middle.
+
+compass = Compass()
+robot.on("/imu/data", compass.show)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any, ClassVar
+
+import numpy as np
+from kivy.graphics import PopMatrix, PushMatrix, Rotate, Translate
+from kivy.metrics import dp
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
+from kivy.uix.widget import Widget
+
+from bridge.core.units import heading_from_yaw
+from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
+from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.pilothouse_msgs import Manoeuvre
+from bridge.msgs.sensor_msgs import Imu
+from widgets.core.geometry import dial_point, dial_text, heading_of, heading_text
+from widgets.core.ink import Drawing, Ink, Word, Words, tint
+from widgets.core.shapes import Shapes
+from widgets.core.theme import theme
+
+__all__ = ["Compass", "samples"]
+
+STEP = 5
+"""Between two ticks of the card [deg]."""
+HOLDS = ("course", "hover")
+"""Kinds of manoeuvre that hold a heading."""
+UNKNOWN = 0.5
+"""Opacity while the heading is not known, 0 to 1."""
+
+
+class Compass(Drawing):
+    """Which way the bow points."""
+
+    accepts: ClassVar = (Imu, Odometry, PoseWithCovarianceStamped, Manoeuvre)
+    drawn_from: ClassVar = ("heading", "wanted", "transparent")
+
+    heading = NumericProperty(math.nan)
+    """Of the bow [deg], 0 north, clockwise; NaN when not known."""
+    wanted = NumericProperty(math.nan)
+    """Where it should point [deg]; NaN when nobody asked."""
+    transparent = BooleanProperty(False)
+    """Let what is behind shine through the card."""
+
+    def _side(self) -> float:
+        return min(self.width, self.height)
+
+    side = AliasProperty(_side, bind=["size"], cache=True)
+    """Diameter of the whole instrument [px]."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        self._card, self._marks, self._words = Ink(), Ink(), Words()
+        self._place, self._turn = Translate(), Rotate(axis=(0, 0, 1))
+        self._card_look: tuple[object, ...] = ()
+        super().__init__(**kwargs)
+        parts = (
+            PushMatrix(),
+            self._place,
+            self._turn,
+            self._card,
+            PopMatrix(),
+            self._marks,
+            self._words.canvas,
+        )
+        for part in parts:
+            self.canvas.add(part)
+        self.bind(side=self._round)
+        self._round()
+
+    def _round(self, *_: object) -> None:
+        self.veil_radius = self.side / 2
+
+    def show(self, msg: Imu | Odometry | PoseWithCovarianceStamped | Manoeuvre) -> None:
+        """Take the heading out of the message, or out of an order the one to hold.
+
+        An Imu that measures no orientation gives NaN, and so does an order that holds none.
+        """
+        if isinstance(msg, Manoeuvre):
+            self.wanted = heading_from_yaw(msg.yaw) if msg.kind in HOLDS else math.nan
+        else:
+            self.heading = heading_of(msg)
+
+    def draw(self) -> None:
+        """Turn the card; draw it anew only when its size or colours have changed."""
+        look = (self.side, theme.name, self.transparent, self.state)
+        if look != self._card_look:
+            self._card_look = look
+            self._card.draw(self._card_shapes())
+        known = not math.isnan(self.heading)
+        self._place.xy = self.center
+        self._turn.angle = self.heading if known else 0.0
+        self._marks.draw(self._mark_shapes())
+        strength = 1.0 if known else UNKNOWN
+        self._card.fade(strength)
+        self._marks.fade(strength)
+        self._words.write(self._texts(known), strength)
+
+    def _card_shapes(self) -> Shapes:
+        shapes, radius = Shapes(), self.side / 2 - dp(3)
+        shapes.disc(0, 0, radius, tint(theme.surface, 0.82 if self.transparent else 1.0))
+        edge = theme.danger if self.state == "alarm" else theme.line
+        shapes.ring(0, 0, radius, max(dp(1.6), radius * 0.016), edge)
+        for every, length, width, colour in self._ticks():
+            bearings = [b for b in range(0, 360, STEP) if (b % 30 == 0) == (every == 30)]
+            outer = np.array([dial_point(b, radius * 0.94) for b in bearings])
+            inner = np.array([dial_point(b, radius * (0.94 - length)) for b in bearings])
+            shapes.segments(outer, inner, max(dp(1), radius * width), colour)
+        return shapes
+
+    def _ticks(self) -> Iterator[tuple[int, float, float, Any]]:
+        yield STEP, 0.05, 0.014, theme.muted
+        yield 30, 0.11, 0.026, theme.text
+
+    def _mark_shapes(self) -> Shapes:
+        shapes, radius = Shapes(), self.side / 2 - dp(3)
+        if not math.isnan(self.wanted) and not math.isnan(self.heading):
+            shapes.polygon(self._pointer(self.wanted - self.heading, radius, 0.95), theme.plan)
+        shapes.polygon(self._pointer(0.0, radius, 1.0), theme.accent)
+        return shapes
+
+    def _pointer(self, bearing: float, radius: float, size: float) -> list[tuple[float, float]]:
+        corners = ((0.0, 1.0 + 0.03 * size), (-5.0 * size, 0.86), (5.0 * size, 0.86))
+        points = [dial_point(bearing + turn, radius * reach) for turn, reach in corners]
+        return [(self.center_x + x, self.center_y + y) for x, y in points]
+
+    def _texts(self, known: bool) -> Iterator[Word]:
+        radius, heading = self.side / 2 - dp(3), self.heading if known else 0.0
+        for bearing in range(0, 360, 30):
+            x, y = dial_point(bearing, radius * 0.66, heading)
+            main = bearing % 90 == 0
+            colour = theme.danger if bearing == 0 else theme.text
+            size = radius * (0.215 if main else 0.15)
+            yield Word(dial_text(bearing), self.center_x + x, self.center_y + y, size, colour, bold=main)
+        text = heading_text(self.heading)
+        shift = radius * 0.06 if known else 0.0  # the degree sign hangs over, so that the figures are centred
+        yield Word(text, self.center_x + shift, self.center_y, radius * 0.345, theme.text, bold=True)
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """The states of the instrument by name."""
+
+    def made(**kwargs: Any) -> Callable[[], Widget]:
+        return lambda: Compass(size_hint=(None, None), size=(dp(220), dp(220)), **kwargs)
+
+    return {
+        "never": made(),
+        "live": made(heading=98.0, wanted=113.0, state="live"),
+        "north": made(heading=359.6, state="live"),
+        "stale": made(heading=214.0, wanted=240.0, state="stale", age=4.0),
+        "alarm": made(heading=214.0, state="alarm"),
+        "disabled": made(heading=98.0, state="disabled"),
+    }

@@ -1,0 +1,239 @@
+"""One figure of a robot: its name, the value big, the unit small.
+
+speed = Readout(name="Speed", unit="m/s", path="twist.twist.linear.x")
+robot.on("/odom", speed.show)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.metrics import dp
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, OptionProperty, StringProperty
+from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.widget import Widget
+
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import Twist
+from widgets.core.base import RobotWidget, age_text, fitting_size, text_texture
+from widgets.core.theme import theme
+from widgets.parts.labels import spaced
+
+__all__ = ["Readout", "figure"]
+
+DASH, MINUS, DEGREE = "—", "−", "°"
+
+Builder.load_string("""
+<Readout>:
+    orientation: 'vertical'
+    size_hint: None, None
+    width: max(heading.texture_size[0], row.width) if self.fitted else self.width
+    height: heading.height + row.height + dp(1)
+    spacing: dp(1)
+    SectionLabel:
+        id: heading
+        title: root.heading
+        text_size: (None, None) if root.fitted else (self.width, None)
+        width: self.texture_size[0] if root.fitted else self.width
+        size_hint_x: None if root.fitted else 1
+        role: 'danger' if root.state == 'alarm' else 'muted'
+        font_size: root.headed[1]
+    BoxLayout:
+        id: row
+        size_hint: None, None
+        size: self.minimum_size
+        spacing: dp(5)
+        ValueUnit:
+            value: root.text
+            unit: root.unit_after
+            role: root.role
+            font_size: root.font_size
+            unit_size: max(sp(13), root.font_size * .56)
+            room: 0 if root.fitted else max(root.width - aged.width - warning.width - 2 * row.spacing, dp(20))
+        Label:
+            id: aged
+            text: root.aged
+            font_name: theme.font
+            font_size: sp(12)
+            color: theme.muted
+            disabled_color: self.color
+            size_hint: None, None
+            size: (self.texture_size if root.aged else (0, 0))
+            pos_hint: {'center_y': .5}
+        Icon:
+            id: warning
+            name: 'warning'
+            role: 'danger'
+            font_size: root.font_size * .8
+            width: self.font_size if root.state == 'alarm' else 0
+            opacity: 1 if root.state == 'alarm' else 0
+            pos_hint: {'center_y': .5}
+""")
+
+
+def figure(value: float, decimals: int = 1, *, signed: bool = False) -> str:
+    """`value` with so many decimals and a real minus sign; a dash for NaN and infinity."""
+    if not math.isfinite(value):
+        return DASH
+    text = f"{value:+.{decimals}f}" if signed else f"{value:.{decimals}f}"
+    if not any(digit in text for digit in "123456789"):
+        text = text.lstrip("+-")
+    return text.replace("-", MINUS)
+
+
+def clock_figure(seconds: float) -> str:
+    """A length of time [s] as minutes and seconds, from an hour on as hours and minutes; a dash for NaN."""
+    if not math.isfinite(seconds):
+        return DASH
+    whole = max(0, round(seconds))
+    return f"{whole // 60}:{whole % 60:02d}" if whole < 3600 else f"{whole // 3600}:{whole // 60 % 60:02d}"
+
+
+class Readout(RobotWidget, BoxLayout):
+    """A name over a value with its unit. `path` says where in a message the value is."""
+
+    accepts = (Msg,)
+    veiled = False
+
+    name = StringProperty("")
+    value = NumericProperty(math.nan)
+    """In `unit` after `scale`; NaN is drawn as a dash."""
+    unit = StringProperty("")
+    decimals = NumericProperty(1)
+    signed = BooleanProperty(False)
+    """A plus before what is above 0."""
+    plus = StringProperty("")
+    """Said behind a value above 0 in the place of the unit, as in `28° port`; empty for a sign."""
+    minus = StringProperty("")
+    """The same of one below 0, which has no sign then."""
+    kind = OptionProperty("number", options=["number", "clock"])
+    """`clock` shows a `value` [s] as minutes and seconds."""
+    words = StringProperty("")
+    """Shown instead of `value` when not empty."""
+    path = StringProperty("")
+    """Field of the message, as in `twist.twist.linear.x`; a number picks from a list, and several of a vector's letters, as in
+    `twist.twist.linear.xy`, are how long it is in those directions."""
+    scale = NumericProperty(1.0)
+    """What the field is multiplied by, as in 57.2958 from radian to degree."""
+    font_size = NumericProperty("26sp")
+    """Of the value [px]."""
+    fitted = BooleanProperty(True)
+    """As wide as its words; else as wide as it is told, and the name is cut short where it must be."""
+
+    def _text(self) -> str:
+        if self.state == "never":
+            return DASH
+        if self.words:
+            return self.words
+        if self.kind == "clock":
+            return clock_figure(self.value)
+        told = abs(self.value) if self.plus and self.minus else self.value
+        text = figure(told, int(self.decimals), signed=self.signed)
+        return text + DEGREE if self.unit == DEGREE and text != DASH else text
+
+    text = AliasProperty(
+        _text,
+        bind=["state", "value", "words", "kind", "decimals", "signed", "unit", "plus", "minus"],
+        cache=True,
+    )
+    """The figure as written."""
+
+    def _unit_after(self) -> str:
+        unit = "" if self.unit == DEGREE else self.unit
+        if not (self.plus and self.minus):
+            return unit
+        told = figure(self.value, int(self.decimals)) if self.state != "never" else DASH
+        some = any(digit in told for digit in "123456789")
+        return f"{unit} {self.plus if self.value > 0 else self.minus}".strip() if some else unit
+
+    unit_after = AliasProperty(
+        _unit_after, bind=["unit", "plus", "minus", "value", "decimals", "state"], cache=True
+    )
+    """The unit where it stands apart from the figure, and to which side; a degree sign belongs to the figure."""
+
+    def _headed(self) -> tuple[str, float]:
+        old = age_text(self.age) if self.state == "stale" else ""
+        if not old:
+            return self.name, theme.size_label
+        whole, brief = f"{self.name} · {old}", f"{self.name} {old.removesuffix(' old')}"
+        if self.fitted or self._wide(whole) <= self.width:
+            return whole, theme.size_label
+        size = fitting_size([spaced(brief)], theme.size_label, self.width - dp(2))
+        if self._wide(brief, size) <= self.width:
+            return brief, size
+        return self.name, theme.size_label
+
+    def _wide(self, heading: str, size: float | None = None) -> float:
+        return float(text_texture(spaced(heading), size or theme.size_label, theme.font).width)
+
+    headed = AliasProperty(_headed, bind=["name", "state", "age", "fitted", "width"], cache=True)
+    """The name, and how old the value is where that must be said and there is room for both; and the size of its type [px]."""
+
+    def _heading(self) -> str:
+        return self.headed[0]
+
+    heading = AliasProperty(_heading, bind=["headed"], cache=True)
+    """As in `headed`."""
+
+    def _aged(self) -> str:
+        return (
+            age_text(self.age).removesuffix(" old")
+            if self.state == "stale" and self.heading == self.name
+            else ""
+        )
+
+    aged = AliasProperty(_aged, bind=["state", "age", "heading", "name"], cache=True)
+    """How old the value is where the name leaves no room for that: it stands behind the unit."""
+
+    def _role(self) -> str:
+        return {"live": "text", "alarm": "danger"}.get(self.state, "muted")
+
+    role = AliasProperty(_role, bind=["state"], cache=True)
+    """Role of the figure's colour."""
+
+    def show(self, msg: Msg) -> None:
+        """Take the field at `path`; AttributeError or IndexError when the message has no such field."""
+        found: Any = msg
+        for part in self.path.split("."):
+            found = _member(found, part)
+        self.value = float(found) * self.scale
+
+
+def _member(found: Any, part: str) -> Any:
+    """What is at one step of a path."""
+    if part.lstrip("-").isdigit():
+        return found[int(part)]
+    if len(part) > 1 and set(part) <= set("xyz"):
+        return math.hypot(*(getattr(found, letter) for letter in part))
+    return getattr(found, part)
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """Every state, and every way of writing a value."""
+
+    def speed(**kwargs: Any) -> Callable[[], Widget]:
+        def build() -> Widget:
+            readout = Readout(name="Speed", unit="m/s", decimals=2, path="linear.x", **kwargs)
+            if readout.state != "never":
+                readout.show(Twist.planar(0.624, 0.0))
+            return readout
+
+        return build
+
+    return {
+        "never": speed(),
+        "live": speed(state="live"),
+        "stale": speed(state="stale", age=3.2),
+        "alarm": speed(state="alarm"),
+        "disabled": speed(state="disabled"),
+        "signed": lambda: Readout(name="Steer", unit="°", value=-12.0, decimals=0, state="live"),
+        "to a side": lambda: Readout(
+            name="Rudder", unit="°", value=-12.0, decimals=0, plus="port", minus="stbd", state="live"
+        ),
+        "clock": lambda: Readout(name="ETA", unit="min", value=190.0, kind="clock", state="live"),
+        "words": lambda: Readout(name="Lap", words="2", unit="of 5", state="live"),
+        "large": lambda: Readout(name="Next WP", value=7.4, unit="m", font_size="40sp", state="live"),
+    }

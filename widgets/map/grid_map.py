@@ -1,0 +1,221 @@
+"""A map of the robot's own world in metres: its occupancy grid, or a plain squared ground where it has none.
+
+map = GridMap(mode="points")
+robot.on("/map", map.show), robot.on("/pose", map.show)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, ClassVar
+
+import numpy as np
+from kivy.graphics import Color, PopMatrix, PushMatrix, Rectangle, Rotate, Scale, Translate
+from kivy.graphics.texture import Texture
+from kivy.metrics import dp
+from kivy.properties import ObjectProperty
+from kivy.uix.widget import Widget
+from numpy.typing import NDArray
+
+from bridge.msgs import Msg
+from bridge.msgs.arrays import Int8Array
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Point32,
+    Polygon,
+    Pose,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Quaternion,
+)
+from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
+from bridge.msgs.pilothouse_msgs import Limits
+from widgets.core.geometry import Points, occupancy_pixels, screen_angle, spread, tween
+from widgets.core.ink import Ink, tint
+from widgets.core.shapes import Shapes
+from widgets.core.theme import theme
+from widgets.map.map_marks import grid_lines
+from widgets.map.map_overlay import MapOverlay
+
+__all__ = ["GridMap", "fenced", "patrol", "samples"]
+
+
+class GridMap(MapOverlay):
+    """The local map. Two fingers move, enlarge and turn it."""
+
+    accepts: ClassVar = (OccupancyGrid, *MapOverlay.accepts)
+    drawn_from: ClassVar = (*MapOverlay.drawn_from, "grid")
+
+    grid = ObjectProperty(None, allownone=True, force_dispatch=True)
+    """The newest OccupancyGrid; None before the first."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        self._squares = Ink()
+        self._ground = Rectangle()
+        self._ground_colour, self._grid_colour = Color(), Color(0, 0, 0, 0)
+        self._cells = Rectangle(size=(0, 0))
+        self._shift, self._turn, self._scale = Translate(), Rotate(axis=(0, 0, 1)), Scale(1.0)
+        self._texture: Texture | None = None
+        self._texture_look: tuple[object, ...] = ()
+        super().__init__(**kwargs)
+        placing = (
+            PushMatrix(),
+            self._shift,
+            self._turn,
+            self._scale,
+            self._grid_colour,
+            self._cells,
+            PopMatrix(),
+        )
+        for part in (self._ground_colour, self._ground, *placing, self._squares):
+            self.canvas.before.add(part)
+
+    def show(self, msg: Msg) -> None:
+        """Take over a grid, or what every map shows."""
+        if not isinstance(msg, OccupancyGrid):
+            super().show(msg)
+            return
+        self.grid = msg if len(msg.data) == msg.info.width * msg.info.height > 0 else None
+        self._fit_until_touched()
+
+    def extent(self) -> Points:
+        """The marks and what the grid knows."""
+        return np.concatenate([super().extent(), self._corners()])
+
+    def _corners(self) -> Points:
+        if self.grid is None:
+            return spread([])
+        info = self.grid.info
+        known = np.argwhere(self._numbers() >= 0)
+        if not len(known):
+            return spread([])
+        (low_row, low_column), (row, column) = known.min(axis=0), known.max(axis=0) + 1
+        yaw = info.origin.orientation.yaw
+        ahead = info.resolution * complex(math.cos(yaw), math.sin(yaw))
+        origin = complex(info.origin.position.x, info.origin.position.y)
+        corners = [origin + ahead * complex(c, r) for c in (low_column, column) for r in (low_row, row)]
+        return spread((z.real, z.imag) for z in corners)
+
+    def _numbers(self) -> NDArray[np.int8]:
+        info = self.grid.info
+        return np.frombuffer(self.grid.data, np.int8).reshape(info.height, info.width)
+
+    def draw_ground(self) -> None:
+        """Bring the ground, the grid and the squares up to date."""
+        self._ground.pos, self._ground.size = self.pos, self.size
+        self._ground_colour.rgba = tween(theme.bg, theme.surface, 0.6)
+        shapes = Shapes()
+        grid_lines(shapes, self.view, (*self.pos, *self.size), tint(theme.muted, 0.13))
+        self._squares.draw(shapes)
+        if self.grid is None:
+            self._grid_colour.a = 0.0
+            return
+        self._colour_grid()
+        self._place_grid()
+
+    def _place_grid(self) -> None:
+        info, view = self.grid.info, self.view
+        position = info.origin.position
+        self._shift.xy = view.to_screen(position.x, position.y)
+        self._turn.angle = screen_angle(view.turn + info.origin.orientation.yaw)
+        self._scale.x = self._scale.y = view.scale * info.resolution
+        self._cells.size = info.width, info.height
+
+    def _colour_grid(self) -> None:
+        look = (id(self.grid), theme.name)
+        if look == self._texture_look:
+            return
+        self._texture_look = look
+        numbers = self._numbers()
+        free, unknown = theme.surface, tint(theme.bg, 0.0)
+        pixels = occupancy_pixels(numbers, free, tween(theme.line, theme.muted, 0.45), unknown)
+        size = (numbers.shape[1], numbers.shape[0])
+        if self._texture is None or self._texture.size != size:
+            self._texture = Texture.create(size=size, colorfmt="rgba")
+            self._cells.texture = self._texture
+        self._texture.blit_buffer(pixels.reshape(-1), colorfmt="rgba", bufferfmt="ubyte")
+        self._grid_colour.rgba = 1, 1, 1, 1
+
+
+def _parking_lot() -> OccupancyGrid:
+    """A walled lot of 36 m x 24 m with two rows of parked cars, at 0.1 m a cell."""
+    cells = np.full((240, 360), 0, np.int8)
+    cells[:4], cells[-4:], cells[:, :4], cells[:, -4:] = 100, 100, 100, 100
+    for row in (18, 178):
+        for bay in (1, 2, 4, 7, 8, 10):
+            column = 16 + bay * 27
+            cells[row : row + 42, column : column + 18] = 100
+            cells[row + 2 : row + 40, column + 2 : column + 16] = 84
+    info = MapMetaData(resolution=0.1, width=360, height=240, origin=Pose(Point(-18.0, -12.0)))
+    return OccupancyGrid(info=info, data=Int8Array(cells.tobytes()))
+
+
+def patrol(map_: MapOverlay) -> None:
+    """Put a patrol half done onto a map."""
+    map_.waypoints = [(-11.0, 3.0), (-2.0, 3.6), (7.5, 2.6), (11.0, -2.6), (0.5, -3.4), (-9.0, -2.8)]
+    map_.home, map_.visited, map_.coming = [-15.5, -4.0], 2, 2
+    steps = np.linspace(0.0, 1.0, 240)
+    for share in steps:
+        bend = math.sin(share * math.pi)
+        place = Point(-15.5 + 19.0 * share, -4.0 + 7.0 * share + 2.4 * bend)
+        pose = Pose(place, Quaternion.from_yaw(-0.06))
+        map_.show(PoseWithCovarianceStamped(pose=PoseWithCovariance(pose)))
+    map_.camera_fov = 1.2
+    map_.plan = np.stack([3.5 + 4 * steps, 3.0 - 0.4 * np.sin(steps * math.pi / 2)], axis=1)
+    map_.intruders = [(5.8, -0.4, "Intruder 1")]
+
+
+def fenced(map_: MapOverlay) -> None:
+    """Put a fence onto a map that leaves some of its waypoints out."""
+    corners = [(-16.5, -10.5), (9.0, -10.5), (9.0, -1.0), (16.5, -1.0), (16.5, 10.5), (-16.5, 10.5)]
+    hole = [(-3.0, -1.2), (3.0, -4.8), (5.4, -1.0), (1.2, 0.4)]
+    map_.show(Limits(keep_in=[_area(corners)], keep_out=[_area(hole)]))
+
+
+def _area(corners: list[tuple[float, float]]) -> Polygon:
+    return Polygon([Point32(x, y) for x, y in corners])
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """The states of the map by name."""
+
+    def made(
+        *,
+        driven: bool = True,
+        grid: bool = True,
+        fence: bool = False,
+        size: tuple[float, float] = (760, 500),
+        **more: Any,
+    ) -> Any:
+        def build() -> GridMap:
+            map_ = GridMap(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
+            if grid:
+                map_.show(_parking_lot())
+            if driven:
+                patrol(map_)
+            if fence:
+                fenced(map_)
+            map_.fit()
+            return map_
+
+        return build
+
+    def placing() -> GridMap:
+        map_ = made(state="live")()
+        map_.mode = "place_robot"
+        map_.placed = [1.0, 0.5, 0.7]
+        return map_
+
+    return {
+        "never": made(driven=False, grid=False, size=(380, 300)),
+        "live": made(state="live"),
+        "points": made(state="live", mode="points", selected=3),
+        "fence": made(state="live", mode="points", selected=3, fence=True),
+        "fence phone": made(state="live", size=(412, 480), fence=True),
+        "place": placing,
+        "phone": made(state="live", size=(412, 480)),
+        "stale": made(state="stale", age=12.0, size=(380, 300)),
+        "alarm": made(state="alarm", size=(380, 300)),
+        "disabled": made(state="disabled", size=(380, 300)),
+    }

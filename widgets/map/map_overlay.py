@@ -1,0 +1,373 @@
+"""What every map shows above its ground, and how it is looked at; `GridMap` and `GeoMap` add the ground.
+
+map.waypoints = [(2.0, 1.0), (8.0, 1.0)]
+map.bind(on_add=lambda _, x, y: map.waypoints.append((x, y)))
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+from kivy.graphics import InstructionGroup, Rectangle, StencilPop, StencilPush, StencilUnUse, StencilUse
+from kivy.metrics import dp, sp
+from kivy.properties import (
+    AliasProperty,
+    BooleanProperty,
+    ListProperty,
+    NumericProperty,
+    ObjectProperty,
+    OptionProperty,
+)
+
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
+from bridge.msgs.nav_msgs import Path
+from bridge.msgs.pilothouse_msgs import IntruderArray, Limits
+from bridge.msgs.sensor_msgs import LaserScan
+from widgets.core.base import VEIL
+from widgets.core.geometry import Points, Trail, View, nice_floor, scan_points, spread
+from widgets.core.ink import Drawing, Ink, Word, Words, ground, tint
+from widgets.core.shapes import Shapes
+from widgets.core.theme import theme
+from widgets.map import fence_marks
+from widgets.map import map_marks as marks
+from widgets.map.fence import Fence
+from widgets.map.map_gestures import MapGestures
+
+__all__ = ["MapOverlay"]
+
+ZOOM = 1.5
+"""Of one press of a zoom button."""
+LEAST, MOST = 0.5, 400.0
+"""Limits of the scale [dp/m]."""
+FITTED_MOST = 60.0
+"""Greatest scale that `fit` chooses [dp/m]."""
+NOTHING = np.zeros((0, 2))
+
+
+class MapOverlay(MapGestures, Drawing):
+    """The robot and its task on a map. Everything is in the `map` frame: x east, y north [m]."""
+
+    accepts: ClassVar = (PoseWithCovarianceStamped, Path, IntruderArray, LaserScan, Limits)
+    drawn_from: ClassVar = (
+        "view", "waypoints", "selected", "home", "placed", "grip", "mode", "robot", "robot_radius", "camera_fov",
+        "plan", "places", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets", "fence", "foot",
+    )  # fmt: skip
+
+    robot = ListProperty([math.nan] * 3)
+    """Where it believes to be: x, y [m], yaw [rad]; NaN before the first pose."""
+    robot_radius = NumericProperty(0.2)
+    """Of the robot itself [m]; its disc never gets smaller than that on the map."""
+    camera_fov = NumericProperty(math.nan)
+    """Horizontal field of view of its camera [rad]; NaN draws none."""
+    plan = ObjectProperty(NOTHING, force_dispatch=True)
+    """The way it means to take, shape (n, 2) [m]."""
+    intruders = ListProperty()
+    """What does not belong here: (x, y, label), [m]."""
+    laser = ObjectProperty(NOTHING, force_dispatch=True)
+    """What the laser hit, shape (n, 2) [m], placed by the pose known when the sweep came."""
+    show_laser = BooleanProperty(False)
+    """Draw what the laser hits."""
+    fence = ObjectProperty(Fence())
+    """Where it may be, a `Fence`; waypoints, home and places that it would refuse are marked."""
+    foot = NumericProperty(0)
+    """How far above the lower edge of what is free the scale and the legend begin [px]; NaN draws neither."""
+    visited = NumericProperty(0)
+    """How many of the first waypoints are done; they are drawn filled."""
+    coming = NumericProperty(-1)
+    """Index of the waypoint it is heading for; -1 for none."""
+    motion_name = OptionProperty("loop", options=("loop", "random", "intermittent"))
+    """How the waypoints follow each other: round and round, in any order, or round with a stay at each."""
+    follow = BooleanProperty(False)
+    """Keep the robot in the middle; a finger that moves the map ends that."""
+    insets = ListProperty([0, 0, 0, 0])
+    """How much is covered by what lies over the map [px]: left, bottom, right, top."""
+
+    veils: ClassVar = {"disabled": VEIL["disabled"]}
+    """A stale pose fades the robot and not the map."""
+
+    def _free_box(self) -> tuple[float, float, float, float]:
+        left, bottom, right, top = self.insets
+        wide, high = max(self.width - left - right, dp(40)), max(self.height - bottom - top, dp(40))
+        return self.x + left, self.y + bottom, wide, high
+
+    free_box = AliasProperty(_free_box, bind=["pos", "size", "insets"], cache=True)
+    """The part of the map that nothing covers: x, y, width, height [px]."""
+
+    def _badge_pos(self) -> tuple[float, float]:
+        x, y, wide, high = self.free_box
+        left, right = self.badge_span if any(self.badge_span) else (x, x + wide)
+        return (left + right - self.badge_size[0]) / 2, y + high - self.badge_size[1] - dp(8)
+
+    badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "free_box", "badge_span"], cache=True)
+    """The age stands at the top of what is free."""
+
+    badge_span = ListProperty([0, 0])
+    """From where to where along that top nothing lies, x [px]; zeros for all of it."""
+
+    def _mark_radius(self) -> float:
+        return dp(21) if min(self.width, self.height) > dp(440) else dp(16)
+
+    mark_radius = AliasProperty(_mark_radius, bind=["size"], cache=True)
+    """Of a waypoint's disc [px]."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        self._trail = Trail()
+        self.over_ground = InstructionGroup()
+        """Drawn above the ground and below the marks; for a subclass to fill."""
+        self._fence_ink = Ink()
+        self._fence_look: tuple[object, ...] = ()
+        self._layers = [(Ink(), Words()) for _ in range(2)]
+        self._touched = False
+        self._middle = (0.0, 0.0)
+        super().__init__(**kwargs)
+        self._clip = [Rectangle(), Rectangle()]
+        for part in (StencilPush(), self._clip[0], StencilUse()):
+            self.canvas.before.add(part)
+        self.canvas.add(self.over_ground)
+        self.canvas.add(self._fence_ink)
+        for ink, words in self._layers:
+            self.canvas.add(ink)
+            self.canvas.add(words.canvas)
+        for part in (StencilUnUse(), self._clip[1], StencilPop()):
+            self.canvas.after.add(part)
+        self.bind(pos=self._lay_out, size=self._lay_out, insets=self._lay_out)
+        self._lay_out()
+
+    # what comes in
+
+    def show(self, msg: Msg) -> None:
+        """Take over a pose, a plan, intruders, a laser sweep or limits."""
+        if isinstance(msg, PoseWithCovarianceStamped):
+            self._show_pose(msg)
+        elif isinstance(msg, Path):
+            self.plan = spread((p.pose.position.x, p.pose.position.y) for p in msg.poses)
+        elif isinstance(msg, IntruderArray):
+            self.intruders = [(i.position.x, i.position.y, f"Intruder {i.id}") for i in msg.intruders]
+        elif isinstance(msg, LaserScan):
+            self._show_scan(msg)
+        elif isinstance(msg, Limits):
+            self.fence = Fence.of(msg)
+            self._fit_until_touched()
+        else:
+            super().show(msg)
+
+    def _show_pose(self, msg: PoseWithCovarianceStamped) -> None:
+        pose, first = msg.pose.pose, not self.located
+        self.robot = [pose.position.x, pose.position.y, pose.orientation.yaw]
+        if not self.located:
+            return
+        self._trail.add(*self.robot[:2])
+        if self.follow:
+            self._centre(*self.robot[:2])
+        elif first:
+            self._fit_until_touched()
+
+    def _show_scan(self, msg: LaserScan) -> None:
+        if not (self.show_laser and self.located):
+            return
+        _, _, points = scan_points(msg.ranges, msg.angle_min, msg.angle_increment)
+        x, y, yaw = self.robot
+        self.laser = View.centred(0, 0, at=(x, y), scale=1.0, turn=yaw).many_to_screen(spread(points))
+
+    @property
+    def located(self) -> bool:
+        """The robot's pose is known."""
+        return all(map(math.isfinite, self.robot))
+
+    @property
+    def trail(self) -> Points:
+        """Where it has been, oldest first, shape (n, 2) [m]; the newest 2,000 points are kept."""
+        return self._trail.points
+
+    # how it is looked at
+
+    def look(self, view: View) -> None:
+        """Change the view as the operator wishes; that ends `follow` and automatic fitting."""
+        self._touched, self.follow = True, False
+        self.view = self.limited(view)
+
+    def limited(self, view: View) -> View:
+        """The view with its scale within what this map can show."""
+        return view.within(dp(LEAST), dp(MOST), *self._free_middle())
+
+    def zoom_in(self) -> None:
+        """Enlarge about the middle of what is free."""
+        self._zoom(ZOOM)
+
+    def zoom_out(self) -> None:
+        """Make smaller about the middle of what is free."""
+        self._zoom(1 / ZOOM)
+
+    def _zoom(self, factor: float) -> None:
+        self._touched = True
+        self.view = self.limited(self.view.zoomed(factor, *self._free_middle()))
+
+    def centre_on_robot(self) -> None:
+        """Bring the robot into the middle of what is free and keep it there; nothing while it is not located."""
+        if self.located:
+            self._touched = self.follow = True
+            self._centre(*self.robot[:2])
+
+    def fit(self) -> None:
+        """Show everything, as large as it fits into what is free."""
+        points = self.extent()
+        if len(points):
+            self.follow = False
+            x, y, wide, high = self.free_box
+            edge = min(2.2 * self.mark_radius, wide / 4, high / 4)
+            box = (x + edge, y + edge, wide - 2 * edge, high - 2 * edge)
+            turn = self.view.turn if self.may_turn else 0.0
+            self.view = self.limited(View.fitting(points, box=box, turn=turn, most=dp(FITTED_MOST)))
+
+    def extent(self) -> Points:
+        """Everything worth seeing, shape (n, 2) [m]."""
+        places = [*self.waypoints, self.home, self.robot[:2], *self.intruders, *self.places]
+        corners = [corner for area in self.fence.keep_in for corner in area]
+        return spread(tuple(place[:2]) for place in (*places, *corners) if len(place))
+
+    def _centre(self, x: float, y: float) -> None:
+        px, py = self._free_middle()
+        was_x, was_y = self.view.to_screen(x, y)
+        self.view = self.view.moved(px - was_x, py - was_y)
+
+    def _free_middle(self) -> tuple[float, float]:
+        x, y, wide, high = self.free_box
+        return x + wide / 2, y + high / 2
+
+    def _lay_out(self, *_: object) -> None:
+        for rectangle in self._clip:
+            rectangle.pos, rectangle.size = self.pos, self.size
+        was, self._middle = self._middle, self._free_middle()
+        self.view = self.view.moved(self._middle[0] - was[0], self._middle[1] - was[1])
+        self._fit_until_touched()
+
+    def _fit_until_touched(self) -> None:
+        if not self._touched and self.width > dp(100):
+            self.fit()
+
+    def on_places(self, *_: object) -> None:
+        """Bring them into sight while nobody has moved the map."""
+        self._fit_until_touched()
+
+    def on_mode(self, *_: object) -> None:
+        """Let go of what was held; bring up the robot to be placed, at its pose or in the middle."""
+        self.let_go()
+        if self.mode != "place_robot":
+            self.placed = []
+        elif self.located:
+            self.placed = list(self.robot)
+        else:
+            self.placed = [*self.view.to_world(*self._free_middle()), 0.0]
+
+    # how it is drawn
+
+    def draw(self) -> None:
+        """Bring ground, marks and robot up to date."""
+        self.draw_ground()
+        self._draw_fence()
+        for (ink, words), fill in zip(self._layers, (self._fill_task, self._fill_robot), strict=True):
+            shapes = Shapes()
+            words.write(list(fill(shapes)))
+            ink.draw(shapes)
+
+    def draw_ground(self) -> None:
+        """Bring what lies below the marks up to date."""
+
+    def _draw_fence(self) -> None:
+        """Anew only when it or the view of it has changed: a pose, which comes 20 times a second, is no reason."""
+        look = (self.fence, self.view, *self.pos, *self.size, theme.name)
+        if look != self._fence_look:
+            self._fence_look = look
+            shapes = Shapes()
+            if self.fence:
+                fence_marks.fence_lines(shapes, self.view, self.fence, (*self.pos, *self.size))
+            self._fence_ink.draw(shapes)
+
+    def _fill_task(self, shapes: Shapes) -> Iterator[Word]:
+        view, places, home = self.view, self._places(), self._home_place()
+        marks.trail_line(shapes, view, self._trail.points)
+        marks.plan_line(shapes, view, self.plan)
+        if self.motion_name != "random":
+            marks.route_line(shapes, view, places, closed=True)
+        if self.show_laser:
+            marks.laser_dots(shapes, view, self.laser)
+        yield from marks.place_marks(shapes, view, self.places, self.mark_radius * 0.66)
+        if home:
+            yield marks.home_mark(shapes, view, home, self.mark_radius * 0.9)
+        yield from marks.waypoint_marks(
+            shapes, view, places, self.mark_radius,
+            visited=self.visited, coming=self.coming, selected=self.selected,
+        )  # fmt: skip
+        yield from self._refused(shapes, places, home)
+
+    def _refused(
+        self, shapes: Shapes, waypoints: list[tuple[float, float]], home: Sequence[float]
+    ) -> Iterator[Word]:
+        """Where the robot would not go: of a dock it is the place before it that counts, which is not known here."""
+        if not self.fence:
+            return
+        sizes = [(place, self.mark_radius) for place in waypoints]
+        sizes += [(tuple(home[:2]), self.mark_radius * 0.9)] if home else []
+        sizes += [(place[:2], self.mark_radius * 0.8) for place in self.places if place[3] != "dock"]
+        for (x, y), size in sizes:
+            if self.fence.forbids(x, y, self.robot_radius):
+                yield fence_marks.refused_mark(shapes, self.view, x, y, size)
+
+    def _fill_robot(self, shapes: Shapes) -> Iterator[Word]:
+        yield from self._alarms(shapes)
+        if self.located:
+            self._robot_shapes(shapes, tuple(self.robot), faded=self.state == "stale")
+        else:
+            x, y = self._free_middle()
+            word = Word("No position has come yet", x, y, sp(16), theme.text)
+            ground(shapes, word, tint(theme.bg, 0.85))
+            yield word
+        if self.placed:
+            pose = tuple(self.placed)
+            word, _ = marks.place_handle(shapes, self.view, pose, self.mark_radius, self.handle_reach())
+            marks.ghost_mark(shapes, self.view, pose, self._robot_disc())
+            yield word
+        if math.isnan(self.foot):
+            return
+        x, y, wide, _ = self.free_box
+        left, low, longest = x + dp(16), y + dp(14) + self.foot, min(dp(140), wide / 3)
+        yield from marks.scale_bar(shapes, self.view, left, low, longest)
+        beside = max(nice_floor(longest / self.view.scale) * self.view.scale, dp(44)) + dp(16)
+        room = wide - dp(16) - beside
+        if room >= fence_marks.legend_width(self.fence):
+            yield from fence_marks.legend(shapes, self.fence, left + beside, low - dp(4), room)
+        else:
+            yield from fence_marks.legend(shapes, self.fence, left, low + dp(30), 0.0)
+
+    def _alarms(self, shapes: Shapes) -> Iterator[Word]:
+        """The intruders, above the waypoints and below the robot."""
+        marked = [*self._places(), *([self._home_place()] if self._home_place() else [])]
+        marked += [self.robot[:2]] if self.located else []
+        taken = [self.view.to_screen(*place[:2]) for place in marked]
+        yield from marks.intruder_marks(
+            shapes, self.view, self.intruders, self.mark_radius, box=self.free_box, taken=taken,
+            faded=self.state == "stale",
+        )  # fmt: skip
+
+    def _robot_disc(self) -> float:
+        return max(self.mark_radius * 1.1, self.robot_radius * self.view.scale)
+
+    def _robot_shapes(self, shapes: Shapes, pose: tuple[float, ...], *, faded: bool) -> None:
+        alarm = self.state == "alarm"
+        fov = math.nan if faded else self.camera_fov
+        marks.robot_mark(shapes, self.view, pose, self._robot_disc(), fov=fov, faded=faded, alarm=alarm)
+
+    def _places(self) -> list[tuple[float, float]]:
+        """The waypoints, with the one in a finger's grip where the finger is."""
+        places, grip = list(self.waypoints), self.grip
+        if grip is not None and grip.what == "waypoint" and grip.index < len(places):
+            places[grip.index] = (grip.x, grip.y)
+        return places
+
+    def _home_place(self) -> list[float]:
+        grip = self.grip
+        return [grip.x, grip.y] if grip is not None and grip.what == "home" else self.home

@@ -1,0 +1,245 @@
+"""Text on the glass: plain text, icons, section labels, values with their unit, chips."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from kivy.lang import Builder
+from kivy.metrics import dp, sp
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
+from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.label import Label
+from kivy.uix.widget import Widget
+
+from widgets.core.base import text_texture
+from widgets.core.frames import Pressable
+from widgets.core.theme import theme
+
+__all__ = ["Chip", "Icon", "Remark", "SectionLabel", "Text", "ValueUnit", "spaced", "wrapped"]
+
+HAIR_SPACE = "\u200a"
+
+Builder.load_string("""
+<Text>:
+    font_name: theme.font
+    font_size: theme.size_body
+    color: theme.roles[self.role]
+    disabled_color: self.color
+    text_size: self.width, None
+    halign: 'left'
+    valign: 'middle'
+    size_hint_y: None
+    height: self.texture_size[1]
+
+<Remark>:
+    role: 'muted'
+    font_size: sp(13)
+    height: self.texture_size[1] if self.text else 0
+    opacity: 1 if self.text else 0
+
+<Icon>:
+    font_name: theme.icons
+    font_size: theme.size_icon
+    color: theme.roles[self.role]
+    disabled_color: self.color
+    text: icons[self.name]
+    size_hint: None, None
+    size: self.font_size, self.font_size
+
+<SectionLabel>:
+    text: self.spaced_title
+    font_size: theme.size_label
+    role: 'muted'
+    shorten: True
+    shorten_from: 'right'
+
+<ValueUnit>:
+    size_hint: None, None
+    size: self.minimum_size
+    spacing: self.font_size * .16
+    Label:
+        text: root.value
+        font_name: theme.font
+        font_size: root.font_size * root.share
+        bold: True
+        color: theme.roles[root.role]
+        disabled_color: self.color
+        size_hint: None, None
+        size: self.texture_size
+    Label:
+        text: root.unit
+        font_name: theme.font
+        font_size: root.unit_size * root.share
+        color: theme.muted
+        disabled_color: self.color
+        size_hint: None, None
+        width: self.texture_size[0]
+        height: root.font_size * root.share * 1.22
+        text_size: None, self.height
+        valign: 'bottom'
+        padding: 0, 0, 0, (root.font_size - root.unit_size) * root.share * .2
+
+<Chip>:
+    size_hint: None, None
+    height: dp(34)
+    width: self.minimum_width
+    padding: root.edge + max(0, root.usual_width - words.texture_size[0]) / 2, 0
+    spacing: dp(8) if root.icon else 0
+    rim: root.role if root.outlined else 'line'
+    ground: 'surface' if root.outlined else 'raised'
+    corner: self.height / 2
+    Icon:
+        name: root.icon or 'check'
+        role: root.role
+        font_size: sp(19)
+        pos_hint: {'center_y': .5}
+        width: self.font_size if root.icon else 0
+        opacity: 1 if root.icon else 0
+    Label:
+        id: words
+        text: root.text
+        font_name: theme.font
+        font_size: sp(15)
+        color: theme.roles[root.role] if root.outlined or root.tinted else theme.text
+        disabled_color: self.color
+        size_hint: None, 1
+        width: self.texture_size[0]
+""")
+
+
+def spaced(text: str) -> str:
+    """`text` as a label above a value: small capitals that stand a little apart."""
+    return HAIR_SPACE.join(text.upper())
+
+
+class Text(Label):
+    """A sentence, left aligned, as tall as it needs to be in its width."""
+
+    role = StringProperty("text")
+    """Role of its colour."""
+
+
+class Remark(Text):
+    """A smaller text that takes no room while it says nothing."""
+
+
+class Icon(Label):
+    """One icon."""
+
+    name = StringProperty("check")
+    """As in `widgets.core.icons`."""
+    role = StringProperty("text")
+    """Role of its colour."""
+
+
+class SectionLabel(Text):
+    """The name over a group of things or over a value, in small capitals."""
+
+    title = StringProperty("")
+    spaced_title = StringProperty("")
+
+    def on_title(self, *_: object) -> None:
+        """Set the letters apart."""
+        self.spaced_title = spaced(self.title)
+
+
+class ValueUnit(BoxLayout):
+    """A value, big and bold, with its unit small and muted after it."""
+
+    value = StringProperty("—")
+    unit = StringProperty("")
+    role = StringProperty("text")
+    """Role of the value's colour."""
+    font_size = NumericProperty("26sp")
+    """Of the value [px]."""
+    unit_size = NumericProperty("15sp")
+    """Of the unit [px]."""
+    room = NumericProperty(0.0)
+    """How wide it may be [px]: both are written smaller where they would be wider; 0 for any width."""
+
+    def _share(self) -> float:
+        value = text_texture(self.value, self.font_size, theme.font, bold=True).width
+        wide = value + text_texture(self.unit, self.unit_size, theme.font).width + self.spacing
+        return min(1.0, self.room / wide) if self.room else 1.0
+
+    share = AliasProperty(
+        _share, bind=["value", "unit", "font_size", "unit_size", "spacing", "room"], cache=True
+    )
+    """Part of their sizes that value and unit are written in, 0 to 1."""
+
+
+def wrapped(name: str, room: float, size: float) -> str:
+    """`name` in bold type of `size` broken into lines of `room` [px] after a `/` or `_` where that is possible."""
+    lines, line = [], ""
+    for piece in re.findall(r"[^/_]*[/_]|[^/_]+", name):
+        if line.strip("/_") and text_texture(line + piece, size, theme.font, bold=True).width > room:
+            lines.append(line)
+            line = ""
+        line += piece
+    return "\n".join([*lines, line])
+
+
+class Chip(Pressable, BoxLayout):
+    """A pill with an icon and a few words, as wide as they are. A finger may press it where `pressable` is set."""
+
+    icon = StringProperty("")
+    """Name of the icon; empty for none."""
+    text = StringProperty("")
+    role = StringProperty("muted")
+    """Role of the icon's colour, and of the text and the border where `outlined`."""
+    outlined = BooleanProperty(False)
+    """What stands out: border and text in `role`."""
+    tinted = BooleanProperty(False)
+    """Text in `role`."""
+    pressable = BooleanProperty(False)
+    edge = NumericProperty("13dp")
+    """Left of the icon and right of the words [px]."""
+    usual = StringProperty("")
+    """The longest words it usually holds; it is never narrower than they are, so that its neighbours stand still."""
+
+    def _usual_width(self) -> float:
+        return float(text_texture(self.usual, sp(15), theme.font).width) if self.usual else 0.0
+
+    usual_width = AliasProperty(_usual_width, bind=["usual"], cache=True)
+    """Of those words [px]."""
+
+    def collide_point(self, x: float, y: float) -> bool:
+        """A pressable chip is hit within a whole target round it."""
+        reach = max(0.0, theme.target - self.height) / 2 if self.pressable else 0.0
+        return self.x <= x <= self.right and self.y - reach <= y <= self.top + reach
+
+    def on_touch_down(self, touch: object) -> bool:
+        """Leave the finger alone unless this one is there to be pressed."""
+        return bool(self.pressable and super().on_touch_down(touch))
+
+
+def _row(*children: Widget, width: str = "360dp") -> Widget:
+    row = BoxLayout(spacing="14dp", size_hint=(None, None), width=width, height="56dp")
+    for child in children:
+        child.pos_hint = {"center_y": 0.5}
+        row.add_widget(child)
+    row.add_widget(Widget())
+    return row
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """Each kind of text in the states that it knows."""
+    return {
+        "chips": lambda: _row(
+            Chip(icon="bolt", text="87 %", role="ok"),
+            Chip(icon="wifi", text="12 ms · 0 lost", role="ok"),
+            Chip(icon="autorenew", text="AUTO · patrol", role="plan", outlined=True),
+            Chip(text="driven by tablet-B", role="warn", tinted=True),
+            width="700dp",
+        ),
+        "values": lambda: _row(
+            ValueUnit(value="0.62", unit="m/s"),
+            ValueUnit(value="—", unit="m"),
+            ValueUnit(value="−12", unit="°", role="warn"),
+            ValueUnit(value="0.42", unit="m/s", room=dp(66)),
+        ),
+        "labels": lambda: _row(
+            SectionLabel(title="Next WP"), Text(text="Driving to point 3.", size_hint_x=2)
+        ),
+    }

@@ -1,0 +1,248 @@
+"""A laser sweep seen from above: what is free, what is near, and how near.
+
+laser = LaserScanView(title="Front laser")
+robot.on("/scan", laser.show)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any, ClassVar
+
+import numpy as np
+from kivy.metrics import dp, sp
+from kivy.properties import AliasProperty, NumericProperty, ObjectProperty, StringProperty
+from kivy.uix.widget import Widget
+from numpy.typing import NDArray
+
+from bridge.msgs.arrays import Float32Array
+from bridge.msgs.sensor_msgs import LaserScan
+from widgets.core.frames import Glass
+from widgets.core.geometry import DASH, Points, length_text, scan_points, scan_reach
+from widgets.core.icons import icon
+from widgets.core.ink import Drawing, Ink, Word, Words, ground, tint
+from widgets.core.shapes import Shapes
+from widgets.core.theme import theme
+from widgets.map.map_marks import arrow
+
+__all__ = ["LaserScanView", "samples"]
+
+AHEAD = math.pi / 2
+"""Where straight ahead is on the screen [rad]."""
+RINGS = 3
+LOW = 2.0
+"""A card this many times broader than high keeps its name beside the rings."""
+
+
+class LaserScanView(Glass, Drawing):
+    """The newest sweep, the robot's bow up. A return is a dot in the colour of its distance."""
+
+    accepts: ClassVar = (LaserScan,)
+    drawn_from: ClassVar = ("scan", "title", "rate", "reach", "near", "close", "card")
+
+    scan = ObjectProperty(None, allownone=True, force_dispatch=True)
+    """The newest LaserScan; None before the first."""
+    title = StringProperty("Laser")
+    """Name of the sensor."""
+    rate = NumericProperty(math.nan)
+    """Sweeps a second [Hz]; NaN when not known."""
+    reach = NumericProperty(0.0)
+    """Distance at the edge of the picture [m]; 0 follows what is seen."""
+    near = NumericProperty(1.2)
+    """Closer than this is a warning [m]."""
+    close = NumericProperty(0.6)
+    """Closer than this is a danger [m]."""
+
+    def _nearest(self) -> float:
+        if self.scan is None:
+            return math.nan
+        measured = self._returns(self.scan)[0]
+        seen = measured[np.isfinite(measured)]
+        return float(seen.min()) if len(seen) else math.inf
+
+    nearest = AliasProperty(_nearest, bind=["scan"], cache=True)
+    """Distance of the nearest return [m]; inf when there is none, NaN before the first sweep."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        self._ink, self._words = Ink(), Words()
+        self._reach = 0.0
+        super().__init__(**kwargs)
+        self.canvas.add(self._ink)
+        self.canvas.add(self._words.canvas)
+
+    def show(self, msg: LaserScan) -> None:
+        """Show a sweep in place of the one before."""
+        self.scan = msg
+
+    def draw(self) -> None:
+        """Bring rings, free space, dots and words up to date."""
+        scan = self.scan or LaserScan(angle_min=-AHEAD, angle_increment=math.pi / 180, range_max=6.0)
+        measured, angles, _ = self._returns(scan)
+        self._reach = self.reach or scan_reach(_farthest(measured, scan.range_max), self._reach)
+        half = math.pi if not len(angles) else min(float(np.abs(angles[[0, -1]]).max()), math.pi)
+        half = AHEAD if self.scan is None else half
+        x, y, scale = self._place(half)
+        shapes = Shapes()
+        self._rings(shapes, (x, y), scale, half)
+        if len(measured):
+            self._sweep(shapes, (x, y), scale, measured, angles)
+        words = [*self._ring_words((x, y), scale, half), *self._header()]
+        for word in words:
+            ground(shapes, word, tint(theme.surface, 0.85))
+        shapes.polygon(arrow(x, y, AHEAD, dp(15)), theme.text)
+        self._ink.draw(shapes)
+        self._words.write(words)
+
+    def _returns(self, scan: LaserScan) -> tuple[NDArray[np.float64], NDArray[np.float64], Points]:
+        """Ranges with what is too close at the least range and what is not believable as NaN, directions, points."""
+        measured, angles, points = scan_points(scan.ranges, scan.angle_min, scan.angle_increment)
+        measured[measured == -math.inf] = scan.range_min
+        with np.errstate(invalid="ignore"):
+            measured[measured < scan.range_min] = math.nan
+        return measured, angles, points
+
+    def _low(self) -> bool:
+        return bool(self.width > LOW * self.height)
+
+    def _place(self, half: float) -> tuple[float, float, float]:
+        """Where the robot stands [px], and the scale [px/m], so that all rings are inside the card."""
+        behind = max(0.12, -math.cos(half))
+        beside = 1.0 if half >= AHEAD else math.sin(half)
+        # in a low card the name stands beside the rings, not above them
+        edge, head = dp(14), dp(14) if self._low() else dp(34)
+        wide, high = self.width - 2 * edge, self.height - edge - head
+        radius = max(min(wide / (2 * beside), high / (1 + behind)), 1.0)
+        slack = (high - radius * (1 + behind)) / 2
+        return self.center_x, self.y + edge + slack + radius * behind, radius / self._reach
+
+    def _rings(self, shapes: Shapes, at: tuple[float, float], scale: float, half: float) -> None:
+        angles = np.linspace(AHEAD - half, AHEAD + half, 97)
+        rim = np.stack([np.cos(angles), np.sin(angles)], axis=1) * self._reach * scale
+        for ring in range(1, RINGS + 1):
+            shapes.line(rim * ring / RINGS + at, dp(1.2), theme.line)
+
+    def _ring_words(self, at: tuple[float, float], scale: float, half: float) -> Iterator[Word]:
+        """Distances ahead, on their rings; only the outer one where they would cover each other."""
+        radius, size = self._reach * scale, sp(11.5)
+        if self._low():  # beside the ring, where there is room, since above it stands the name
+            x = at[0] + radius * math.sin(min(half, AHEAD)) + dp(6)
+            y = at[1] + radius * math.cos(min(half, AHEAD)) + dp(4)
+            yield Word(length_text(round(self._reach, 2)), x, y, size, theme.muted, anchor=(0, 0))
+            return
+        for ring in range(1, RINGS + 1):
+            if ring == RINGS or radius / RINGS > sp(26):
+                text = length_text(round(self._reach * ring / RINGS, 2))
+                yield Word(text, at[0], at[1] + radius * ring / RINGS, size, theme.muted)
+
+    def _sweep(
+        self,
+        shapes: Shapes,
+        at: tuple[float, float],
+        scale: float,
+        measured: NDArray[np.float64],
+        angles: NDArray[np.float64],
+    ) -> None:
+        known = ~np.isnan(measured)
+        units = np.stack([np.cos(angles + AHEAD), np.sin(angles + AHEAD)], axis=1)
+        rim = units * (np.minimum(np.where(known, measured, 0.0), self._reach) * scale)[:, None] + at
+        order = np.arange(len(rim))
+        if _goes_round(angles):
+            order = np.append(order, 0)
+        joined = known[order][1:] & known[order][:-1]
+        shapes.fan(*at, rim[order], joined, tint(theme.accent, 0.17))
+        hit = known & (measured <= self._reach)
+        shapes.discs(rim[hit], dp(2.3), self._colours(measured[hit]))
+
+    def _colours(self, measured: NDArray[np.float64]) -> NDArray[np.float32]:
+        roles = np.array([theme.danger, theme.warn, theme.accent], np.float32)
+        return roles[(measured >= self.close).astype(int) + (measured >= self.near)]
+
+    def _header(self) -> Iterator[Word]:
+        yield from self._name()
+        # an alarm has its sign in the corner
+        alarm = self.state == "alarm"
+        right, y = self.right - (dp(34) if alarm else dp(13)), self.top - dp(19)
+        if math.isnan(self.nearest):
+            yield Word(DASH, right, y, sp(14), theme.muted, anchor=(1, 0.5))
+        elif self.nearest < self.near:
+            colour = theme.danger if self.nearest < self.close else theme.warn
+            yield Word(f"{self.nearest:.1f} m", right, y, sp(14), colour, bold=True, anchor=(1, 0.5))
+            if self.nearest < self.close and not alarm:
+                yield Word(
+                    icon("warning"), right - sp(52), y, sp(16), colour, font=theme.icons, anchor=(0.5, 0.5)
+                )
+
+    def _name(self) -> Iterator[Word]:
+        """The title and the rate behind it, or below it in a low card, where the rings begin."""
+        rate = "" if math.isnan(self.rate) else f"{self.rate:.0f} HZ"
+        lines = (
+            [self.title.upper(), rate]
+            if self._low()
+            else [" · ".join(filter(None, (self.title.upper(), rate)))]
+        )
+        for number, line in enumerate(filter(None, lines)):
+            y = self.top - dp(19) - sp(16) * number
+            yield Word(line, self.x + dp(13), y, sp(12), theme.muted, anchor=(0, 0.5))
+
+
+def _goes_round(angles: NDArray[np.float64]) -> bool:
+    """The last beam has the first for its neighbour."""
+    if len(angles) < 3:
+        return False
+    return math.tau - abs(angles[-1] - angles[0]) < 1.5 * abs(angles[1] - angles[0])
+
+
+def _farthest(measured: NDArray[np.float64], range_max: float) -> float:
+    """Distance that nine in ten returns do not exceed [m]; the sensor's own range when it sees nothing."""
+    seen = measured[np.isfinite(measured)]
+    return float(np.percentile(seen, 90)) if len(seen) else min(max(range_max, 1.0), 6.0)
+
+
+def _scan(*, around: bool = False, step_back: float = 0.0) -> LaserScan:
+    """A room with a post to the left, a wall to the right, and gaps."""
+    half = math.pi if around else AHEAD
+    angles = np.linspace(-half, half, 360 if around else 181)
+    ranges = 3.1 + 1.3 * np.sin(angles * 3.0) + 0.9 * np.cos(angles * 5.0) + step_back
+    ranges[np.abs(angles - 0.5) < 0.10] = 1.05 + step_back
+    ranges[np.abs(angles + 1.3) < 0.12] = 0.5 + step_back
+    ranges[np.abs(angles + 0.3) < 0.06] = math.inf
+    ranges[np.abs(angles - 1.1) < 0.05] = math.nan
+    return LaserScan(
+        angle_min=-half,
+        angle_max=half,
+        angle_increment=float(angles[1] - angles[0]),
+        range_min=0.1,
+        range_max=12.0,
+        ranges=Float32Array(ranges.tolist()),
+    )
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """The states of the picture by name."""
+
+    def made(
+        scan: LaserScan | None = None, size: tuple[float, float] = (326, 228), **more: Any
+    ) -> Callable[[], Widget]:
+        def build() -> LaserScanView:
+            view = LaserScanView(
+                size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **{"title": "Front laser", **more}
+            )
+            if scan:
+                view.show(scan)
+            return view
+
+        return build
+
+    return {
+        "never": made(),
+        "live": made(_scan(), state="live", rate=30.0),
+        "clear": made(_scan(step_back=3.0), state="live", rate=30.0),
+        "around": made(_scan(around=True), state="live", rate=10.0, size=(300, 320), title="Laser"),
+        "low": made(_scan(around=True), state="live", rate=10.0, size=(258, 118), title="Laser"),
+        "small": made(_scan(around=True), state="live", rate=10.0, size=(212, 148), title="Laser"),
+        "half low": made(_scan(step_back=5.0), state="live", rate=10.0, size=(258, 118)),
+        "stale": made(_scan(), state="stale", age=2.0),
+        "alarm": made(_scan(), state="alarm", rate=30.0),
+        "disabled": made(_scan(), state="disabled"),
+    }

@@ -1,0 +1,1 @@
+"""Events, checks and the cards that say what needs attention."""

@@ -1,0 +1,294 @@
+"""What is looked at before a robot first moves: what is not good yet and what to do about it; folded, how many are good.
+
+checks = CheckList(open=True)
+robot.on("/checklist", checks.show)
+checks.bind(on_fold=lambda _, unfold: setattr(checks, "open", unfold))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.metrics import dp, sp
+from kivy.properties import AliasProperty, BooleanProperty, ListProperty, NumericProperty, StringProperty
+from kivy.uix.behaviors import ButtonBehavior
+from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.widget import Widget
+
+import widgets.parts.rows  # noqa: F401 - its rules draw what scrolls here
+from bridge.msgs.pilothouse_msgs import Check, Checklist
+from widgets.core.base import RobotWidget
+from widgets.core.frames import Outlined
+from widgets.core.theme import theme
+
+__all__ = ["CheckHead", "CheckLine", "CheckList"]
+
+LOOKS = {"ok": ("check_circle", "ok"), "bad": ("error", "danger"), "unknown": ("help", "warn")}
+"""State of a check to its icon and role."""
+
+Builder.load_string("""
+<CheckHead>:
+    size_hint: None, None
+    height: theme.target
+    spacing: dp(9)
+    Icon:
+        name: root.icon
+        role: root.role
+        font_size: sp(22)
+        pos_hint: {'center_y': .5}
+    Label:
+        id: words
+        text: root.text
+        font_name: theme.font
+        bold: True
+        font_size: sp(15)
+        color: theme.text
+        disabled_color: self.color
+        size_hint: None, None
+        size: self.texture_size
+        pos_hint: {'center_y': .5}
+    Widget:
+    Icon:
+        name: root.arrow
+        role: 'muted'
+        font_size: sp(22)
+        pos_hint: {'center_y': .5}
+
+<CheckLine>:
+    size_hint_y: None
+    height: max(sentence.height, dp(22))
+    spacing: dp(9)
+    Icon:
+        name: root.icon
+        role: root.role
+        font_size: sp(20)
+        pos_hint: {'top': 1}
+    Text:
+        id: sentence
+        text: root.text
+        role: root.ink
+        font_size: sp(14.5)
+        pos_hint: {'top': 1}
+
+<CheckList>:
+    orientation: 'vertical'
+    size_hint: None, None
+    width: root.shown_width
+    height: head.height + root.unfolded if root.total else 0
+    padding: 0
+    veil_radius: theme.corner
+    rim: root.border if root.total else ''
+    ground: 'surface' if root.total else ''
+    rim_width: root.edge
+    CheckHead:
+        id: head
+        icon: root.icon
+        role: root.role
+        text: root.title
+        arrow: 'expand_less' if root.open else 'expand_more'
+        padding: dp(13), 0, dp(10), 0
+        width: root.width
+        height: theme.target if root.total else 0
+        opacity: 1 if root.total else 0
+        disabled: not root.total
+        on_release: root.dispatch('on_fold', not root.open)
+    Roll:
+        id: roll
+        size_hint_y: None
+        height: root.unfolded
+        opacity: 1 if root.unfolded else 0
+        bar_margin: dp(4)
+        Column:
+            id: lines
+            spacing: dp(8)
+            padding: dp(13), 0, dp(12), dp(12)
+""")
+
+
+class CheckHead(ButtonBehavior, BoxLayout):
+    """The line that is always there; a finger folds and unfolds the rest."""
+
+    icon = StringProperty("help")
+    role = StringProperty("muted")
+    text = StringProperty("")
+    arrow = StringProperty("expand_more")
+
+
+class CheckLine(BoxLayout):
+    """One line of the list."""
+
+    icon = StringProperty("help")
+    role = StringProperty("muted")
+    """Role of the icon's colour."""
+    text = StringProperty("")
+    ink = StringProperty("text")
+    """Role of the sentence's colour."""
+
+
+class CheckList(Outlined, RobotWidget, BoxLayout):
+    """The list. A tap on its head dispatches `on_fold(unfold)`; the owner sets `open`."""
+
+    accepts = (Checklist,)
+    __events__ = ("on_fold",)
+
+    open = BooleanProperty(False)
+    """Says each sentence; folded it is one line."""
+    brief = BooleanProperty(False)
+    """Only what is not good is said, where there is little room."""
+    checks = ListProperty()
+    """As they came, of `Check`; empty before the first list, and then nothing is drawn."""
+    wide = NumericProperty("330dp")
+    """As wide as it is unfolded [px]; folded it is as wide as its words, so that fingers beside it reach what is below."""
+    room = NumericProperty(0)
+    """As high as it may be [px]: what is more scrolls; 0 for any height."""
+
+    def _total(self) -> int:
+        return len(self.checks)
+
+    total = AliasProperty(_total, bind=["checks"], cache=True)
+
+    def _good(self) -> int:
+        return sum(check.state == "ok" for check in self.checks)
+
+    good = AliasProperty(_good, bind=["checks"], cache=True)
+    """How many are good."""
+
+    def _ready(self) -> bool:
+        return self.good == self.total > 0
+
+    ready = AliasProperty(_ready, bind=["checks"], cache=True)
+    """All is good."""
+
+    def _look(self) -> tuple[str, str]:
+        if self.ready:
+            return LOOKS["ok"]
+        return LOOKS["bad" if any(check.state == "bad" for check in self.checks) else "unknown"]
+
+    icon = AliasProperty(lambda self: self._look()[0], bind=["checks"], cache=True)
+    role = AliasProperty(lambda self: self._look()[1], bind=["checks"], cache=True)
+
+    def _border(self) -> str:
+        return "line" if self.ready else self.role
+
+    border = AliasProperty(_border, bind=["checks"], cache=True)
+
+    def _edge(self) -> float:
+        return 1.0 if self.ready else 1.5
+
+    edge = AliasProperty(_edge, bind=["checks"], cache=True)
+    """Width of the border [px]."""
+
+    def _title(self) -> str:
+        if self.ready:
+            return "Checks good" if self.open else "Checks"
+        count = f"{self.good} of {self.total}"
+        return f"Before it moves: {count} good" if self.open and self.wide > dp(300) else f"Checks: {count}"
+
+    title = AliasProperty(_title, bind=["checks", "open", "wide"], cache=True)
+
+    def _unfolded(self) -> float:
+        if not (self.open and self.total):
+            return 0.0
+        most = self.room - theme.target if self.room else self._lines_height
+        return max(0.0, min(self._lines_height, most))
+
+    _lines_height = NumericProperty(0)
+    _folded_width = NumericProperty(0)
+    unfolded = AliasProperty(_unfolded, bind=["open", "checks", "room", "_lines_height"], cache=True)
+    """Height of the sentences [px]; 0 while folded."""
+
+    def _shown_width(self) -> float:
+        if not self.total:
+            return 0.0
+        return float(self.wide if self.open else min(self.wide, self._folded_width))
+
+    shown_width = AliasProperty(_shown_width, bind=["open", "checks", "wide", "_folded_width"], cache=True)
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.bind(checks=self._write, brief=self._write)
+        self.ids.lines.bind(height=lambda _, height: setattr(self, "_lines_height", height))
+        self.ids.head.ids.words.bind(width=self._widen)
+
+    def _widen(self, _: object, width: float) -> None:
+        head = self.ids.head
+        self._folded_width = width + head.padding[0] + head.padding[2] + 2 * sp(22) + 3 * head.spacing
+
+    def show(self, msg: Checklist) -> None:
+        """Take over the list."""
+        self.checks = list(msg.checks)
+
+    def on_fold(self, unfold: bool) -> None:
+        """A finger wants it unfolded, or folded."""
+
+    def _write(self, *_: object) -> None:
+        """What is not good by its sentence, the worst first; what is good by its name, or all of it where all is."""
+        lines = self.ids.lines
+        lines.clear_widgets()
+        if self.ready:
+            for check in self.checks:
+                lines.add_widget(_line(check.state, check.text, "muted"))
+            return
+        for state in ("bad", "unknown"):
+            for check in self.checks:
+                if _state(check) == state:
+                    lines.add_widget(_line(state, check.text or f"The {check.name} is not good.", "text"))
+        good = [check.name for check in self.checks if check.state == "ok"]
+        if good and not self.brief:
+            lines.add_widget(_line("ok", f"Good: {', '.join(good)}.", "muted"))
+
+
+def _state(check: Check) -> str:
+    """A state that nobody knows is no good one."""
+    return check.state if check.state in LOOKS else "unknown"
+
+
+def _line(state: str, text: str, ink: str) -> CheckLine:
+    icon, role = LOOKS[state]
+    return CheckLine(icon=icon, role=role, text=text, ink=ink)
+
+
+GOOD = (
+    Check("battery", "ok", "The battery is charged."),
+    Check("sensors", "ok", "All sensors are alive."),
+    Check("position", "ok", "The robot knows where it is."),
+    Check("stop", "ok", "STOP was tested."),
+    Check("clock", "ok", "The clocks agree."),
+)
+"""A list on which all is good."""
+UNTESTED = Check("stop", "unknown", "STOP was not tested since the start; press it once.")
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """One to be done, several bad, all good, each folded and unfolded; before the first list there is nothing to see."""
+    bad = (
+        Check("battery", "bad", "The battery is below 20%; charge it first."),
+        Check("sensors", "bad", "Nothing comes from: /scan, /imu/data."),
+        Check("position", "unknown", "The robot does not know yet where it is; place it on the map."),
+        UNTESTED,
+        GOOD[4],
+    )
+
+    def make(checks: Sequence[Check], *, open_: bool = True, **kwargs: Any) -> Callable[[], Widget]:
+        def build() -> Widget:
+            made = CheckList(open=open_, **{"state": "live", **kwargs})
+            made.show(Checklist(checks=list(checks)))
+            return made
+
+        return build
+
+    untested = (*GOOD[:3], UNTESTED, GOOD[4])
+    return {
+        "live": make(untested),
+        "live folded": make(untested, open_=False),
+        "bad": make(bad),
+        "bad narrow": make(bad, wide="214dp"),
+        "bad brief": make(bad, brief=True),
+        "bad folded": make(bad, open_=False),
+        "good": make(GOOD),
+        "good folded": make(GOOD, open_=False),
+        "stale": make(untested, state="stale", age=12.0),
+        "disabled": make(untested, state="disabled"),
+    }

@@ -1,0 +1,111 @@
+"""Who steers: a person or the robot's task. Two large buttons, the one that is in force is marked.
+
+card = ModeCard()
+robot.on("/control/status", card.show)
+card.bind(on_command=lambda _, mode: robot.set_mode(mode))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from kivy.properties import BooleanProperty, StringProperty
+from kivy.uix.widget import Widget
+
+from bridge.msgs.pilothouse_msgs import ControlStatus
+from widgets.status.notice_card import NoticeCard
+
+__all__ = ["ModeCard"]
+
+
+class ModeCard(NoticeCard):
+    """Dispatches `on_command("MANUAL" or "AUTO")`, or `on_command("close")`."""
+
+    accepts = (ControlStatus,)
+
+    mode = StringProperty("MANUAL")
+    """As the robot says it: MANUAL, AUTO, PAUSED or STOPPED."""
+    task = StringProperty("")
+    """What it does in AUTO, as in `patrol`; empty while it has no task."""
+    why_not = StringProperty("")
+    """Why it cannot be changed now, as one sentence; empty when it can."""
+    sent = StringProperty("")
+    """The mode that was asked for and not yet answered; empty for none."""
+    ready = BooleanProperty(False)
+    """There is a task to go on with."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(icon="sports_esports", **kwargs)
+        self.cross = self.add_close()
+        self.manual, self.auto = self.add_below(
+            ("MANUAL", "sports_esports", False), ("AUTO", "autorenew", False)
+        )
+        self.manual.bind(on_release=lambda _: self.choose("MANUAL"))
+        self.auto.bind(on_release=lambda _: self.choose("AUTO"))
+        for name in ("mode", "task", "why_not", "sent", "ready", "tiny"):
+            self.fbind(name, self._write)
+        self._write()
+
+    def show(self, msg: ControlStatus) -> None:
+        """Take over the mode."""
+        self.mode = msg.mode
+
+    def choose(self, mode: str) -> None:
+        """Ask for a mode as a finger would; it is marked when the robot says so. The one in force needs no asking."""
+        if (mode == "AUTO") == (self.mode == "AUTO"):
+            self.dispatch("on_command", "close")
+            return
+        self.sent = mode
+        self.dispatch("on_command", mode)
+
+    def answer(self, outcome: str, reason: str = "") -> None:
+        """What became of it: `sent`, `accepted`, `refused` or `no_reply`, and the robot's sentence."""
+        if outcome == "accepted":
+            self.open = False
+        if outcome != "sent":
+            self.sent = ""
+
+    def _write(self, *_: object) -> None:
+        automatic = self.mode == "AUTO"
+        self.role = "plan" if automatic else "accent"
+        self.icon = "autorenew" if automatic else "sports_esports"
+        sentence = self._sentence()
+        self.headline, self.said = (sentence, "") if self.tiny else ("Who steers?", sentence)
+        for button, chosen in ((self.manual, not automatic), (self.auto, automatic)):
+            button.fill, button.border = (self.role, self.role) if chosen else ("raised", "line")
+            button.ink = f"ink_{self.role}" if chosen else "text"
+            button.disabled = not chosen and bool(self.why_not or self.sent)
+        self.auto.disabled = self.auto.disabled or not (automatic or self.ready)
+        self.manual.meaning = self.auto.meaning = self.mode
+
+    def _sentence(self) -> str:
+        if self.sent:
+            return f"{self.sent} is asked for …"
+        if self.why_not:
+            return self.why_not
+        if self.mode == "AUTO":
+            return f"MANUAL pauses: {self.task}." if self.task else "MANUAL pauses it."
+        if self.ready:
+            return f"You drive. AUTO goes on with: {self.task}." if self.task else "You drive. AUTO goes on."
+        return "You drive. For AUTO start a task."
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """Driven by hand with and without a task that waits, on a task, asked for, not to be changed."""
+
+    def make(mode: str, **kwargs: Any) -> Callable[[], Widget]:
+        def build() -> Widget:
+            card = ModeCard(size_hint_x=None, width="420dp", **kwargs)
+            card.show(ControlStatus(mode=mode))
+            return card
+
+        return build
+
+    return {
+        "manual": make("MANUAL"),
+        "paused": make("PAUSED", task="patrol", ready=True),
+        "auto": make("AUTO", task="patrol", ready=True),
+        "asked for": make("PAUSED", task="patrol", ready=True, sent="AUTO"),
+        "blocked": make("AUTO", task="patrol", ready=True, why_not="Anna has control."),
+    }

@@ -1,0 +1,1 @@
+"""Prompts, questionnaires and charts of the response study."""

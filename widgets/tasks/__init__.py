@@ -1,0 +1,1 @@
+"""Tasks, orders, places, missions and the schedule."""

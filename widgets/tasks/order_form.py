@@ -1,0 +1,435 @@
+"""What a task needs, asked one by one: places by name, a message, a direction, how fast and how long.
+
+form = OrderForm()
+robot.on("/places", form.show), robot.on("/mission", form.show)
+form.begin("deliver")
+form.bind(on_command=lambda _, order: print(order))
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.properties import (
+    AliasProperty,
+    BooleanProperty,
+    ListProperty,
+    NumericProperty,
+    ObjectProperty,
+    StringProperty,
+)
+from kivy.uix.boxlayout import BoxLayout
+from kivy.uix.widget import Widget
+
+from bridge.msgs import Msg
+from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
+from bridge.msgs.pilothouse_msgs import Mission, Place, PlaceArray, RobotInfo, TaskOrder, Waypoint
+from widgets.controls.heading_dial import HeadingDial
+from widgets.core.base import Control
+from widgets.core.task_words import KINDS, fields, lacking, will
+from widgets.parts.buttons import IconButton, QuietButton
+from widgets.parts.choices import Segmented
+from widgets.parts.labels import SectionLabel
+from widgets.parts.rows import ListRow
+from widgets.parts.stepper import Stepper
+from widgets.parts.text_field import TextField
+from widgets.tasks.place_list import SOME, PlaceList
+
+__all__ = ["OrderForm"]
+
+ASKS = {
+    "from": ("From", "Where is it fetched?"),
+    "to": ("To", "Where does it go?"),
+    "then": ("Then on to", "Where does it go afterwards?"),
+    "dock": ("Dock", "Which dock?"),
+    "stops": ("Places", "Which place next?"),
+}
+"""Field for places to its name and the question over the list of places."""
+SLOTS = {"from": 0, "to": 1, "then": 2, "dock": 0}
+"""Field to its place in `TaskOrder.places`; `to` is the first where there is no `from`."""
+OPTIONAL = {"then": "Stay there", "dock": "Its own dock"}
+"""Field that may be left open to what that means."""
+LONGEST_TEXT = 200
+"""Characters of a message."""
+USUAL_SPEED = 1.0
+"""Of a robot that does not tell how fast it can go [m/s]."""
+HIGHEST = 30.0
+"""Height and depth that can be asked for [m]; what the robot itself allows it says."""
+
+Builder.load_string("""
+<OrderForm>:
+    orientation: 'vertical'
+    spacing: theme.gap * .6
+    Roll:
+        id: roll
+        Column:
+            id: column
+            spacing: dp(8)
+
+<FormRow>:
+    size_hint_y: None
+    height: max(theme.target, dp(46))
+    spacing: dp(8)
+    Text:
+        text: root.title
+        pos_hint: {'center_y': .5}
+""")
+
+
+class FormRow(BoxLayout):
+    """A name with something to set behind it."""
+
+    title = StringProperty("")
+
+
+class OrderForm(Control, BoxLayout):
+    """Dispatches `on_command(order)` at every change, and `on_react(reaction)` when the one to intruders is changed.
+
+    Only what the task takes is asked for; a place is always one of those that have a name.
+    """
+
+    accepts = (TaskOrder, PlaceArray, Mission, PoseWithCovarianceStamped)
+    sends = (TaskOrder,)
+
+    __events__ = ("on_react",)
+
+    task = StringProperty("")
+    """As TaskOrder has it; empty for none yet."""
+    places = ListProperty()
+    """Names in their order; empty where one is not chosen yet."""
+    message = StringProperty("")
+    recipient_tag = StringProperty("")
+    heading = NumericProperty(math.nan)
+    """[rad]; NaN for where the robot points."""
+    speed = NumericProperty(math.nan)
+    """[m/s]; NaN for the robot's own."""
+    throttle = NumericProperty(math.nan)
+    """Share of the full power, 0 to 1; NaN for the robot's own."""
+    at_height = NumericProperty(math.nan)
+    """[m], below water negative; NaN for the usual or the present one."""
+    duration = NumericProperty(math.nan)
+    """[s]; NaN until stopped."""
+    robot = ObjectProperty(RobotInfo())
+    """Who it is for: what it can do decides what is asked for, and how fast and how high."""
+    mission = ObjectProperty(Mission())
+    """Where a patrol goes when no places are named."""
+    follows = BooleanProperty(True)
+    """The robot can tell whether somebody follows it."""
+    picking = StringProperty("")
+    """The field that a place is being chosen for; empty for none."""
+
+    def _order(self) -> TaskOrder:
+        places = list(self.places)
+        while places and not places[-1]:
+            places.pop()
+        return TaskOrder(
+            id=self._id,
+            task=self.task,
+            places=places,
+            message=self.message.strip(),
+            recipient_tag=self.recipient_tag.strip(),
+            heading=self.heading,
+            speed=self.speed,
+            throttle=self.throttle,
+            height=self.at_height,
+            duration=self.duration,
+        )
+
+    order = AliasProperty(
+        _order,
+        bind=[
+            *("task", "places", "message", "recipient_tag"),
+            *("heading", "speed", "throttle", "at_height", "duration"),
+        ],
+    )
+    """What is asked for so far."""
+
+    def _sentence(self) -> str:
+        return will(self.order, self.mission, follows=self.follows, kind=self.robot.kind)
+
+    sentence = AliasProperty(_sentence, bind=["order", "mission", "follows", "robot"])
+    """What will happen, or what is still lacking."""
+
+    def _complete(self) -> bool:
+        return not lacking(self.order, self.mission)
+
+    complete = AliasProperty(_complete, bind=["order", "mission"])
+    """Nothing is lacking."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        self._id = 0
+        self.list = PlaceList()
+        """Where places are chosen; over the fields while `picking`."""
+        self.dial = HeadingDial(pos_hint={"center_x": 0.5})
+        hints = {"message": "What to tell the person", "recipient_tag": "Tag of the addressee"}
+        self._texts = {name: TextField(hint_text=hint, label=hint) for name, hint in hints.items()}
+        super().__init__(**kwargs)
+        for field in self._texts.values():
+            field.bind(text=self._typed)
+        self._roll = self.ids.roll.__self__
+        self.list.bind(on_command=lambda _, place: self.pick(place))
+        self.dial.bind(on_command=lambda _, yaw: self.set(heading=yaw))
+        self.bind(robot=self._build)
+        self._build()
+
+    # what comes in
+
+    def show(self, msg: Msg) -> None:
+        """Take over places, mission or pose, or an order to be changed; nothing is dispatched."""
+        if isinstance(msg, TaskOrder):
+            self._take(msg)
+        elif isinstance(msg, Mission):
+            self.mission = msg
+            if self.task == "patrol" and not self.picking:
+                self._build()
+        elif isinstance(msg, PoseWithCovarianceStamped):
+            self.list.show(msg)
+            self.dial.show(msg)
+        elif isinstance(msg, PlaceArray):
+            self.list.show(msg)
+        else:
+            super().show(msg)
+
+    def begin(self, task: str, places: tuple[str, ...] = ()) -> None:
+        """Ask for what `task` needs, with nothing said but `places`."""
+        self._take(TaskOrder(task=task, places=list(places)))
+
+    def _take(self, order: TaskOrder) -> None:
+        self._id, self.task, self.places = order.id, order.task, list(order.places)
+        self.message, self.recipient_tag = order.message, order.recipient_tag
+        self.heading, self.speed, self.duration = order.heading, order.speed, order.duration
+        self.throttle, self.at_height = order.throttle, order.height
+        self.dial.value = order.heading
+        self.picking = ""
+        self._build()
+
+    # what the fingers do
+
+    def set(self, **changes: Any) -> None:
+        """Change properties of the order as a finger would."""
+        for name, value in changes.items():
+            setattr(self, name, value)
+        self.dispatch("on_command", self.order)
+
+    def ask(self, field: str) -> None:
+        """Let a place be chosen for a field."""
+        self.picking = field
+        self.list.search = ""
+        self.list.chosen = [name for name in self.places if name]
+        self.list.refresh()
+        self._build()
+
+    def pick(self, place: Place) -> None:
+        """Take a place for the field that is being asked for."""
+        field, self.picking = self.picking, ""
+        self._put(field, place.name)
+
+    def _put(self, field: str, name: str) -> None:
+        places = list(self.places)
+        if field == "stops":
+            places = [*places, name]
+        else:
+            slot = 0 if field == "to" and "from" not in self._fields() else SLOTS[field]
+            places += [""] * (slot + 1 - len(places))
+            places[slot] = name
+        self.set(places=places)
+        self._build()
+
+    def _drop(self, index: int) -> None:
+        self.set(places=[name for at, name in enumerate(self.places) if at != index])
+        self._build()
+
+    def back(self) -> bool:
+        """From the list of places to the fields; False when it was not there."""
+        if not self.picking:
+            return False
+        self.picking = ""
+        self._build()
+        return True
+
+    def on_react(self, reaction: str) -> None:
+        """A finger chose what a patrol does about an intruder: `stop`, `report` or `circle`."""
+
+    # how it is built
+
+    def _fields(self) -> tuple[str, ...]:
+        return fields(self.task, self.robot)
+
+    def _build(self, *_: object) -> None:
+        self.clear_widgets()
+        if self.picking:
+            self._build_picking()
+            return
+        self.add_widget(self._roll)
+        column = self.ids.column
+        column.clear_widgets()
+        for field in self._fields():
+            for widget in self._field(field):
+                column.add_widget(widget)
+
+    def _build_picking(self) -> None:
+        row = FormRow(title=ASKS[self.picking][1])
+        back = IconButton(icon="arrow_back", bare=True, pos_hint={"center_y": 0.5})
+        back.bind(on_release=lambda _: self.back())
+        row.add_widget(back, index=1)
+        if self.picking in OPTIONAL:
+            none = QuietButton(
+                text=OPTIONAL[self.picking], size_hint_x=None, width="140dp", pos_hint={"center_y": 0.5}
+            )
+            none.bind(on_release=lambda _: self.pick(Place()))
+            row.add_widget(none)
+        self.add_widget(row)
+        self.add_widget(self.list)
+
+    def _field(self, field: str) -> list[Widget]:
+        if field in SLOTS:
+            return [self._place_row(field)]
+        make: dict[str, Callable[[], list[Widget]]] = {
+            "stops": self._stops,
+            "points": self._points,
+            "reaction": self._reaction,
+            "message": lambda: [self._text("message")],
+            "recipient": lambda: [self._text("recipient_tag")],
+            "heading": lambda: [self.dial],
+            "speed": self._speed,
+            "throttle": self._throttle,
+            "height": self._height,
+            "duration": self._duration,
+        }
+        return make[field]()
+
+    def _place_row(self, field: str) -> ListRow:
+        slot = 0 if field == "to" and "from" not in self._fields() else SLOTS[field]
+        name = self.places[slot] if slot < len(self.places) else ""
+        kinds = {place.name: place.kind for place in self.list.places}
+        row = ListRow(
+            icon=KINDS[kinds.get(name, "place")][0] if name else "search",
+            role="plan" if name else "muted",
+            title=name or OPTIONAL.get(field, "Choose a place"),
+            aside=ASKS[field][0],
+            faded=not name,
+        )
+        row.bind(on_release=lambda _: self.ask(field))
+        return row
+
+    def _stops(self) -> list[Widget]:
+        rows: list[Widget] = []
+        for index, name in enumerate(self.places):
+            row = ListRow(icon="flag", role="plan", title=name, aside=f"{index + 1}", end="4dp")
+            gone = IconButton(icon="close", bare=True, pos_hint={"center_y": 0.5})
+            gone.bind(on_release=lambda _, index=index: self._drop(index))
+            row.add_widget(gone)
+            rows.append(row)
+        more = QuietButton(text="Add a place", icon="add")
+        more.bind(on_release=lambda _: self.ask("stops"))
+        return [*rows, more]
+
+    def _points(self) -> list[Widget]:
+        count = len(self.mission.waypoints)
+        words = f"{count} point{'' if count == 1 else 's'} on the map"
+        choice = Segmented(options=[("map", words), ("names", "Places by name")])
+        choice.value = "names" if self.places else "map"
+        choice.bind(on_choose=lambda _, way: self.ask("stops") if way == "names" else self._on_map())
+        return [choice, *(self._stops() if self.places else [])]
+
+    def _on_map(self) -> None:
+        self.set(places=[])
+        self._build()
+
+    def _reaction(self) -> list[Widget]:
+        options = [("report", "Report"), ("stop", "Stop"), ("circle", "Circle it")]
+        choice = Segmented(options=options)
+        choice.value = "stop" if self.mission.stop_on_intruder else self.mission.on_intruder or "report"
+        choice.bind(on_choose=lambda _, reaction: self.dispatch("on_react", reaction))
+        return [SectionLabel(title="When it finds an intruder"), choice]
+
+    def _text(self, name: str) -> TextField:
+        field = self._texts[name]
+        if field.text != getattr(self, name):
+            field.text = getattr(self, name)
+        return field
+
+    def _typed(self, field: TextField, text: str) -> None:
+        name = next(name for name, one in self._texts.items() if one is field)
+        if len(text) > LONGEST_TEXT:
+            field.text = text[:LONGEST_TEXT]
+        elif text != getattr(self, name):
+            self.set(**{name: text})
+
+    def _speed(self) -> list[Widget]:
+        tenths = 0 if math.isnan(self.speed) else round(self.speed * 10)
+        most = max(1, math.floor((self.robot.max_speed or USUAL_SPEED) * 10 + 1e-6)) / 10
+        speed = Stepper(value=tenths / 10, step=0.1, maximum=most, unit="m/s", zero="as usual")
+        speed.bind(on_change=self._sped)
+        return [self._row("Speed", speed)]
+
+    def _sped(self, stepper: Stepper, value: float) -> None:
+        stepper.value = round(value, 1)  # tenths have no exact binary form
+        self.set(speed=stepper.value or math.nan)
+
+    def _throttle(self) -> list[Widget]:
+        share = 0 if math.isnan(self.throttle) else round(self.throttle * 100)
+        throttle = Stepper(value=share, step=10, maximum=100, unit="%", zero="as usual")
+        throttle.bind(on_change=lambda _, value: self.set(throttle=value / 100 if value else math.nan))
+        return [self._row("Throttle", throttle)]
+
+    def _height(self) -> list[Widget]:
+        deep = self.robot.kind == "hexapod"
+        value = 0 if math.isnan(self.at_height) else abs(self.at_height)
+        usual = "as usual" if self.task == "take_off" else "as now"
+        height = Stepper(value=value, step=0.5, maximum=HIGHEST, unit="m", zero=usual)
+        sign = -1.0 if deep else 1.0
+        height.bind(on_change=lambda _, value: self.set(at_height=sign * value if value else math.nan))
+        return [self._row("Depth" if deep else "Height", height)]
+
+    def _duration(self) -> list[Widget]:
+        minutes = 0 if math.isnan(self.duration) else math.ceil(self.duration / 60)
+        span = Stepper(value=minutes, maximum=1440, unit="min", zero="until stopped")
+        span.bind(on_change=lambda _, value: self.set(duration=value * 60.0 if value else math.nan))
+        return [self._row("For how long", span)]
+
+    def _row(self, name: str, behind: Widget) -> FormRow:
+        row = FormRow(title=name)
+        behind.pos_hint = {"center_y": 0.5}
+        row.add_widget(behind)
+        return row
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """Each task with what it asks for, and the list of places."""
+    mission = Mission(waypoints=[Waypoint(float(x), 0.0) for x in range(6)])
+
+    def make(order: TaskOrder, pick: str = "", **kwargs: Any) -> Callable[[], Widget]:
+        def build() -> Widget:
+            form = OrderForm(size_hint=(None, None), size=("388dp", "340dp"), **kwargs)
+            form.show(PlaceArray(places=SOME))
+            form.show(mission)
+            form.show(order)
+            if pick:
+                form.ask(pick)
+            return form
+
+        return build
+
+    return {
+        "patrol": make(TaskOrder(task="patrol")),
+        "deliver": make(TaskOrder(task="deliver", places=["Office 12", "Lab"], message="For Ms. Weber")),
+        "deliver empty": make(TaskOrder(task="deliver")),
+        "guide": make(TaskOrder(task="guide", places=["Reception", "Lab"])),
+        "guide blind": make(TaskOrder(task="guide", places=["Lab"]), follows=False),
+        "heading": make(TaskOrder(task="follow_heading", heading=math.pi / 2, duration=120.0)),
+        "hold": make(TaskOrder(task="hold")),
+        "hold a depth": make(
+            TaskOrder(task="hold", height=-4.5), robot=RobotInfo(kind="hexapod", max_climb=0.5)
+        ),
+        "heading of a boat": make(
+            TaskOrder(task="follow_heading", heading=0.0, throttle=0.6), robot=RobotInfo(kind="boat")
+        ),
+        "take off": make(TaskOrder(task="take_off"), robot=RobotInfo(kind="quadrotor", max_climb=1.0)),
+        "dock": make(TaskOrder(task="dock")),
+        "from where": make(TaskOrder(task="deliver"), pick="from"),
+        "disabled": make(TaskOrder(task="dock"), state="disabled"),
+    }

@@ -1,0 +1,204 @@
+"""What the robot is doing for the operator: task, phase, reason, how far and how long still.
+
+card = TaskCard()
+robot.on("/task/status", card.show), robot.on("/task/progress", card.show)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, ObjectProperty, StringProperty
+from kivy.uix.widget import Widget
+
+import widgets.parts.amounts
+import widgets.parts.labels  # noqa: F401 - their rules draw what is used here
+from bridge.msgs import Msg
+from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskStatus
+from widgets.core.base import RobotWidget
+from widgets.core.frames import Outlined
+from widgets.core.task_words import STATES, TASKS, distance_words, span_words, title
+from widgets.parts.column import Column
+
+__all__ = ["TaskCard", "figures_words"]
+
+Builder.load_string("""
+<TaskCard>:
+    padding: dp(14), dp(8) if root.brief else dp(12)
+    spacing: dp(5) if root.brief else dp(8)
+    corner: theme.radius
+    BoxLayout:
+        size_hint_y: None
+        height: max(phase.height, name.height)
+        spacing: dp(10)
+        Icon:
+            name: root.icon
+            role: 'plan' if root.active else 'muted'
+            pos_hint: {'center_y': .5}
+        Text:
+            id: name
+            text: root.title
+            bold: True
+            font_size: sp(17)
+            shorten: root.brief
+            shorten_from: 'right'
+            pos_hint: {'center_y': .5}
+        Chip:
+            id: phase
+            icon: root.state_icon
+            role: root.state_role
+            text: root.phase_words
+            outlined: True
+            pos_hint: {'center_y': .5}
+    Remark:
+        text: root.reason
+        role: 'text'
+        font_size: sp(14.5)
+        shorten: root.brief
+        shorten_from: 'right'
+    Progress:
+        value: root.progress
+        height: dp(10) if root.active else 0
+        opacity: 1 if root.active else 0
+    Remark:
+        text: '' if root.brief else root.figures
+        font_size: sp(14)
+""")
+
+
+def figures_words(status: TaskStatus, progress: TaskProgress | None) -> str:
+    """How far and how long still, as in `Point 2 of 6 · lap 1 of 3 · 38 % · 3 min left`; empty when nothing is known."""
+    parts = []
+    if status.waypoint:
+        parts.append(
+            f"{'Point' if status.task == 'patrol' else 'Place'} {status.waypoint} of {status.waypoints}"
+        )
+    if status.lap and status.task == "patrol":
+        parts.append(f"lap {status.lap}" + (f" of {status.laps}" if status.laps else ""))
+    if progress is not None:
+        if math.isfinite(progress.progress):
+            parts.append(f"{progress.progress * 100:.0f} %")
+        if math.isfinite(progress.distance_to_next) and progress.distance_to_next > 0:
+            parts.append(f"{distance_words(progress.distance_to_next)} to go")
+        if math.isfinite(progress.time_left):
+            parts.append(f"{span_words(progress.time_left)} left")
+    return " · ".join(parts)
+
+
+class TaskCard(Outlined, RobotWidget, Column):
+    """One task. Progress counts only for the task that the status is about."""
+
+    accepts = (TaskStatus, TaskProgress)
+
+    brief = BooleanProperty(False)
+    """Takes little room: the reason on one line, no figures."""
+    status = ObjectProperty(TaskStatus())
+    """The newest TaskStatus."""
+    told = ObjectProperty(None, allownone=True)
+    """The newest TaskProgress of that task; None before the first."""
+
+    def _active(self) -> bool:
+        return self.status.state in ("RUNNING", "PAUSED", "INTERRUPTED")
+
+    active = AliasProperty(_active, bind=["status"], cache=True)
+    """There is a task that has not ended."""
+
+    def _title(self) -> str:
+        if not self.status.task:
+            return "No task"
+        places = list(self.status.places)
+        if self.brief and len(places) > 1:
+            return f"{places[0]} → {places[-1]}"  # the icon says what, the end is the goal
+        return title(TaskOrder(task=self.status.task, places=places, heading=math.nan))
+
+    title = AliasProperty(_title, bind=["status", "brief"], cache=True)
+
+    def _icon(self) -> str:
+        words = TASKS.get(self.status.task)
+        return words.icon if words else "smart_toy"
+
+    icon = AliasProperty(_icon, bind=["status"], cache=True)
+
+    def _look(self) -> tuple[str, str, str]:
+        return STATES.get(self.status.state, STATES["IDLE"])
+
+    def _state_icon(self) -> str:
+        return self._look()[0]
+
+    state_icon = AliasProperty(_state_icon, bind=["status"], cache=True)
+
+    def _state_role(self) -> str:
+        return self._look()[1]
+
+    state_role = AliasProperty(_state_role, bind=["status"], cache=True)
+
+    def _phase_words(self) -> str:
+        return self.status.phase or self._look()[2]
+
+    phase_words = AliasProperty(_phase_words, bind=["status"], cache=True)
+    """What it does just now in one word: the phase, else the state."""
+
+    def _reason(self) -> str:
+        return self.status.reason
+
+    reason = AliasProperty(_reason, bind=["status"], cache=True)
+    progress = NumericProperty(math.nan)
+    """0 to 1; NaN while it is not known."""
+    figures = StringProperty("")
+
+    def show(self, msg: Msg) -> None:
+        """Take over a status or the progress of its task."""
+        if isinstance(msg, TaskStatus):
+            if msg.task_id != self.status.task_id or msg.state == "INTERRUPTED":
+                self.told = None  # what was cut short drives a part of it once more
+            self.status = msg
+        elif isinstance(msg, TaskProgress):
+            counts = msg.task_id == self.status.task_id and self.status.state != "INTERRUPTED"
+            self.told = msg if counts else self.told
+        else:
+            super().show(msg)
+        running = self.active and self.told is not None
+        self.progress = self.told.progress if running else math.nan
+        self.figures = figures_words(self.status, self.told) if self.active else ""
+
+
+def samples() -> dict[str, Callable[[], Widget]]:
+    """Each state of a task."""
+    runs = TaskStatus(
+        task_id=4,
+        task="deliver",
+        state="RUNNING",
+        phase="driving",
+        reason="Driving to Office 12 to fetch it.",
+        place="Office 12",
+        places=["Office 12", "Lab"],
+        waypoint=1,
+        waypoints=2,
+    )
+    patrol = {"task": "patrol", "waypoint": 3, "waypoints": 6, "lap": 1, "laps": 3}
+    told = TaskProgress(task_id=4, progress=0.38, distance_to_next=7.4, time_left=190.0, distance_driven=21.0)
+    why = "Canceled by tablet-B."
+    cut = "The robot's computer restarted in the middle of a patrol; choose Resume to go on, or Discard."
+
+    def make(status: TaskStatus, *progress: TaskProgress, **kwargs: Any) -> Callable[[], Widget]:
+        def build() -> Widget:
+            card = TaskCard(size_hint_x=None, width="388dp", **{"state": "live", **kwargs})
+            for message in (status, *progress):
+                card.show(message)
+            return card
+
+        return build
+
+    return {
+        "runs": make(runs, told),
+        "patrol": make(TaskStatus(task_id=4, state="RUNNING", reason="Driving to point 3.", **patrol), told),
+        "brief": make(runs, told, brief=True),
+        "paused": make(TaskStatus(task_id=4, state="PAUSED", reason="Paused by tablet-B.", **patrol), told),
+        "cut short": make(TaskStatus(task_id=4, state="INTERRUPTED", reason=cut, **patrol), told),
+        "canceled": make(TaskStatus(task_id=4, task="guide", state="CANCELED", reason=why)),
+        "none": make(TaskStatus()),
+        "stale": make(runs, told, state="stale", age=8.0),
+    }
