@@ -10,9 +10,9 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from app import layout as layouts
 from app.device import is_android
-from app.discovery import check_address
+from app.discovery.discovery import check_address
+from app.layout import layout as layouts
 
 __all__ = ["main", "prepare", "quieten"]
 

@@ -15,37 +15,37 @@ from kivy.app import App
 from kivy.clock import Clock
 from kivy.core.window import Window
 
-from app.acting import Acting
-from app.camera import PICTURE, Camera
-from app.commands import Commands
+from app.core.kept import known
+from app.core.settings import Settings
+from app.core.telling import tell
 from app.device import device_name, is_android, own_folder
-from app.discovery import Robots, check_address
-from app.events import Known
-from app.feeds import Feeds, Mailbox, Post
-from app.fleet import Fleet
+from app.discovery.discovery import Robots, check_address
+from app.discovery.nearby import HELLO, LATENCY, Nearby
 from app.garbage import Collector
-from app.inputs import Inputs
-from app.intents import Intents
-from app.kept import known
-from app.layout import Layout, choose, load, load_all
-from app.link import Link
-from app.logbook import marks
-from app.methods import Methods
-from app.mission import MissionEditor
-from app.nearby import HELLO, LATENCY, Nearby
-from app.permits import Permits
-from app.pictures import Pictures
-from app.records import Records
+from app.inputs.inputs import Inputs
+from app.inputs.methods import Methods
+from app.intents.acting import Acting
+from app.intents.intents import Intents
+from app.intents.permits import Permits
+from app.layout.layout import Layout, choose, load, load_all
+from app.link.camera import PICTURE, Camera
+from app.link.commands import Commands
+from app.link.events import Known
+from app.link.feeds import Feeds, Mailbox, Post
+from app.link.link import Link
 from app.root import Root
-from app.screens.connect import THEMES, ConnectScreen
-from app.screens.dialogs import AddressDialog, Question
+from app.screens.connect.connect import THEMES, ConnectScreen
+from app.screens.connect.simulating import CHANNEL as SIMULATED
+from app.screens.connect.simulating import Simulating
 from app.screens.inputs.page import InputsPage
-from app.screens.stop_corner import StopCorner
-from app.session import Session
-from app.settings import Settings
-from app.simulating import CHANNEL as SIMULATED
-from app.simulating import Simulating
-from app.telling import tell
+from app.screens.parts.dialogs import AddressDialog, Question
+from app.screens.shell.stop_corner import StopCorner
+from app.session.logbook import marks
+from app.session.mission import MissionEditor
+from app.session.pictures import Pictures
+from app.session.records import Records
+from app.session.session import Session
+from app.stop.fleet import Fleet
 from bridge.core.frames import Frame
 from bridge.discovery.network import NetworkThread
 from bridge.msgs.pilothouse_msgs import Event

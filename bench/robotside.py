@@ -14,8 +14,8 @@ import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 
-from app.feeds import Mailbox
-from app.link import Link
+from app.link.feeds import Mailbox
+from app.link.link import Link
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
 from bench.support.planning import DEEP, LAKE, SHALLOW, lake, longest, trap

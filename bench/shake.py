@@ -25,8 +25,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.shake import AXES, USUAL, Axis, Lesson, Own, Recogniser, fitted
-from app.shake.lesson import READY
+from app.inputs.motion.shake import AXES, USUAL, Axis, Lesson, Own, Recogniser, fitted
+from app.inputs.motion.shake.lesson import READY
 from bench.support import motion
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides

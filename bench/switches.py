@@ -16,10 +16,10 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Literal, NamedTuple
 
-from app.scanning import Mark, Target
-from app.scanning.engine import Engine, Selection
-from app.scanning.plan import Planner
-from app.scanning.presses import Timing
+from app.inputs.scanning import Mark, Target
+from app.inputs.scanning.engine import Engine, Selection
+from app.inputs.scanning.plan import Planner
+from app.inputs.scanning.presses import Timing
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
 

@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from app.device.motion import GRAVITY, Axes, leaned
-from app.tilt import Level, Tilt, TiltSettings, between, shaped
+from app.inputs.motion.tilt import Level, Tilt, TiltSettings, between, shaped
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
 

@@ -21,12 +21,12 @@ from typing import Literal
 
 import numpy as np
 
-from app.voice.files import Samples, chunks, read
-from app.voice.hearing import Hearing, Judge, Phonemes
-from app.voice.lexicon import COMMANDS
-from app.voice.model import HamaModel
-from app.voice.noise import RATE
-from app.voice.recognizer import Event, Grammar, Rejected, Result, VoiceTrouble
+from app.inputs.voice.audio.files import Samples, chunks, read
+from app.inputs.voice.audio.noise import RATE
+from app.inputs.voice.recognition.hearing import Hearing, Judge, Phonemes
+from app.inputs.voice.recognition.lexicon import COMMANDS
+from app.inputs.voice.recognition.model import HamaModel
+from app.inputs.voice.recognition.recognizer import Event, Grammar, Rejected, Result, VoiceTrouble
 from bench.support.figures import Figure, percentile
 from bench.support.harness import Context, Sides
 from bench.support.voices import NOISES, espeak, natural, noisy
@@ -294,7 +294,7 @@ def _peer(
     made: Sequence[Clip], amid: Sequence[Clip], formant: Sequence[Clip], real: Sequence[Clip]
 ) -> dict[str, float]:
     try:
-        from app.voice.sphinx import Sphinx
+        from app.inputs.voice.recognition.sphinx import Sphinx
 
         return {
             **rates(Sphinx, made, formant, real),

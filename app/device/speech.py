@@ -1,7 +1,7 @@
 """Speech on the phone: Android's own recogniser as a `VoiceRecognizer`, and its own voice as a `Mouth`.
 
 The recogniser hears one utterance at a time and ends with it, so that it is begun again after each while the ears are open. It gives
-words and knows no grammar: `app.voice.matching` finds the command that they sound like. What belongs to the phone's main thread
+words and knows no grammar: `app.inputs.voice.recognition.matching` finds the command that they sound like. What belongs to the phone's main thread
 is put there by a `Handler`.
 """
 
@@ -13,9 +13,18 @@ import time
 from collections.abc import Callable, Collection
 from typing import Any
 
-from app.voice.matching import Match, match, said_within
-from app.voice.phrases import PHRASES
-from app.voice.recognizer import Grammar, Hear, Level, Partial, Rejected, Result, State, VoiceTrouble
+from app.inputs.voice.recognition.matching import Match, match, said_within
+from app.inputs.voice.recognition.phrases import PHRASES
+from app.inputs.voice.recognition.recognizer import (
+    Grammar,
+    Hear,
+    Level,
+    Partial,
+    Rejected,
+    Result,
+    State,
+    VoiceTrouble,
+)
 
 __all__ = ["AndroidMouth", "AndroidRecognizer"]
 

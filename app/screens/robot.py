@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from app.feeds import Post
-from app.layout import Layout
-from app.screens.dive import DiveScreen
-from app.screens.drive import DriveScreen
+from app.layout.layout import Layout
+from app.link.feeds import Post
+from app.screens.drive.dive import DiveScreen
+from app.screens.drive.drive import DriveScreen
 from app.screens.inputs.screen import InputsScreen
-from app.screens.mission import MissionScreen
-from app.screens.shell import Shell
-from app.screens.tasks import TasksScreen
-from app.screens.topics import TopicsScreen
-from app.session import Session
+from app.screens.mission.mission import MissionScreen
+from app.screens.shell.shell import Shell
+from app.screens.tasks.tasks import TasksScreen
+from app.screens.topics.topics import TopicsScreen
+from app.session.session import Session
 
 __all__ = ["Profile", "robot_shell"]
 

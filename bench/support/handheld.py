@@ -340,7 +340,7 @@ def send_by_frame_loop() -> None:
     """Have the frame loop pass the stick on, 20 times a second."""
     from kivy.clock import Clock
 
-    from app.link import Link
+    from app.link.link import Link
 
     drive = Link.drive
 
@@ -354,7 +354,7 @@ def send_by_frame_loop() -> None:
 
 def believe_fingers() -> None:
     """What is put into SDL's queue leaves the state of its mouse as it was: no finger would be there."""
-    from app.sdl import Sdl
+    from app.inputs.gamepad.sdl import Sdl
 
     lifted = Sdl.lifted
     Sdl.lifted = lambda self, device, finger: device != "mouse" and lifted(self, device, finger)  # type: ignore[method-assign]
@@ -377,8 +377,8 @@ def grip(app: Any) -> Any:
 
 def trust_blindly() -> None:
     """Forward what the stick says as it comes."""
-    from app import drive_slot
-    from app.inputs import Inputs
+    from app.inputs.inputs import Inputs
+    from app.link import drive_slot
 
     def look(self: Any) -> None:
         for stick, _ in self.sticks:
@@ -395,7 +395,7 @@ def trust_blindly() -> None:
 
 def watch_by_topic() -> None:
     """Have pictures come as base64 in JSON."""
-    from app.link import Link
+    from app.link.link import Link
 
     watch = Link.watch
     Link.watch = lambda self, camera: watch(self, None if camera is None else "")  # type: ignore[method-assign]

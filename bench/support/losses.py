@@ -155,7 +155,7 @@ def _turn(grip: Grip) -> None:
 
 
 def _cover(grip: Grip) -> None:
-    from app.screens.dialogs import AddressDialog
+    from app.screens.parts.dialogs import AddressDialog
 
     dialog = AddressDialog(lambda _: None)
     grip.app.root.add_widget(dialog)

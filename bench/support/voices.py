@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from app.voice.files import Samples, read, resampled
-from app.voice.noise import RATE
+from app.inputs.voice.audio.files import Samples, read, resampled
+from app.inputs.voice.audio.noise import RATE
 
 __all__ = ["NOISES", "Spoken", "espeak", "natural", "noisy"]
 

@@ -10,7 +10,7 @@ from typing import Any
 from kivy.core.window import Window
 from kivy.uix.widget import Widget
 
-from app.layout import SLIDER, load
+from app.layout.layout import SLIDER, load
 from examples.demo.connecting import LIVE, waiting
 from examples.demo.fingers import Finger, Point
 from examples.demo.glass import middle

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from app.feeds import Post
+from app.link.feeds import Post
 from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, Twist
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, RobotInfo, TaskStatus
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
@@ -72,7 +72,7 @@ def test_an_address_is_kept_once_something_has_answered_there(glass: Glass, robo
 
 
 def test_a_wrong_address_stays_in_the_field_with_a_sentence(glass: Glass) -> None:
-    from app.screens.dialogs import AddressDialog
+    from app.screens.parts.dialogs import AddressDialog
 
     glass.app.ask_address()
     glass.stage.frames(2)

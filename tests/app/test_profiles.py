@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from app.feeds import Post
-from app.screens.drive import DriveScreen
+from app.link.feeds import Post
+from app.screens.drive.drive import DriveScreen
 from bridge.msgs.geometry_msgs import Pose, PoseWithCovariance, PoseWithCovarianceStamped, Twist
 from bridge.msgs.pilothouse_msgs import (
     Compass,

@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
-from app.offer import CAMERA
-from app.topics import Topics
+from app.link.offer import CAMERA
+from app.session.topics import Topics
 from bridge.msgs.geometry_msgs import Twist
+from tests.app.link.test_link import AHEAD, Operator
 from tests.app.strange import Strange, strange_robot
-from tests.app.test_link import AHEAD, Operator
 
 
 @pytest.fixture(params=[1, 2], ids=["ROS 1", "ROS 2"])

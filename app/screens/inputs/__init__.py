@@ -11,14 +11,14 @@ from importlib.util import find_spec
 __all__ = ["PANES", "panes"]
 
 PANES: dict[str, tuple[str, str, str]] = {
-    "voice": ("mic", "Voice", "app.screens.inputs.voice_pane:VoicePane"),
-    "shake": ("mobile_vibrate", "Shake", "app.screens.inputs.shake_pane:ShakePane"),
-    "tilt": ("screen_rotation_alt", "Tilt", "app.screens.inputs.tilt_pane:TiltPane"),
-    "switches": ("radio_button_checked", "Switches", "app.screens.inputs.switch_pane:SwitchPane"),
-    "gamepad": ("gamepad", "Gamepad", "app.screens.inputs.pad_pane:PadPane"),
-    "keyboard": ("keyboard", "Keyboard", "app.screens.inputs.keys_pane:KeysPane"),
+    "voice": ("mic", "Voice", "app.screens.inputs.panes.voice_pane:VoicePane"),
+    "shake": ("mobile_vibrate", "Shake", "app.screens.inputs.panes.shake_pane:ShakePane"),
+    "tilt": ("screen_rotation_alt", "Tilt", "app.screens.inputs.panes.tilt_pane:TiltPane"),
+    "switches": ("radio_button_checked", "Switches", "app.screens.inputs.panes.switch_pane:SwitchPane"),
+    "gamepad": ("gamepad", "Gamepad", "app.screens.inputs.panes.pad_pane:PadPane"),
+    "keyboard": ("keyboard", "Keyboard", "app.screens.inputs.panes.keys_pane:KeysPane"),
     "table": ("tune", "What each may do", "app.screens.inputs.table:TablePane"),
-    "study": ("timeline", "Log and study", "app.screens.inputs.study_pane:StudyPane"),
+    "study": ("timeline", "Log and study", "app.screens.inputs.study.study_pane:StudyPane"),
 }
 """Name, as of the method where it is one, to icon, title, and module and class of its pane."""
 

@@ -6,8 +6,8 @@ from typing import Any
 
 from kivy.uix.boxlayout import BoxLayout
 
-from app.meaning import MEANINGS
-from app.screens.pane_head import PaneHead
+from app.inputs.meaning import MEANINGS
+from app.screens.parts.pane_head import PaneHead
 from widgets.parts.kit import Column, ListRow, Roll
 
 __all__ = ["MeaningList"]

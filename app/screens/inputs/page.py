@@ -9,8 +9,8 @@ from kivy.metrics import Metrics
 from kivy.properties import ObjectProperty
 from kivy.uix.floatlayout import FloatLayout
 
-from app import arrange
-from app.arrange import Body
+from app.layout import arrange
+from app.layout.arrange import Body
 from app.screens.inputs.screen import InputsScreen
 from widgets.core.frames import EdgedBox  # noqa: F401 - its rule draws the bar
 from widgets.parts.kit import IconButton, Text

@@ -10,14 +10,14 @@ from kivy.properties import ObjectProperty, StringProperty
 from kivy.uix.floatlayout import FloatLayout
 from kivy.uix.widget import Widget
 
-from app import arrange
-from app.arrange import Body, Rect
-from app.camera import Picture
-from app.feeds import Post
+from app.layout import arrange
+from app.layout.arrange import Body, Rect
+from app.link.camera import Picture
+from app.link.feeds import Post
 from app.screens.inputs import panes
 from app.screens.inputs.method_row import MethodRow
-from app.screens.pane_head import PaneHead
-from app.screens.placing import Area, put  # noqa: F401 - a rule names the area
+from app.screens.parts.pane_head import PaneHead
+from app.screens.parts.placing import Area, put  # noqa: F401 - a rule names the area
 from widgets.parts.kit import Column, Remark, Roll
 
 __all__ = ["InputsScreen"]

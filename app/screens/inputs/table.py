@@ -7,8 +7,8 @@ from typing import Any
 from kivy.properties import ObjectProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
-from app.intents import INTENTS, METHODS, PRESSED, Intent
-from app.permits import ALWAYS, SAYS
+from app.intents.intents import INTENTS, METHODS, PRESSED, Intent
+from app.intents.permits import ALWAYS, SAYS
 from app.screens.inputs import PANES
 from widgets.parts.kit import Column, ListRow, QuietButton, Remark, Roll, Segmented, Toggle
 

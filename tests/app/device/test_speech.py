@@ -11,8 +11,16 @@ import pytest
 
 from app.device import speech
 from app.device.speech import ASKS, NO_PACK, NONE, REFUSED, TRIES, AndroidMouth, AndroidRecognizer
-from app.voice.phrases import PHRASES
-from app.voice.recognizer import Grammar, Level, Partial, Rejected, Result, State, VoiceTrouble
+from app.inputs.voice.recognition.phrases import PHRASES
+from app.inputs.voice.recognition.recognizer import (
+    Grammar,
+    Level,
+    Partial,
+    Rejected,
+    Result,
+    State,
+    VoiceTrouble,
+)
 
 ENGLISH = Grammar(PHRASES["en"])
 

@@ -10,7 +10,7 @@ import msgspec
 import pytest
 
 import robotside
-from app.screens.connect import KINDS as KINDS_SHOWN
+from app.screens.connect.connect import KINDS as KINDS_SHOWN
 from bridge.msgs.pilothouse_msgs import (
     FlightState,
     Manoeuvre,

@@ -8,7 +8,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from app import logbook, tasking
+from app.session import logbook, tasking
 from bridge.msgs.arrays import Int32Array
 from bridge.msgs.pilothouse_msgs import (
     AcknowledgeEventsRequest,

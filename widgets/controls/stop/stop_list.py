@@ -134,7 +134,7 @@ Builder.load_string("""
 
 
 class Stopped(Protocol):
-    """One robot, as of `app.fleet.Row`."""
+    """One robot, as of `app.stop.fleet.Row`."""
 
     @property
     def url(self) -> str:

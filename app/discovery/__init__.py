@@ -1,0 +1,1 @@
+"""Robots that can be connected to: on the network, entered by hand, or simulated."""

@@ -1,0 +1,1 @@
+"""The ways to give commands, switched on and off together."""

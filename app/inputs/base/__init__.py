@@ -1,0 +1,1 @@
+"""What all input methods share."""

@@ -1,0 +1,1 @@
+"""Gamepads, their sticks and buttons."""

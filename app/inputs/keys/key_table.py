@@ -1,0 +1,175 @@
+"""What the keys mean: a table that the user changes, checked when it is read. No Kivy in here."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, replace
+from typing import Any
+
+from app.core.kept import number, shown
+
+__all__ = ["ARROWS", "DRIVING", "FIXED", "MEANT", "RISES", "SLOWS", "KeyTable", "key_words", "read"]
+
+MEANT = {
+    "p": "pause_resume",
+    "g": "patrol",
+    "b": "go_home",
+    "e": "end_task",
+    "o": "hold",
+    "u": "surface",
+    "pageup": "take_off",
+    "pagedown": "land",
+    "+": "faster",
+    "-": "slower",
+    "l": "lights",
+    "k": "snapshot",
+    "r": "record",
+    "c": "camera",
+    "m": "take_control",
+    "y": "yes",
+    "n": "no",
+    "v": "hold.talk",
+    "t": "hold.tilt",
+    "1": "screen.drive",
+    "2": "screen.mission",
+    "3": "screen.tasks",
+    "4": "screen.inputs",
+    "f9": "theme",
+    "f1": "help",
+    "?": "help",
+    "backspace": "back",
+}
+"""What the keys mean before anybody has said otherwise, by Kivy's names of them."""
+FIXED = {"escape": "stop"}
+"""What no table changes."""
+DRIVING = {26: "w", 4: "a", 22: "s", 7: "d"}
+"""Places of the keys that push the left control, to their names on a keyboard as in English: on every other the same four fingers."""
+ARROWS = {82: "up", 80: "left", 81: "down", 79: "right"}
+"""The same with the right control, and with the only one where a screen has one."""
+WORDS = {
+    "escape": "Esc",
+    "spacebar": "Space",
+    "enter": "Enter",
+    "tab": "Tab",
+    "backspace": "Backspace",
+    "pageup": "Page Up",
+    "pagedown": "Page Down",
+    "home": "Home",
+    "end": "End",
+    "insert": "Ins",
+    "delete": "Del",
+    "up": "↑",
+    "left": "←",
+    "down": "↓",
+    "right": "→",
+    "numpadadd": "+ (number pad)",
+    "numpadsubstract": "− (number pad)",
+    "numpadenter": "Enter (number pad)",
+    "shift": "Shift",
+    "-": "−",
+}
+TWINS = {"numpadadd": "+", "numpadsubstract": "-", "=": "+", "numpadenter": "enter", "rshift": "shift"}
+"""Keys that mean what another one means unless they have a meaning of their own."""
+RISES = (0.0, 2.0)
+"""From rest to the whole way of a control that a key pushes [s]."""
+SLOWS = (0.1, 1.0)
+"""Of the whole way, with Shift held as well."""
+
+
+@dataclass(frozen=True, slots=True)
+class KeyTable:
+    """How the keyboard is used."""
+
+    on: bool = True
+    """Shortcuts and driving; STOP by Escape is there all the same."""
+    drives: bool = True
+    """W A S D and the arrows drive while held."""
+    space_stops: bool = True
+    """Space is STOP where nothing is being typed; without it Space may be a switch."""
+    rise: float = 0.3
+    """From rest to the whole way [s]; back to rest is at once."""
+    slow: float = 0.35
+    """Of the whole way, with Shift held."""
+    keys: Mapping[str, str] = field(default_factory=lambda: dict(MEANT))
+    """Name of a key to what it means; one that is not named means nothing."""
+
+    def meaning(self, key: str) -> str:
+        """What a key means, by its name; empty for nothing."""
+        if key in FIXED:
+            return FIXED[key]
+        if key == "spacebar" and self.space_stops:
+            return "stop"
+        return self.keys.get(key) or self.keys.get(TWINS.get(key, key), "")
+
+    def keys_of(self, meaning: str) -> list[str]:
+        """Names of the keys that mean this."""
+        fixed = [key for key in (*FIXED, "spacebar") if self.meaning(key) == meaning]
+        return fixed + [key for key, meant in self.keys.items() if meant == meaning and key not in fixed]
+
+    def with_key(self, key: str, meaning: str) -> KeyTable:
+        """The same with this key as the only one of this meaning; empty as the key takes it away. ValueError for a key that is taken."""
+        if key in FIXED or (key == "spacebar" and self.space_stops):
+            raise ValueError(f"{key_words(key)} is STOP and stays it.")
+        if self.drives and key in (*DRIVING.values(), *ARROWS.values(), "shift", "rshift"):
+            raise ValueError(f"{key_words(key)} drives: choose another key, or let the keys drive no longer.")
+        kept = {name: meant for name, meant in self.keys.items() if meant != meaning and name != key}
+        return replace(self, keys=kept | ({key: meaning} if key else {}))
+
+    def kept(self) -> dict[str, Any]:
+        """As JSON, for the settings."""
+        return asdict(self)
+
+
+def key_words(key: str) -> str:
+    """What is printed on a key."""
+    return WORDS.get(key, key.upper() if len(key) < 4 else key.capitalize())
+
+
+def read(kept: object, meanings: Mapping[str, object] | None = None) -> tuple[KeyTable, list[str]]:
+    """The table as the settings have it, and one sentence for each thing in it that cannot be; that is as it was at first.
+
+    `meanings` are those that there are; None for any.
+    """
+    if not isinstance(kept, Mapping):
+        return KeyTable(), [] if kept is None else [f"The keys are not a table but {shown(kept)}."]
+    wrong: list[str] = []
+    flags = {name: _flag(kept, name, wrong) for name in ("on", "drives", "space_stops")}
+    usual = KeyTable()
+    rise, slow = (
+        _number(kept, name, ends, getattr(usual, name), wrong)
+        for name, ends in (("rise", RISES), ("slow", SLOWS))
+    )
+    keys = _keys(kept["keys"], meanings, wrong) if "keys" in kept else dict(MEANT)
+    return KeyTable(rise=rise, slow=slow, keys=keys, **flags), wrong
+
+
+def _flag(kept: Mapping[Any, Any], name: str, wrong: list[str]) -> bool:
+    value = kept.get(name, True)
+    if not isinstance(value, bool):
+        wrong.append(f"The keys' {name} is true or false, not {shown(value)}: true is used.")
+        return True
+    return value
+
+
+def _number(
+    kept: Mapping[Any, Any], name: str, ends: tuple[float, float], usual: float, wrong: list[str]
+) -> float:
+    value = kept.get(name, usual)
+    if (found := number(value, *ends)) is not None:
+        return found
+    wrong.append(f"The keys' {name} is from {ends[0]} to {ends[1]}, not {shown(value)}: {usual} is used.")
+    return usual
+
+
+def _keys(table: object, meanings: Mapping[str, object] | None, wrong: list[str]) -> dict[str, str]:
+    if not isinstance(table, Mapping):
+        wrong.append(f"The meanings of the keys are not a table but {shown(table)}.")
+        return dict(MEANT)
+    found = {}
+    for key, meaning in table.items():
+        meant = isinstance(meaning, str) and (not meaning or meanings is None or meaning in meanings)
+        if isinstance(key, str) and meant and key not in FIXED:
+            found[key] = meaning
+        else:
+            wrong.append(f"No key {shown(key)} can mean {shown(meaning)}.")
+    return found

@@ -1,0 +1,199 @@
+"""The ways in beside fingers: one object for each, made when the app starts, at rest while the glass is away, ended with it.
+
+Whoever brings a method adds a line to `MADE_BY` and touches the application no more. One that is off costs nothing.
+"""
+
+from __future__ import annotations
+
+import logging
+from contextlib import suppress
+from importlib import import_module
+from typing import Any, Protocol
+
+from kivy.core.window import Window
+
+from app.core.origin import origins
+from app.device.motion import motion_source
+from app.inputs.motion.sensing import Sensing
+from app.inputs.problems import Problems
+from app.inputs.voice.process.ending import wait_for_ends
+from app.intents.intents import METHODS, Heard, Verdict
+
+__all__ = ["MADE_BY", "Method", "Methods"]
+
+log = logging.getLogger(__name__)
+
+MADE_BY: dict[str, str] = {
+    "log": "app.study.responding:Responding",
+    "talk": "app.inputs.voice.talking:Talking",
+    "voice": "app.inputs.voice.speaking:Speaking",
+    "shake": "app.inputs.motion.shaking:Shaking",
+    "tilt": "app.inputs.motion.tilting:Tilting",
+    "switches": "app.inputs.scanning.switches:Switches",
+    "gamepad": "app.inputs.by_hand:GamepadMethod",
+    "keyboard": "app.inputs.by_hand:KeyboardMethod",
+}
+"""Name of each to its module and class, as in `"shake": "app.inputs.motion.shaking:Shaking"`; the class is called with the app."""
+
+
+class Method(Protocol):
+    """One way in."""
+
+    name: str
+    """As in `MADE_BY`."""
+    on: bool
+    """The operator wants it; kept in the settings by the method itself when it is assigned."""
+
+    @property
+    def standing(self) -> str:
+        """How it stands, in a word or a short sentence: `off`, `listening`, `5 Hz: too slow`."""
+
+    @property
+    def problem(self) -> str:
+        """Why it does not work though it is on, as one sentence; empty when it is well."""
+
+    def start(self) -> None:
+        """Begin, or begin again after a pause; nothing where it has begun."""
+
+    def stop(self) -> None:
+        """Rest: nothing is listened to any more, and nothing costs anything."""
+
+    def close(self) -> None:
+        """End whatever it owns."""
+
+    # `look(now)`, where there is one, is called with each heartbeat while it is on, or says that it is `busy`
+
+
+class Methods:
+    """All of them. Everything in the UI thread."""
+
+    def __init__(self, app: Any) -> None:
+        self._app = app
+        self._all: dict[str, Any] = {}
+        self._looks: list[Any] = []
+        self._paused = False
+        self.faults: dict[str, str] = {}
+        """Name of each that could not be made to one sentence why; everything else goes on without it."""
+        self._problems = Problems(app)
+        app.sensing = self.sensing = Sensing(motion_source(app.now), app.now)
+        """The motion sensors of all of them."""
+
+    def open(self) -> None:
+        """Make each, and begin with those that are on; what cannot be made is said, and there is none of it."""
+        Window.bind(on_touch_down=self._touched, on_touch_up=self._lifted)
+        self._app.intents.on_taken.append(self._told)
+        for name, where in MADE_BY.items():
+            try:
+                self._make(name, where)
+            except Exception as problem:
+                log.exception("%s cannot be used", name)
+                self._leave_out(name, problem)
+        mistaken = [getattr(method, "mistaken", "") for method in self._all.values()]
+        said = [*self.faults.values(), self._app.intents.table.problem, *mistaken]
+        if any(said):
+            self._app.connect.say(" ".join(filter(None, said)), "warn")
+
+    def _make(self, name: str, where: str) -> None:
+        module, _, made = where.partition(":")
+        self._all[name] = method = getattr(import_module(module), made)(self._app)
+        if method.on:
+            method.start()
+        if hasattr(method, "look"):
+            self._looks.append(method)
+
+    def _leave_out(self, name: str, problem: Exception) -> None:
+        method = self._all.pop(name, None)
+        if method is not None:
+            with suppress(Exception):  # what failed to begin may fail to end as well
+                method.close()
+        self.faults[name] = f"{name.capitalize()} cannot be used: {problem or type(problem).__name__}."
+
+    def close(self) -> None:
+        """End each."""
+        Window.unbind(on_touch_down=self._touched, on_touch_up=self._lifted)
+        for method in self._all.values():
+            method.stop()
+            method.close()
+        wait_for_ends()
+        origins.forget()
+        self.sensing.close()
+        self._all.clear()
+        self._looks.clear()
+
+    def pause(self) -> None:
+        """The glass is taken away: nothing listens."""
+        self._paused = True
+        self._app.intents.rest()
+        origins.forget()
+        self.sensing.pause()
+        for method in self._all.values():
+            method.stop()
+
+    def resume(self) -> None:
+        """It is back: those that are on begin again."""
+        self._paused = False
+        self.sensing.resume()
+        for method in self._all.values():
+            if method.on:
+                method.start()
+
+    def look(self, now: float) -> None:
+        """With each heartbeat of the user interface, every 30 ms; `now` is our clock [s]."""
+        origins.look(now)
+        self._app.intents.look(now)
+        if self._app.shell is not None:
+            self._app.shell.wishes.look(now)
+        self.sensing.look(now)
+        for method in self._looks:
+            if method.on or getattr(method, "busy", False):
+                method.look(now)
+        if not self._paused:
+            self._problems.look(now)
+
+    def get(self, name: str) -> Any:
+        """The method of that name; None where there is none."""
+        return self._all.get(name)
+
+    def turn(self, name: str, on: bool) -> None:
+        """Switch one on or off, and remember it; nothing for one that there is not."""
+        method = self._all.get(name)
+        if method is None:
+            return
+        method.on = on
+        if on and not self._paused:
+            method.start()
+        elif not on:
+            method.stop()
+
+    @property
+    def armed(self) -> list[str]:
+        """Names of those that are on, and are a way to give commands."""
+        return [name for name, method in self._all.items() if method.on and name in METHODS]
+
+    @property
+    def hearing(self) -> list[str]:
+        """Names of those that a command could come from now: they are on and well, and have something to work with."""
+        idle = self.idle()
+        return [name for name, well in self.standing() if well and name not in idle]
+
+    def standing(self) -> list[tuple[str, bool]]:
+        """Name of each that is on, and whether it is well."""
+        return [(name, not self.get(name).problem) for name in self.armed]
+
+    def idle(self) -> list[str]:
+        """Names of those that are on and well, and have nothing to work with: no gamepad is plugged in."""
+        return [name for name in self.armed if getattr(self.get(name), "idle", False)]
+
+    def _told(self, heard: Heard, verdict: Verdict) -> None:
+        """Without a robot there is nothing that waits: only why nothing was done is said."""
+        method = self._all.get(heard.method)
+        if hasattr(method, "said") and verdict.done:  # what it asked was answered, or lapsed
+            method.said = verdict.sentence
+        if self._app.shell is None and verdict.what in ("not allowed", "not now"):
+            self._app.connect.say(verdict.sentence, "warn")
+
+    def _touched(self, *_: object) -> None:
+        origins.touched(self._app.now())
+
+    def _lifted(self, *_: object) -> None:
+        origins.lifted(self._app.now())

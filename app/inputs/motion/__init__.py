@@ -1,0 +1,1 @@
+"""The handheld's motion sensors: shake and tilt."""

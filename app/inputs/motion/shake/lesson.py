@@ -1,0 +1,167 @@
+"""The lesson: three movements of three seconds each, measured, and what they say about the one who shook."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+from statistics import median
+
+from app.inputs.motion.shake.ground import Ground, Motion
+from app.inputs.motion.shake.spread import Spread, Turning
+from app.inputs.motion.shake.tuning import (
+    AXES,
+    LEAST_GAP,
+    LEAST_PEAK,
+    MOST_GAP,
+    MOST_PEAK,
+    USUAL,
+    WORDS,
+    Axis,
+    Own,
+)
+
+__all__ = ["MOVING", "READY", "Lesson", "Measured", "measure"]
+
+READY = 1.2
+"""Before each movement the phone is held still for so long [s]."""
+MOVING = 3.0
+"""Each is done for so long [s]."""
+FEWEST = 3
+"""Half cycles that a movement needs."""
+STRAIGHT = 0.62
+"""Less straight than this, 1/3 to 1, it was no movement to and fro."""
+ROUND = 0.55
+"""Nor was it if it went more round than this, 0 to 1."""
+APART = math.cos(math.radians(35.0))
+"""Two movements that are closer than that cannot be told from each other."""
+LEAK = 0.25
+"""As in the recogniser [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """What one movement came to."""
+
+    own: Own | None
+    """None where it cannot be used."""
+    sentence: str
+    """Why not; empty where it can."""
+
+
+class Lesson:
+    """Feed it samples; `axis` says what is to be done now and `doing` whether that has begun."""
+
+    def __init__(self, ask: tuple[Axis, ...] = AXES) -> None:
+        self._asked = list(ask)
+        self._ground = Ground(USUAL.settling)
+        self._since = self._last = math.nan
+        self._moved: list[tuple[float, Motion]] = []
+        self.own: dict[Axis, Own] = {}
+        """What is measured so far."""
+        self.sentence = ""
+        """Why the movement before has to be done again; empty where it need not."""
+
+    @property
+    def axis(self) -> Axis | None:
+        """The movement that is to be done; None once the lesson is over."""
+        return self._asked[0] if self._asked else None
+
+    @property
+    def over(self) -> bool:
+        """All are measured."""
+        return not self._asked
+
+    @property
+    def doing(self) -> bool:
+        """The hand is to move now; before that it is to be still."""
+        return not self.over and self.elapsed >= READY
+
+    @property
+    def elapsed(self) -> float:
+        """Since this movement was asked for [s]; 0 before the first sample."""
+        return self._last - self._since if self._last >= self._since else 0.0
+
+    @property
+    def progress(self) -> float:
+        """Of all three, 0 to 1."""
+        asked = len(self._asked)
+        done = min(1.0, self.elapsed / (READY + MOVING)) if asked else 0.0
+        return 1.0 - (asked - done) / len(AXES)
+
+    def feed(self, t: float, axes: Motion) -> None:
+        """One sample of the accelerometer, measured at `t` [s], with gravity [m/s²]."""
+        if self.over:
+            return
+        dt = t - self._last
+        self._last = t
+        if not 0.0 < dt < 0.5:
+            self._since, self._moved = t, []
+            return
+        motion = self._ground.motion(dt, *axes)
+        if self.doing:
+            self._moved.append((t, motion))
+        if self.elapsed >= READY + MOVING:
+            self._measured(self._asked[0])
+
+    def _measured(self, axis: Axis) -> None:
+        found = measure(axis, self._moved, self.own)
+        self._since, self._moved, self.sentence = self._last, [], found.sentence
+        if found.own is not None:
+            self.own[axis] = found.own
+            self._asked.pop(0)
+
+
+def measure(axis: Axis, moved: list[tuple[float, Motion]], others: dict[Axis, Own]) -> Measured:
+    """What samples of one movement, with their times [s], say; `others` are those that it must differ from."""
+    name = WORDS[axis]
+    spread = _spread(moved)
+    along = [spread.way[0] * x + spread.way[1] * y + spread.way[2] * z for _, (x, y, z) in moved]
+    peaks, times = _halves([t for t, _ in moved], along)
+    if len(peaks) < FEWEST or median(peaks) < LEAST_PEAK:
+        return Measured(None, f"{name} was too gentle: shake harder, to and fro.")
+    gap = median(b - a for a, b in pairwise(times))
+    if gap > MOST_GAP:
+        return Measured(None, f"{name} was too slow: once to and fro takes at most {2 * MOST_GAP:.1f} s.")
+    if spread.straight < STRAIGHT or spread.round > ROUND:
+        return Measured(None, f"{name} went round and round: go to and fro on a line.")
+    for other, own in others.items():
+        if abs(sum(a * b for a, b in zip(spread.way, own.way, strict=True))) > APART:
+            return Measured(
+                None, f"{name} looked like {WORDS[other].lower()}: do it once more, along another line."
+            )
+    return Measured(Own(spread.way, min(median(peaks), MOST_PEAK), max(gap, LEAST_GAP)), "")
+
+
+def _spread(moved: list[tuple[float, Motion]]) -> Spread:
+    """Of the velocity, leaky as in the recogniser."""
+    vx = vy = vz = power = 0.0
+    sums, turned = [0.0] * 6, [0.0] * 3
+    for (before, _), (t, (x, y, z)) in pairwise(moved):
+        dt = t - before
+        keep = max(0.0, 1.0 - dt / LEAK)
+        vx, vy, vz = vx * keep + x * dt, vy * keep + y * dt, vz * keep + z * dt
+        for i, product in enumerate((vx * vx, vy * vy, vz * vz, vx * vy, vx * vz, vy * vz)):
+            sums[i] += product * dt
+        for i, product in enumerate((vy * z - vz * y, vz * x - vx * z, vx * y - vy * x)):
+            turned[i] += product * dt
+        power += (x * x + y * y + z * z) * dt
+    seconds = moved[-1][0] - moved[0][0] if moved else 0.0
+    return Spread(sums, seconds, Turning((turned[0], turned[1], turned[2]), power, LEAK))
+
+
+def _halves(times: list[float], values: list[float]) -> tuple[list[float], list[float]]:
+    """Peaks of the half cycles [m/s²] and when each began [s]; what counts is a third of the loud ones."""
+    loud = sorted(abs(value) for value in values)
+    if not loud:
+        return [], []
+    threshold = max(0.35 * loud[int(0.9 * (len(loud) - 1))], 0.8)
+    side, peaks, began = 0, list[float](), list[float]()
+    for t, value in zip(times, values, strict=True):
+        if (value > threshold and side <= 0) or (value < -threshold and side >= 0):
+            side = 1 if value > 0 else -1
+            peaks.append(abs(value))
+            began.append(t)
+        elif side and value * side > peaks[-1]:
+            peaks[-1] = value * side
+    return peaks, began

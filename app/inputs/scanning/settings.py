@@ -1,0 +1,151 @@
+"""How somebody's switches are set up, as the handheld remembers it under `switches`; what is out of range is put to the default."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields, replace
+from typing import Any
+
+from app.core.kept import number, shown
+from app.inputs.scanning.presses import Timing
+from app.inputs.scanning.scan import Pace
+
+__all__ = ["RANGES", "Key", "Options", "read"]
+
+RANGES: dict[str, tuple[float, float]] = {
+    "interval": (0.5, 6.0),
+    "first": (0.0, 3.0),
+    "loops": (1, 9),
+    "debounce": (0.0, 0.3),
+    "ignore_repeat": (0.0, 1.0),
+    "acceptance": (0.0, 1.0),
+}
+"""Least and most of each figure: seconds, and `loops` a number."""
+MOST_KEYS = 6
+"""Keys and buttons that one switch may have."""
+WORDS = {"spacebar": "Space", "numpadenter": "Number pad Enter"}
+"""What keys are called here that Kivy calls otherwise."""
+NAME = 80
+"""Letters of a name, at most."""
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """A key of a keyboard, or a button of a gamepad, that is a switch; many switch boxes are one or the other."""
+
+    source: str
+    """`key` or `pad`."""
+    name: str
+    """As of `app.inputs.base.press.Press`: `tab`, `enter`, `a`, `dpup`, `button 7`."""
+    device: str = ""
+    """Name of the gamepad; empty for a keyboard, and for any gamepad."""
+
+    def fits(self, source: str, name: str, device: str) -> bool:
+        """That one is meant."""
+        return (self.source, self.name) == (source, name) and self.device in ("", device)
+
+    @property
+    def words(self) -> str:
+        """For the operator, as in `Tab` or `Button A`."""
+        said = WORDS.get(self.name, self.name.replace("_", " ").capitalize())
+        return f"Pad {said}" if self.source == "pad" else said
+
+
+_PACE, _TIMING = Pace(), Timing()
+TAB, ENTER, NUMPAD_ENTER = Key("key", "tab"), Key("key", "enter"), Key("key", "numpadenter")
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """Everything about switches that the operator chooses."""
+
+    on: bool = True
+    """Without a press nothing is marked and nothing costs anything: two keys alone must be able to wake it."""
+    one: bool = False
+    """One switch, the mark moves by itself; every key is then the one that does."""
+    a: tuple[Key, ...] = (TAB,)
+    """Next."""
+    b: tuple[Key, ...] = (ENTER, NUMPAD_ENTER)
+    """Do it."""
+    interval: float = _PACE.interval
+    first: float = _PACE.first
+    loops: int = _PACE.loops
+    debounce: float = _TIMING.debounce
+    ignore_repeat: float = _TIMING.ignore_repeat
+    acceptance: float = _TIMING.acceptance
+    tones: bool = True
+    """Each step is heard."""
+    vibrates: bool = True
+    """Each step is felt, on what can vibrate."""
+    spoken: bool = False
+    """What is marked is said, where the app can speak."""
+
+    @property
+    def timing(self) -> Timing:
+        """For the contacts."""
+        return Timing(self.debounce, self.ignore_repeat, self.acceptance)
+
+    @property
+    def pace(self) -> Pace:
+        """For the mark."""
+        return Pace(self.one, self.interval, self.first, self.loops)
+
+    def save(self) -> dict[str, Any]:
+        """As JSON values."""
+        return asdict(self)
+
+
+DEFAULTS = Options()
+
+
+def read(kept: object) -> tuple[Options, str]:
+    """The options that `kept` says, and one sentence of what in it was not to be used; empty where all was."""
+    if kept is None:
+        return DEFAULTS, ""
+    if not isinstance(kept, Mapping):
+        return DEFAULTS, f"The settings of the switches are no table but {shown(kept)}: as delivered."
+    options, wrong = DEFAULTS, []
+    for one in fields(Options):
+        if one.name not in kept:
+            continue
+        value = _checked(one.name, kept[one.name])
+        if value is None:
+            wrong.append(f"{one.name} {shown(kept[one.name])} ({_allowed(one.name)})")
+        else:
+            options = replace(options, **{one.name: value})
+    if set(options.a) & set(options.b):
+        options, wrong = replace(options, a=DEFAULTS.a, b=DEFAULTS.b), [*wrong, "one key for both switches"]
+    return options, f"Of the switches put to the default: {', '.join(wrong)}." if wrong else ""
+
+
+def _checked(name: str, value: object) -> Any:
+    """The value where it may be; None where it may not."""
+    if name in ("a", "b"):
+        return _keys(value)
+    if name not in RANGES:
+        return value if isinstance(value, bool) else None
+    found = number(value, *RANGES[name])
+    return int(found) if found is not None and name == "loops" else found
+
+
+def _keys(value: object) -> tuple[Key, ...] | None:
+    if not isinstance(value, list | tuple) or not len(value) <= MOST_KEYS:
+        return None
+    found = [_key(one) for one in value]
+    return tuple(one for one in found if one is not None) if None not in found else None
+
+
+def _key(value: object) -> Key | None:
+    if not isinstance(value, Mapping):
+        return None
+    source, name, device = value.get("source"), value.get("name"), value.get("device", "")
+    if source not in ("key", "pad") or not isinstance(name, str) or not isinstance(device, str):
+        return None
+    return Key(source, name, device) if 0 < len(name) <= NAME and len(device) <= NAME else None
+
+
+def _allowed(name: str) -> str:
+    if name in RANGES:
+        low, high = RANGES[name]
+        return f"{low:g} to {high:g}"
+    return f"at most {MOST_KEYS} keys" if name in ("a", "b") else "true or false"

@@ -1,0 +1,358 @@
+"""Switches as a way in: which keys and buttons they are, what a press of them comes to, and what is said of it.
+
+Asleep they cost one look at each key that is pressed. The first press of one of them makes the engine and marks where the
+scan begins; a finger on the glass takes the mark away again, and so does typing. For as long as somebody types into a field a
+switch on a keyboard types as well; but B held, or A and B together, is STOP all the same.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any, Literal
+
+from kivy.core.window import Window
+
+from app.core.telling import tell
+from app.device import vibrate
+from app.inputs.base.press import Press
+from app.inputs.inputs import typing
+from app.inputs.scanning import Mark
+from app.inputs.scanning.engine import Engine, Selection
+from app.inputs.scanning.plan import Planner
+from app.inputs.scanning.settings import Key, read
+from app.inputs.scanning.tones import Tones
+from app.inputs.scanning.usage import Usage
+from app.intents.intents import Heard
+
+__all__ = ["Switches"]
+
+OTHERS = frozenset({"ctrl", "alt", "meta"})
+"""With one of these held a key is a shortcut and no switch."""
+SHIFTS = frozenset(
+    ("shift", "rshift", "lctrl", "rctrl", "alt", "alt-gr", "super", "capslock", "numlock", "escape")
+)
+"""Keys that type nothing."""
+TYPES = 10.0
+"""Who typed, or touched the glass, so shortly ago [s] still types: longer, and nobody could wake the scan beside a field."""
+FELT = 0.02
+"""How long a step is felt [s]."""
+KEPT, USED = "switches", "switches_used"
+"""Names in the settings."""
+SAVED = 10
+"""After so many selections what was counted is put into the settings."""
+
+
+class Switches:
+    """A method as `app.inputs.methods` wants them. Everything in the UI thread."""
+
+    name = "switches"
+
+    def __init__(self, app: Any) -> None:
+        """`app` is asked for its `settings`, `inputs`, `intents`, `methods`, `shell`, `connect` and `now`."""
+        self._app = app
+        self.options, self._fault = read(app.settings.get(KEPT))
+        self._usage = Usage(app.settings.get(USED))
+        self._counted = 0
+        """Selections that are not in the settings yet."""
+        self._asked_for = Counter[str]()
+        """What the log told of intents when it was looked at last."""
+        self._tones = Tones()
+        self._engine: Engine | None = None
+        self._glass: Any = None
+        self._stuck: list[str] = []
+        self._doing = False
+        """What is marked is being done: touches made for that are no fingers."""
+        self._typed = -math.inf
+        """When somebody typed or touched the glass last [s]."""
+        self._typed_with: set[tuple[str, int, str]] = set()
+        """Switches that are down and type: only STOP comes of them."""
+        self._asked: Callable[[Key], object] | None = None
+        """Takes the next key or button, instead of the scan."""
+        self.on_selected: list[Callable[[Selection], object]] = []
+        """Called with each thing that was chosen, before it is done."""
+
+    # as a method
+
+    @property
+    def set_to(self) -> dict[str, Any]:
+        """Everything that it goes by, as JSON."""
+        return self.options.save()
+
+    @property
+    def on(self) -> bool:
+        """The operator wants it."""
+        return self.options.on
+
+    @on.setter
+    def on(self, on: bool) -> None:
+        self.change(on=on)
+
+    @property
+    def standing(self) -> str:
+        """How it stands, in a few words."""
+        if not self.on:
+            return "off"
+        if self.options.one:
+            return f"one switch: {_listed(self.options.b) or 'no key yet'}"
+        return f"{_listed(self.options.a) or 'no key'} next, {_listed(self.options.b) or 'no key'} does it"
+
+    @property
+    def hint(self) -> str:
+        """What the switches do, as in `Tab next · Enter do it`; empty while they are off or have no keys."""
+        do = f"{_listed(self.options.b)} do it" if self.on and self.options.b else ""
+        if not do or self.options.one or not self.options.a:
+            return do
+        return f"{_listed(self.options.a)} next · {do}"
+
+    @property
+    def problem(self) -> str:
+        """Why it does not work though it is on; empty when it is well."""
+        if not self.on:
+            return ""
+        if self._stuck:
+            return f"Switch {' and '.join(self._stuck)} is stuck down and is ignored until it comes up."
+        if not self.options.b:
+            return "No key is the switch that does what is marked."
+        return "" if self.options.a or self.options.one else "No key is the switch for the next one."
+
+    def start(self) -> None:
+        """Listen to the keys and buttons that are switches."""
+        if self._fault:
+            self._say(self._fault)
+            self._fault = ""
+        inputs = self._app.inputs
+        if self not in inputs.presses.takers:
+            inputs.presses.takers.insert(0, self)
+            inputs.is_switch = self.is_switch
+            Window.bind(focus=self._focused, on_touch_down=self._touched, on_textinput=self._wrote)
+
+    def stop(self) -> None:
+        """Nothing is marked and nothing listened to."""
+        inputs = self._app.inputs
+        if self in inputs.presses.takers:
+            inputs.presses.takers.remove(self)
+            inputs.is_switch = lambda _: False
+            Window.unbind(focus=self._focused, on_touch_down=self._touched, on_textinput=self._wrote)
+        self._asked = None
+        self._typed_with.clear()
+        if self._engine is not None:
+            self._engine.lost()
+            self._engine.sleep()
+        self._stuck = []
+        self._save_used()
+
+    def close(self) -> None:
+        """End whatever it owns."""
+        self.stop()
+        self._tones.close()
+        if self._glass is not None:
+            self._glass.close()
+        self._engine = self._glass = None
+
+    def look(self, now: float) -> None:
+        """With each heartbeat."""
+        engine = self._engine
+        if engine is None:
+            return
+        self._lift(now)
+        awake = engine.awake
+        engine.look(now)
+        if awake and not engine.awake and typing():
+            engine.wake(now)  # a field with the focus waits for an answer: there the mark goes round on
+
+    # how it is set up
+
+    def change(self, **values: Any) -> None:
+        """Choose something else, as in `interval=1.2`, and remember it. ValueError for what is out of range."""
+        fresh, fault = read(replace(self.options, **values).save())
+        if fault:
+            raise ValueError(fault)
+        self.options = fresh
+        self._app.settings.set(KEPT, fresh.save())
+        if self._engine is not None:
+            self._engine.setup(fresh.timing, fresh.pace)
+
+    def ask(self, take: Callable[[Key], object] | None) -> None:
+        """Give the next key or button that is pressed to `take`, whatever it is now; None asks no longer."""
+        self._asked = take
+
+    @property
+    def engine(self) -> Engine:
+        """What turns presses into selections, made when it is first asked for."""
+        if self._engine is None:
+            from app.inputs.scanning.targets import OnGlass
+
+            self._glass = OnGlass(self._app)
+            planner = Planner(self._usage.frozen)
+            desk = _Desk(self)
+            self._engine = Engine(self._glass, planner, desk, self.options.timing, self.options.pace)
+        return self._engine
+
+    @property
+    def awake(self) -> bool:
+        """Something is marked."""
+        return self._engine is not None and self._engine.awake
+
+    # what is pressed
+
+    def is_switch(self, press: Press) -> bool:
+        """That key or button is one of the switches."""
+        return self.on and self._which(press) is not None
+
+    def pressed(self, press: Press) -> bool:
+        """Take it, where it is a switch and nobody types with the keyboard that it is on."""
+        if self._asked is not None:
+            self._give(press)
+            return True
+        which = self._which(press)
+        if which is None:
+            if press.source == "key" and press.name not in SHIFTS and typing():
+                self._types()
+            return False
+        if press.modifiers & OTHERS:
+            return False
+        self._lift(press.at)
+        types = press.source == "key" and not self.awake and press.at - self._typed < TYPES and typing()
+        if types:
+            self._typed_with.add(press.same)
+        self.engine.press(which, press.same, press.at, only_stop=types)
+        return not types
+
+    def released(self, press: Press) -> None:
+        """It is up."""
+        if self._engine is not None:
+            self._engine.release(press.same, self._app.now())
+
+    def _give(self, press: Press) -> None:
+        """To whoever asked for a key; one that is a switch is STOP all the same when it is held."""
+        which, take, self._asked = self._which(press), self._asked, None
+        if which is not None:
+            self.engine.press(which, press.same, press.at, only_stop=True)
+        if take is not None:
+            take(Key(press.source, press.name, press.device if press.source == "pad" else ""))
+
+    def _lift(self, now: float) -> None:
+        """Switches that typed and are up: who takes no press is not told of its end."""
+        if not self._typed_with:
+            return
+        down = {press.same for press in self._app.inputs.presses.down}
+        for same in list(self._typed_with):
+            if same not in down:
+                self._typed_with.discard(same)
+                self.engine.release(same, now)
+
+    def _types(self) -> None:
+        """Somebody types, or has a finger on the glass: nothing is marked."""
+        self._typed = self._app.now()
+        if self._engine is not None and self._engine.awake:
+            self._engine.sleep()
+
+    def _wrote(self, _: object, text: str) -> None:
+        """Letters came, which a keyboard on the glass tells without keys; those of a switch are no typing."""
+        down = self._app.inputs.presses.down
+        if text.strip() and not any(self._which(press) for press in down) and typing():
+            self._types()
+
+    def _which(self, press: Press) -> Literal["A", "B"] | None:
+        if any(key.fits(press.source, press.name, press.device) for key in self.options.b):
+            return "B"
+        if any(key.fits(press.source, press.name, press.device) for key in self.options.a):
+            return "A"
+        return None
+
+    def _focused(self, _: object, focus: bool) -> None:
+        if self._engine is not None:
+            self._engine.found(self._app.now()) if focus else self._engine.lost()
+
+    def _touched(self, *_: object) -> None:
+        if not self._doing:
+            self._types()
+
+    # what the engine tells
+
+    def halt(self, began: float) -> None:
+        """STOP by switches; what they have begun goes on no longer."""
+        if self._glass is not None:
+            self._glass.openings.halt()
+        verdict = self._app.intents.take(Heard("stop", self.name, began=began, said="held"))
+        if verdict.what != "acted":
+            self._say(verdict.sentence)
+
+    def do(self, chosen: Selection) -> None:
+        """Do it, by the entry for what is chosen on the glass: `app.intents.intents` says what is barred."""
+        target, now = chosen.target, self._app.now()
+        self._count(chosen)
+        ended = chosen.ended if math.isfinite(chosen.ended) else now
+        heard = Heard(target.intent, self.name, began=chosen.began, ended=ended, said=target.words)
+        self._doing = True
+        try:
+            verdict = self._app.intents.choose(heard, target.act)
+        finally:
+            self._doing = False
+        if verdict.what not in ("acted", "practised"):
+            self._say(verdict.sentence)
+
+    def stepped(self, sound: str, mark: Mark | None) -> None:
+        """Let it be heard, felt and spoken."""
+        if self.options.tones:
+            self._tones.play(sound)
+        if self.options.vibrates:
+            vibrate(FELT)
+        talk = getattr(self._app, "talk", None)
+        if self.options.spoken and talk is not None and mark is not None:
+            talk.say(mark.words)
+
+    def stuck(self, switch: str, stuck: bool) -> None:
+        """Say it, once each."""
+        if stuck and switch not in self._stuck:
+            self._stuck.append(switch)
+            self._say(f"Switch {switch} is stuck down: it is ignored until it comes up.")
+        elif not stuck and switch in self._stuck:
+            self._stuck.remove(switch)
+            self._say(f"Switch {switch} works again.", "info")
+
+    # what is learned
+
+    def _count(self, chosen: Selection) -> None:
+        for hear in list(self.on_selected):
+            hear(chosen)
+        if self._log is not None and self._log.on:
+            self._log.tracks.picked(chosen.target.words, chosen.presses, chosen.since, self._app.now())
+        self._usage.used(chosen.place, chosen.target.name)
+        self._counted += 1
+        if self._counted >= SAVED:
+            self._save_used()
+
+    @property
+    def _log(self) -> Any:
+        """The response log; None where the app keeps none."""
+        return self._app.methods.get("log")
+
+    def _save_used(self) -> None:
+        """With what the log says was asked for by whichever method: by switches it is as likely to be."""
+        asked = self._log.usage() if self._log is not None else Counter[str]()
+        fresh, self._asked_for = asked - self._asked_for, asked
+        for intent, times in fresh.items():
+            self._usage.used("", intent, times)
+        if self._counted or fresh:
+            self._counted = 0
+            self._app.settings.set(USED, self._usage.save())
+
+    def _say(self, text: str, level: str = "warn") -> None:
+        tell(self._app, text, level, self.name)
+
+
+def _listed(keys: tuple[Key, ...]) -> str:
+    """The first of them in words: the others stand in the pane."""
+    return keys[0].words if keys else ""
+
+
+class _Desk:
+    """Switches as the engine knows them: there STOP is STOP."""
+
+    def __init__(self, switches: Switches) -> None:
+        self.stop = switches.halt
+        self.do, self.stepped, self.stuck = switches.do, switches.stepped, switches.stuck

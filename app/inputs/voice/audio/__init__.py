@@ -1,0 +1,1 @@
+"""Sound from the microphone: levels, noise, where an utterance begins and ends."""

@@ -1,0 +1,1 @@
+"""The process that listens, and its line to the app."""

@@ -1,0 +1,188 @@
+"""From samples to events: noise meter, end points, STOP spotter and scorer in a row. Knows no microphone, thread or clock."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.inputs.voice.audio.endpoint import Endpointer, Segment
+from app.inputs.voice.audio.noise import CLEAR, NoiseMeter
+from app.inputs.voice.recognition.ctc import Acoustics, Found, Scorer
+from app.inputs.voice.recognition.looks import looks
+from app.inputs.voice.recognition.recognizer import Grammar, Hear, Level, Rejected, Result, State
+from app.inputs.voice.recognition.spotter import Spotted, Spotter
+
+__all__ = ["Hearing", "Judge", "Phonemes"]
+
+METERED = 0.1
+"""The meter is told so often [s]."""
+UNSURE = (0.02, 0.9)
+"""It is asked again, by other looks at the words, between these confidences."""
+SAME = 0.35
+"""STOP that ends within this of one that was spotted is the same [s]."""
+
+
+class Judge(Protocol):
+    """Understands one utterance, and STOP in part of one."""
+
+    def judge(self, samples: NDArray[np.float32], heeded: Collection[str]) -> Found | None:
+        """What was most likely said, of `heeded`; None for nothing."""
+        ...
+
+    def spot(self, segment: Segment, now: float) -> Spotted | None:
+        """An urgent intent in what is said until `now` [s]; None where there is none, or where it looks later."""
+        ...
+
+
+class Phonemes:
+    """The judge that scores phonemes: `app.inputs.voice.recognition.ctc` and `app.inputs.voice.recognition.spotter` on one model."""
+
+    def __init__(self, grammar: Grammar, model: Acoustics) -> None:
+        """`VoiceTrouble` for a phrase whose sounds are not known."""
+        self._model, self._grammar = model, grammar
+        self._scorer, self._spotter = Scorer(grammar, model.tokens), Spotter(grammar, model)
+
+    def judge(self, samples: NDArray[np.float32], heeded: Collection[str]) -> Found | None:
+        """By the whole utterance; where that is close to call, by further looks at it (`app.inputs.voice.recognition.looks`)."""
+        views = [self._model.hear(samples)]
+        found = self._scorer.judge(views, heeded)
+        if found is None or not UNSURE[0] < found.confidence < UNSURE[1] or self._urgent(found):
+            return found
+        for other in looks(samples):
+            views.append(self._model.hear(other))
+            alone = self._scorer.judge(views[-1:], heeded)
+            if self._urgent(alone):
+                return alone
+        return self._scorer.judge(views, heeded)
+
+    def _urgent(self, found: Found | None) -> bool:
+        """STOP in any look is STOP."""
+        return found is not None and found.accepted and found.command in self._grammar.urgent
+
+    def spot(self, segment: Segment, now: float) -> Spotted | None:
+        """By its last second, at the moments when a word may have ended."""
+        return self._spotter.look(segment, now)
+
+
+class Hearing:
+    """Fed with samples; tells events. All in one thread."""
+
+    def __init__(self, grammar: Grammar, judge: Judge, tell: Hear) -> None:
+        """`tell` is given each event."""
+        self._grammar, self._judge, self._tell = grammar, judge, tell
+        self._meter, self._points = NoiseMeter(), Endpointer()
+        self._every = frozenset(grammar.phrases)
+        self._heeded: frozenset[str] | None = None
+        self._metered = -METERED
+        self._told_loud = False
+        self._spotted: Spotted | None = None
+
+    @property
+    def heeded(self) -> frozenset[str]:
+        """The intents that count now."""
+        heeded = self._every - self._grammar.asked if self._heeded is None else self._heeded
+        return (heeded | self._grammar.urgent) & self._every
+
+    def heed(self, commands: Collection[str] | None) -> None:
+        """Count only these from now on; None for all that need no question."""
+        self._heeded = None if commands is None else frozenset(commands)
+
+    def hear(self, samples: NDArray[np.float32], at: float) -> None:
+        """The next samples at 16 kHz, -1 to 1, of which the last was heard at `at` [s]."""
+        over = self._points.hear(samples, at)
+        self._meter.hear(samples, at, speaking=self._points.speaking)
+        self._show(at)
+        for segment in over:
+            self._understand(segment)
+        so_far = self._points.so_far()
+        if so_far is not None:
+            self._look(so_far, at)
+
+    def finish(self, at: float) -> None:
+        """The ears close: judge what was begun."""
+        segment = self._points.finish()
+        if segment is not None:
+            self._understand(segment)
+        self._meter.rest()
+        self._tell(Level(float("-inf"), self._meter.noise, self._meter.snr))
+
+    def _show(self, at: float) -> None:
+        if at - self._metered >= METERED - 1e-3:
+            self._metered = at
+            self._tell(self._meter.level(speaking=self._points.speaking))
+        if self._meter.too_loud != self._told_loud:
+            self._told_loud = self._meter.too_loud
+            word = "too loud" if self._told_loud else "listening"
+            sentence = f"Too loud here for voice: speech is {self._meter.snr:.0f} dB over the noise."
+            self._tell(State(word, sentence if self._told_loud else "It is quiet enough for voice again."))
+
+    def _look(self, segment: Segment, at: float) -> None:
+        """STOP is looked for even where it is too loud for anything else: it is never forbidden."""
+        if self._spotted is not None and self._spotted.ended >= segment.began:
+            return
+        spotted = self._judge.spot(segment, at)
+        if spotted is None:
+            return
+        self._spotted = spotted
+        confidence = max(0.5, min(1.0, 1.0 + spotted.fit / 2))
+        self._tell(
+            Result(
+                spotted.command,
+                spotted.phrase,
+                confidence,
+                began=segment.began,
+                ended=spotted.ended,
+                snr=self._meter.snr,
+                early=True,
+                detail={"fit": round(spotted.fit, 2)},
+            )
+        )
+
+    def _understand(self, segment: Segment) -> None:
+        spotted, self._spotted = self._spotted, None
+        again = spotted is not None and spotted.ended >= segment.began - SAME
+        if not segment.whole:
+            if not again:
+                self._tell(Rejected("That was too long for a command.", ended=segment.ended))
+            return
+        found = self._judge.judge(segment.samples, self._every)
+        snr = self._meter.heard(segment.samples)
+        if found is None:
+            self._tell(Rejected("Nothing was understood.", ended=segment.ended))
+        elif (again and found.command in self._grammar.urgent) or (again and not found.accepted):
+            return
+        else:
+            self._tell(self._verdict(found, segment, snr))
+
+    def _too_loud(self, snr: float) -> bool:
+        """For words of that ratio to the noise [dB]: they tell themselves where it was loud when the ears were open last, and may be no more."""
+        return self._meter.too_loud and not (self._meter.outdated and snr >= CLEAR)
+
+    def _verdict(self, found: Found, segment: Segment, snr: float) -> Result | Rejected:
+        if not found.accepted:
+            reason = "That was no command."
+        elif found.command not in self.heeded:
+            asked = found.command in self._grammar.asked
+            reason = (
+                f"Nobody asked: “{found.phrase}” counts only while a question is open."
+                if asked
+                else (f"“{found.phrase}” does not count now.")
+            )
+        elif self._too_loud(snr) and found.command not in self._grammar.urgent:
+            reason = "It is too loud here to be sure."
+        else:
+            detail = {"explains": round(found.explains, 2), "rival": found.rival}
+            return Result(
+                found.command,
+                found.phrase,
+                found.confidence,
+                began=segment.began,
+                ended=segment.ended,
+                alternatives=found.alternatives,
+                snr=snr,
+                detail=detail,
+            )
+        return Rejected(reason, found.command, found.confidence, segment.ended)

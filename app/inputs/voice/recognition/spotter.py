@@ -1,0 +1,106 @@
+"""STOP found in what is not yet said to its end, whatever is said before and after it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.inputs.voice.audio.endpoint import Segment
+from app.inputs.voice.audio.noise import RATE
+from app.inputs.voice.recognition.ctc import FRAME, Acoustics, Sequences, frames_of
+from app.inputs.voice.recognition.lexicon import background, pronunciations
+from app.inputs.voice.recognition.recognizer import Grammar
+
+__all__ = ["Spotted", "Spotter"]
+
+WINDOW = 1.0
+"""What is looked at: the longest STOP that people say, with a little before [s]."""
+LOOKS = (0.06, 0.14, 0.24)
+"""Looked at again so long after the voice has sunk: at the closing of a `p`, and at its release [s]."""
+EVERY = 0.4
+"""While the voice goes on without sinking it is looked at so often [s]."""
+EARLIEST = 0.24
+"""Nobody says STOP faster [s]."""
+FITS = -1.0
+"""Log likelihood a sound, against the free decoding."""
+OVER, OVER_END = 3.0, 2.0
+"""Another command or a word that begins like STOP may explain the same sounds better by so much, and it is still STOP; one that
+only ends like it, by less: nobody swallows the beginning [log likelihood]."""
+NEAR, END = ("s t", "s p"), "ɑ p"
+"""How the neighbours of STOP begin, or else end, that are compared, beside the other commands."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spotted:
+    """It was said."""
+
+    command: str
+    phrase: str
+    fit: float
+    """Log likelihood a sound; 0 is as good as the free decoding."""
+    ended: float
+    """When its last sound was heard [s]."""
+
+
+class Spotter:
+    """Asked with each bit of audio; runs the model only when a word may just have ended."""
+
+    def __init__(self, grammar: Grammar, model: Acoustics) -> None:
+        """Looks for the grammar's urgent intents."""
+        self._model = model
+        ways = [
+            (command, phrase, sounds)
+            for command in sorted(grammar.urgent)
+            for phrase in grammar.phrases.get(command, ())
+            for sounds in pronunciations(phrase)
+        ]
+        self._ways = ways
+        mine = {sounds for _, _, sounds in ways}
+        neighbours = {
+            sounds for phrases in grammar.phrases.values() for p in phrases for sounds in pronunciations(p)
+        }
+        neighbours |= {sounds for _, sounds in background() if " ".join(sounds).startswith(NEAR)}
+        ends = {sounds for _, sounds in background() if " ".join(sounds).endswith(END)} - neighbours
+        rivals = [sounds for sounds in sorted(neighbours | ends) if sounds not in mine]
+        self._over = np.array([OVER_END if sounds in ends else OVER for sounds in rivals])
+        self._sequences = Sequences([*(sounds for _, _, sounds in ways), *rivals]) if ways else None
+        self._looked = -math.inf
+        self._begun = math.nan
+        self._done: set[float] = set()
+
+    def look(self, segment: Segment, now: float) -> Spotted | None:
+        """The words so far, heard until `now` [s]; what was spotted in them."""
+        if self._sequences is None or not self._due(segment, now):
+            return None
+        self._looked = now
+        spotted = self.find(segment.samples[-int(WINDOW * RATE) :], now)
+        return spotted and replace(spotted, ended=min(spotted.ended, segment.ended))
+
+    def find(self, samples: NDArray[np.float32], now: float) -> Spotted | None:
+        """The same in any samples, the last of which was heard at `now`."""
+        if self._sequences is None or len(samples) < EARLIEST * RATE:
+            return None
+        frames = frames_of(self._model.hear(samples), self._model.tokens)
+        fits, when = self._sequences.anywhere(frames)
+        ours, rivals = fits[: len(self._ways)], fits[len(self._ways) :]
+        lengths = np.array([len(sounds) for _, _, sounds in self._ways])
+        best = int(np.argmax(ours / lengths))
+        fit = float(ours[best] / lengths[best])
+        if fit < FITS or (len(rivals) and ours[best] < (rivals - self._over).max()):
+            return None
+        command, phrase, _ = self._ways[best]
+        return Spotted(command, phrase, fit, now - (len(frames) - 1 - int(when[best])) * FRAME)
+
+    def _due(self, segment: Segment, now: float) -> bool:
+        if segment.began != self._begun:
+            self._begun, self._looked, self._done = segment.began, segment.began, set()
+        quiet = now - segment.ended
+        if quiet < LOOKS[0]:
+            self._done = set()
+            return now - self._looked >= EVERY
+        due = {look for look in LOOKS if quiet >= look} - self._done
+        self._done |= due
+        return bool(due)

@@ -1,0 +1,141 @@
+"""What speaks on a desktop: a voice in a process of its own, which is given a line to say and tells when it began and ended.
+
+mouth = mouth_of("natural"); mouth.start(tell); mouth.say("Go home?", 1.0); mouth.stop()
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib.util
+import json
+import os
+import shutil
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Protocol
+
+from app.inputs.voice.process.ending import end_aside
+
+__all__ = ["VOICES", "ChildMouth", "Mouth", "Tell", "mouth_of"]
+
+Tell = Callable[[str, str], object]
+"""`began` or `ended` with the words that were said, or `failed` with a sentence; in any thread."""
+VOICES: dict[str, str] = {"natural": "Natural", "clear": "Clear, like a machine"}
+"""Voices of a desktop, with their names for the operator."""
+ROOT = Path(__file__).parents[4]
+NO_HIBARI = "Talking needs the packages hibari-tts and miniaudio: pip install pilothouse[voice]."
+NO_ESPEAK = "This voice needs the program espeak-ng, which is not installed."
+CRASHED = "The voice that talks crashed and is silent. Choose it again to start it again."
+
+
+class Mouth(Protocol):
+    """One way to speak. Called in one thread; `tell` is called in any."""
+
+    def missing(self) -> str:
+        """Why it cannot speak here, in one sentence; empty when nothing is known against it."""
+        ...
+
+    def start(self, tell: Tell) -> None:
+        """Get ready; OSError when that cannot be."""
+        ...
+
+    def say(self, words: str, rate: float) -> None:
+        """Say it, `rate` times as fast as usual, instead of what is being said."""
+        ...
+
+    def hush(self) -> None:
+        """Say nothing more."""
+        ...
+
+    def stop(self) -> None:
+        """Let go of everything; more than once does nothing."""
+        ...
+
+
+def mouth_of(voice: str) -> Mouth:
+    """A voice of `VOICES`; KeyError for another."""
+    _ = VOICES[voice]
+    return ChildMouth(voice)
+
+
+class ChildMouth:
+    """Speaks by `app.inputs.voice.speech.talker` in a process of its own."""
+
+    def __init__(self, voice: str, command: Sequence[str] = ()) -> None:
+        """`command` is run in place of the talker."""
+        self._voice = voice
+        self._command = list(command) or [sys.executable, "-m", "app.inputs.voice.speech.talker", voice]
+        self._process: subprocess.Popen[str] | None = None
+        self._reader: threading.Thread | None = None
+        self._over = threading.Event()
+
+    def missing(self) -> str:
+        """Why it cannot speak here."""
+        if self._voice == "clear":
+            return "" if shutil.which("espeak-ng") else NO_ESPEAK
+        found = all(importlib.util.find_spec(name) is not None for name in ("hibari", "miniaudio"))
+        return "" if found and sys.executable else NO_HIBARI
+
+    def start(self, tell: Tell) -> None:
+        """Start the process."""
+        self.stop()
+        self._over = over = threading.Event()
+        paths = [str(ROOT), os.environ.get("PYTHONPATH", "")]
+        environment = os.environ | {
+            "PYTHONPATH": os.pathsep.join(filter(None, paths)),
+            "PYTHONIOENCODING": "utf-8",
+            "OMP_NUM_THREADS": "1",
+        }
+        self._process = process = subprocess.Popen(
+            self._command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+            encoding="utf-8",
+            env=environment,
+        )
+        self._reader = threading.Thread(
+            target=self._read, args=(process, tell, over), name="talk", daemon=True
+        )
+        self._reader.start()
+
+    def say(self, words: str, rate: float) -> None:
+        """Say it."""
+        self._send({"say": words, "rate": rate})
+
+    def hush(self) -> None:
+        """Break off."""
+        self._send({"hush": True})
+
+    def stop(self) -> None:
+        """End the process."""
+        self._over.set()
+        process, self._process = self._process, None
+        reader, self._reader = self._reader, None
+        end_aside(process, reader)
+
+    def _send(self, fields: dict[str, object]) -> None:
+        process = self._process
+        if process is None or process.stdin is None:
+            return
+        with contextlib.suppress(OSError, ValueError):  # it has just ended, which the reader says
+            process.stdin.write(json.dumps(fields) + "\n")
+            process.stdin.flush()
+
+    def _read(self, process: subprocess.Popen[str], tell: Tell, over: threading.Event) -> None:
+        failed = False
+        for line in process.stdout or ():
+            try:
+                word, sentence = json.loads(line)
+            except (ValueError, TypeError):
+                continue  # a foreign library printed something
+            failed = failed or word == "failed"
+            if over.is_set():
+                return
+            tell(str(word), str(sentence))
+        if not failed and not over.is_set():
+            tell("failed", CRASHED)

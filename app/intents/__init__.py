@@ -1,0 +1,1 @@
+"""What was understood, who may ask for it, and what is done about it."""

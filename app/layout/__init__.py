@@ -1,0 +1,1 @@
+"""Layout files, and where everything sits on the glass."""

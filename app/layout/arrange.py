@@ -1,0 +1,285 @@
+"""Where everything sits on the glass: rectangles by screen and by the shape of the window.
+
+Pure arithmetic in the window's pixels, origin at the lower left. Turning the device moves widgets and
+makes none anew, so nothing that was entered is lost.
+"""
+
+from __future__ import annotations
+
+from app.layout.arrange_drive import drive, two_sticks
+from app.layout.rects import Body, Rect, StopPlace, between, crowded, stop_place, stop_tall
+
+__all__ = [
+    "CORNER",
+    "Body",
+    "Rect",
+    "StopPlace",
+    "connect_columns",
+    "corner",
+    "drive",
+    "form",
+    "inputs",
+    "inputs_alone",
+    "mission",
+    "shell",
+    "stop_list",
+    "talk_row",
+    "tasks",
+    "topics",
+    "two_sticks",
+]
+
+SELECTION = 310
+"""Width of the bar for what is selected on a phone's map [dp]."""
+WIDEST = 720
+"""Width from which a row's switch is too far from its words [dp]."""
+STRIP = 190
+"""A strip beside STOP that is narrower has no room for a sentence [dp]."""
+
+
+def form(width: float, height: float, dp: float = 1.0) -> str:
+    """Shape of a window of that size [px]: `tall`, `short` (a phone on its side) or `wide`; `dp` is one dp [px]."""
+    if height >= width:
+        return "tall"
+    return "short" if height < 600 * dp else "wide"
+
+
+def talk_row(height: float, dp: float = 1.0) -> float:
+    """How high the row of the button to talk is above the navigation of an upright window [px]."""
+    return min(max(0.086 * height, 52 * dp), 96 * dp)
+
+
+def shell(width: float, height: float, dp: float = 1.0, *, talks: bool = False) -> dict[str, Rect]:
+    """Of the frame round every screen of a robot: `bar` on top, `nav`, and the `body` between.
+
+    `talks`: the navigation holds the button to talk as well, in an upright window in a row of its own.
+    """
+    shape = form(width, height, dp)
+    bar = (48 if shape == "short" else 56) * dp
+    top = Rect(0, height - bar, width, bar)
+    if shape == "tall":
+        nav = 60 * dp + (talk_row(height, dp) if talks else 0)
+        return {"bar": top, "nav": Rect(0, 0, width, nav), "body": Rect(0, nav, width, height - bar - nav)}
+    rail = (68 if shape == "short" else 76) * dp
+    body = Rect(rail, 0, width - rail, height - bar)
+    return {"bar": top, "nav": Rect(0, 0, rail, height - bar), "body": body}
+
+
+def connect_columns(width: float, dp: float = 1.0) -> int:
+    """How many cards stand side by side."""
+    return max(1, min(4, int(width // (330 * dp))))
+
+
+def mission(body: Rect, shape: str, dp: float = 1.0, *, sheet_open: bool = False) -> dict[str, Rect]:
+    """Of the mission screen: `map`, `panel`, `stop`, and what floats on the map.
+
+    `sheet_open` draws the sheet of the tall form up over most of the map.
+    """
+    if shape == "tall":
+        return _mission_tall(body, dp, sheet_open)
+    gap, wide = 14 * dp, shape == "wide"
+    side = min(max(344 * dp, body.width * 0.22), 420 * dp) if wide else 304 * dp
+    panel = Rect(body.right - side, body.y, side, body.height)
+    high = 84 if wide or crowded(body) else 68  # narrower beside STOP ALL, and still larger than all else
+    room = Rect(panel.x + gap, body.y + gap, side - 2 * gap, high * dp)
+    stop = stop_place(room, body, dp)
+    area = Rect(body.x, body.y, body.width - side, body.height)
+    places = {"map": area, "panel": _above(panel, stop, gap), "side": panel, "stop": stop}
+    button = (52 if wide else 46) * dp
+    free = Rect(area.x, area.y + 142 * dp, area.width, area.height - 142 * dp) if wide else area
+    places["tools"] = _column(free, button, 7, gap, 8 * dp if wide else 6 * dp)
+    places["modes"] = Rect(
+        area.x + gap, area.top - gap - 46 * dp, min(384 * dp, places["tools"].x - area.x - 2 * gap), 46 * dp
+    )
+    if wide:
+        places |= _mission_instruments(area, gap, dp)
+    else:
+        places |= _mission_short(area, places["tools"].x - gap, gap, dp)
+    return places | {"notice": _mission_notice(places, gap, dp)}
+
+
+def _mission_short(area: Rect, right: float, gap: float, dp: float) -> dict[str, Rect]:
+    """The video in the corner of a phone's map, and beside it, or above it where that is too narrow, the selection."""
+    picture = min(112 * dp, 0.4 * (right - area.x))
+    video = Rect(area.x + gap, area.y + gap, picture, picture * 0.75)
+    beside = right - video.right - 8 * dp
+    if beside >= SELECTION * dp:
+        return {"video": video, "selection": Rect(video.right + 8 * dp, video.y, SELECTION * dp, 52 * dp)}
+    width = min(SELECTION * dp, right - video.x)
+    return {"video": video, "selection": Rect(video.x, video.top + 8 * dp, width, 52 * dp)}
+
+
+def _mission_notice(places: dict[str, Rect], gap: float, dp: float) -> Rect:
+    """Over the map for what happened: beside the modes, or below them where that is too narrow."""
+    modes, right, low = places["modes"], places["tools"].x - gap, places["map"].y + gap
+    beside = right - modes.right - gap
+    if beside >= 320 * dp:
+        return Rect(modes.right + gap, low, beside, modes.top - low)
+    return Rect(modes.x, low, right - modes.x, modes.y - 8 * dp - low)
+
+
+def _mission_instruments(area: Rect, gap: float, dp: float) -> dict[str, Rect]:
+    """Along the lower edge of the map."""
+    picture = min(252 * dp, area.width * 0.28)
+    video = Rect(area.x + gap, area.y + gap, picture, picture * 0.75)
+    compass = Rect(video.right + 20 * dp, area.y + gap, 154 * dp, 154 * dp)
+    readouts = Rect(area.right - gap - 232 * dp, area.y + gap, 232 * dp, 128 * dp)
+    selection = Rect(area.x + gap, area.top - 2 * gap - 98 * dp, 330 * dp, 52 * dp)
+    return {"video": video, "compass": compass, "readouts": readouts, "selection": selection}
+
+
+def _mission_tall(body: Rect, dp: float, sheet_open: bool) -> dict[str, Rect]:
+    gap = 12 * dp
+    stop, tasks = stop_tall(body, gap, dp)
+    low = min(208 * dp + stop.height, body.height * (0.58 if crowded(body) else 0.5))
+    height = body.height - 120 * dp if sheet_open else low
+    sheet = Rect(body.x, body.y, body.width, height)
+    handle = 22 * dp
+    panel = Rect(
+        sheet.x + gap,
+        stop.top + 8 * dp,
+        sheet.width - 2 * gap,
+        sheet.height - stop.height - gap - 8 * dp - handle,
+    )
+    area = Rect(body.x, body.y + low, body.width, body.height - low)
+    picture = min(148 * dp, body.width * 0.4)
+    video = Rect(area.x + gap, area.top - gap - picture * 0.66, picture, picture * 0.66)
+    tools = _column(area, 50 * dp, 4, gap, 8 * dp)
+    modes = Rect(area.x + gap, area.y + gap, body.width - 3 * gap - 50 * dp, 46 * dp)
+    return {
+        "map": area,
+        "side": sheet,
+        "notice": between(video.x, modes.top + 8 * dp, tools.x - gap, video.y - 8 * dp),
+        "handle": Rect(sheet.x, sheet.top - handle, sheet.width, handle),
+        "panel": panel,
+        "stop": stop,
+        "tasks": tasks,
+        "tools": tools,
+        "video": video,
+        "modes": modes,
+        "selection": Rect(
+            area.x + gap, area.y + 2 * gap + 46 * dp, min(340 * dp, body.width - 3 * gap - 50 * dp), 52 * dp
+        ),
+    }
+
+
+def _column(area: Rect, button: float, count: int, gap: float, between: float) -> Rect:
+    """A column of square buttons in the upper right corner; as many as fit of `count`."""
+    fit = max(1, min(count, int((area.height - 2 * gap + between) // (button + between))))
+    height = fit * button + (fit - 1) * between
+    return Rect(area.right - gap - button, area.top - gap - height, button, height)
+
+
+def _above(panel: Rect, stop: Rect, gap: float) -> Rect:
+    low = stop.top + gap
+    return Rect(panel.x + gap, low, panel.width - 2 * gap, panel.top - gap - low)
+
+
+def topics(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+    """Of the topics screen: `list` and `detail`, side by side or in the same place on a phone, `strip` and `stop`.
+
+    The strip is what is left beside STOP: under the list on a phone, under the detail elsewhere.
+    """
+    gap = 12 * dp
+    if shape == "tall":
+        stop, strip = stop_tall(body, gap, dp)
+        low = stop.head + 10 * dp
+        whole = Rect(body.x + gap, low, body.width - 2 * gap, body.top - gap - low)
+        notice = Rect(whole.x, low, whole.width, 120 * dp)
+        return {"list": whole, "detail": whole, "strip": strip, "stop": stop, "notice": notice}
+    wide = shape == "wide"
+    stop = _stop_of_lists(body, shape, dp)
+    left = min(max(420 * dp, 0.3 * body.width) if wide else 320 * dp, body.width * 0.42)
+    listed = Rect(body.x + gap, body.y + gap, left, body.height - 2 * gap)
+    x, low = listed.right + gap, stop.top + gap
+    detail = Rect(x, low, body.right - gap - x, body.top - gap - low)
+    strip = Rect(x, stop.y, stop.left - gap - x, stop.height)
+    notice = Rect(detail.x, low, detail.width, 110 * dp)
+    return {"list": listed, "detail": detail, "strip": strip, "stop": stop, "notice": notice}
+
+
+def _stop_of_lists(body: Rect, shape: str, dp: float) -> StopPlace:
+    """As on the mission screen; where there is room STOP ALL is beside it and takes nothing away from it."""
+    places = mission(body, shape, dp)
+    stop, right = places["stop"], places["stop"].right
+    width = right - places["panel"].x
+    more = 92 * dp if shape == "wide" and crowded(body) else 0.0
+    return stop_place(Rect(right - width - more, stop.y, width + more, stop.height), body, dp)
+
+
+def tasks(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+    """Of the tasks screen: as `topics`; a phone on its side has a narrower STOP, so that buttons fit beside it, and
+    a wider list, so that the words over it can be read."""
+    places, gap = topics(body, shape, dp), 12 * dp
+    if shape == "short":
+        whole, listed, detail = places["stop"], places["list"], places["detail"]
+        width, more = 190 * dp, 44 * dp
+        x = detail.x + more
+        stop = stop_place(Rect(whole.right - width, whole.y, width, whole.height), body, dp)
+        places["stop"] = stop
+        places["list"] = Rect(listed.x, listed.y, listed.width + more, listed.height)
+        places["strip"] = Rect(x, stop.y, stop.left - gap - x, stop.height)
+        places["detail"] = Rect(x, detail.y, detail.width - more, detail.height)
+        places["notice"] = Rect(x, places["notice"].y, detail.width - more, places["notice"].height)
+    return places
+
+
+def inputs(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+    """Of the inputs screen: as `topics`; what is said stands in the strip beside STOP, where nothing is operated.
+
+    A phone on its side has a narrower STOP for it. A detail is no wider than its rows are read across.
+    """
+    places, gap = topics(body, shape, dp), 12 * dp
+    stop, strip, detail = places["stop"], places.pop("strip"), places["detail"]
+    if shape == "short":
+        width = 190 * dp
+        stop = stop_place(Rect(stop.right - width, stop.y, width, stop.height), body, dp)
+        strip = Rect(strip.x, strip.y, stop.left - gap - strip.x, strip.height)
+        places |= {"stop": stop, "notice": strip}
+    elif strip.width >= STRIP * dp:
+        places["notice"] = strip
+    return places | {"detail": _readable(detail, dp)}
+
+
+def _readable(detail: Rect, dp: float) -> Rect:
+    return Rect(detail.x, detail.y, min(detail.width, WIDEST * dp), detail.height)
+
+
+def inputs_alone(body: Rect, shape: str, dp: float = 1.0) -> dict[str, Rect]:
+    """The same where no robot is connected: `list` and `detail`, above STOP ALL where that is there."""
+    gap = 12 * dp
+    low = body.y + (CORNER * dp if crowded(body) else gap)
+    whole = Rect(body.x + gap, low, body.width - 2 * gap, body.top - gap - low)
+    if shape == "tall":
+        return {"list": whole, "detail": whole}
+    left = min(max(420 * dp, 0.3 * body.width) if shape == "wide" else 320 * dp, body.width * 0.42)
+    listed = Rect(whole.x, body.y + gap, left, body.height - 2 * gap)
+    x = listed.right + gap
+    return {"list": listed, "detail": _readable(Rect(x, low, whole.right - x, whole.height), dp)}
+
+
+CORNER = 88
+"""Height that STOP ALL takes up below the robots that can be connected to [dp]."""
+
+
+def corner(width: float, dp: float = 1.0) -> Rect:
+    """STOP ALL where no robot is connected, in STOP's corner of a window of that width [px]."""
+    across = min(240 * dp, width - 28 * dp)
+    return Rect(width - 14 * dp - across, 12 * dp, across, 64 * dp)
+
+
+def stop_list(
+    body: Rect, stop: StopPlace, shape: str, wanted: float, dp: float = 1.0, *, folded: bool = False
+) -> Rect:
+    """What became of STOP ALL, `wanted` high [px] where there is room: above STOP, on a phone's side left of it.
+
+    `folded` is above STOP everywhere: there it covers nothing that is pressed to drive, to start or to stop.
+    """
+    gap = 8 * dp
+    if shape == "short" and not folded:
+        width = min(440 * dp, stop.left - body.x - 2 * gap)
+        height = min(wanted, body.height - 2 * gap)
+        return Rect(stop.left - gap - width, body.y + gap, width, height)
+    low, edge = stop.head + gap, body.right - stop.right
+    width = min((250 if shape == "short" else 440) * dp, body.width - 2 * edge)
+    return Rect(stop.right - width, low, width, min(wanted, body.top - gap - low))

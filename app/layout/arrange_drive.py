@@ -1,0 +1,313 @@
+"""Where everything sits on a drive screen whose instruments float on the video: rectangles by the shape of the window."""
+
+from __future__ import annotations
+
+from app.layout.rects import ALL, Rect, StopPlace, between, crowded, stop_place
+
+__all__ = ["drive", "two_sticks"]
+
+SENSES, SENSES_LEAST = 196, 148
+"""Height of the card with the small sensors, and the least that it is still open with [dp]."""
+STRIP = 54
+"""Height of the folded card: a finger opens it [dp]."""
+SWITCH = 54
+"""Height of the switch between two controls [dp]."""
+SLIDE = 64
+"""Height of a slide that confirms [dp]."""
+BADGE = 46
+"""Height of what says that intruders were found [dp]."""
+CHIP = 200
+"""Width of a phone's glass that the picture's size and rate need [dp]."""
+
+
+def drive(body: Rect, shape: str, dp: float = 1.0, *, switch: bool = False) -> dict[str, Rect]:
+    """Of the drive screen: `video` behind all, the slots `top_left`, `top`, `top_right`, `readouts`, and the controls.
+
+    `badge` says what was found, `senses` is the strip or card of the small sensors and `senses_open` where the strip
+    unfolds. `notice_low` is for what holds on until it is dealt with, from its lower edge upwards. `switch` chooses between
+    two controls in the place of `stick`; it has none without.
+    """
+    if shape == "tall":
+        return _drive_tall(body, dp, switch)
+    wide = shape == "wide"
+    least = (SWITCH + 12 if switch else 0) + 590 if wide else 364
+    dp = dp * min(1.0, body.height / (least * dp))
+    gap = (16 if wide else 10) * dp
+    room = Rect(
+        body.right - gap - (210 if wide else 150) * dp, body.y + gap, *_pair(wide, (210, 180), (150, 156), dp)
+    )
+    stop = stop_place(room, body, dp)
+    size = (242 if wide else 176) * dp
+    stick = Rect(body.x + gap, body.y + gap, size, size)
+    slider = Rect(stick.right + (38 if wide else 12) * dp, stick.y, *_pair(wide, (96, 238), (80, 176), dp))
+    actions = Rect(
+        room.x - 16 * dp - (150 if wide else 132) * dp, room.y, (150 if wide else 132) * dp, room.height
+    )
+    places = {"video": body, "stop": stop, "stick": stick, "slider": slider, "actions": actions}
+    places |= _instruments(body, gap, dp, wide=wide)
+    if switch and wide:
+        places["switch"] = Rect(stick.x, stick.top + 12 * dp, slider.right - stick.x, SWITCH * dp)
+    places |= _senses_wide(places, dp) if wide else _senses_short(places, dp)
+    if switch:
+        places |= (_switch_wide if wide else _switch_short)(places, dp)
+    return places
+
+
+def _instruments(body: Rect, gap: float, dp: float, *, wide: bool) -> dict[str, Rect]:
+    """Along the upper edge."""
+    left = Rect(
+        body.x + gap, body.top - gap - (228 if wide else 148) * dp, *_pair(wide, (326, 228), (212, 148), dp)
+    )
+    right_size = _pair(wide, (194, 194), (128, 128), dp)
+    right = Rect(body.right - gap - right_size[0], body.top - gap - right_size[1], *right_size)
+    tape_width = min((420 if wide else 260) * dp, 2 * (body.x + body.width / 2 - left.right - gap))
+    tape = Rect(body.x + (body.width - tape_width) / 2, body.top - gap - 52 * dp, tape_width, 52 * dp)
+    readouts_size = _pair(wide, (194, 116), (116, 128), dp)
+    readouts = Rect(right.right - readouts_size[0], right.y - 12 * dp - readouts_size[1], *readouts_size)
+    if not wide:
+        readouts = Rect(right.x - gap - readouts_size[0], right.y, *readouts_size)
+        tape = Rect(left.right + gap, tape.y, readouts.x - gap - left.right - gap, 52 * dp)
+    return {"top_left": left, "top": tape, "top_right": right, "readouts": readouts}
+
+
+def _switch_short(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
+    """Over what is said beside the slider, or over the instrument in the corner where that is too narrow."""
+    low, card = places["notice_low"], places["top_left"]
+    if low.width >= 180 * dp:
+        chosen = Rect(low.x, low.top - SWITCH * dp, low.width, SWITCH * dp)
+        return {"switch": chosen, "notice_low": between(low.x, low.y, low.right, chosen.y - 8 * dp)}
+    chosen = Rect(card.x, card.top - SWITCH * dp, card.width, SWITCH * dp)
+    smaller = between(card.x, card.y, card.right, chosen.y - 8 * dp)
+    return {"switch": chosen, "top_left": smaller}
+
+
+def _senses_wide(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
+    """A card under the laser, or a strip where there is no height for one."""
+    laser, stick, tape, slider = places["top_left"], places["stick"], places["top"], places["slider"]
+    free = laser.y - places.get("switch", stick).top - 24 * dp
+    height = min(free, SENSES * dp) if free >= SENSES_LEAST * dp else STRIP * dp
+    senses = Rect(laser.x, laser.y - 12 * dp - height, laser.width, height)
+    badge = Rect(tape.x, tape.y - 8 * dp - BADGE * dp, tape.width, BADGE * dp)
+    left, right = slider.right + 12 * dp, places["actions"].x - 12 * dp
+    return {
+        "badge": badge,
+        "senses": senses,
+        "senses_open": senses if free >= SENSES_LEAST * dp else laser,
+        "notice_low": Rect(left, slider.y, right - left, places["actions"].height),
+        "notice": between(tape.x, slider.top + 8 * dp, tape.right, badge.y - 32 * dp),
+    }
+
+
+def _senses_short(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
+    """A strip between slider and buttons, or above them where that is too narrow; the badge above STOP."""
+    tape, slider, actions, right = places["top"], places["slider"], places["actions"], places["top_right"]
+    low = places["readouts"].x
+    badge = between(low, actions.top + 8 * dp, right.right, right.y - 8 * dp)
+    notice = between(tape.x, slider.top + 8 * dp, tape.right, tape.y - 8 * dp)
+    left, wide = slider.right + 12 * dp, actions.x - slider.right - 24 * dp
+    if wide >= 180 * dp:
+        strip = Rect(left, slider.y, wide, STRIP * dp)
+        above = between(left, strip.top + 8 * dp, left + wide, slider.top)
+    else:
+        strip = Rect(notice.x, notice.y, notice.width, min(STRIP * dp, notice.height / 2))
+        above = between(notice.x, strip.top + 4 * dp, notice.right, notice.top)
+    return {
+        "badge": badge,
+        "senses": strip,
+        "senses_open": places["top_left"],
+        "notice_low": above,
+        "notice": notice,
+    }
+
+
+def _pair(
+    wide: bool, large: tuple[float, float], small: tuple[float, float], dp: float
+) -> tuple[float, float]:
+    width, height = large if wide else small
+    return width * dp, height * dp
+
+
+def _drive_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
+    least = SENSES_LEAST * dp
+    dp *= min(1.0, body.height / (640 * dp)) if switch else 1.0
+    gap = 12 * dp
+    picture = min(body.width * 0.75, body.height * (0.33 if switch else 0.42))
+    video = Rect(body.x, body.top - picture, body.width, picture)
+    stick = min(176 * dp, body.width * 0.42)
+    controls = Rect(body.x + gap, body.y + gap, stick, stick)
+    slider = Rect(controls.right + gap, body.y + gap, 80 * dp, stick)
+    spare = body.right - gap - slider.right - gap
+    width = min(spare, 240 * dp)
+    room = Rect(body.right - gap - width, body.y + gap, width, stick)
+    stop, across, low = StopPlace(room.x, room.y, width, stick), body.width - 2 * gap, controls.top + gap
+    chosen = {}
+    if switch:
+        chosen = {"switch": Rect(controls.x, low, slider.right - controls.x, SWITCH * dp)}
+        low += (SWITCH + 12) * dp
+    if crowded(body):  # in a row with what is done once, so that STOP keeps its size
+        stop = StopPlace(room.x, room.y, width, stick, Rect(room.x, low, width, ALL * dp))
+        across -= width + gap
+    actions = Rect(body.x + gap, low, across, (ALL if crowded(body) else 52) * dp)
+    cards_low = actions.top + gap
+    if switch:
+        picture = min(picture, body.top - cards_low - gap - 90 * dp)
+        video = Rect(body.x, body.top - picture, body.width, picture)
+    cards = Rect(body.x + gap, cards_low, body.width - 2 * gap, video.y - gap - cards_low)
+    tape = Rect(body.x + body.width * 0.1, body.top - gap - 52 * dp, body.width * 0.8, 52 * dp)
+    return {
+        "video": video,
+        "stop": stop,
+        "stick": controls,
+        "slider": slider,
+        "actions": actions,
+        "top": tape,
+        **chosen,
+        **_cards_tall(cards, gap, dp),
+        **_senses_tall(video, cards, tape, least, dp),
+    }
+
+
+def _cards_tall(cards: Rect, gap: float, dp: float) -> dict[str, Rect]:
+    """A square, and beside it the other instrument above the figures."""
+    side = min(cards.height, cards.width * 0.52)
+    left = Rect(cards.x, cards.top - side, side, side)
+    x, figures = left.right + gap, min(64 * dp, cards.height * 0.34)
+    return {
+        "top_left": left,
+        "top_right": between(x, cards.y + figures + gap, cards.right, cards.top),
+        "readouts": Rect(x, cards.y, cards.right - x, figures),
+    }
+
+
+def _senses_tall(video: Rect, cards: Rect, tape: Rect, least: float, dp: float) -> dict[str, Rect]:
+    """Over the edges of the picture; the strip unfolds, to no less than `least` high [px], never over what is touched to drive."""
+    gap = 12 * dp
+    strip = Rect(video.x + gap, video.y + 8 * dp, video.width - 2 * gap, STRIP * dp)
+    left = video.x + CHIP * dp
+    badge = Rect(left, tape.y - 8 * dp - BADGE * dp, video.right - gap - left, BADGE * dp)
+    room = badge.y - 8 * dp - strip.top
+    return {
+        "badge": badge,
+        "senses": strip,
+        "senses_open": Rect(cards.x, cards.y, cards.width, max(cards.height, least)),
+        "notice_low": Rect(strip.x, strip.top + 8 * dp, strip.width, max(room - 8 * dp, 8 * dp)),
+        "notice": between(cards.x, cards.y, cards.right, badge.y - 8 * dp),
+    }
+
+
+def two_sticks(body: Rect, shape: str, dp: float = 1.0, *, switch: bool = False) -> dict[str, Rect]:
+    """As `drive`, with a control under the right thumb as well: `right_stick`, left of STOP, and `confirm` for slides."""
+    if shape == "tall":
+        return _two_tall(body, dp, switch)
+    return _two_wide(body, dp, switch) if shape == "wide" else _two_short(body, dp, switch)
+
+
+def _two_wide(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
+    """The slides above the right control and STOP, what is done once in the middle."""
+    scale = dp * min(1.0, body.height / (690 * dp))
+    places, gap = drive(body, "wide", scale, switch=switch), 16 * scale
+    stop, slider, stick = places["stop"], places["slider"], places["stick"]
+    right = Rect(stop.x - gap - stick.width, stick.y, stick.width, stick.height)
+    confirm = Rect(right.x, right.top + 12 * scale, body.right - gap - right.x, SLIDE * scale)
+    width = min(150 * scale, right.x - slider.right - 4 * gap)
+    actions = Rect((slider.right + right.x - width) / 2, stick.y, width, places["actions"].height)
+    badge, tape = places["badge"], places["top"]
+    low = max(actions.top, slider.top, confirm.top) + 8 * scale
+    left = max(tape.x, places["switch"].right + gap) if switch else tape.x
+    return places | {
+        "right_stick": right,
+        "confirm": confirm,
+        "actions": actions,
+        "notice": between(left, low, tape.right, badge.y - 32 * scale),
+        "notice_low": between(slider.right + gap, actions.top + 12 * scale, right.x - gap, confirm.top),
+    }
+
+
+def _two_short(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
+    """The slides between the thumbs, what is done once in a row below the tape."""
+    scale = dp * min(1.0, body.height / (364 * dp))
+    places, gap = drive(body, "short", scale), 10 * scale
+    stop, slider, stick, tape = places["stop"], places["slider"], places["stick"], places["top"]
+    right = Rect(stop.x - gap - stick.width, stick.y, stick.width, stick.height)
+    left, width = slider.right + gap, right.x - slider.right - 2 * gap
+    slides = Rect(left, stick.y, width, 2 * 53 * scale + 8 * scale)
+    strip = Rect(left, slides.top + 8 * scale, width, STRIP * scale)
+    tape = between(tape.x, tape.y + 12 * scale, tape.right, tape.top)
+    actions = Rect(tape.x, tape.y - 8 * scale - STRIP * scale, tape.width, STRIP * scale)
+    middle = between(tape.x, strip.top + 8 * scale, tape.right, actions.y - 8 * scale)
+    card, room = places["top_right"], Rect(stop.x, stick.y, body.right - gap - stop.x, 156 * scale)
+    if switch:  # above the thumb; the instrument over it is lower
+        seen = places["top_left"]
+        chosen = Rect(seen.x, stick.top + 8 * scale, seen.width, SWITCH * scale)
+        places |= {
+            "switch": chosen,
+            "top_left": between(seen.x, chosen.top + 8 * scale, seen.right, seen.top),
+        }
+    return places | {
+        "top": tape,
+        "badge": between(room.x, room.top + 8 * scale, body.right - gap, card.y - 8 * scale),
+        "right_stick": right,
+        "confirm": slides,
+        "actions": actions,
+        "senses": strip,
+        "notice": middle,
+        "notice_low": between(tape.x, strip.top + 4 * scale, tape.right, actions.y - 4 * scale),
+    }
+
+
+def _two_tall(body: Rect, dp: float, switch: bool) -> dict[str, Rect]:
+    """Both thumbs with the slider between them, the slides and STOP below, what is done once above."""
+    scale = dp * min(1.0, body.height / ((740 + (SWITCH + 12 if switch else 0)) * dp))
+    gap = 12 * scale
+    row, across, left = 150 * scale, body.width - 2 * gap, body.x + gap
+    wide = min(max(158 * scale, body.width * 0.3), 240 * scale)
+    stop = stop_place(Rect(body.right - gap - wide, body.y + gap, wide, row), body, dp)
+    confirm = between(left, stop.y, stop.left - gap, stop.y + 2 * 56 * scale + gap)
+    size = min((across - 80 * scale - 2 * gap) / 2, body.height * 0.24)
+    low, high = body.y + 2 * gap + row, max(size, 186 * scale)
+    stick = Rect(left, low + (high - size) / 2, size, size)
+    right = Rect(body.right - gap - size, stick.y, size, size)
+    slider = Rect(body.x + (body.width - 80 * scale) / 2, low, 80 * scale, high)
+    chosen = Rect(left, low + high + gap, slider.right - left, SWITCH * scale)
+    actions = Rect(left, (chosen.top if switch else low + high) + gap, across, 52 * scale)
+    spare = body.top - actions.top - 2 * gap - 260 * scale
+    picture = min(body.width * 0.75, max(body.height * 0.28, spare))
+    video = Rect(body.x, body.top - picture, body.width, picture)
+    cards = between(left, actions.top + gap, left + across, video.y - gap)
+    figures = min(116 * scale, across * 0.3)
+    side = (cards.width - figures - 2 * gap) / 2
+    tape = Rect(body.x + body.width * 0.1, body.top - gap / 2 - 52 * scale, body.width * 0.8, 52 * scale)
+    places = {
+        "video": video,
+        "stop": stop,
+        "stick": stick,
+        "right_stick": right,
+        "slider": slider,
+        "actions": actions,
+        "confirm": confirm,
+        "top": tape,
+        **({"switch": chosen} if switch else {}),
+        "top_left": Rect(cards.x, cards.y, side, cards.height),
+        "top_right": Rect(cards.x + side + gap, cards.y, side, cards.height),
+        "readouts": Rect(cards.right - figures, cards.y, figures, cards.height),
+    }
+    places |= _senses_tall(video, cards, tape, SENSES_LEAST * dp, scale)
+    return places | _badge_beside(places, gap)
+
+
+def _badge_beside(places: dict[str, Rect], gap: float) -> dict[str, Rect]:
+    """What was found beside the strip of a low picture, and what is said between them and the tape."""
+    strip, tape = places["senses"], places["top"]
+    wide = 0.55 * strip.width
+    strip = Rect(strip.x, places["video"].y + gap / 3, strip.width, strip.height)
+    return {
+        "senses": Rect(strip.x, strip.y, wide, strip.height),
+        "badge": between(strip.x + wide + gap, strip.y, strip.right, strip.top),
+        "notice_low": between(strip.x, strip.top + gap / 3, strip.right, tape.y - gap / 3),
+    }
+
+
+def _switch_wide(places: dict[str, Rect], dp: float) -> dict[str, Rect]:
+    """What is said begins right of the switch."""
+    room, left = places["notice"], max(places["top"].x, places["switch"].right + 12 * dp)
+    return {"notice": between(left, room.y, room.right, room.top)}

@@ -1,0 +1,98 @@
+"""Whether the widget that a layout names can do there what the layout wants of it: what cannot is said in a sentence."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+import widgets
+from app.layout.layout_faults import LayoutError, one_of, said
+from bridge.core.topics import topic
+from bridge.msgs.geometry_msgs import PoseStamped
+from widgets.controls.stick import Stick
+from widgets.core.base import Control
+from widgets.core.grip import Grip
+from widgets.core.icons import ICONS
+
+__all__ = ["check_control", "check_icon", "check_instrument", "drives"]
+
+FIGURES, SENSES = "readouts", "senses"
+"""Places for figures only, and for small sensors that look after themselves."""
+FIGURE = "Readout"
+"""The widget that shows a figure."""
+
+
+def check_instrument(where: str, slot: str, name: str, topics: Iterable[str], known: Iterable[str]) -> None:
+    """The widget of that name only shows, is of the kind that goes into `slot`, and shows those topics; `known`: all names."""
+
+    def goes(one: str) -> bool:
+        kind = getattr(widgets, one)
+        if slot == FIGURES or one == FIGURE:
+            return slot == FIGURES and one == FIGURE
+        return _only_shows(kind) and (slot != SENSES or hasattr(kind, "card"))
+
+    if not goes(name):
+        raise LayoutError(f"{where}: an instrument in {slot} is one of {_listed(known, goes)}, not {name}.")
+    _check_shows(where, getattr(widgets, name), topics)
+
+
+def check_control(
+    where: str,
+    name: str,
+    entry: Mapping[str, Any],
+    topics: Iterable[str],
+    known: Iterable[str],
+    actions: Iterable[str],
+) -> None:
+    """The widget of that name drives or asks for something by a finger, and says what; `known`: all names."""
+    if not _is_hand(name):
+        raise LayoutError(f"{where}: a control is one of {_listed(known, _is_hand)}, not {name}.")
+    kind = getattr(widgets, name)
+    if hasattr(kind, "on_confirm"):
+        one_of(where, "action", entry.get("action"), actions)
+    elif "action" in entry:
+        raise LayoutError(f"{where}: {name} confirms nothing, so it has no action.")
+    if entry.get("icon"):
+        check_icon(where, entry["icon"])
+    _check_shows(where, kind, topics)
+
+
+def drives(name: str) -> bool:
+    """The widget of that name says at every moment how the robot is to move."""
+    return issubclass(getattr(widgets, name), Stick)
+
+
+def check_icon(where: str, name: str) -> None:
+    """There is a picture of that name."""
+    if name not in ICONS:
+        near = difflib.get_close_matches(name, ICONS, 3, 0.4)
+        hint = f", as {', '.join(near)}" if near else ""
+        raise LayoutError(f"{where}: icon is a name in widgets/core/icons.py{hint}, not {said(name)}.")
+
+
+def _only_shows(kind: Any) -> bool:
+    return bool(kind.accepts) and not issubclass(kind, Control)
+
+
+def _is_hand(name: str) -> bool:
+    """A screen knows what to do with it: it drives, is slid, or gives a course or a goal."""
+    kind = getattr(widgets, name)
+    asks = (
+        hasattr(kind, "on_confirm") or hasattr(kind, "on_course") or PoseStamped in getattr(kind, "sends", ())
+    )
+    return drives(name) or (issubclass(kind, Grip) and asks)
+
+
+def _listed(known: Iterable[str], able: Callable[[str], bool]) -> str:
+    return ", ".join(sorted(name for name in known if able(name))) or "none"
+
+
+def _check_shows(where: str, kind: Any, topics: Iterable[str]) -> None:
+    for name in topics:
+        wanted = topic(name).type
+        if not issubclass(wanted, kind.accepts):
+            allowed = ", ".join(one.MSGTYPE for one in kind.accepts) or "no topic"
+            raise LayoutError(
+                f"{where}: {kind.__name__} shows {allowed}, not {name}, which is {wanted.MSGTYPE}."
+            )

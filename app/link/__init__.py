@@ -1,0 +1,1 @@
+"""The connection to one robot: its messages into the mailbox, commands out."""

@@ -1,0 +1,1 @@
+"""Finding a robot, and the simulator's choice."""

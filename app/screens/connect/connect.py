@@ -1,0 +1,374 @@
+"""The connect screen: a card for each robot with one big button, and the ways to get to others."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.metrics import Metrics
+from kivy.properties import BooleanProperty, ListProperty, NumericProperty, ObjectProperty, StringProperty
+from kivy.uix.floatlayout import FloatLayout
+
+from app.discovery.discovery import Entry
+from app.layout.arrange import connect_columns
+from app.screens.parts.chip import InputsChip  # noqa: F401 - its rule draws what is used here
+from widgets.core.frames import EdgedBox  # noqa: F401 - its rule draws the bar
+from widgets.core.theme import theme
+from widgets.parts.kit import Banner, Card, Text
+
+__all__ = ["ConnectScreen", "RobotCard"]
+
+KINDS = {
+    "wheels": ("smart_toy_fill", "Differential drive"),
+    "ackermann": ("agriculture", "Ackermann truck"),
+    "boat": ("sailing", "Surface boat"),
+    "hexapod": ("scuba_diving", "Underwater hexapod"),
+    "quadrotor": ("mode_fan", "Quadrotor"),
+}
+"""Kind of robot to its icon and its name in plain words."""
+THEMES = {"dark": ("light_mode", "Sunlight", "sunlight"), "sunlight": ("bedtime", "Night", "night")}
+THEMES["night"] = ("dark_mode", "Dark", "dark")
+"""Theme to icon, words and name of the one that a tap brings."""
+HINT = (
+    "No robot has said hello on this network yet.\n"
+    "Switch one on, enter its address, or start the built-in simulator."
+)
+NARROW = 420.0
+"""A card narrower than this has no room for the words `driven by` [dp]."""
+
+LOW, MIDDLE = 0.20, 0.40
+"""Below these a battery is empty or getting low, 0 to 1."""
+
+Builder.load_string("""
+<RobotCard>:
+    size_hint: None, None
+    height: self.minimum_height
+    padding: dp(18), dp(18)
+    spacing: dp(14)
+    outline: 'danger' if root.lost else 'line'
+    BoxLayout:
+        size_hint_y: None
+        height: dp(50)
+        spacing: dp(11)
+        Icon:
+            name: root.icon
+            role: 'muted' if root.lost else 'accent'
+            font_size: sp(44)
+            pos_hint: {'center_y': .5}
+        BoxLayout:
+            orientation: 'vertical'
+            Text:
+                text: root.title
+                bold: True
+                font_size: theme.size_title
+                size_hint_y: 1
+                shorten: True
+                shorten_from: 'right'
+            Text:
+                text: root.subtitle
+                role: 'muted'
+                font_size: sp(15)
+                size_hint_y: 1
+                shorten: True
+                shorten_from: 'right'
+        IconButton:
+            id: remove
+            icon: 'delete'
+            role: 'muted'
+            bare: True
+            size: (theme.target if root.saved else 0, dp(50))
+            opacity: 1 if root.saved else 0
+            disabled: not root.saved
+            on_release: root.dispatch('on_remove')
+    BoxLayout:
+        size_hint_y: None
+        height: dp(34)
+        spacing: dp(10)
+        Chip:
+            icon: 'bolt'
+            role: root.battery_role
+            text: root.battery_text
+        Chip:
+            icon: 'signal_disconnected' if root.lost else 'wifi'
+            role: root.link_role
+            text: root.link_text
+        Chip:
+            icon: root.driver_icon
+            text: root.driver_text
+            role: root.driver_role
+            tinted: True
+            spacing: dp(6) if root.driver_icon else 0
+            opacity: 1 if root.driver_text else 0
+        Widget:
+    PushButton:
+        id: connect
+        height: root.button_height
+        text: root.action
+        fill: 'raised' if root.quiet else 'accent'
+        border: 'line' if root.quiet else 'accent'
+        ink: 'text' if root.quiet else 'ink_accent'
+        on_release: root.dispatch('on_connect')
+
+<ConnectScreen>:
+    canvas.before:
+        Color:
+            rgba: theme.bg
+        Rectangle:
+            pos: self.pos
+            size: self.size
+    BoxLayout:
+        orientation: 'vertical'
+        EdgedBox:
+            size_hint_y: None
+            height: dp(56)
+            padding: dp(16) if root.columns > 1 else dp(12), 0
+            spacing: dp(12) if root.columns > 1 else dp(7)
+            Text:
+                id: title
+                text: 'Pilothouse'
+                bold: True
+                font_size: min(theme.size_title, self.width / 5.6)
+                pos_hint: {'center_y': .5}
+            Chip:
+                icon: 'wifi_find'
+                role: 'accent'
+                text: root.nearby if root.columns > 1 else root.nearby_short
+                pos_hint: {'center_y': .5}
+            InputsChip:
+                id: inputs
+                brief: root.columns == 1
+                pos_hint: {'center_y': .5}
+                on_release: root.app.show_inputs()
+            Chip:
+                id: theme
+                icon: root.theme_icon
+                role: 'text'
+                text: root.theme_text if root.columns > 1 else ''
+                spacing: dp(8) if self.text else 0
+                pressable: True
+                pos_hint: {'center_y': .5}
+                on_release: root.app.next_theme()
+        BoxLayout:
+            id: page
+            orientation: 'vertical'
+            padding: root.edge, dp(22), root.edge, max(dp(22), root.keep_free[0])
+            spacing: dp(22)
+            Column:
+                id: notices
+                spacing: dp(10)
+            ScrollView:
+                do_scroll_x: False
+                size_hint_y: None
+                height: min(cards.height, page.height - page.padding[1] - page.padding[3] - notices.height - actions.height - dp(66))
+                Grid:
+                    id: cards
+                    cols: root.columns
+                    spacing: dp(18)
+            Grid:
+                id: actions
+                cols: root.columns
+                spacing: dp(18)
+                QuietButton:
+                    id: add
+                    icon: 'add_link'
+                    text: 'Add by address'
+                    size_hint_x: None
+                    width: root.action_width
+                    on_release: root.app.ask_address()
+                QuietButton:
+                    id: simulate
+                    icon: 'play_circle'
+                    text: root.simulator_text
+                    size_hint_x: None
+                    width: root.action_width
+                    disabled: not root.can_simulate or root.simulating
+                    opacity: 1 if root.can_simulate else 0
+                    on_release: root.app.simulating.ask()
+            Widget:
+""")
+
+
+def _shortened(name: str, most: int) -> str:
+    """`name`, cut to `most` characters with a sign that it was cut; `somebody` where there is nothing to read in it."""
+    name = " ".join(letters for letters in name.split() if letters.isprintable()) or "somebody"
+    return name if len(name) <= most else f"{name[: most - 1].rstrip()}…"
+
+
+class RobotCard(Card):
+    """One robot: what it is, its battery, how far, who drives, and one big button."""
+
+    __events__ = ("on_connect", "on_remove")
+
+    title = StringProperty("")
+    subtitle = StringProperty("")
+    icon = StringProperty("smart_toy_fill")
+    lost = BooleanProperty(False)
+    saved = BooleanProperty(False)
+    quiet = BooleanProperty(False)
+    """The button offers nothing to look forward to: it tries again."""
+    battery_text = StringProperty("—")
+    battery_role = StringProperty("muted")
+    link_text = StringProperty("")
+    link_role = StringProperty("ok")
+    driver_text = StringProperty("")
+    driver_icon = StringProperty("")
+    """Stands for `driven by` where a card has no room for the words."""
+    driver_role = StringProperty("ok")
+    action = StringProperty("Connect")
+    button_height = NumericProperty("52dp")
+    entry = ObjectProperty(None, allownone=True)
+    """The robot, as of the list."""
+
+    def show_entry(self, entry: Entry, me: str) -> None:
+        """Take over what is known of the robot; `me` is this handheld's client id."""
+        self.entry = entry
+        icon, words = KINDS.get(entry.kind, ("smart_toy_fill", ""))
+        self.icon, self.lost = icon, entry.state == "lost"
+        self.title = entry.name or entry.address
+        about = [entry.description or words or "Saved address"]
+        self.subtitle = " · ".join([*about, entry.address] if entry.name else about)
+        self.saved = entry.saved
+        self._show_battery(entry)
+        self._show_link(entry)
+        self._show_driver(entry, me)
+
+    def _show_battery(self, entry: Entry) -> None:
+        known = not math.isnan(entry.battery) and not self.lost
+        self.battery_text = f"{entry.battery * 100:.0f} %" if known else "—"
+        level = "danger" if entry.battery < LOW else "warn" if entry.battery < MIDDLE else "ok"
+        self.battery_role = level if known else "muted"
+
+    def _show_link(self, entry: Entry) -> None:
+        if entry.state == "lost":
+            self.link_text, self.link_role = f"no heartbeat for {entry.silent:.0f} s", "danger"
+        elif not math.isnan(entry.latency):
+            ms = entry.latency * 1000
+            self.link_text, self.link_role = (f"{ms:.0f} ms" if ms >= 1 else "< 1 ms"), "ok"
+        elif entry.state == "live":
+            self.link_text, self.link_role = "in reach", "ok"
+        else:
+            self.link_text, self.link_role = "not heard yet", "muted"
+
+    def _show_driver(self, entry: Entry, me: str) -> None:
+        mine, other = entry.driver_id == me and bool(me), bool(entry.driver)
+        if entry.state != "live":
+            self.driver_text, self.driver_role = ("lost" if self.lost else ""), "danger"
+        elif mine:
+            self.driver_text, self.driver_role = "driven by you", "accent"
+        elif other:
+            narrow = self.width < NARROW * Metrics.density
+            name = _shortened(entry.driver, 10 if narrow else 18)
+            self.driver_text, self.driver_role = name if narrow else f"driven by {name}", "warn"
+        else:
+            self.driver_text, self.driver_role = "free", "ok"
+        self.driver_icon = "person" if other and self.driver_text == _shortened(entry.driver, 10) else ""
+        self.quiet = self.lost
+        self.action = "Retry" if self.lost else "Watch" if other and not mine else "Connect"
+
+    def on_connect(self) -> None:
+        """The big button was pressed."""
+
+    def on_remove(self) -> None:
+        """The saved address is to be forgotten."""
+
+
+class ConnectScreen(FloatLayout):
+    """All robots that can be connected to."""
+
+    app = ObjectProperty()
+    nearby = StringProperty("Looking for robots")
+    nearby_short = StringProperty("searching")
+    card_width = NumericProperty("300dp")
+    """[px]"""
+    columns = NumericProperty(1)
+    edge = NumericProperty("26dp")
+    keep_free = ListProperty([0.0, 0.0])
+    """What is left to STOP ALL: height along the lower edge, or width beside the ways to get to others [px]."""
+    action_width = NumericProperty("300dp")
+    """[px]"""
+    theme_icon = StringProperty("light_mode")
+    theme_text = StringProperty("Sunlight")
+    can_simulate = BooleanProperty(False)
+    simulating = BooleanProperty(False)
+    simulator_text = StringProperty("Start the built-in simulator")
+    cards = ListProperty()
+    """The cards on the glass, in their order."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._banner: Banner | None = None
+        self._hint = Text(text=HINT, role="muted", halign="center", padding=(16, 24))
+        self.bind(size=self._arrange, keep_free=self._arrange)
+        theme.bind(name=self._follow_theme)
+        self._follow_theme()
+        self._arrange()
+
+    def _follow_theme(self, *_: object) -> None:
+        self.theme_icon, self.theme_text, _name = THEMES[theme.name]
+
+    def _arrange(self, *_: object) -> None:
+        dp = Metrics.density
+        self.columns = connect_columns(self.width, dp)
+        self.edge = (26 if self.width > 600 * dp else 14) * dp
+        self.card_width = (self.width - 2 * self.edge - (self.columns - 1) * 18 * dp) / self.columns
+        self.action_width = self.card_width - self.keep_free[1] / self.columns
+        for card in self.cards:
+            card.width = self.card_width
+
+    def show_entries(self, entries: list[Entry], me: str) -> None:
+        """Bring the cards up to date; a card stays where it is while its robot is listed."""
+        if [card.entry.url for card in self.cards] != [entry.url for entry in entries]:
+            self._rebuild(entries)
+        for card, entry in zip(self.cards, entries, strict=True):
+            card.show_entry(entry, me)
+        live = sum(entry.state == "live" for entry in entries)
+        self.nearby = f"{live} robot{'' if live == 1 else 's'} nearby" if live else "Looking for robots"
+        self.nearby_short = f"{live} nearby" if live else "searching"
+        if entries and self._hint.parent is not None:
+            self.ids.notices.remove_widget(self._hint)
+        elif not entries and self._hint.parent is None:
+            self.ids.notices.add_widget(self._hint)
+
+    def _rebuild(self, entries: list[Entry]) -> None:
+        known = {card.entry.url: card for card in self.cards}
+        self.ids.cards.clear_widgets()
+        self.cards = [known.get(entry.url) or self._card() for entry in entries]
+        for card in self.cards:
+            self.ids.cards.add_widget(card)
+
+    def _card(self) -> RobotCard:
+        card = RobotCard(width=self.card_width)
+        card.bind(
+            on_connect=lambda one: self.app.open(one.entry.url, watch=one.action == "Watch"),
+            on_remove=lambda one: self.app.forget(one.entry.url),
+        )
+        return card
+
+    def say(self, text: str, level: str = "info", on_tap: Callable[[], object] | None = None) -> None:
+        """Show one sentence above the cards; empty takes it away. A tap takes it away and calls `on_tap`."""
+        if self._banner is not None and self._banner.parent is not None and not text:
+            self.ids.notices.remove_widget(self._banner)
+        if not text:
+            self._banner = None
+            return
+        if self._banner is None or self._banner.parent is None:
+            self._banner = Banner(closable=True)
+            self.ids.notices.add_widget(self._banner, index=len(self.ids.notices.children))
+        self._banner.text, self._banner.level = text, level
+        self._tap = on_tap
+        self._banner.unbind(on_close=self._tapped)
+        self._banner.bind(on_close=self._tapped)
+
+    def unsay(self, text: str) -> None:
+        """Take that sentence away, where it is still the one that is shown: it is no longer true."""
+        if self._banner is not None and self._banner.text == text:
+            self.say("")
+
+    def _tapped(self, *_: object) -> None:
+        if self._tap is not None:
+            self._tap()
+
+    def rest(self) -> None:
+        """Nothing here moves a robot."""

@@ -1,0 +1,1 @@
+"""Driving: sticks, instruments, camera."""

@@ -1,0 +1,104 @@
+"""The instruments of a layout as widgets: each shows its topics, and says where what it shows comes from."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from kivy.uix.widget import Widget
+
+import widgets
+from app.layout.layout import Instrument, Layout
+from app.link.feeds import Feeds
+from app.link.offer import POSE, Offer
+from app.session.dashboard import Dashboard
+from widgets import Readout
+
+__all__ = ["Instruments"]
+
+LONGEST_NAME = 14
+"""Letters of a topic's name on an instrument."""
+SENSES = "senses"
+"""The slot whose widgets look after themselves, by what the robot has."""
+
+CARRIED = (
+    Instrument(
+        SENSES,
+        "UltrasoundView",
+        "/range/front",
+        title="Ultrasound",
+        also=("/range/left", "/range/right", "/range/rear"),
+    ),
+    Instrument(SENSES, "SonarRingView", "/sonar", title="Sonar"),
+    Instrument(SENSES, "LineSensorView", "/line_sensor", title="Line"),
+    Instrument(SENSES, "LaserScanView", "/scan"),
+)
+"""Of what any robot may carry: among the small sensors of one whose layout does not name it, once it says something."""
+
+
+class Instruments:
+    """Made once for a screen; the screen puts them where they belong."""
+
+    def __init__(self, layout: Layout, dashboard: Dashboard, feeds: Feeds) -> None:
+        """They are fed by `dashboard`."""
+        self._dashboard, self._feeds = dashboard, feeds
+        self.places: dict[str, list[Widget]] = {}
+        """Widgets by slot, in the order of the layout; those of `readouts` are figures."""
+        self.senses: list[tuple[Any, tuple[str, ...]]] = []
+        """Small sensors with their topics."""
+        self._titled: list[tuple[Any, Instrument]] = []
+        self._places_told: list[tuple[Readout, Instrument]] = []
+        shown = {name for one in layout.instruments for name in one.topics}
+        for one in (*layout.instruments, *(one for one in CARRIED if one.topic not in shown)):
+            self._add(one)
+
+    def _add(self, one: Instrument) -> None:
+        widget = self._figure(one) if one.widget == "Readout" else self._picture(one)
+        if one.slot == SENSES:
+            self.senses.append((widget, one.topics))
+            return
+        self.places.setdefault(one.slot, []).append(widget)
+        for name in one.topics:
+            # what it shows beside its own topic makes it neither younger nor older
+            self._dashboard.bind(widget, name, fresh=name == one.topic)
+
+    def _figure(self, one: Instrument) -> Readout:
+        widget = Readout(
+            name=one.title,
+            unit=one.unit,
+            path=one.field,
+            scale=one.factor,
+            decimals=one.digits,
+            plus=one.plus,
+            minus=one.minus,
+            fitted=False,
+            font_size="21sp",
+        )
+        widget.size_hint_x = 1
+        if one.topic == POSE:
+            self._places_told.append((widget, one))
+        return widget
+
+    def _picture(self, one: Instrument) -> Any:
+        kind = getattr(widgets, one.widget)
+        offered = {"card": True, "title": one.title}
+        small = one.slot == SENSES  # no room for a name that is not wanted
+        widget = kind(
+            **{key: value for key, value in offered.items() if hasattr(kind, key) and (value or small)}
+        )
+        if one.title and hasattr(kind, "title"):
+            self._titled.append((widget, one))
+        return widget
+
+    def name_sources(self, offer: Offer | None) -> None:
+        """An instrument that shows a topic of another name than the usual one says which."""
+        for widget, one in self._titled:
+            source = offer.source(one.topic) if offer is not None else None
+            widget.title = f"{one.title} · {_brief(source)}" if source and source != one.topic else one.title
+        for readout, one in self._places_told:
+            by_wheels = offer is not None and offer.pose_by_odometry
+            readout.name = one.title.replace("Map", "Odom") if by_wheels else one.title
+
+
+def _brief(name: str) -> str:
+    """The end of a topic's name, as much as an instrument has room for."""
+    return name if len(name) <= LONGEST_NAME else f"…{name[1 - LONGEST_NAME :]}"

@@ -1,0 +1,193 @@
+"""Where voice is set up: how it hears, a try without consequences, when it listens, whether and how it talks, and what may be said."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from kivy.uix.boxlayout import BoxLayout
+
+from app.device import is_android
+from app.inputs.voice.audio.noise import TOO_LOUD
+from app.inputs.voice.recognition.phrases import LANGUAGES, PHRASES
+from app.inputs.voice.recognition.recognizer import Level, Result
+from app.inputs.voice.speaking import Speaking
+from app.inputs.voice.speech.mouth import VOICES
+from app.inputs.voice.talking import RATES, Talking
+from app.intents.intents import INTENTS
+from app.screens.inputs.setting_row import number_row, switch_row
+from widgets.inputs.noise_meter import NoiseMeter
+from widgets.parts.kit import Column, ListRow, PrimaryButton, QuietButton, Roll, Segmented
+from widgets.parts.labels import Remark
+from widgets.parts.rows import group_label
+
+__all__ = ["VoicePane"]
+
+PUSH = "Hold Talk at the edge of the screen, a key or a button of a gamepad while you speak; a tap listens for one command."
+FREE = "It listens all the time. Among people who talk, hold the button instead."
+TRY = "Say a command: what was understood is shown, and nothing is done but STOP."
+EXAMPLE = "Go home? Say yes or no."
+
+
+class VoicePane(BoxLayout):
+    """A pane of the inputs screen."""
+
+    def __init__(self, app: Any, **kwargs: Any) -> None:
+        super().__init__(orientation="vertical", spacing="8dp", **kwargs)
+        self._app = app
+        self.speaking: Speaking = app.methods.get("voice")
+        """What hears."""
+        self.talking: Talking = app.methods.get("talk")
+        """What talks."""
+        self.meter = NoiseMeter(needed=TOO_LOUD, state="never")
+        self.standing, self.how = Remark(font_size="15sp"), Remark(font_size="14sp")
+        self.words: dict[str, ListRow] = {}
+        self._column = Column(spacing="6dp")
+        self._fill()
+        roll = Roll()
+        roll.add_widget(self._column)
+        self.add_widget(roll)
+
+    def _fill(self) -> None:
+        add = self._column.add_widget
+        add(self.standing)
+        add(self.meter)
+        self.trial = PrimaryButton(text="Try it", icon="mic", size_hint_y=None)
+        self.trial.bind(on_release=lambda _: self._try())
+        add(self.trial)
+        add(group_label("When it listens"))
+        self.kind = Segmented(
+            options=[("push", "Push to talk"), ("free", "Hands-free")], size_hint_y=None, height="48dp"
+        )
+        self.kind.bind(on_choose=lambda _, value: self._listen_so(value))
+        add(self.kind)
+        add(self.how)
+        self._fill_languages()
+        self._fill_answers()
+        add(group_label("What may be said"))
+        for intent in PHRASES["en"]:
+            known = INTENTS[intent]
+            self.words[intent] = ListRow(icon=known.icon, title=known.words, whole=True)
+            add(self.words[intent])
+
+    def _fill_answers(self) -> None:
+        add = self._column.add_widget
+        add(group_label("What it answers"))
+        row, self.talks = switch_row(
+            "volume_up", "Talk back", "Answers, alarms, what the robot confirmed.", self._talk
+        )
+        add(row)
+        self.voices = Segmented(options=list(VOICES.items()), size_hint_y=None, height="48dp")
+        self.voices.bind(on_choose=lambda _, voice: self._choose_voice(voice))
+        if not is_android():  # a phone's voice is chosen in Android's settings
+            add(self.voices)
+        row, self.rate = number_row(
+            "speed",
+            "How fast",
+            "1 is usual.",
+            self._choose_rate,
+            minimum=RATES[0],
+            maximum=RATES[1],
+            step=0.1,
+            unit="×",
+        )
+        add(row)
+        self.example = QuietButton(text="Say something", icon="volume_up", size_hint_y=None)
+        self.example.bind(on_release=lambda _: self._say_something())
+        add(self.example)
+        self.trouble = Remark(font_size="14sp", role="warn")
+        add(self.trouble)
+
+    def _fill_languages(self) -> None:
+        """Only where what understands here knows more than one."""
+        known = self.speaking.languages
+        self.language = Segmented(
+            options=[(name, LANGUAGES[name]) for name in known], size_hint_y=None, height="48dp"
+        )
+        self.language.bind(on_choose=lambda _, name: self._choose_language(name))
+        if len(known) > 1:
+            self._column.add_widget(group_label("Language"))
+            self._column.add_widget(self.language)
+
+    # what a finger asks for
+
+    def _try(self) -> None:
+        self.speaking.try_out(on=not self.speaking.trying)
+        self.tick()
+
+    def _listen_so(self, value: str) -> None:
+        self.speaking.hands_free = value == "free"
+        self.tick()
+
+    def _choose_language(self, name: str) -> None:
+        self.speaking.language = name
+        self.tick()
+
+    def _talk(self, on: bool) -> None:
+        self._app.methods.turn("talk", on)
+        self.tick()
+
+    def _choose_voice(self, voice: str) -> None:
+        self.talking.voice = voice
+        self.tick()
+
+    def _choose_rate(self, rate: float) -> None:
+        self.talking.rate = round(rate, 2)
+        self.tick()
+
+    def _say_something(self) -> None:
+        self.talking.voice = self.talking.voice  # one that failed is tried again
+        self.talking.say(EXAMPLE, "answer")
+        self.tick()
+
+    # what the screen calls
+
+    def enter(self) -> None:
+        """Come onto the glass."""
+        for intent, row in self.words.items():
+            said = PHRASES[self.speaking.language].get(intent, ())
+            row.detail = " · ".join(f"“{one}”" for one in said)
+        self.tick()
+
+    def leave(self) -> None:
+        """Leave the glass, and the try with it."""
+        self.speaking.try_out(on=False)
+
+    def rest(self) -> None:
+        """Nothing here is held."""
+
+    def tick(self) -> None:
+        """Bring up to date how it stands."""
+        speaking, talking = self.speaking, self.talking
+        self._show_meter(speaking)
+        self.standing.role = "warn" if speaking.problem else "muted"
+        self.standing.text = speaking.problem or self._usual(speaking)
+        self.trial.text = "End the try" if speaking.trying else "Try it"
+        self.trial.icon = "close" if speaking.trying else "mic"
+        self.kind.value = "free" if speaking.hands_free else "push"
+        self.how.text = FREE if speaking.hands_free else PUSH
+        self.language.value = speaking.language
+        self.talks.active = talking.on
+        self.voices.value, self.rate.value = talking.voice, round(talking.rate, 2)
+        self.trouble.text = talking.problem
+
+    def _usual(self, speaking: Speaking) -> str:
+        if speaking.trying:
+            return TRY
+        if not speaking.on:
+            return "Off: nothing listens and nothing is loaded. Switch it on in the list of inputs, or try it here."
+        return {"listening": "Listening.", "hold to talk": "Ready."}.get(speaking.standing, "One moment …")
+
+    def _show_meter(self, speaking: Speaking) -> None:
+        meter, level = self.meter, speaking.level
+        open_ = speaking.ready and speaking.listening
+        meter.state = "alarm" if speaking.loud else "live" if open_ else "never"
+        told = level if open_ else Level(-math.inf, math.nan, math.nan)
+        meter.tell(
+            level=told.level, noise=told.noise, snr=told.snr, speaking=told.speaking, clipped=told.clipped
+        )
+        last = speaking.last
+        if isinstance(last, Result):
+            meter.answer(f"{INTENTS[last.command].words}: “{last.said}”", last.confidence, understood=True)
+        elif last is not None:
+            meter.answer(speaking.said or last.reason, understood=False)

@@ -1,0 +1,1 @@
+"""The response log, trials and questionnaires."""

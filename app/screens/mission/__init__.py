@@ -1,0 +1,1 @@
+"""The map with points, and beside it what is done about them."""

@@ -1,0 +1,104 @@
+"""How a robot stands, in the few words of the top bar: mode, position by satellite, who has control."""
+
+from __future__ import annotations
+
+import math
+
+from app.session.session import Session
+from bridge.msgs.pilothouse_msgs import ControlStatus, TaskStatus
+from bridge.msgs.sensor_msgs import NavSatFix
+from widgets.core.task_words import TASKS
+
+__all__ = ["control", "control_nav", "fix", "mode"]
+
+LONGEST, BRIEFEST = 14, 8
+"""Letters of a driver's name in the bar, and on a button of a phone's navigation."""
+
+MODES = {
+    "MANUAL": ("sports_esports", "accent"),
+    "AUTO": ("autorenew", "plan"),
+    "PAUSED": ("pause_fill", "warn"),
+    "STOPPED": ("front_hand", "danger"),
+}
+"""Mode of the robot to icon and role."""
+CONTROLS = {
+    "mine": ("person", "accent", "you have control", "you"),
+    "free": ("lock_open", "text", "take control", "free"),
+    "unknown": ("help", "muted", "control unknown", "unknown"),
+    "none": ("lock_open", "muted", "anyone may drive", "anyone"),
+}
+"""Who has control to icon, role, words of the chip, and its words where there is little room."""
+
+
+def mode(session: Session, *, brief: bool) -> tuple[str, str, str]:
+    """Words, icon and role of who steers the robot, and with what task unless `brief`."""
+    status: ControlStatus | None = session.feeds.latest("/control/status")
+    if session.foreign and session.connected:
+        held = session.local_stop.latched
+        return "STOP" if held else "MANUAL", *MODES["STOPPED" if held else "MANUAL"]
+    if status is None or not session.connected:
+        return "no link" if not session.connected else "—", "signal_disconnected", "muted"
+    task: TaskStatus | None = session.feeds.latest("/task/status")
+    words = TASKS[task.task].doing if task is not None and task.task in TASKS else ""
+    busy = status.mode in ("AUTO", "PAUSED") and words and not brief
+    return f"{status.mode} · {words}" if busy else status.mode, *MODES.get(status.mode, ("help", "muted"))
+
+
+def fix(session: Session) -> tuple[str, str]:
+    """Words and role of the position by satellite."""
+    told: NavSatFix | None = session.feeds.latest("/fix")
+    live = session.feeds.state("/fix") == "live"
+    good = told is not None and told.status.status >= 0
+    text = "—" if told is None else _accuracy(told) if good else "no fix"
+    return text, "ok" if good and live else "muted"
+
+
+def control(session: Session, *, brief: bool) -> tuple[str, str, str]:
+    """Words, icon and role of who has control, who asks for it and how long still."""
+    authority, who = session.authority, session.control
+    status, left = authority.status, _countdown(authority.left)
+    driver, asker = _short(status.driver), _short(status.requested_by)
+    if authority.asked:
+        return f"{asker} asks{left}", "person", "warn"
+    if authority.asking:
+        return f"asked {driver}{left}", "hourglass_top", "accent"
+    if who == "other":
+        if session.command_sent("request"):
+            return f"asking {driver} …", "hourglass_top", "accent"
+        by = driver if brief else f"driven by {driver}"
+        return f"{by} · {asker} asks" if asker else by, "person", "warn"
+    icon, role, *words = CONTROLS[who]
+    if who == "free" and session.command_sent("acquire"):
+        return "asking …", icon, role
+    return words[brief], icon, role
+
+
+def control_nav(session: Session) -> tuple[str, str, str]:
+    """Words, icon and role of the button for control; without a role it looks as its neighbours.
+
+    It says who drives: on a phone nothing else does.
+    """
+    authority = session.authority
+    if authority.status.requested_by and session.control in ("mine", "other"):
+        return f"Ask{_countdown(authority.left)}", "hourglass_top", "warn"
+    who = session.control
+    if who == "other":
+        return _short(authority.status.driver, BRIEFEST), "lock", "warn"
+    return "You" if who == "mine" else "Control", CONTROLS[who][0], ""
+
+
+def _countdown(left: float) -> str:
+    """As in ` · 8 s`; empty while it is not known."""
+    return f" · {math.ceil(left)} s" if math.isfinite(left) else ""
+
+
+def _short(name: str, longest: int = LONGEST) -> str:
+    """The beginning of a long name."""
+    return name if len(name) <= longest else f"{name[: longest - 1].rstrip()}…"
+
+
+def _accuracy(fix: NavSatFix) -> str:
+    """How far off the position may be, as in `±1.2 m`; the bare fact where the receiver does not say."""
+    if not fix.position_covariance_type or not fix.position_covariance:
+        return "fix"
+    return f"±{math.sqrt(max(0.0, fix.position_covariance[0])):.1f} m"

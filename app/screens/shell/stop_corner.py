@@ -1,0 +1,146 @@
+"""STOP ALL on every page: a small button in STOP's corner whenever there is more to stop than STOP does, and what became of it.
+
+It lies over everything else, questions included, and lets every finger through that is not on it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from kivy.clock import Clock
+from kivy.metrics import Metrics
+from kivy.uix.floatlayout import FloatLayout
+
+from app.discovery.discovery import Entry
+from app.layout import arrange
+from app.layout.arrange import Rect, StopPlace
+from app.screens.parts.placing import put
+from app.stop.fleet import Fleet, known
+from widgets import StopAll, StopList
+
+__all__ = ["StopCorner"]
+
+READABLE = 280
+"""So high must be what is left of a screen above the list and what is said, else the list is folded [dp]."""
+
+
+class StopCorner:
+    """The button, the list, and where they are. `tick` brings them up to date, ten times a second."""
+
+    def __init__(self, app: Any, fleet: Fleet, say: Callable[[str, str], object]) -> None:
+        """`app` is asked for its `robots`, `session`, `shell` and `connect`; `say(text, level)` says one sentence."""
+        self._app, self._fleet, self._say = app, fleet, say
+        self.on_pressed: list[Callable[[], object]] = []
+        """Called when STOP ALL was pressed and is on its way."""
+        self.layer = FloatLayout()
+        """To be put over the whole glass."""
+        self.button = StopAll(size_hint=(None, None))
+        self.button.bind(on_command=lambda _: self.press())
+        self.list = StopList(size_hint=(None, None))
+        self.list.bind(
+            on_command=lambda _: self._let_go(),
+            on_close=lambda _: self._fold(),
+            on_fold=lambda _: self._turn(),
+            wanted=self._place,
+        )
+        self._spread = False
+        """The operator wants to see all of the list, whatever it lies over."""
+        self._arranging = Clock.create_trigger(self._place, -1)
+        self.layer.bind(size=self._arranging)
+
+    def press(self) -> None:
+        """STOP to every robot that is known, the connected one first."""
+        if self._app.shell is not None:
+            self._app.shell.rest()
+        self._fleet.press(self._entries(), self._app.session)
+        for hear in list(self.on_pressed):
+            hear()
+        self._show(self.list, shown=True)
+        self.tick()
+
+    def _entries(self) -> Iterator[Entry]:
+        yield from self._app.robots.entries()
+
+    def tick(self) -> None:
+        """Look who is known and what became of STOP."""
+        fleet, button = self._fleet, self.button
+        fleet.look(self._app.session)
+        button.robots = known(self._app.robots.entries(), self._app.session)
+        button.active = fleet.active
+        button.stopped, button.total = fleet.stopped, fleet.total
+        least = 2 if self._app.shell is not None else 1
+        self._show(button, shown=fleet.active or button.robots >= least)
+        if not fleet.active:
+            self._show(self.list, shown=False)
+        elif self.list.parent is not None:
+            since = fleet.since(self._app.robots.entries())
+            self.list.tell(fleet.rows, fleet.stopped, fleet.total, untried=fleet.untried, since=since)
+        elif not fleet.sending:
+            self._finish()
+        self._place()
+
+    def _finish(self) -> None:
+        """The list was folded away before all was done: it ends by itself, and is said."""
+        stopped, total = self._fleet.stopped, self._fleet.total
+        self._say(f"STOP ALL is done: {stopped} of {total} stopped.", "ok" if stopped == total else "warn")
+        self._fleet.let_go()
+
+    def _let_go(self) -> None:
+        self._fleet.let_go()
+        self.tick()
+
+    def _fold(self) -> None:
+        """What is sent goes on being sent; when nothing is, there is nothing left to say."""
+        if self._fleet.sending:
+            self._show(self.list, shown=False)
+        else:
+            self._let_go()
+
+    def _show(self, widget: Any, *, shown: bool) -> None:
+        if shown and widget.parent is None:
+            self.layer.add_widget(widget)
+        elif not shown and widget.parent is not None:
+            widget.rest()
+            self.layer.remove_widget(widget)
+
+    # places
+
+    def _place(self, *_: object) -> None:
+        dp, shell = Metrics.density, self._app.shell
+        shared = self.button.parent is not None
+        form = arrange.form(self.layer.width, self.layer.height, dp)
+        if shell is None:
+            corner = arrange.corner(self.layer.width, dp)
+            place = StopPlace(corner.x, corner.y, corner.width, corner.height, corner)
+            below, beside = (0.0, corner.width + 18 * dp) if form == "short" else (arrange.CORNER * dp, 0.0)
+            self._app.connect.keep_free = (below, beside) if shared else (0.0, 0.0)
+            body = Rect(0, 0, self.layer.width, self.layer.height - 56 * dp)
+        else:
+            shell.shares_stop = shared
+            place = shell.stop_place
+            body = arrange.shell(self.layer.width, self.layer.height, dp, talks=shell.nav.talks)["body"]
+        if place.other is not None:
+            put(self.button, place.other)
+        self._place_list(body, place, form, dp)
+
+    def _place_list(self, body: Rect, place: StopPlace, form: str, dp: float) -> None:
+        """Above STOP; in one line where a card has to be answered there, and what is only said goes above it."""
+        shell, listed = self._app.shell, self.list
+        whole = arrange.stop_list(body, place, form, listed.wanted, dp)
+        cramped = False
+        if shell is not None and listed.parent is not None:
+            said = shell.notices.room
+            left = body.top - whole.top - 8 * dp - said.height
+            alone = not shell.notices.asks and left >= READABLE * dp
+            cramped = said.height > 0 and whole.overlaps(said) and not alone
+        self._spread = self._spread and cramped
+        listed.cramped, listed.folded = cramped, cramped and not self._spread
+        line = arrange.stop_list(body, place, form, listed.line, dp, folded=True)
+        put(listed, line if listed.folded else whole)
+        if shell is not None:
+            shell.notices.above = (line if listed.folded else whole) if listed.parent is not None else None
+
+    def _turn(self) -> None:
+        self._spread = not self._spread
+        self._place()

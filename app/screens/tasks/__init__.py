@@ -1,0 +1,1 @@
+"""Tasks, queue, schedule, history and places."""

@@ -1,0 +1,134 @@
+"""What runs, with what can be done about it, and below it what comes next."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.properties import BooleanProperty, StringProperty
+from kivy.uix.boxlayout import BoxLayout
+
+from app.session.session import Session
+from bridge.msgs.pilothouse_msgs import TaskStatus
+from widgets import OrderQueue, TaskCard
+
+__all__ = ["NowList"]
+
+Builder.load_string("""
+<NowList>:
+    orientation: 'vertical'
+    spacing: dp(8)
+    BoxLayout:
+        id: top
+        size_hint_y: None
+        height: self.minimum_height
+    BoxLayout:
+        id: does
+        size_hint_y: None
+        height: theme.target
+        spacing: dp(8)
+        PushButton:
+            id: main
+            text: root.main_words
+            meaning: root.main
+            icon: 'play_arrow_fill' if root.main == 'resume' else 'pause'
+            fill: 'accent' if root.main == 'resume' else 'raised'
+            border: 'accent' if root.main == 'resume' else 'line'
+            ink: 'ink_accent' if root.main == 'resume' else 'text'
+            disabled: not root.may or not root.main or (root.held and root.main == 'resume')
+            on_release: root.ask(root.main)
+        QuietButton:
+            id: end
+            text: 'End task'
+            icon: 'stop'
+            disabled: not root.may or not root.active
+            on_release: root.ask('cancel')
+    BoxLayout:
+        id: next
+        size_hint_y: None
+        height: dp(40)
+        SectionLabel:
+            title: 'Next'
+            pos_hint: {'center_y': .5}
+        IconButton:
+            id: undo
+            icon: 'undo'
+            bare: True
+            disabled: not root.may_undo
+            size: dp(48), dp(44)
+            pos_hint: {'center_y': .5}
+            on_release: root.undo()
+    BoxLayout:
+        id: rest
+""")
+
+
+class NowList(BoxLayout):
+    """The running task and the queue behind it."""
+
+    may = BooleanProperty(False)
+    """The robot can be asked for something from here."""
+    held = BooleanProperty(False)
+    """STOP is pressed."""
+    active = BooleanProperty(False)
+    """There is a task to end."""
+    main = StringProperty("")
+    """`pause`, `resume` or nothing."""
+    main_words = StringProperty("Pause")
+    may_undo = BooleanProperty(False)
+    brief = BooleanProperty(False)
+    """Takes little room."""
+
+    def __init__(self, session: Session, **kwargs: Any) -> None:
+        self._session = session
+        self.card, self.queue = TaskCard(), OrderQueue()
+        super().__init__(**kwargs)
+        self.ids.top.add_widget(self.card)
+        self.ids.rest.add_widget(self.queue)
+        self.queue.bind(on_command=lambda _, what, index, target: self._edit(what, index, target))
+        editor = session.tasking.queue
+        editor.on_change = self._show_queue
+        self._next, self._undo = self.ids.next.__self__, self.ids.undo.__self__
+        self.bind(brief=self._lay)
+        self._show_queue()
+
+    def _lay(self, *_: object) -> None:
+        """Where there is little room, the undo stands beside what is done and has no row of its own."""
+        self.card.brief = self.brief
+        self._undo.parent.remove_widget(self._undo)
+        (self.ids.does if self.brief else self._next).add_widget(self._undo)
+        if self.brief == (self._next.parent is self):
+            (self.remove_widget(self._next) if self.brief else self.add_widget(self._next, index=1))
+
+    def ask(self, name: str) -> None:
+        """Ask the robot as a finger would."""
+        self._session.command(name)
+
+    def undo(self) -> None:
+        """Take the last edit of the queue back."""
+        self._session.tasking.queue.undo()
+
+    def _edit(self, what: str, index: int, target: int) -> None:
+        editor = self._session.tasking.queue
+        editor.remove(index) if what == "remove" else editor.move(index, target)
+
+    def _show_queue(self) -> None:
+        editor = self._session.tasking.queue
+        self.queue.orders, self.queue.waits = list(editor.orders), editor.waits
+        self.may_undo = editor.can_undo
+        self.queue.held = editor.told.held if editor.told is not None else ""
+
+    def tick(self, may: bool) -> None:
+        """Bring up to date what can be done; `may` when it can be asked for from here."""
+        session = self._session
+        status: TaskStatus = session.feeds.latest("/task/status") or TaskStatus()
+        self.may, self.held = may, session.stop_latched
+        self.active = status.state in ("RUNNING", "PAUSED", "INTERRUPTED")
+        count = len(session.tasking.queue.orders)
+        waiting = count > 0 and not self.active
+        self.main = {"RUNNING": "pause", "PAUSED": "resume", "INTERRUPTED": "resume"}.get(
+            status.state, "resume" if waiting else ""
+        )
+        these = "Go on" if self.brief else "Go on with this" if count == 1 else "Go on with these"
+        self.main_words = {"pause": "Pause", "": "Pause"}.get(self.main, these if waiting else "Resume")
+        self.queue.state = "live" if may else "disabled"

@@ -1,0 +1,176 @@
+"""What can be done on the tasks screen: its buttons, where each is just now, and what a finger does with it."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from app.layout.arrange import Rect
+from app.screens.parts.act_buttons import ActButtons
+from bridge.msgs.pilothouse_msgs import Place
+from widgets.core.task_words import title
+
+if TYPE_CHECKING:
+    from app.screens.tasks.tasks import TasksScreen
+
+__all__ = ["TaskActs"]
+
+PRIMARY = ("start", "save", "keep", "new", "new_scheduled", "recall", "keep_mission", "seen_all")
+
+
+class TaskActs(ActButtons):
+    """The buttons of one tasks screen."""
+
+    def __init__(self, screen: TasksScreen) -> None:
+        """`screen` has its lists and panes already."""
+        self._screen, self._session = screen, screen.session
+        super().__init__(
+            [
+                ("start", "Start", "play_arrow_fill", self._start),
+                ("queue", "Add to queue", "add", self._queue),
+                ("save", "Save", "check", self._save_scheduled),
+                ("unschedule", "Delete", "delete", self._unschedule),
+                ("keep", "Save", "check", self._keep_place),
+                ("forget", "Delete", "delete", self._forget_place),
+                ("go", "Go", "near_me", self._go_there),
+                ("move", "Move", "edit_location_alt", self._move_place),
+                ("new", "New task", "add", lambda: screen.open("order")),
+                ("new_scheduled", "New", "add", lambda: screen.open_scheduled(None)),
+                ("again", "Newest", "refresh", screen.session.tasking.ask_history),
+                ("on_map", "New on map", "add_location_alt", self._point_at_place),
+                ("here", "New here", "my_location", self._place_here),
+                ("save_as", "Save under a name", "save", self._save_as),
+                ("keep_mission", "Save", "check", self._keep_mission),
+                ("recall", "Recall", "upload", self._recall),
+                ("seen_all", "All seen", "check", screen.events.see_all),
+            ],
+            PRIMARY,
+        )
+
+    # which are where
+
+    def lay_for(self, tab: str, shown: str, *, form: str, stop: Rect) -> None:
+        """Put out those of the list `tab` and of what is `shown` beside it, in a window of that `form` with STOP there [px]."""
+        screen, tall = self._screen, form == "tall"
+        for_list = {
+            "now": ["new"] if tall else [],
+            "schedule": ["new_scheduled"],
+            "history": ["again"],
+            "events": ["seen_all"],
+            "places": ["on_map", "here"],
+            "missions": ["save_as"],
+        }[tab]
+        for_detail = {
+            "order": ["start", "queue"],
+            "schedule": ["save", *(["unschedule"] if self._scheduled_id() else [])],
+            "place": ["keep", *(["forget", "go", "move"] if screen.form.shown.id else [])],
+            "mission": ["recall" if screen.mission_pane.chosen is not None else "keep_mission"],
+        }.get(shown, [])
+        if self._session.lacks_tasks:
+            for_list = for_detail = []
+        if shown == "place" and not screen.place_pane.there:
+            for_detail = []
+        names = for_list if tall and not shown else for_detail
+        self.lay(screen.ids.strip, names, [] if tall else for_list, form=form, stop=stop)
+        self.tick()
+
+    def _scheduled_id(self) -> int:
+        scheduled = self._screen.pane.scheduled
+        return int(scheduled.id) if scheduled is not None else 0
+
+    def tick(self) -> None:
+        """What cannot be asked for just now cannot be pressed."""
+        screen, session, buttons, mine = self._screen, self._session, self.by_name, self._screen.mine
+        complete = screen.pane.complete and mine
+        buttons["start"].disabled = not complete or session.stop_latched or session.running
+        buttons["queue"].disabled = not complete
+        buttons["save"].disabled = not complete
+        buttons["keep"].disabled = not mine or bool(screen.form.lacking)
+        for name in ("forget", "unschedule", "here"):
+            buttons[name].disabled = not mine
+        buttons["recall"].disabled = not mine or not session.offers("/mission/recall")
+        buttons["keep_mission"].disabled = not mine or bool(screen.mission_pane.lacking)
+        waiting = len(screen.events.waiting)
+        buttons["seen_all"].disabled = not waiting or not screen.events.log.acts
+        buttons["seen_all"].text = f"All seen ({waiting})" if waiting else "All seen"
+        buttons["go"].disabled = not session.knows("go_to")
+        located = math.isfinite(screen.places.robot[0])
+        buttons["here"].disabled = not mine or not located
+
+    # orders and the schedule
+
+    def _start(self) -> None:
+        screen = self._screen
+        self._session.tasking.start(screen.pane.order, send_first=screen.pane.unsent)
+        screen.detail = ""
+        screen.tab = "now"
+
+    def _queue(self) -> None:
+        screen = self._screen
+        if screen.pane.unsent:
+            self._session.send_mission()
+        self._session.tasking.queue.add(screen.pane.order)
+        screen.pane.begin("")
+        screen.detail = ""
+        screen.tab = "now"
+
+    def _save_scheduled(self) -> None:
+        screen = self._screen
+        if screen.pane.unsent:
+            self._session.send_mission()
+        self._session.tasking.keep_scheduled(screen.pane.made())
+        screen.pane.schedule()
+        screen.close()
+
+    def _unschedule(self) -> None:
+        screen = self._screen
+        task = screen.pane.scheduled
+        self._session.tasking.forget_scheduled(task, title(task.order))
+        screen.pane.schedule()
+        screen.close()
+
+    # places
+
+    def _point_at_place(self) -> None:
+        self._screen.app.show("mission")
+        self._screen.app.screens["mission"].mode = "place"
+
+    def _place_here(self) -> None:
+        x, y = self._screen.places.robot
+        self._screen.edit_place(Place(x=x, y=y, yaw=self._screen.form.dial.robot))
+
+    def _keep_place(self) -> None:
+        self._screen.place_pane.keep()
+        self._screen.close()
+
+    def _forget_place(self) -> None:
+        self._screen.place_pane.forget()
+        self._screen.close()
+
+    def _go_there(self) -> None:
+        name = self._screen.form.shown.name
+        self._screen.stay()
+        self._screen.begin("go_to", (name,))
+
+    def _move_place(self) -> None:
+        screen = self._screen
+        screen.stay()
+        place = screen.form.place
+        screen.detail = ""
+        screen.app.show("mission")
+        screen.app.screens["mission"].move_place(place)
+
+    # missions
+
+    def _save_as(self) -> None:
+        self._screen.mission_pane.begin()
+        self._screen.open("mission")
+
+    def _keep_mission(self) -> None:
+        self._screen.mission_pane.save()
+        self._screen.close()
+
+    def _recall(self) -> None:
+        self._screen.mission_pane.recall()
+        self._screen.mission_pane.begin()
+        self._screen.close()

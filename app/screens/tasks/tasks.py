@@ -1,0 +1,359 @@
+"""The tasks screen: what runs and what comes next, what starts by itself, what was done and what happened, the
+places and the missions by name, and the robot's settings."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from kivy.lang import Builder
+from kivy.properties import ObjectProperty, StringProperty
+from kivy.uix.floatlayout import FloatLayout
+from kivy.uix.widget import Widget
+
+from app.layout import arrange
+from app.layout.arrange import Rect
+from app.link.camera import Picture
+from app.link.feeds import Post
+from app.link.link import OUTCOME
+from app.screens.mission.mission_pane import MissionPane
+from app.screens.parts.placing import Area, above, put  # noqa: F401 - a rule names the area
+from app.screens.tasks.event_list import EventList
+from app.screens.tasks.now_list import NowList
+from app.screens.tasks.order_pane import OrderPane
+from app.screens.tasks.place_pane import PlacePane
+from app.screens.tasks.settings_pane import SettingsPane
+from app.screens.tasks.task_acts import TaskActs
+from app.screens.tasks.task_tabs import TaskTabs
+from app.session.dashboard import Dashboard
+from app.session.session import Session
+from bridge.msgs.pilothouse_msgs import (
+    GetHistoryResponse,
+    KeptMission,
+    Mission,
+    Place,
+    TaskStatus,
+)
+from widgets import MissionList, PlaceList, RunList, ScheduleList
+from widgets.parts.kit import Text
+
+__all__ = ["TasksScreen"]
+
+DETAILS = {
+    "now": "order",
+    "schedule": "schedule",
+    "history": "order",
+    "events": "order",
+    "places": "place",
+    "missions": "mission",
+}
+"""What is beside each list where there is room for both."""
+NO_TASKS = "This robot offers no tasks and knows no places."
+
+Builder.load_string("""
+<TasksScreen>:
+    Area:
+        id: listed
+    Area:
+        id: detail
+    GridLayout:
+        id: strip
+        size_hint: None, None
+        spacing: dp(8)
+""")
+
+
+class TasksScreen(FloatLayout):
+    """Everything about tasks but the map."""
+
+    app = ObjectProperty()
+    session: Session = ObjectProperty()
+    tab = StringProperty("now")
+    """The list that is shown: one of `DETAILS`."""
+    detail = StringProperty("")
+    """What is opened beside the list, or on a phone in its place: `order`, `schedule`, `place`, `mission`, `settings`
+    or nothing."""
+    video = None
+    """There is none here."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        for name in ("listed", "detail", "strip"):  # kv holds ids weakly
+            self.ids[name] = self.ids[name].__self__
+        session = self.session
+        self.dashboard = Dashboard(session.feeds)
+        self.tabs = TaskTabs()
+        self.now, self.events = NowList(session), EventList(session)
+        self.places, self.runs, self.schedule = PlaceList(), RunList(), ScheduleList()
+        self.missions = MissionList()
+        self.pane, self.place_pane = OrderPane(session), PlacePane(session)
+        self.mission_pane, self.settings_pane = MissionPane(session), SettingsPane(session)
+        self.form = self.place_pane.form
+        self._body, self._form, self._dp = Rect(0, 0, 1, 1), "", 1.0
+        self._places: dict[str, Rect] = {}
+        self._cover: Rect | None = None
+        self._lacking = Text(text=NO_TASKS, role="muted")
+        self._returns = False
+        self.notice = Rect(0, 0, 1, 1)
+        self.acts = TaskActs(self)
+        self.ids.update({**self.acts.by_name, "tabs": self.tabs})
+        self._bind()
+
+    def _bind(self) -> None:
+        bind, tasking = self.dashboard.bind, self.session.tasking
+        bind(self.now.card, "/task/status")
+        bind(self.now.card, "/task/progress", fresh=False)
+        bind(self.schedule, "/schedule", fresh=False)
+        bind(self.places, "/places")
+        bind(self.form, "/places", self.place_pane.name_places, fresh=False)
+        bind(self.missions, "/mission", self._mission_told, fresh=False)
+        bind(self.settings_pane.options, "/control/status", fresh=False)
+        for widget in (self.places, self.form, self.pane.form):
+            bind(widget, "/pose", fresh=False)
+        bind(self.pane.form, "/places", fresh=False)
+        bind(self.runs, "/task/status", self._task_changed)
+        self.places.bind(on_command=lambda _, place: self.edit_place(place))
+        self.missions.bind(on_command=lambda _, mission: self._look_at(mission))
+        self.form.bind(on_command=lambda *_: self.acts.tick())
+        self.schedule.bind(
+            on_command=lambda _, task: tasking.keep_scheduled(task),
+            on_open=lambda _, task: self.open_scheduled(task),
+        )
+        self.runs.bind(on_command=lambda _, before: tasking.ask_history(before))
+        tasking.on_history = self._take_history
+        self.session.missions.on_change = self._missions_changed
+        self.session.missions.on_recalled = self._recalled
+        self.tabs.bind(
+            tab=lambda _, tab: setattr(self, "tab", tab), on_settings=lambda _: self._turn_settings()
+        )
+        for pane in (self.pane, self.place_pane, self.mission_pane, self.settings_pane):
+            pane.bind(on_close=lambda _: self.close())
+        self.settings_pane.bind(on_reset=lambda _: self.app.shell.reset.ask())
+        self.place_pane.bind(on_back=lambda _, place: self.edit_place(place))
+        self.pane.bind(complete=lambda *_: self.acts.tick())
+        self.bind(tab=self._tab_changed, detail=self._lay)
+
+    # what the shell calls
+
+    def arrange(self, body: Rect, form: str, dp: float) -> Rect:
+        """Put everything into its place; returns where STOP goes."""
+        self._body, self._form, self._dp = body, form, dp
+        places = self._places = arrange.tasks(body, form, dp)
+        put(self.ids.strip, places["strip"])
+        self.clear(self._cover)
+        self.notice = places["notice"]
+        self.pane.compact = form != "wide"
+        self.pane.closable = form == "tall"
+        for pane in (self.place_pane, self.mission_pane, self.settings_pane):
+            pane.head.closable = form == "tall"
+        self.pane.titled = form != "short"
+        self.now.brief = form == "short"
+        self._lay()
+        return places["stop"]
+
+    def clear(self, cover: Rect | None) -> None:
+        """Make room for what is said over the screen."""
+        self._cover = cover
+        for name, place in (("listed", "list"), ("detail", "detail")):
+            put(self.ids[name], above(self._places[place], cover, self._dp))
+
+    def hear(self, channel: str, post: Post) -> None:
+        """A message came."""
+        self.dashboard.deliver(channel, post.value)
+        if channel == OUTCOME:
+            self.settings_pane.hear(post.value)
+            self.place_pane.hear(post.value)
+
+    def enter(self) -> None:
+        """Come onto the glass."""
+        self.dashboard.enter()
+        self.places.refresh()
+        if self.events.has_new_alarms and not self.detail:
+            self.tab = "events"
+        self._lay()
+        self._ask()
+        self.tick()
+
+    def leave(self) -> None:
+        """Leave the glass."""
+        self.rest()
+        self._returns = False
+        self.events.leave()
+        self.dashboard.leave()
+
+    def rest(self) -> None:
+        """Fingers let go of what they hold."""
+        self.now.queue.rest()
+        self.pane.rest()
+        self.form.rest()
+        self.mission_pane.rest()
+
+    def tick(self) -> None:
+        """Bring up to date what time changes."""
+        self.dashboard.tick()
+        self.now.tick(self.mine)
+        self.pane.refresh()
+        self.pane.meet(self.session.info)
+        clock = self.session.link.robot_time()
+        if math.isfinite(clock) and not abs(clock - self.schedule.now) < 5.0:
+            self.schedule.now = self.runs.now = self.missions.now = clock
+        self.tabs.waiting, self.tabs.has_settings = (
+            len(self.session.logbook.open),
+            not self.session.lacks_tasks,
+        )
+        self.events.tick()
+        self.mission_pane.refresh()
+        self.settings_pane.tick(self.mine)
+        self.schedule.state = self.session.feeds.state("/schedule") if self.mine else "disabled"
+        self.acts.tick()
+
+    def show_picture(self, picture: Picture, rate: float, latency: float) -> None:
+        """A camera frame came; there is no picture here."""
+
+    def back(self) -> bool:
+        """Back within the screen; False when it is at its lists."""
+        if self.detail in ("order", "schedule") and self.pane.back():
+            return True
+        if self._form == "tall" and self.detail:
+            self.close()
+            return True
+        return False
+
+    @property
+    def mine(self) -> bool:
+        """The robot can be asked for something from here."""
+        return self.session.may_ask
+
+    # what is where
+
+    def _shown_detail(self) -> str:
+        """What is beside the list, or on a phone over it; empty for the list alone."""
+        if self._form == "tall":
+            return self.detail
+        return str(self.detail) or DETAILS[self.tab]
+
+    def _lay(self, *_: object) -> None:
+        listed, area, shown = self.ids.listed, self.ids.detail, self._shown_detail()
+        lists = {
+            "now": self.now,
+            "schedule": self.schedule,
+            "history": self.runs,
+            "events": self.events,
+            "places": self.places,
+            "missions": self.missions,
+        }
+        if self.session.lacks_tasks:
+            lists, shown = dict.fromkeys(lists, self._lacking), ""
+        tall = self._form == "tall"
+        listed.clear_widgets()
+        area.clear_widgets()
+        if not (tall and shown):
+            below = [] if tall or self.tab == "now" else [self.acts.under]
+            for widget in (self.tabs, lists[self.tab], *below):
+                listed.add_widget(widget)
+        if shown:
+            area.add_widget(self._pane(shown))
+        listed.opacity, area.opacity = float(not (tall and shown)), float(bool(shown))
+        self.tabs.at_settings = shown == "settings"
+        self.place_pane.open = self.detail == "place"
+        self.missions.chosen = self.mission_pane.chosen.name if self.mission_pane.chosen else ""
+        (self.events.enter if self.events.parent is listed and self.dashboard.active else self.events.leave)()
+        if self._places:
+            self.acts.lay_for(self.tab, shown, form=self._form, stop=self._places["stop"])
+
+    def _pane(self, shown: str) -> Widget:
+        panes = {"place": self.place_pane, "mission": self.mission_pane, "settings": self.settings_pane}
+        if shown in panes:
+            return panes[shown]
+        if (shown == "schedule") != (self.pane.scheduled is not None):
+            self.pane.schedule() if shown == "schedule" else self.pane.now()
+        return self.pane
+
+    def _tab_changed(self, *_: object) -> None:
+        self.detail, self._returns = "", False
+        self.tabs.tab = self.tab
+        if self.tab == "missions":
+            self.mission_pane.begin()
+        self._lay()
+        self._ask()
+
+    def _ask(self) -> None:
+        """What the robot does not tell by itself is asked for when it is looked at."""
+        if self.tab == "history" and self.session.connected and self.session.offers("/history/get"):
+            self.session.tasking.ask_history()
+        if self.tab == "missions" and self.session.connected and self.session.offers("/missions/get"):
+            self.session.missions.ask()
+
+    def open(self, detail: str) -> None:
+        """Open what is beside the lists, on a phone in their place."""
+        self.detail = detail
+        self._lay()
+
+    def close(self) -> None:
+        """Back to the lists, or to the map where a place was pointed at."""
+        self.rest()
+        self.detail = ""
+        if self._returns:
+            self._returns = False
+            self.app.show("mission")
+
+    def stay(self) -> None:
+        """What is opened next is not left for the map."""
+        self._returns = False
+
+    # orders
+
+    def begin(self, task: str, places: tuple[str, ...] = ()) -> None:
+        """Open the form of a task, with places known already."""
+        self.tab = "now"
+        self.open("order")
+        self.pane.begin(task, places)
+
+    # the schedule
+
+    def open_scheduled(self, task: Any) -> None:
+        """Change a scheduled task; None for a new one."""
+        self.pane.schedule(task)
+        self.open("schedule")
+
+    # places
+
+    def edit_place(self, place: Place, *, returns: bool = False) -> None:
+        """Make a place (id 0) or change one; `returns` to the map afterwards."""
+        if self.tab != "places":
+            self.tab = "places"
+        self.place_pane.edit(place)
+        self._returns = returns
+        self.open("place")
+
+    # missions
+
+    def _look_at(self, mission: KeptMission) -> None:
+        self.mission_pane.chosen = mission
+        self.open("mission")
+
+    def _missions_changed(self) -> None:
+        self.missions.missions = list(self.session.missions.kept)
+
+    def _mission_told(self, mission: Mission) -> None:
+        self.missions.current = mission.name
+        if self.tab == "missions" and self.dashboard.active:
+            self._ask()
+
+    def _recalled(self, words: str, undo: Any) -> None:
+        self.app.shell.notices.offer(words, "Undo", undo)
+
+    # the robot's settings
+
+    def _turn_settings(self) -> None:
+        self.open("" if self.detail == "settings" else "settings")
+
+    # history
+
+    def _take_history(self, answer: GetHistoryResponse) -> None:
+        self.runs.show(answer)
+        self.runs.more = bool(self.runs.runs) and self.runs.runs[-1].id > 1
+
+    def _task_changed(self, _: TaskStatus) -> None:
+        if self.tab == "history":
+            self._ask()

@@ -1,0 +1,1 @@
+"""Everything a robot publishes, field by field."""

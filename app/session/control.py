@@ -1,0 +1,183 @@
+"""Who has control of the robot, who asks for it and for how long still, as this handheld knows it.
+
+The robot decides and tells everybody on `/control/status`; what is said here is what changed between two of those.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from bridge.core.liveness import LAPSE
+from bridge.msgs.pilothouse_msgs import ControlStatus
+
+if TYPE_CHECKING:
+    from app.session.session import Session
+
+__all__ = ["Authority"]
+
+News = Callable[[str, str], None]
+"""A sentence for the operator and its level, as of a banner."""
+
+
+class Authority:
+    """Control of one robot. Everything here happens in the UI thread."""
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self.on_news: News = lambda *_: None
+        """Called with what the operator has to be told of a change."""
+        self.on_past: Callable[[], object] = lambda: None
+        """Called when what was told last is true no longer and nothing is told in its place."""
+        self._before = ControlStatus()
+        self._held = False
+        """Control was ours, and nothing explains yet that it is not any more."""
+        self._away = False
+        """The link was gone since control was last known to be ours."""
+        self._lapsed = ""
+        """Why control that was ours lapsed, until it is had again or somebody else's."""
+        self._released = self._withdrawn = False
+        """We gave control back, or took back that we ask for it."""
+
+    # how it stands
+
+    @property
+    def status(self) -> ControlStatus:
+        """The robot's last word; that of a robot without a driver before it said any."""
+        return self._session.feeds.latest("/control/status") or ControlStatus()
+
+    @property
+    def who(self) -> str:
+        """Who has control: `mine`, `free`, `other`, or `unknown` while the link is down, silent, or nothing was heard.
+
+        `none` on a robot that is not ours: there is none to have, and whoever sends drives it.
+        """
+        session = self._session
+        if session.foreign and session.connected:
+            return "none"
+        status: ControlStatus | None = session.feeds.latest("/control/status")
+        if status is None or not session.connected or session.link.silence > LAPSE:
+            return "unknown"
+        if not status.driver_id and not status.driver:
+            return "free"
+        return "mine" if status.driver_id == session.client_id else "other"
+
+    @property
+    def asking(self) -> bool:
+        """This handheld asks somebody else for control."""
+        return self.who == "other" and self.status.requested_by_id == self._session.client_id
+
+    @property
+    def asked(self) -> bool:
+        """Somebody else asks this handheld for control."""
+        return self.who == "mine" and bool(self.status.requested_by)
+
+    @property
+    def left(self) -> float:
+        """Until it goes over to who asks [s]; NaN while nobody asks or the robot's clock is unknown."""
+        if not self.status.requested_by:
+            return math.nan
+        left = self.status.handover.seconds - self._session.link.robot_time()
+        return max(0.0, left) if math.isfinite(left) else math.nan
+
+    # what is asked
+
+    def toggle(self) -> None:
+        """Give control up when it is ours, take back that we ask for it, else take it or ask for it."""
+        if self.who == "mine":
+            self.release()
+        elif self.asking:
+            self.take_back()
+        else:
+            self.take()
+
+    def take(self) -> None:
+        """Take control, or ask who has it; it is taken again after a reconnect."""
+        session = self._session
+        session.wants_control = True
+        self._released = self._withdrawn = False
+        ask = self.who == "other" and session.offers("/control/request")
+        session.command("request" if ask else "acquire")
+
+    def release(self) -> None:
+        """Give control up, and do not ask for it again; a stick that went on being pushed would take it anew."""
+        self._session.rest()
+        self._session.wants_control = False
+        self._released = self._held
+        self._session.command("release")
+
+    def take_back(self) -> None:
+        """Ask for control no longer."""
+        self._session.wants_control = False
+        self._withdrawn = True
+        self._session.command("release")
+
+    # what is heard
+
+    def link_changed(self) -> None:
+        """The link came or went."""
+        self._away = self._away or not self._session.connected
+
+    def hear(self, status: ControlStatus) -> None:
+        """The robot says who has control; what changed by that is told."""
+        before, self._before = self._before, status
+        news = self._end(before, status) or self._beginning(before, status)
+        mine = status.driver_id == self._session.client_id
+        if mine:
+            news = news or self._regained()
+            self._held, self._away = True, False
+        elif self._held:
+            news = news if self._released else self._lost(before, status)
+            self._held = self._released = self._away = False
+        if status.driver_id:
+            self._lapsed = ""
+        if news:
+            self.on_news(*news)
+        elif _parties(before) != _parties(status):
+            self.on_past()
+
+    def _regained(self) -> tuple[str, str] | None:
+        """Control lapsed and is ours again: that it did must not go by unseen."""
+        why, self._lapsed = self._lapsed, ""
+        return (f"You have control again; it lapsed: {why}.", "info") if why else None
+
+    def _beginning(self, before: ControlStatus, status: ControlStatus) -> tuple[str, str] | None:
+        """Who watches is told that somebody asks; who asks or is asked has a card for it."""
+        me = self._session.client_id
+        fresh = status.requested_by_id if status.requested_by_id != before.requested_by_id else ""
+        if not fresh or me in (fresh, status.driver_id):
+            return None
+        return f"{status.requested_by} asks {status.driver} for control.", "info"
+
+    def _end(self, before: ControlStatus, status: ControlStatus) -> tuple[str, str] | None:
+        """What became of somebody's asking."""
+        me, asker = self._session.client_id, before.requested_by_id
+        if not asker or status.requested_by_id == asker:
+            return None
+        if status.driver_id == asker:
+            return ("You have control.", "ok") if asker == me else (f"{status.driver} has control.", "info")
+        if asker == me and self._withdrawn:
+            self._withdrawn = False
+            return None
+        if status.driver_id != before.driver_id or not status.driver_id:
+            return None
+        if status.driver_id == me:
+            return f"You keep control: {before.requested_by} does not ask any more.", "info"
+        return f"{status.driver} keeps control.", "info"
+
+    def _lost(self, before: ControlStatus, status: ControlStatus) -> tuple[str, str] | None:
+        """Control was ours and is not: handed over to who asked, or lapsed."""
+        if before.requested_by_id and status.driver_id == before.requested_by_id:
+            self._session.wants_control = False
+            return f"{status.driver} has control now.", "info"
+        why = "while the link was away" if self._away else f"the robot heard nothing for {LAPSE:.0f}\u00a0s"
+        free = "It is asked for again" if self._session.wants_control else "It is free"
+        now = f"{status.driver} has it now" if status.driver else free
+        self._lapsed = why if self._session.wants_control else ""
+        return f"Your control lapsed: {why}. {now}.", "warn"
+
+
+def _parties(status: ControlStatus) -> tuple[str, str]:
+    """Who drives and who asks."""
+    return status.driver_id, status.requested_by_id

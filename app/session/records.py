@@ -1,0 +1,125 @@
+"""What the operator keeps: snapshots of the camera and recordings of everything that came."""
+
+from __future__ import annotations
+
+import itertools
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from app.link.link import EVENT
+from app.link.recorder import Recorder
+from app.session.session import Session
+from bridge.core.frames import Frame
+from bridge.core.topics import TOPICS
+from bridge.msgs import Msg
+
+__all__ = ["Records"]
+
+NAME = "%Y-%m-%d_%H-%M-%S"
+"""Files are called by the time of day; where one is called so already, `_2` and so on follow."""
+
+
+class Records:
+    """Writes files below one folder and says what became of them."""
+
+    def __init__(
+        self,
+        folder: Path,
+        say: Callable[[str, str], object],
+        wall: Callable[[], float] = time.time,
+        now: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """`say` gets one sentence and its level; `wall` is the time of day [s], `now` a clock nobody sets [s]."""
+        self._folder, self._say, self._wall, self._now = folder, say, wall, now
+        self._began = now()
+        self.recorder: Recorder | None = None
+        """The recording that runs; None when none does."""
+        self.frame: Frame | None = None
+        """The newest camera frame as it came; None before the first."""
+
+    def _path(self, folder: str, ending: str) -> Path:
+        place, name = self._folder / folder, time.strftime(NAME, time.localtime(self._wall()))
+        taken = {path.name for path in place.glob(name + "*")}
+        names = itertools.chain([name], (f"{name}_{number}" for number in itertools.count(2)))
+        return place / next(free for one in names if (free := one + ending) not in taken)
+
+    def snapshot(self) -> Path | None:
+        """Keep the newest camera frame as a file; None when there is none or it cannot be written."""
+        if self.frame is None:
+            return None
+        path = self._path("pictures", ".jpg")
+        try:
+            _save(path, self.frame.jpeg)
+        except OSError as error:
+            self._say(f"The snapshot could not be saved: {error.strerror or error}.", "warn")
+            return None
+        self._say(f"Snapshot saved as {path.name}.", "ok")
+        return path
+
+    def toggle(self, session: Session | None) -> None:
+        """Start recording, or finish the one that runs and say where it is."""
+        if self.recorder is None:
+            self.start(self._path("recordings", ".mcap"), session)
+        else:
+            self.stop()
+
+    def start(self, path: Path, session: Session | None) -> bool:
+        """Record into `path`, beginning with what the robot said once; False, and said, when it cannot be written.
+
+        One that runs is finished first. A file that is there already is never written over.
+        """
+        self.stop()
+        try:
+            self.recorder = Recorder(path, wall=self._wall)
+        except OSError as error:
+            self._say(f"The recording could not start: {error.strerror or error}.", "warn")
+            return False
+        self._began = self._now()
+        for entry in TOPICS:
+            if session is not None and entry.latched:
+                self.put(entry.name, session.feeds.latest(entry.name))
+        return True
+
+    def put(self, channel: str, message: object) -> None:
+        """Record what came, where a recording runs."""
+        if self.recorder is not None and isinstance(message, Msg):
+            self.recorder.put("/events" if channel == EVENT else channel, message)
+
+    def check(self) -> None:
+        """Say what was not recorded; a recording that the disk has ended is finished."""
+        if self.recorder is None:
+            return
+        if self.recorder.problem:
+            self.stop()
+        elif self.recorder.sentence:
+            self._say(self.recorder.sentence, "warn")
+
+    def stop(self) -> None:
+        """Finish the recording and say what became of it; nothing when none runs."""
+        recorder, self.recorder = self.recorder, None
+        if recorder is None:
+            return
+        recorder.close()
+        saved = "" if recorder.problem else f"Recording saved as {recorder.path.name}. "
+        self._say((saved + recorder.sentence).strip(), "warn" if recorder.sentence else "ok")
+
+    @property
+    def clock(self) -> str:
+        """How long the recording runs, as in `04:31`; `Record` while none does."""
+        if self.recorder is None:
+            return "Record"
+        seconds = int(self._now() - self._began)
+        return f"{seconds // 60:02d}:{seconds % 60:02d}"
+
+
+def _save(path: Path, data: bytes) -> None:
+    """Write a new file whole or leave none; OSError when it cannot be written or is there already."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("xb") as file:
+        try:
+            file.write(data)
+            file.flush()
+        except OSError:
+            path.unlink(missing_ok=True)
+            raise

@@ -1,0 +1,1 @@
+"""STOP and STOP ALL, from the press to what the robot confirmed."""

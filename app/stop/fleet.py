@@ -1,0 +1,364 @@
+"""STOP ALL: every robot that is known is stopped at once, each over a lane of its own, and it is told how many are.
+
+The connected robot is stopped by its own link, ahead of everything here. `Fleet` lives in the UI thread; the lanes have
+a network thread to themselves, so that fifty of them delay nobody's commands.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import concurrent.futures
+import math
+import time
+import uuid
+from collections.abc import Callable, Hashable, Iterable
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Protocol
+
+from app.discovery.discovery import Entry
+from app.stop.stop_lane import Report, StopLane
+from app.stop.stopping import DOUBT, silence
+from bridge.discovery.network import NetworkThread
+from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
+from bridge.msgs.std_msgs import Time
+
+__all__ = ["MOST", "Connected", "Fleet", "Row", "known"]
+
+MOST = 100
+"""So many robots are stopped at once at most."""
+HEAD_START = 0.02
+"""So long the connected robot's own STOP has the computer to itself [s]."""
+PACE = 0.002
+"""Between the beginnings of two lanes [s]."""
+ENDS = 1.0
+"""All lanes have closed their sockets within this [s]."""
+HEARD = 3.0
+"""A robot that said HELLO within this is there [s]; how long ago it was is told of others."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One robot of STOP ALL."""
+
+    url: str
+    name: str
+    """What people call it, else its address."""
+    phase: str
+    """As of `stopping.Verdict`."""
+    sentence: str = ""
+    foreign: bool = False
+    """It has no STOP of its own: zero speed is sent for as long as STOP ALL is held."""
+    also: int = 0
+    """Other addresses under which it is listed as well; it counts once."""
+
+
+class Connected(Protocol):
+    """What is needed of the session with the connected robot."""
+
+    @property
+    def url(self) -> str:
+        """Its address."""
+
+    @property
+    def boot(self) -> str:
+        """Alike for one robot under two addresses; empty while it is not known."""
+
+    @property
+    def name(self) -> str:
+        """What to call it."""
+
+    @property
+    def info(self) -> RobotInfo:
+        """Who it is."""
+
+    @property
+    def foreign(self) -> bool:
+        """It is known to have no STOP of its own."""
+
+    @property
+    def stop_phase(self) -> str:
+        """What became of its STOP, as of `stopping.Verdict`; `ready` when it was released."""
+
+    @property
+    def stop_sentence(self) -> str:
+        """The same for the operator; empty where the phase says it all."""
+
+    @property
+    def control_status(self) -> ControlStatus | None:
+        """What it said last of control."""
+
+    def stop(self) -> None:
+        """STOP, over its own lane."""
+
+
+class Lane(Protocol):
+    """What is needed of `StopLane`."""
+
+    @property
+    def report(self) -> Report:
+        """What is known now."""
+
+    def press(self) -> None:
+        """STOP was pressed."""
+
+    async def run(self) -> None:
+        """Until cancelled."""
+
+
+@dataclass(slots=True)
+class _Robot:
+    """One address that STOP ALL was meant for."""
+
+    url: str
+    name: str
+    heard: str
+    """When it was last heard, as a sentence; empty for one that is there."""
+    boot: str = ""
+    """As of `Connected`."""
+    lane: Lane | None = None
+    """None while its own link stops it, and before the network thread has made it."""
+    task: asyncio.Task[None] | None = None
+    last: Row | None = None
+    """What was known while its own link stopped it."""
+    begun: bool = False
+    """Its own link has begun to stop it."""
+    over: bool = False
+    """Its lane is not wanted any more."""
+
+
+class Fleet:
+    """Who is being stopped, and what became of it."""
+
+    def __init__(
+        self,
+        *,
+        client_id: str,
+        client_name: str,
+        now: Callable[[], float] = time.monotonic,
+        new_id: Callable[[], str] = lambda: uuid.uuid4().hex,
+        open_lane: Callable[[str], Lane] | None = None,
+        most: int = MOST,
+    ) -> None:
+        """`now` is our clock [s]; `most` is how many robots are stopped at once."""
+        self._open_lane: Callable[[str], Lane] = open_lane or partial(
+            StopLane, now=now, new_id=new_id, client_id=client_id, client_name=client_name
+        )
+        self._most, self._now = most, now
+        self._network: NetworkThread | None = None
+        self._robots: dict[str, _Robot] = {}
+        self._ending: set[asyncio.Task[None]] = set()
+        """Lanes that close their sockets; of the network thread."""
+        self._linked = ""
+        """Address of the one that its own link stops; empty for none."""
+        self._same: dict[str, str] = {}
+        """Address to another one of the same robot."""
+        self.untried = 0
+        """Robots that were too many."""
+        self.rows: list[Row] = []
+        """One for each robot, in the order in which they were listed."""
+
+    # what the UI thread calls
+
+    @property
+    def active(self) -> bool:
+        """STOP ALL was pressed and not let go."""
+        return bool(self._robots)
+
+    @property
+    def stopped(self) -> int:
+        """So many robots say that they are stopped and rest."""
+        return sum(row.phase == "stopped" for row in self.rows)
+
+    @property
+    def total(self) -> int:
+        """So many robots there are, those included that were too many to be tried."""
+        return len(self.rows) + self.untried
+
+    @property
+    def sending(self) -> bool:
+        """Something is still sent: a robot has not confirmed, or has no STOP and is held by zero speed."""
+        return any(row.foreign or row.phase not in ("stopped", "released") for row in self.rows)
+
+    def press(self, entries: Iterable[Entry], connected: Connected | None = None) -> None:
+        """STOP to all of `entries` and to who was meant before; the one that is connected first, by its own link.
+
+        `entries` are looked at after that.
+        """
+        if connected is not None:
+            connected.stop()
+            time.sleep(0)  # lets the network thread send it before anything is done here
+            self._linked = connected.url
+            self._robots.setdefault(connected.url, _Robot(connected.url, connected.name, "")).begun = False
+        self.untried = 0
+        for entry in entries:
+            self._add(entry)
+        others = [robot for robot in self._robots.values() if robot.url != self._linked]
+        self._press(others, 0.0 if connected is None else HEAD_START)
+        self.look(connected)
+
+    def look(self, connected: Connected | None) -> None:
+        """Bring `rows` up to date. A robot that is connected no longer is stopped by a lane of its own from now on.
+
+        One that has no STOP and was connected meanwhile is held by its link instead, which alone can let it go.
+        """
+        if not self.active:
+            self.rows = []
+            return
+        url = "" if connected is None else connected.url
+        if self._linked and self._linked != url:
+            self._take_over(self._robots[self._linked])
+        if connected is not None and url in self._robots and self._linked != url and connected.foreign:
+            connected.stop()
+            self._close_lane(self._robots[url])
+            self._linked = url
+        self._identify(connected)
+        self.rows = self._counted([self._row(robot, connected) for robot in self._robots.values()])
+
+    def since(self, entries: Iterable[Entry]) -> int:
+        """How many of `entries` STOP ALL was not meant for: they came after it was pressed."""
+        boots = {robot.boot for robot in self._robots.values() if robot.boot}
+        fresh = [one for one in entries if one.url not in self._robots and one.boot not in boots]
+        return known(fresh, None) - self.untried if len(fresh) > self.untried else 0
+
+    def let_go(self) -> None:
+        """Send nothing any more. Robots with a STOP of their own stay stopped; the others may be driven again."""
+        for robot in self._robots.values():
+            self._close_lane(robot)
+        self._robots, self._same, self._linked, self.untried, self.rows = {}, {}, "", 0, []
+
+    def close(self) -> None:
+        """Let go, and end the network thread; a STOP that was pressed just now has a moment to get through."""
+        until = self._now() + DOUBT
+        while any(row.phase == "sent" for row in self.rows) and self._now() < until:
+            time.sleep(0.01)
+            self.look(None)
+        self.let_go()
+        if self._network is not None:
+            with suppress(TimeoutError, concurrent.futures.TimeoutError):
+                self._network.start(self._all_ended()).result(ENDS)
+            self._network.close()
+            self._network = None
+
+    # who is meant
+
+    def _add(self, entry: Entry) -> None:
+        if entry.url not in self._robots and len(self._robots) >= self._most:
+            self.untried += 1
+            return
+        robot = self._robots.setdefault(entry.url, _Robot(entry.url, "", ""))
+        robot.name, robot.boot = entry.name or entry.address, entry.boot or robot.boot
+        robot.heard = "" if entry.silent <= HEARD else _not_heard(entry.silent)
+
+    def _press(self, robots: list[_Robot], head_start: float = 0.0) -> None:
+        if robots and self._network is None:
+            self._network = NetworkThread("STOP ALL")
+        for robot in robots:
+            robot.over = False
+        if self._network is not None:
+            self._network.start(self._press_lanes(robots, head_start))
+
+    async def _press_lanes(self, robots: list[_Robot], head_start: float) -> None:
+        """In the network thread: not all in one go, which would keep the other threads waiting."""
+        await asyncio.sleep(head_start)
+        for robot in robots:
+            if robot.over:
+                continue
+            if robot.lane is not None:
+                robot.lane.press()
+                continue
+            robot.lane = self._open_lane(robot.url)
+            robot.task = asyncio.get_running_loop().create_task(robot.lane.run())
+            await asyncio.sleep(PACE)
+
+    def _close_lane(self, robot: _Robot) -> None:
+        robot.over = True
+        if self._network is not None:
+            self._network.call(self._end_lane, robot)
+
+    def _end_lane(self, robot: _Robot) -> None:
+        """In the network thread."""
+        if robot.task is not None:
+            self._ending.add(robot.task)
+            robot.task.add_done_callback(self._ending.discard)
+            robot.task.cancel()
+        robot.lane = robot.task = None
+
+    async def _all_ended(self) -> None:
+        """In the network thread: every lane has said goodbye."""
+        if self._ending:
+            await asyncio.wait(set(self._ending))
+
+    def _take_over(self, robot: _Robot) -> None:
+        """Its link is gone: a lane goes on, unless STOP was released over the link."""
+        self._linked = ""
+        if robot.last is None or robot.last.phase != "released":
+            self._press([robot])
+
+    # what is known
+
+    def _row(self, robot: _Robot, connected: Connected | None) -> Row:
+        if connected is not None and robot.url == self._linked:
+            robot.begun = robot.begun or connected.stop_phase != "ready"
+            robot.last = _linked_row(connected, begun=robot.begun)
+            return robot.last
+        lane = robot.lane  # once: the network thread takes it away
+        if lane is None and robot.last is not None:
+            return robot.last
+        report = lane.report if lane is not None else Report("sent")
+        sentence = report.sentence
+        if robot.heard and not report.reached:
+            sentence = f"{robot.heard} {sentence}".strip()
+        return Row(robot.url, robot.name or report.name, report.phase, sentence, report.foreign)
+
+    def _identify(self, connected: Connected | None) -> None:
+        """Note which addresses lead to one robot: the log is the same, or what each says of control, to the nanosecond."""
+        first: dict[Hashable, str] = {}
+        for robot in self._robots.values():
+            lane = robot.lane  # once: the network thread takes it away
+            identity = lane.report.identity if lane is not None else None
+            if connected is not None and robot.url == self._linked:
+                robot.boot, identity = connected.boot or robot.boot, _identity(connected)
+            for mark in (robot.boot, identity):
+                known = first.setdefault(mark, robot.url) if mark else robot.url
+                if known != robot.url:
+                    self._same[robot.url] = self._same.get(known, known)
+
+    def _counted(self, rows: list[Row]) -> list[Row]:
+        """Each robot once, by the address at which most is known of it."""
+        found: dict[str, list[Row]] = {}
+        for row in rows:
+            found.setdefault(self._same.get(row.url, row.url), []).append(row)
+        best = [min(alike, key=lambda row: _CERTAIN.index(row.phase)) for alike in found.values()]
+        return [replace(row, also=len(alike) - 1) for row, alike in zip(best, found.values(), strict=True)]
+
+
+_CERTAIN = ("released", "moves", "stopped", "sent", "lost", "no_answer")
+"""Phases of one robot at several addresses: what it says itself goes before what is not known, the worst first."""
+
+
+def known(entries: Iterable[Entry], connected: Connected | None) -> int:
+    """How many robots there are, one that is known under two addresses counted once."""
+    found = {entry.url: entry.boot or entry.url for entry in entries}
+    if connected is not None and connected.url not in found:
+        found[connected.url] = connected.boot or connected.url
+    return len(set(found.values()))
+
+
+def _not_heard(silent: float) -> str:
+    return "Never heard here." if math.isnan(silent) else f"Not heard for {silence(silent)}."
+
+
+def _identity(connected: Connected) -> tuple[str, str, Time] | None:
+    status, info = connected.control_status, connected.info
+    if status is None or not info.name or status.stamp == Time():
+        return None
+    return info.name, info.model, status.stamp
+
+
+def _linked_row(connected: Connected, *, begun: bool) -> Row:
+    phase, sentence = connected.stop_phase, connected.stop_sentence
+    if phase == "ready":
+        phase, sentence = ("released", "STOP was released.") if begun else ("sent", "")
+    return Row(connected.url, connected.name, phase, sentence, connected.foreign and phase != "released")

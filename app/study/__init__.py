@@ -1,0 +1,1 @@
+"""The response log, the study and the questionnaires."""

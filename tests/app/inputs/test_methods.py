@@ -1,0 +1,207 @@
+"""The ways in as a whole: one that cannot be made stops no other, and nothing listens or waits while the glass is away."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from collections.abc import Iterator
+from types import ModuleType, SimpleNamespace
+from typing import Any
+
+import pytest
+
+import app.inputs.methods as methods_of
+from app.core.origin import NOBODY, origins
+from app.inputs.methods import Methods
+from app.inputs.voice.process.ending import end_aside
+from app.intents.intents import CONFIRM_FOR, Heard, Intents
+from app.intents.permits import Permits
+from tests.app.inputs.pushing import Settings
+from tests.headless import Stage
+
+
+class Made:
+    """A method that works."""
+
+    on, standing, problem = True, "listening", ""
+
+    def __init__(self, app: Any) -> None:
+        self.life: list[str] = []
+
+    def start(self) -> None:
+        self.life.append("start")
+
+    def stop(self) -> None:
+        self.life.append("stop")
+
+    def close(self) -> None:
+        self.life.append("close")
+
+
+class Unmakeable(Made):
+    def __init__(self, app: Any) -> None:
+        raise TypeError("no plan can be read from 3")
+
+
+class Unstartable(Made):
+    ends: list[str] = []
+
+    def start(self) -> None:
+        raise OSError("no such device")
+
+    def close(self) -> None:
+        self.ends.append("close")
+        raise OSError("never began")
+
+
+class Acts:
+    """A task can be begun, and nothing is asked."""
+
+    def __init__(self) -> None:
+        self.done: list[str] = []
+
+    def why_not(self, intent: str) -> str:
+        return "Nothing is asked just now." if intent in ("yes", "no") else ""
+
+    def words(self, intent: str) -> str:
+        return intent
+
+    def do(self, intent: str) -> None:
+        self.done.append(intent)
+
+    def answer(self, yes: bool) -> str:
+        return ""
+
+
+class App:
+    """As much of the app as they ask for."""
+
+    def __init__(self, made: dict[str, type], monkeypatch: pytest.MonkeyPatch) -> None:
+        module: Any = ModuleType("made_here")
+        for name, kind in made.items():
+            setattr(module, name, kind)
+        monkeypatch.setitem(sys.modules, "made_here", module)
+        monkeypatch.setattr(methods_of, "MADE_BY", {name: f"made_here:{name}" for name in made})
+        self.time, self.said, self.acts = 100.0, [], Acts()
+        self.shell = None
+        self.connect = SimpleNamespace(say=lambda text, level: self.said.append(text))
+        self.intents = Intents(self.acts, Permits(Settings()), self.now)
+        self.methods = Methods(self)
+
+    def now(self) -> float:
+        return self.time
+
+
+@pytest.fixture
+def make(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+    opened: list[Methods] = []
+
+    def make(**made: type) -> App:
+        app = App(made, monkeypatch)
+        app.inputs.methods.open()
+        opened.append(app.methods)
+        return app
+
+    yield make
+    for methods in opened:
+        methods.close()
+
+
+def test_one_that_cannot_be_made_or_begun_is_said_and_the_others_go_on(make: Any) -> None:
+    app = make(log=Unmakeable, shake=Unstartable, voice=Made)
+    assert app.inputs.methods.get("voice").life == ["start"]
+    assert (app.inputs.methods.get("log"), app.inputs.methods.get("shake")) == (None, None)
+    assert Unstartable.ends == ["close"]
+    assert app.said == [
+        "Log cannot be used: no plan can be read from 3. Shake cannot be used: no such device."
+    ]
+    assert set(app.inputs.methods.faults) == {"log", "shake"}
+    app.inputs.methods.look(100.0)
+    app.inputs.methods.turn("log", on=True)
+
+
+def test_while_the_glass_is_away_nothing_listens_and_no_question_waits(make: Any) -> None:
+    app = make(voice=Made)
+    assert app.intents.take(Heard("patrol", "voice")).what == "asks"
+    app.inputs.methods.pause()
+    assert app.inputs.methods.get("voice").life == ["start", "stop"]
+    assert app.intents.pending is None
+    app.inputs.methods.resume()
+    app.intents.answer(yes=True, method="voice")
+    assert app.acts.done == []
+    assert app.inputs.methods.get("voice").life == ["start", "stop", "start"]
+
+
+class Speaks(Made):
+    said = ""
+
+
+def test_what_came_of_a_question_is_said_where_the_question_was(make: Any) -> None:
+    app = make(voice=Speaks, shake=Speaks)
+    voice, shake = app.inputs.methods.get("voice"), app.inputs.methods.get("shake")
+    voice.said = app.intents.take(Heard("go_home", "voice")).sentence
+    assert voice.said == "go_home?"
+    app.time += CONFIRM_FOR + 1.0
+    app.intents.look(app.time)
+    assert voice.said == "Not done, nobody said yes: go_home."
+    assert shake.said == "", "it asked nothing"
+
+
+def test_a_finger_that_was_on_the_glass_when_it_was_taken_away_does_nothing_later(make: Any) -> None:
+    app = make(voice=Made)
+    origins.touched(99.0)
+    app.inputs.methods.pause()
+    assert origins.current() is NOBODY
+
+
+def test_what_was_touched_is_forgotten_by_the_heartbeat(make: Any) -> None:
+    app = make(voice=Made)
+    origins.touched(99.0)
+    origins.lifted(99.1)
+    app.inputs.methods.look(99.5)
+    assert origins.current().method == "button"
+    app.inputs.methods.look(105.0)
+    assert origins.current() is NOBODY
+
+
+class Deaf(Made):
+    problem = "There is no microphone."
+
+
+def test_what_is_on_and_does_not_work_is_said_with_the_next_heartbeat(make: Any) -> None:
+    app = make(voice=Deaf)
+    app.inputs.methods.look(100.0)
+    assert app.said == ["Voice: There is no microphone."]
+
+
+class Unplugged(Made):
+    idle = True
+
+
+def test_a_command_could_come_from_what_is_on_and_well_and_has_something_to_work_with(make: Any) -> None:
+    app = make(voice=Made, shake=Deaf, gamepad=Unplugged)
+    assert app.inputs.methods.armed == ["voice", "shake", "gamepad"]
+    assert app.inputs.methods.hearing == ["voice"]
+
+
+def test_settings_that_mean_nothing_are_said_of_each_that_reads_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Mistaken(Made):
+        mistaken = "In the settings of talking rate is from 0.5 to 2, not 9: as usual again."
+
+    app = App({"Mistaken": Mistaken, "Made": Made}, monkeypatch)
+    app.inputs.methods.open()
+    assert app.said == [Mistaken.mistaken]
+    app.inputs.methods.close()
+
+
+def test_what_still_ends_beside_the_glass_has_ended_when_they_are_closed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    app = App({"Made": Made}, monkeypatch)
+    app.inputs.methods.open()
+    gone = threading.Event()
+    reader = threading.Thread(target=gone.wait, args=(0.2,), name="slow")
+    reader.start()
+    end_aside(None, reader)
+    app.inputs.methods.close()
+    assert not reader.is_alive()

@@ -1,0 +1,64 @@
+"""Where words begin and end."""
+
+import numpy as np
+import pytest
+
+from app.inputs.voice.audio.endpoint import LONGEST, PAUSE, Endpointer
+from app.inputs.voice.audio.files import chunks
+from tests.app.inputs.voice.sounds import quiet, voice
+
+
+def words(samples, points=None):
+    points = points or Endpointer()
+    return [segment for part, at in chunks(samples) for segment in points.hear(part, at)]
+
+
+def test_words_between_silences_are_found_where_they_are():
+    found = words(np.concatenate((quiet(1.0), voice(0.6), quiet(1.0))))
+    assert [(s.began, s.ended) for s in found] == [
+        (pytest.approx(1.0, abs=0.08), pytest.approx(1.6, abs=0.06))
+    ]
+
+
+def test_a_little_of_what_was_before_is_kept():
+    (segment,) = words(np.concatenate((quiet(1.0), voice(0.6), quiet(1.0))))
+    assert len(segment.samples) / 16000 > 0.6 + 0.15
+
+
+def test_the_gap_of_a_closed_mouth_does_not_end_a_word():
+    assert (
+        len(words(np.concatenate((quiet(1.0), voice(0.3), quiet(PAUSE - 0.15), voice(0.3), quiet(1.0))))) == 1
+    )
+
+
+def test_a_longer_one_does():
+    assert (
+        len(words(np.concatenate((quiet(1.0), voice(0.3), quiet(PAUSE + 0.2), voice(0.3), quiet(1.0))))) == 2
+    )
+
+
+def test_a_click_is_no_word():
+    assert not words(np.concatenate((quiet(1.0), voice(0.05), quiet(1.0))))
+
+
+def test_silence_and_faint_noise_are_no_words():
+    assert not words(np.zeros(32000, np.float32))
+    assert not words(quiet(3.0))
+
+
+def test_talk_that_does_not_end_is_cut_once():
+    found = words(np.concatenate((quiet(1.0), voice(LONGEST + 3.0), quiet(1.0))))
+    assert [segment.whole for segment in found] == [False]
+
+
+def test_what_was_begun_when_the_ears_close_is_over():
+    points = Endpointer()
+    assert not words(np.concatenate((quiet(1.0), voice(0.5))), points)
+    assert points.finish().ended == pytest.approx(1.5, abs=0.05)
+    assert points.finish() is None
+
+
+def test_noise_that_began_is_silence_after_a_while():
+    points = Endpointer()
+    words(np.concatenate((quiet(1.0), quiet(14.0, 0.05))), points)
+    assert not points.speaking

@@ -1,0 +1,74 @@
+"""The bar on top of a robot's screens, in the shapes of a window."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from app.screens.shell.top_bar import TopBar
+from bridge.msgs.sensor_msgs import BatteryState
+from widgets.core.base import text_texture
+
+
+@pytest.mark.parametrize("mode", ["AUTO", "STOPPED", "no link"])
+def test_a_phone_has_room_for_the_name_and_keeps_clear_of_its_edge(stage: Any, mode: str) -> None:
+    bar = TopBar()
+    stage.show(bar, size=(412, 56))
+    bar.arrange("tall")
+    bar.robot_name, bar.mode_text = "Patrol-1", mode
+    bar.ids.battery.state = bar.ids.link.state = "live"
+    bar.ids.battery.show(BatteryState(percentage=0.62))
+    bar.ids.link.rtt = 0.288
+    stage.frames(4)
+    name = bar.ids.name
+    name.shorten = False
+    name.text_size = None, None
+    name.texture_update()
+    assert name.texture_size[0] <= name.width
+    assert bar.right - bar.ids.link.right >= 8
+
+
+def test_a_long_name_is_written_smaller_and_not_cut(stage: Any) -> None:
+    bar = TopBar()
+    stage.show(bar, size=(412, 56))
+    bar.arrange("tall")
+    bar.robot_name, bar.mode_text = "Commander-1", "MANUAL"
+    bar.ids.battery.state = bar.ids.link.state = "live"
+    bar.ids.battery.show(BatteryState(percentage=0.62))
+    bar.ids.link.rtt = 0.041
+    stage.frames(4)
+    name = bar.ids.name
+    assert text_texture("Commander-1", name.font_size, bold=True).width <= name.width
+
+
+def test_what_has_no_satellites_to_tell_of_has_no_chip_for_them(stage: Any) -> None:
+    bar = TopBar()
+    stage.show(bar, size=(1280, 56))
+    bar.arrange("wide")
+    assert bar.ids.satellites in bar.children
+    bar.located = False
+    assert bar.ids.satellites not in bar.children
+
+
+@pytest.mark.parametrize("width", [800, 892, 1280])
+@pytest.mark.parametrize("name", ["Scout-1", "Commander-1", "The old tractor of the third orchard"])
+def test_across_who_has_control_is_read_whole_and_the_name_is_cut_before(
+    stage: Any, width: int, name: str
+) -> None:
+    bar = TopBar()
+    stage.show(bar, size=(width, 56))
+    bar.robot_name, bar.mode_text, bar.control_text = name, "PAUSED · patrol", "you"
+    bar.fix_text = "±1.2 m"
+    bar.arrange("short")
+    bar.ids.battery.state = bar.ids.link.state = "live"
+    bar.ids.battery.show(BatteryState(percentage=0.62))
+    bar.ids.link.rtt = 0.288
+    stage.frames(6)
+    assert bar.ids.control.right <= bar.right
+    assert bar.ids.name.right <= bar.ids.mode.x
+    bar.mode_text = "AUTO"
+    stage.frames(6)
+    if width == 1280 and name == "Scout-1":
+        assert bar.ids.satellites in bar.children
+        assert bar.ids.name.width == bar.ids.name.texture_size[0]
