@@ -44,7 +44,7 @@ __all__ = [
     "parse",
 ]
 
-FOLDER = Path(__file__).parent / "layouts"
+FOLDER = Path(__file__).parents[1] / "layouts"
 DEFAULT = "patrol"
 """The layout of a robot that none is made for."""
 

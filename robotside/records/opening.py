@@ -145,7 +145,7 @@ def upgrade(engine: Engine, before: Callable[[], object] = lambda: None) -> None
 
     CannotOpen when it was made by a newer program, NotWritten when it cannot be changed.
     """
-    migrations = Path(__file__).with_name("migrations")
+    migrations = Path(__file__).with_name("database") / "migrations"
     try:
         revision = _revision(engine)
         if revision != _newest(migrations):

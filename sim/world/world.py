@@ -18,7 +18,7 @@ from sim.world.props_water import buoy, coral, diver
 
 __all__ = ["WORLDS", "World", "WorldError", "load"]
 
-_FOLDER = Path(__file__).parent / "worlds"
+_FOLDER = Path(__file__).parents[1] / "worlds"
 
 WORLDS: tuple[str, ...] = tuple(sorted(path.stem for path in _FOLDER.glob("*.toml")))
 """The names of the worlds that come with the simulation."""

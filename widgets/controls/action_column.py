@@ -41,7 +41,7 @@ NARROW = 176.0
 """A narrower button has its icon above its words, which say all [dp]."""
 
 Builder.load_string("""
-#:import spaced widgets.labels.spaced
+#:import spaced widgets.parts.labels.spaced
 
 <ActionColumn>:
     orientation: 'vertical'

@@ -26,7 +26,7 @@ from widgets.core.icons import ICONS
 
 __all__ = ["PALETTES", "Theme", "contrast", "theme"]
 
-FONTS = Path(__file__).parent / "fonts"
+FONTS = Path(__file__).parents[1] / "fonts"
 
 PALETTES: dict[str, dict[str, str]] = {
     "dark": {

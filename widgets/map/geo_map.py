@@ -153,7 +153,7 @@ class _Pictures(MapView):
 
 def samples() -> dict[str, Callable[[], Widget]]:
     """The states of the map by name."""
-    file = Path(__file__).parent / "data" / "parking_lot.mbtiles"
+    file = Path(__file__).parents[1] / "data" / "parking_lot.mbtiles"
 
     def made(
         *, size: tuple[float, float] = (760, 500), fence: bool = False, **more: Any

@@ -26,7 +26,7 @@ SETTLES = 0.5
 """A button whose meaning has changed takes no finger for so long [s]: that finger meant what it did before."""
 
 Builder.load_string("""
-#:import fitting_size widgets.base.fitting_size
+#:import fitting_size widgets.core.base.fitting_size
 <PushButton>:
     size_hint_y: None
     height: theme.target

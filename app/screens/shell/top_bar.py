@@ -35,7 +35,7 @@ LEAST_NAME = 60.0
 """Of a name that is cut short, this much at least is read [dp]."""
 
 Builder.load_string("""
-#:import fitting_size widgets.base.fitting_size
+#:import fitting_size widgets.core.base.fitting_size
 <TopBar>:
     size_hint: None, None
     padding: (dp(2), 0, dp(8), 0) if root.form == 'tall' else (dp(6), 0, dp(16), 0)

@@ -50,7 +50,7 @@ ICONS = {
 """Icon of a type; any other is a pair of braces."""
 
 Builder.load_string("""
-#:import wrapped widgets.labels.wrapped
+#:import wrapped widgets.parts.labels.wrapped
 <Beside@Label>:
     font_name: theme.font
     font_size: sp(13.5)
