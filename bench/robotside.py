@@ -25,7 +25,7 @@ from bridge.discovery.network import NetworkThread
 from bridge.msgs.pilothouse_msgs import Mission, SetMissionRequest, StartTaskRequest, TaskProgress
 from bridge.server.server import Session
 from robotside.records import Records
-from robotside.services.orders import services
+from robotside.services.stop_services import services
 from robotside.station.station import Station
 from sim.robot import make
 from sim.vehicles.patrol import PARAMETERS

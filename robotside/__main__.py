@@ -21,10 +21,10 @@ from robotside import options as said
 from robotside.core.clock import RobotClock
 from robotside.core.config import BadConfig, Config
 from robotside.core.robot import Robot
-from robotside.foreign.foreign import ForeignRobot
-from robotside.gateways.serving import Addresses, Serving
-from robotside.gateways.slack import trim
-from robotside.gateways.together import Together
+from robotside.foreign.foreign_robot import ForeignRobot
+from robotside.gateways.fleet_server import Together
+from robotside.gateways.malloc_trim import trim
+from robotside.gateways.station_server import Addresses, Serving
 from robotside.options import One, UserMistake
 from robotside.records.landmarks import take_over
 from robotside.records.opening import open_records

@@ -10,9 +10,9 @@ import numpy as np
 
 from robotside.core.pose2 import Pose2
 from robotside.core.robot import Robot
-from robotside.mapping.grid import Grid
-from robotside.mapping.obstacles import FADES
-from robotside.navigation.guide import Goal, Guide, Leg
+from robotside.mapping.obstacle_memory import FADES
+from robotside.mapping.occupancy_grid import Grid
+from robotside.navigation.navigator import Goal, Guide, Leg
 from sim.world.occupancy import occupancy
 from sim.world.world import load
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from bridge.core.liveness import LAPSE
-from robotside.core.words import number, plain
+from robotside.core.text import number, plain
 
 __all__ = ["AGAIN", "REMEMBERED", "SILENT", "TO_OBJECT", "Asker", "Authority", "Driver", "Operator"]
 

@@ -21,7 +21,7 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, ControlStatus
 from bridge.msgs.rosapi_msgs import TopicsResponse
-from robotside.core.words import plain
+from robotside.core.text import plain
 from robotside.foreign.foreign_topics import CONTROL, Found, match, usual
 from robotside.tasks.autonomy import CAMERA
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from robotside.core.config import Ring
 from robotside.core.pose2 import Points
-from robotside.mapping.grid import Grid
+from robotside.mapping.occupancy_grid import Grid
 
 __all__ = ["Border", "Fence"]
 

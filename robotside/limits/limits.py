@@ -1,7 +1,7 @@
 """What the robot's own configuration allows: drive commands are clamped to it, goals outside are refused.
 
 Pure: what the robot measures is passed in. Speeds are limited to what it may, height and depth so that it comes to rest
-before they are exceeded, and `robotside.limits.fencing` does the same for the fence.
+before they are exceeded, and `robotside.limits.fence_guard` does the same for the fence.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ import numpy as np
 from bridge.msgs.geometry_msgs import Point32, Polygon, Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
 from robotside.core.config import LimitSettings, Ring
-from robotside.core.kinds import kind_of
 from robotside.core.pose2 import Pose2
+from robotside.core.vehicle_kinds import kind_of
 from robotside.limits.fence import Fence
-from robotside.limits.fencing import LEVEL_FROM, MOST_DOUBT, SURE_ENOUGH, Fencing, doubt_of
-from robotside.mapping.grid import Grid
-from robotside.motion.drifting import BACK_AT, BACK_TO, CREEP, DRIFTS, Drift, back, way_back
+from robotside.limits.fence_guard import LEVEL_FROM, MOST_DOUBT, SURE_ENOUGH, Fencing, doubt_of
+from robotside.mapping.occupancy_grid import Grid
 from robotside.motion.manoeuvres import BY_ITSELF, Order, kept, leads_to, levelled
-from robotside.motion.slower import slower, within
-from robotside.motion.tracks import HANDLING, REACTION, REST, Handling, Moving
+from robotside.motion.speed_limit import slower, within
+from robotside.motion.station_keeping import BACK_AT, BACK_TO, CREEP, DRIFTS, Drift, back, way_back
+from robotside.motion.stopping_path import HANDLING, REACTION, REST, Handling, Moving
 from robotside.navigation.planner import place_sentence
 
 __all__ = ["GOAL_ROOM", "PATH_ROOM", "Clamped", "Keeper", "Kept", "Measured", "turned_over"]

@@ -13,9 +13,9 @@ from msgspec.structs import replace
 from bridge.core.units import wrap
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
-from robotside.core.kinds import kind_of
-from robotside.motion.drifting import CREEP
-from robotside.motion.slower import slower, within
+from robotside.core.vehicle_kinds import kind_of
+from robotside.motion.speed_limit import slower, within
+from robotside.motion.station_keeping import CREEP
 
 if TYPE_CHECKING:
     from robotside.limits.limits import Measured

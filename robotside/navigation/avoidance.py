@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from bridge.msgs.geometry_msgs import Twist
 from robotside.core.pose2 import Points
-from robotside.motion.slower import within
+from robotside.motion.speed_limit import within
 
 __all__ = ["HORIZON", "Avoidance", "Way", "free_lengths"]
 

@@ -8,9 +8,9 @@ from collections.abc import Generator
 import numpy as np
 
 from robotside.core.pose2 import Points
-from robotside.core.words import number
-from robotside.mapping.grid import Grid
-from robotside.mapping.wave import Bits, Cell, Wave, bits, rows_at_once
+from robotside.core.text import number
+from robotside.mapping.occupancy_grid import Grid
+from robotside.mapping.wavefront import Bits, Cell, Wave, bits, rows_at_once
 
 __all__ = ["MARGIN", "PREFERRED", "STEP", "Planner", "Unreachable", "place_sentence"]
 

@@ -9,7 +9,7 @@ from typing import Protocol
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event, GetEventsRequest, GetEventsResponse
 from bridge.msgs.std_msgs import Time
-from robotside.core.words import plain
+from robotside.core.text import plain
 from robotside.records.eventlog import EventLog
 
 __all__ = ["Events", "Say"]

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import msgspec
 
 from bridge.msgs.pilothouse_msgs import KeptMission, Mission, Waypoint
-from robotside.core.words import plain
+from robotside.core.text import plain
 from robotside.records.database.jobs import NotRecorded
 from robotside.records.ledger import Ledger, within
 

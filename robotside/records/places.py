@@ -7,7 +7,7 @@ import math
 import msgspec
 
 from bridge.msgs.pilothouse_msgs import PLACE_KINDS, Place
-from robotside.core.words import plain
+from robotside.core.text import plain
 from robotside.records.database.jobs import NotRecorded
 from robotside.records.ledger import Ledger, within
 

@@ -30,30 +30,30 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from bridge.msgs.std_msgs import Header, Time
 from robotside.control.authority import Operator
-from robotside.control.controls import Controls
-from robotside.control.guarded import Guarded, port_info
-from robotside.control.helm import FOLLOW_LINK, LOST_LINK_STOPS_TASK, Helm, Options
-from robotside.control.latch import Latch
+from robotside.control.command_gate import Controls
+from robotside.control.guarded_robot import Guarded, port_info
 from robotside.control.safe_state import SafeState
-from robotside.control.stopped import still_moves
+from robotside.control.stop_consequences import still_moves
+from robotside.control.stop_latch import Latch
+from robotside.control.teleop import FOLLOW_LINK, LOST_LINK_STOPS_TASK, Helm, Options
 from robotside.core.bus import Bus
 from robotside.core.config import NOTHING_SET, Config
-from robotside.core.demand import Demand
-from robotside.core.kinds import kind_of, unknown
 from robotside.core.pose2 import Pose2
 from robotside.core.robot import Robot
+from robotside.core.topic_demand import Demand
+from robotside.core.vehicle_kinds import kind_of, unknown
 from robotside.limits.limits import Keeper, Measured
 from robotside.motion.manoeuvres import Order
 from robotside.records import Records
 from robotside.records.events import Events
-from robotside.records.shown import Shown
-from robotside.services.commands import Refusal
+from robotside.records.records_publisher import Shown
+from robotside.services.command_log import Refusal
 from robotside.tasks.agenda import Agenda
-from robotside.tasks.assignments import tasks_of
 from robotside.tasks.autonomy import Autonomy
-from robotside.tasks.history import History
-from robotside.tasks.interrupted import Interrupted
+from robotside.tasks.interrupted_task import Interrupted
 from robotside.tasks.readiness import Readiness
+from robotside.tasks.task_factory import tasks_of
+from robotside.tasks.task_history import History
 
 __all__ = ["NO_MAP", "Station"]
 
@@ -142,7 +142,7 @@ class Station:
             self.readiness.look(self.autonomy, self.robot.trouble, now)
 
     def hear(self, client: Operator, topic: str, msg: Msg, stamp: float | None) -> None:
-        """A client published `msg`, that is not an order: those are `robotside.services.orders`'.
+        """A client published `msg`, that is not an order: those are `robotside.services.stop_services`'.
 
         `stamp` is when it meant it [s, operators' clock], None when it does not say.
         """

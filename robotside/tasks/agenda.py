@@ -17,11 +17,11 @@ from robotside.core.bus import Publish
 from robotside.records import Job, NotRecorded, Records
 from robotside.records.events import Say
 from robotside.records.plans import MOST_QUEUED
-from robotside.services.commands import Refusal
-from robotside.tasks.assignments import Assignments, words_for
-from robotside.tasks.manual import Manual
+from robotside.services.command_log import Refusal
+from robotside.tasks.engine import TO_CHARGE, Engine
+from robotside.tasks.manual_hold import Manual
 from robotside.tasks.schedule import Turn, fault, following, turns
-from robotside.tasks.tasks import TO_CHARGE, Engine
+from robotside.tasks.task_factory import Assignments, words_for
 
 __all__ = ["Agenda"]
 

@@ -26,27 +26,27 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header, Time
 from robotside.core.bus import Bus
-from robotside.core.demand import Demand
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Robot
-from robotside.limits.touching import AGAIN
-from robotside.localisation.whereabouts import Whereabouts
-from robotside.mapping.grid import Grid
-from robotside.mapping.laser import Laser
-from robotside.mapping.movers import Movers
-from robotside.mapping.sonars import Sonars
-from robotside.navigation.guide import Guide
-from robotside.perception.watch import Watch
+from robotside.core.topic_demand import Demand
+from robotside.limits.bumper_guard import AGAIN
+from robotside.localisation.pose_estimator import Whereabouts
+from robotside.mapping.laser_points import Laser
+from robotside.mapping.moving_obstacles import Movers
+from robotside.mapping.occupancy_grid import Grid
+from robotside.mapping.sonar_points import Sonars
+from robotside.navigation.navigator import Guide
+from robotside.perception.intruder_watch import Watch
 from robotside.records import Records
 from robotside.records.events import Events
-from robotside.services.commands import Refusal
-from robotside.tasks.assignments import Assignments
+from robotside.services.command_log import Refusal
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.patrol import patrol_route
 from robotside.tasks.behaviours.situation import Seen, Situation
-from robotside.tasks.senses import needed
-from robotside.tasks.tasks import TO_CHARGE, Engine
-from robotside.tasks.telling import Telling
+from robotside.tasks.engine import TO_CHARGE, Engine
+from robotside.tasks.sensor_health import needed
+from robotside.tasks.task_factory import Assignments
+from robotside.tasks.task_status_publisher import Telling
 
 __all__ = ["CAMERA", "LOW_BELOW", "Autonomy"]
 

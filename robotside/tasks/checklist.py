@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from bridge.msgs.pilothouse_msgs import Check
-from robotside.core.words import number
+from robotside.core.text import number
 
 __all__ = ["MOST_OFFSET", "Looked", "checks"]
 

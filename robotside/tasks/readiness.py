@@ -10,7 +10,7 @@ from bridge.msgs.std_msgs import Time
 from robotside.core.bus import Publish
 from robotside.tasks.autonomy import LOW_BELOW, Autonomy
 from robotside.tasks.checklist import Looked, checks
-from robotside.tasks.senses import Senses
+from robotside.tasks.sensor_health import Senses
 
 __all__ = ["Readiness"]
 

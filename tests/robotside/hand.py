@@ -11,7 +11,7 @@ from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Event, Manoeuvre
 from robotside.core.config import NOTHING_SET, Config
 from robotside.motion.manoeuvres import Order
-from robotside.services.orders import services
+from robotside.services.stop_services import services
 from robotside.station.station import Station
 from sim.physics.backend_bullet import State
 from sim.robot import make

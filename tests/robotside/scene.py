@@ -22,7 +22,7 @@ from bridge.msgs.pilothouse_msgs import (
 from robotside.core.config import NOTHING_SET, Config
 from robotside.records import Records
 from robotside.records.database.rows import Content, empty
-from robotside.services.orders import listener, services
+from robotside.services.stop_services import listener, services
 from robotside.station.station import Station
 from tests.fakes import FakeClient, FakeRobot
 

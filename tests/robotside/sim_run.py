@@ -17,7 +17,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskStatus,
     Waypoint,
 )
-from robotside.services.orders import services
+from robotside.services.stop_services import services
 from robotside.station.station import Station
 from sim.robot import SimRobot
 from tests.fakes import FakeClient

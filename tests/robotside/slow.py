@@ -9,7 +9,7 @@ from typing import Any
 from bridge.msgs import Msg
 from robotside.records import Records
 from robotside.records.database.rows import empty
-from robotside.services.orders import services
+from robotside.services.stop_services import services
 from robotside.station.station import Station
 from tests.fakes import FakeClient, FakeRobot
 from tests.robotside.records.disk import Disk

@@ -12,7 +12,7 @@ import msgspec
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist
-from robotside.control.expiry import HELD, UNSTAMPED, VALID
+from robotside.control.command_expiry import HELD, UNSTAMPED, VALID
 from tests.fakes import FakeClient, FakeRobot
 from tests.robotside.scene import Scene
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from bridge.msgs.pilothouse_msgs import StartTaskRequest, TaskOrder, Waypoint
-from robotside.services.orders import services
+from robotside.services.stop_services import services
 from robotside.station.station import Station
 from sim.robot import SimRobot, make_several
 from sim.world.world import Start

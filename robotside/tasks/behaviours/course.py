@@ -9,7 +9,7 @@ from typing import NamedTuple, Protocol
 
 import msgspec
 
-from robotside.navigation.guide import Goal
+from robotside.navigation.navigator import Goal
 
 __all__ = ["Course", "Noted", "Outline", "Route", "Span"]
 

@@ -15,7 +15,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.composites import Sequence
 
 from bridge.msgs.pilothouse_msgs import Place
-from robotside.navigation.guide import Guide
+from robotside.navigation.navigator import Guide
 from robotside.records.events import Say
 from robotside.tasks.behaviours.acts import Act, Rounds
 from robotside.tasks.behaviours.ask import AskAt, Question

@@ -10,7 +10,7 @@ from py_trees.common import Status
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Place
 from robotside.core.pose2 import Pose2
-from robotside.navigation.guide import Goal, Guide
+from robotside.navigation.navigator import Goal, Guide
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.drive_to import LEG_STATUS
 from robotside.tasks.behaviours.situation import Situation

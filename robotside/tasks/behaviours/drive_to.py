@@ -8,7 +8,7 @@ from collections.abc import Callable
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from robotside.navigation.guide import Goal, Guide, Leg
+from robotside.navigation.navigator import Goal, Guide, Leg
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.situation import Situation
 

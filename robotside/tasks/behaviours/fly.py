@@ -8,7 +8,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from robotside.navigation.guide import Guide
+from robotside.navigation.navigator import Guide
 from robotside.tasks.behaviours.situation import Situation
 
 __all__ = ["Land", "Surface", "TakeOff"]

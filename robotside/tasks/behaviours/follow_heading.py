@@ -10,13 +10,13 @@ from py_trees.common import Status
 
 from bridge.msgs.geometry_msgs import Twist
 from robotside.core.pose2 import Points
-from robotside.core.words import heading
-from robotside.motion.tracks import HANDLING
+from robotside.core.text import heading
+from robotside.motion.stopping_path import HANDLING
+from robotside.navigation.ackermann_controller import Trucking
 from robotside.navigation.avoidance import BRAKING, GAP, HORIZON, free_lengths
-from robotside.navigation.coursing import Coursing
-from robotside.navigation.guide import UNSURE_SPEED, Guide
+from robotside.navigation.course_controller import Coursing
+from robotside.navigation.navigator import UNSURE_SPEED, Guide
 from robotside.navigation.planner import MARGIN
-from robotside.navigation.trucking import Trucking
 from robotside.tasks.behaviours.course import Span
 from robotside.tasks.behaviours.situation import Situation
 

@@ -10,7 +10,7 @@ from py_trees.common import Status
 from py_trees.composites import Sequence
 
 from bridge.msgs.pilothouse_msgs import Place
-from robotside.navigation.guide import Goal, Guide
+from robotside.navigation.navigator import Goal, Guide
 from robotside.records.events import Say
 from robotside.tasks.behaviours.acts import Act, Rounds
 from robotside.tasks.behaviours.course import Course

@@ -17,7 +17,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.composites import Selector, Sequence
 
 from bridge.msgs.pilothouse_msgs import Mission, Place, Waypoint
-from robotside.navigation.guide import Goal, Guide
+from robotside.navigation.navigator import Goal, Guide
 from robotside.records.events import Say
 from robotside.tasks.behaviours.acts import Act, Rounds
 from robotside.tasks.behaviours.circle import Circle

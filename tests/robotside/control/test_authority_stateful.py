@@ -11,9 +11,9 @@ from bridge.core.liveness import LAPSE
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.control.authority import TO_OBJECT
-from robotside.control.controls import Controls
-from robotside.control.expiry import VALID
-from robotside.control.guarded import Guarded
+from robotside.control.command_expiry import VALID
+from robotside.control.command_gate import Controls
+from robotside.control.guarded_robot import Guarded
 from tests.fakes import FakeClient, FakeRobot
 
 NAMES = ("anna", "bert", "carl")

@@ -12,7 +12,7 @@ from robotside.control.safe_state import GROUND, LONGEST, SURFACE, Act, SafeStat
 from robotside.core.config import NOTHING_SET, SafeStateSettings
 from robotside.core.pose2 import Pose2
 from robotside.limits.limits import Measured
-from robotside.motion.tracks import Moving
+from robotside.motion.stopping_path import Moving
 
 TICK = 1 / 20
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from robotside.core.config import Ring
 from robotside.limits.fence import Fence
-from robotside.mapping.grid import Grid
+from robotside.mapping.occupancy_grid import Grid
 
 
 def box(west: float, south: float, east: float, north: float) -> Ring:

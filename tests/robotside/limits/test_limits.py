@@ -15,8 +15,8 @@ from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
 from robotside.core.config import LimitSettings
 from robotside.core.pose2 import Pose2
 from robotside.limits.limits import NOT_PLACED, Keeper, Measured
-from robotside.mapping.grid import Grid
-from robotside.motion.tracks import Moving
+from robotside.mapping.occupancy_grid import Grid
+from robotside.motion.stopping_path import Moving
 from robotside.navigation.planner import Planner
 
 WHEELS = RobotInfo("P", "wheels", max_speed=0.7, max_yaw_rate=1.9, radius=0.2)

@@ -15,7 +15,7 @@ from robotside.core.config import LimitSettings
 from robotside.core.pose2 import Pose2
 from robotside.limits.limits import Keeper, Kept, Measured
 from robotside.motion.manoeuvres import at_rest, finite, leads_to, paced, settled
-from robotside.motion.tracks import Moving
+from robotside.motion.stopping_path import Moving
 
 TRUCK = RobotInfo(
     "T", "ackermann", max_speed=5.0, max_yaw_rate=1.4, radius=1.0, max_steering=0.52, min_radius=3.5

@@ -8,7 +8,7 @@ from collections.abc import Generator
 import numpy as np
 import pytest
 
-from robotside.mapping.grid import Grid
+from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.planner import PREFERRED, STEP, Planner, Unreachable
 from tests.fakes import Box, FakeRobot
 

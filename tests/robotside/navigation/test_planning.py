@@ -12,10 +12,10 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Twist
 from robotside.core.pose2 import Pose2
-from robotside.mapping.grid import Grid
-from robotside.navigation import lattice
-from robotside.navigation.guide import AT_ONCE, Goal, Guide, Leg
-from robotside.navigation.lattice import Lattice
+from robotside.mapping.occupancy_grid import Grid
+from robotside.navigation import lattice_planner as lattice
+from robotside.navigation.lattice_planner import Lattice
+from robotside.navigation.navigator import AT_ONCE, Goal, Guide, Leg
 from tests.fakes import Box, FakeRobot
 from tests.robotside.scene import Scene
 
@@ -93,7 +93,7 @@ def test_it_finds_bit_by_bit_what_it_finds_in_one_go() -> None:
     with pytest.MonkeyPatch.context() as patched:
         found = []
         for share in (2, 10**6):
-            patched.setattr("robotside.navigation.guide.AT_ONCE", share)
+            patched.setattr("robotside.navigation.navigator.AT_ONCE", share)
             found.append(drawn())
     assert found[0] == found[1]
     assert math.dist(found[0][0][-1], (5.0, 0.0)) < 0.05
@@ -149,7 +149,7 @@ def test_another_place_takes_the_place_of_the_one_that_it_looks_for(tmp_path: Pa
 def test_every_kind_looks_for_a_way_a_bit_at_a_time_and_stands_meanwhile(
     kind: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("robotside.navigation.guide.AT_ONCE", 1)
+    monkeypatch.setattr("robotside.navigation.navigator.AT_ONCE", 1)
     robot = truck(Box(0.0, -2.0, 0.4, 2.0))
     robot.info = msgspec.structs.replace(robot.info, kind=kind)
     guide = Guide(robot, Grid.from_msg(robot.map()), lambda _: None)
@@ -173,7 +173,7 @@ def test_while_it_looks_for_another_way_it_goes_on_along_the_one_that_it_has(
     nothing = np.empty((0, 2))
     guide.update(Pose2(-4.0, 0.0, 0.0), nothing, 0.0)
     assert guide.going.under_way
-    monkeypatch.setattr("robotside.navigation.guide.AT_ONCE", 1)
+    monkeypatch.setattr("robotside.navigation.navigator.AT_ONCE", 1)
     guide.obstacles.see(np.array([[1.0, 0.0]]), 2.0)
     told = len(robot.commands)
     guide.update(Pose2(-4.0, 0.0, 0.0), nothing, 2.0)

@@ -27,7 +27,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskOrder,
     Waypoint,
 )
-from robotside.services.orders import runner
+from robotside.services.stop_services import runner
 from tests.fakes import FakeClient
 from tests.robotside.slow import FULL, Slow
 
@@ -96,7 +96,7 @@ async def test_on_a_full_disk_a_task_begins_and_its_answer_says_what_is_not_kept
 async def test_a_start_that_waits_too_long_for_the_disk_is_not_refused_either(
     slow: Slow, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("robotside.services.answering.PATIENCE", 0.0)
+    monkeypatch.setattr("robotside.services.command_service.PATIENCE", 0.0)
     answer = slow.ask("/task/start", sent(StartTaskRequest))
     assert not isinstance(answer, Msg)
     said = (await answer).message  # type: ignore[attr-defined]
@@ -157,7 +157,7 @@ async def test_a_queue_whose_clearing_was_refused_goes_on_waiting(slow: Slow) ->
 async def test_a_queue_that_was_stored_after_its_answer_waits(
     slow: Slow, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("robotside.services.answering.PATIENCE", 0.0)
+    monkeypatch.setattr("robotside.services.command_service.PATIENCE", 0.0)
     answer = slow.ask("/task/queue/set", SetQueueRequest(orders=[STRAIGHT]))
     assert not isinstance(answer, Msg)
     assert not (await answer).success  # type: ignore[attr-defined]

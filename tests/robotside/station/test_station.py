@@ -27,7 +27,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskStatus,
     Waypoint,
 )
-from robotside.control.controls import STOP_SENTENCE
+from robotside.control.command_gate import STOP_SENTENCE
 from robotside.records.database.storage import NotWritten, Storage
 from tests.fakes import FakeRobot
 from tests.robotside.scene import SQUARE, Scene

@@ -21,7 +21,7 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.std_msgs import Header, Time
 from tests.fakes import Box, FakeRobot, Pillar
-from tests.robotside.perception.test_detect import cone, jpeg, picture
+from tests.robotside.perception.test_cone_detector import cone, jpeg, picture
 from tests.robotside.scene import SQUARE, Scene
 
 

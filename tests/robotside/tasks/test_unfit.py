@@ -20,7 +20,7 @@ from bridge.msgs.geometry_msgs import (
 )
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
 from bridge.msgs.pilothouse_msgs import CommandRequest, Event, SetMissionRequest, StartTaskRequest
-from robotside.control.sticks import LET_GO
+from robotside.control.neutral_interlock import LET_GO
 from robotside.core.pose2 import ORIGIN
 from robotside.station.station import NO_MAP
 from tests.fakes import FakeRobot
@@ -149,7 +149,7 @@ def test_a_map_that_does_not_fit_into_the_memory_is_left_out(
     def too_large(*_: object) -> None:
         raise MemoryError
 
-    monkeypatch.setattr("robotside.navigation.guide.Planner", too_large)
+    monkeypatch.setattr("robotside.navigation.navigator.Planner", too_large)
     assert isinstance(lost_map.robot, Talking)
     lost_map.robot.more = [("/map", lost_map.robot.map())]
     lost_map.run(1.0)

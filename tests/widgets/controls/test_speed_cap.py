@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from bridge.msgs.pilothouse_msgs import ControlStatus
-from robotside.control.pace import share
+from robotside.control.latency_speed_cap import share
 from widgets.controls.speed_cap import SpeedCap
 
 SLOW = ControlStatus(speed_cap=0.4)

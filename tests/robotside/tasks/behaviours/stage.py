@@ -10,8 +10,8 @@ from py_trees.common import Status
 
 from bridge.msgs.pilothouse_msgs import Mission
 from robotside.core.pose2 import Pose2
-from robotside.mapping.grid import Grid
-from robotside.navigation.guide import Guide
+from robotside.mapping.occupancy_grid import Grid
+from robotside.navigation.navigator import Guide
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.patrol import patrol, patrol_course
 from robotside.tasks.behaviours.situation import Situation

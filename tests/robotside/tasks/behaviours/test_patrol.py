@@ -11,7 +11,7 @@ import pytest
 from py_trees.common import Status
 
 from bridge.msgs.pilothouse_msgs import Mission, Waypoint
-from robotside.navigation.guide import Goal
+from robotside.navigation.navigator import Goal
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.drive_to import DriveTo
 from robotside.tasks.behaviours.dwell import Dwell

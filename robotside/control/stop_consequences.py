@@ -1,0 +1,23 @@
+"""What STOP leaves a robot doing that nothing drives any more: what flies does not fall, what swims does not stay below, what floats drifts."""
+
+from __future__ import annotations
+
+from robotside.core.vehicle_kinds import kind_of
+from robotside.limits.limits import Measured
+
+__all__ = ["still_moves"]
+
+BELOW = 0.3
+"""Deeper than this what swims has a way up [m]."""
+
+
+def still_moves(name: str, kind: str, measured: Measured) -> str:
+    """What the robot called `name` goes on doing under STOP, and what to do then, in sentences; empty when it stays where it is."""
+    is_a = kind_of(kind)
+    if is_a.flies and not measured.landed:
+        return f"{name} hovers, on its battery. Hold STOP to release it, then land."
+    if is_a.dives and measured.height < -BELOW:
+        return f"{name} floats up. Hold STOP to release it, then hold its depth."
+    if is_a.comes_about:
+        return f"{name} drifts with wind and current. Hold STOP to release it, then hold its place."
+    return ""

@@ -1,0 +1,150 @@
+"""Smaller pictures: the same JPEG with fewer columns or less quality, made in one worker thread."""
+
+from __future__ import annotations
+
+import asyncio
+import io
+from collections import OrderedDict, deque
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+from PIL import Image
+
+from bridge.core.errors import BridgeError
+from robotside.perception.intruder_watch import jpeg_size
+
+__all__ = ["LEVELS", "Pictures", "Superseded", "smaller"]
+
+LEVELS = ((1.0, 45), (0.5, 50), (0.375, 35))
+"""Levels 1 to 3 of a camera's own socket: part of the original's columns, JPEG quality. In bytes, about a half each."""
+
+QUALITY = 80
+"""JPEG quality where nobody asks for one."""
+
+WAITING = 4
+"""Pictures of those who watch that may wait for the worker; a further one takes the place of the oldest."""
+
+KEPT = 8
+"""Pictures kept for others who want the same."""
+
+LARGEST = 8192
+"""Columns or rows of a picture that is still made smaller [px]; to read a larger one would take all memory."""
+
+
+class Superseded(BridgeError):
+    """Newer pictures were wanted before this one could be made."""
+
+
+@dataclass(slots=True, eq=False)
+class _Wish:
+    """What somebody wants of one picture."""
+
+    jpeg: bytes
+    width: float | None
+    quality: int
+    result: asyncio.Future[bytes]
+    patient: bool = False
+    """Whoever wants it asks once and waits."""
+
+
+class Pictures:
+    """Makes pictures smaller, each once; belongs to the event loop that calls it, and to who closes it."""
+
+    def __init__(self) -> None:
+        self._worker = ThreadPoolExecutor(1, thread_name_prefix="pictures")
+        self._waiting: deque[_Wish] = deque()
+        self._kept: OrderedDict[tuple[int, float | None, int], _Wish] = OrderedDict()
+        self._busy: asyncio.Task[None] | None = None
+
+    def shrink(self, jpeg: bytes, level: int) -> asyncio.Future[bytes]:
+        """`jpeg` at `level`, 1 to 3, as `bridge.server.server.BridgeServer` wants it. Fails as `make` does."""
+        part, quality = LEVELS[level - 1]
+        return self.make(jpeg, part if part < 1.0 else None, quality)
+
+    def make(
+        self,
+        jpeg: bytes,
+        width: float | None = None,
+        quality: int | None = None,
+        *,
+        patient: bool = False,
+    ) -> asyncio.Future[bytes]:
+        """`jpeg` with at most `width` columns [px], or that part of them when below 1, at `quality`, 1 to 95.
+
+        Whoever wants the same of the same object shares it. Fails with BridgeError for what is no JPEG file, and with
+        Superseded when too much newer work came before it was begun, which a `patient` asker's is never.
+        """
+        key = (id(jpeg), width, QUALITY if quality is None else quality)
+        wish = self._kept.get(key)
+        if wish is None or wish.result.cancelled():
+            result = asyncio.get_running_loop().create_future()
+            wish = _Wish(jpeg, width, key[2], result, patient)
+            wish.result.add_done_callback(_look)
+            self._kept[key] = wish
+            while len(self._kept) > KEPT:
+                self._kept.popitem(last=False)
+            self._add(wish)
+        wish.patient = wish.patient or patient
+        return asyncio.shield(wish.result)
+
+    async def close(self) -> None:
+        """End the worker; what still waits is cancelled."""
+        while self._waiting:
+            self._waiting.popleft().result.cancel()
+        if self._busy is not None:
+            await asyncio.wait({self._busy})
+        self._kept.clear()
+        self._worker.shutdown()
+
+    def _add(self, wish: _Wish) -> None:
+        watched = [waiting for waiting in self._waiting if not waiting.patient]
+        if len(watched) >= WAITING and not wish.patient:
+            self._pass_over(watched[0])
+        self._waiting.append(wish)
+        if self._busy is None:
+            self._busy = asyncio.create_task(self._work())
+
+    def _pass_over(self, wish: _Wish) -> None:
+        self._waiting.remove(wish)
+        self._kept.pop((id(wish.jpeg), wish.width, wish.quality), None)
+        wish.result.set_exception(Superseded("Newer pictures came first."))
+
+    async def _work(self) -> None:
+        loop = asyncio.get_running_loop()
+        while self._waiting:
+            wish = self._waiting.popleft()
+            work = loop.run_in_executor(self._worker, smaller, wish.jpeg, wish.width, wish.quality)
+            try:
+                made = await work
+            except Exception as fault:  # noqa: BLE001 - whoever waits for the picture is told, whatever it is
+                wish.result.set_exception(fault)
+            else:
+                wish.result.set_result(made)
+        self._busy = None
+
+
+def smaller(jpeg: bytes, width: float | None, quality: int) -> bytes:
+    """`jpeg` as `Pictures.make` describes, made at once; never wider than it was."""
+    columns, rows = jpeg_size(jpeg)
+    if max(columns, rows) > LARGEST:
+        raise BridgeError(f"A picture has at most {LARGEST} columns and rows, not {columns} x {rows}.")
+    try:
+        with Image.open(io.BytesIO(jpeg), formats=("JPEG",)) as image:
+            columns, rows = image.size
+            wanted = columns if width is None else round(width * columns if width < 1.0 else width)
+            size = max(1, min(wanted, columns)), max(1, round(rows * min(1.0, wanted / columns)))
+            image.draft(None, size)
+            small = image.resize(size, Image.Resampling.BOX) if image.size != size else image
+            file = io.BytesIO()
+            small.save(file, "JPEG", quality=quality)
+            return file.getvalue()
+    except (OSError, SyntaxError, ValueError) as fault:
+        raise BridgeError(
+            f"The picture cannot be made smaller: it is no whole JPEG file ({fault})."
+        ) from fault
+
+
+def _look(result: asyncio.Future[bytes]) -> None:
+    """A fault that nobody waits for any more needs no complaint."""
+    if not result.cancelled():
+        result.exception()

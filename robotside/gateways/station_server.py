@@ -1,0 +1,208 @@
+"""The station behind its sockets: bridge, web site, beacon."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import asynccontextmanager, contextmanager
+from functools import partial
+
+import uvicorn
+
+from bridge.core import frames
+from bridge.core.errors import BridgeError
+from bridge.core.topics import TOPICS, camera_topics
+from bridge.discovery.beacon import Beacon, Hello
+from bridge.msgs import Msg
+from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.server.server import BridgeServer
+from robotside.core.clock import RobotClock
+from robotside.gateways.camera_streams import Streams
+from robotside.gateways.derived_topics import Apart
+from robotside.gateways.fleet_server import Served, Together
+from robotside.gateways.http_app import site
+from robotside.gateways.http_visit import Visit
+from robotside.gateways.message_reduction import reduce
+from robotside.gateways.offered_topics import Offered
+from robotside.gateways.picture_scaling import Pictures
+from robotside.perception.intruder_watch import jpeg_size
+from robotside.services.stop_services import listener, services
+from robotside.services.task_actions import actions
+from robotside.station.station import Station
+
+__all__ = ["Addresses", "Serving"]
+
+_EVERYWHERE = ("0.0.0.0", "::", "")  # noqa: S104 - compared with, not bound to
+
+_TABLE = frozenset(entry.name for entry in TOPICS)
+
+
+class Addresses:
+    """Where it listens."""
+
+    def __init__(self, host: str, port: int, http_port: int) -> None:
+        self.host, self.port, self.http_port = host, port, http_port
+
+    @property
+    def shown(self) -> str:
+        """The host as others may type it."""
+        if self.host in _EVERYWHERE:
+            return _own_address()
+        return f"[{self.host}]" if ":" in self.host else self.host
+
+    @property
+    def bridge(self) -> str:
+        """Of the rosbridge socket."""
+        return f"ws://{self.shown}:{self.port}"
+
+    @property
+    def http(self) -> str:
+        """Of the web site."""
+        return f"http://{self.shown}:{self.http_port}"
+
+
+class Serving:
+    """Serves one station until told to end: alone by `run`, or with others as part of a `Together`."""
+
+    def __init__(
+        self,
+        station: Station,
+        clock: RobotClock,
+        wall: Callable[[], float],
+        addresses: Addresses,
+        *,
+        wanted: Callable[[], bool] = lambda: True,
+    ) -> None:
+        """`wanted` is asked once a second and ends the serving when it says no."""
+        self.addresses = addresses
+        self.station = station
+        """What is served."""
+        self._clock = clock
+        self._alone = Together([self], clock, wall, wanted=wanted)
+        self._pictures = Pictures()
+        self._apart = Apart(station.bus)
+        self._told = _TABLE | {topic.name for topic in self._apart.topics}
+        offered = list(services(station))
+        self.server = BridgeServer(
+            services=offered,
+            on_message=listener(station),
+            topics=(*TOPICS, *self._apart.topics),
+            offers=Offered(station.info, station.bus, simulated=station.robot.resettable),
+            now=station.clock,
+            on_gone=station.gone,
+            on_demand=self._want,
+            cameras=station.info.cameras,
+            shrink=self._pictures.shrink,
+            reduce=reduce,
+            actions=actions(station),
+        )
+        kinds = {service.name: service.type for service in offered}
+        streams = Streams(station.bus, station.demand, self._pictures)
+        self._site = site(station, lambda: addresses.bridge, kinds, streams)
+        self._cameras = {topic: name for name, topic in camera_topics(station.info.cameras).items()}
+        """Name of each camera by the topic of its pictures."""
+        self._frames: dict[str, int] = {}
+        """So many pictures of each camera were taken."""
+
+    async def run(self, ready: Callable[[Addresses], None]) -> None:
+        """Serve until `end`; `ready` is called once everything listens. BridgeError when a port is taken."""
+        await self._alone.run(lambda _: ready(self.addresses))
+
+    def end(self) -> None:
+        """Have `run` come to its end."""
+        self._alone.end()
+
+    @asynccontextmanager
+    async def listening(self) -> AsyncIterator[Served]:
+        """Hold its ports for as long as this is open. BridgeError when one is taken."""
+        where = self.addresses
+        web_socket = _listen(where.host, where.http_port)
+        try:
+            where.http_port = web_socket.getsockname()[1]
+            await self.server.start(where.host, where.port)
+            where.port = self.server.port
+            web = _Web(
+                uvicorn.Config(self._site, http=Visit, log_level="warning", lifespan="off", access_log=False)
+            )
+            beacon = Beacon(self._hello)
+            leave = self.station.bus.subscribe(None, self._publish)
+            yield Served((lambda: web.serve([web_socket]), beacon.run), partial(_leave, leave, web, beacon))
+        finally:
+            self.station.robot.stop()
+            await self.server.close()
+            await self._pictures.close()
+            self._apart.close()
+            web_socket.close()
+
+    def _want(self, topic: str, wanted: bool) -> None:
+        self._apart.want(topic, wanted)
+        self.station.demand.set(topic, "clients", wanted)
+
+    def _publish(self, topic: str, msg: Msg) -> None:
+        if topic in self._told:
+            self.server.publish(topic, msg)
+        camera = self._cameras.get(topic)
+        if camera is not None and isinstance(msg, CompressedImage):
+            width, height = jpeg_size(msg.data)
+            self._frames[camera] = number = self._frames.get(camera, 0) + 1
+            # real time, so that a handheld can tell the picture's age whatever the robot's clock does
+            stamp = self._clock.real(msg.header.stamp.seconds)
+            frame = frames.pack(number, stamp, msg.data, width, height)
+            self.server.publish_frame(camera, frame)
+
+    def _hello(self) -> Hello:
+        info, driver = self.station.info, self.station.controls.driver
+        return Hello(
+            name=info.name,
+            kind=info.kind,
+            model=info.model,
+            description=info.description,
+            url=self.addresses.bridge,
+            http=self.addresses.http,
+            battery=self.station.autonomy.battery,
+            driver=driver.name if driver else "",
+            driver_id=driver.client_id if driver else "",
+            boot=self.station.events.boot,
+        )
+
+
+class _Web(uvicorn.Server):
+    """A web server in somebody else's loop, who also minds the signals."""
+
+    @contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        """Leave the process's signals alone."""
+        yield
+
+
+async def _leave(leave: Callable[[], None], web: uvicorn.Server, beacon: Beacon) -> None:
+    """Take leave of everybody."""
+    leave()
+    web.should_exit = True
+    await beacon.close()
+
+
+def _listen(host: str, port: int) -> socket.socket:
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    listener = socket.socket(family, socket.SOCK_STREAM)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listener.bind((host, port))
+        listener.listen()
+    except OSError as error:
+        listener.close()
+        why = error.strerror or str(error)
+        raise BridgeError(
+            f"Cannot serve HTTP on {host}:{port}: {why.lower()}; --http-port names another port."
+        ) from error
+    return listener
+
+
+def _own_address() -> str:
+    """The address that this machine has towards others; nothing is sent to find it."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.connect(("192.0.2.1", 9))
+        except OSError:
+            return "127.0.0.1"
+        return str(probe.getsockname()[0])

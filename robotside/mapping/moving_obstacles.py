@@ -1,0 +1,47 @@
+"""What moves by itself among what is seen: another robot, a person. One that comes towards the robot leaves only part of the room."""
+
+from __future__ import annotations
+
+from collections import deque
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robotside.core.pose2 import Points
+from robotside.mapping.distances import within
+
+__all__ = ["SHARE", "Movers"]
+
+AGO = 0.4
+"""What is seen is compared with what was seen so long before [s]."""
+
+MOVED = 0.12
+"""Where nothing was within this of it then, it has moved [m]: faster than a third of a metre a second."""
+
+SHARE = 0.55
+"""Part of the room up to something that moves: the other uses the rest."""
+
+REACH = 4.0
+"""Farther away it does not matter yet [m]."""
+
+
+class Movers:
+    """Looks for them from sweep to sweep; everything in `map`."""
+
+    def __init__(self) -> None:
+        self._before: deque[tuple[float, Points]] = deque(maxlen=20)
+
+    def moving(self, placed: Points, stamp: float) -> NDArray[np.bool_]:
+        """Which points of the sweep at `stamp` [s] have moved; none without a sweep to compare with."""
+        while len(self._before) > 1 and self._before[1][0] <= stamp - AGO:
+            self._before.popleft()
+        old = self._before[0] if self._before else None
+        self._before.append((stamp, placed))
+        if old is None or not len(old[1]) or not AGO / 2 < stamp - old[0] < 3 * AGO or not len(placed):
+            return np.zeros(len(placed), dtype=np.bool_)
+        return ~within(placed, old[1], MOVED)
+
+    @staticmethod
+    def nearer(points: Points) -> Points:
+        """Where `points` of `base_link` that move have to be supposed, so that half of the room is left to them."""
+        return SHARE * points[np.hypot(points[:, 0], points[:, 1]) < REACH]

@@ -1,0 +1,64 @@
+"""What current, wind and its own way do to a robot that cannot hold its place by standing still: it says so, and goes back.
+
+Pure: what the robot measures is passed in.
+"""
+
+from __future__ import annotations
+
+import math
+
+from bridge.msgs.geometry_msgs import Twist
+from robotside.motion.speed_limit import within
+
+__all__ = ["BACK_AT", "BACK_TO", "CREEP", "DRIFTS", "Drift", "back", "way_back"]
+
+BACK_AT, BACK_TO = 0.0, 0.4
+"""With less room than the first one that drifts goes back, until it has the second [m]."""
+BACK_SPEED, BACK_TURN, BACK_GAIN = 0.35, 0.5, 1.0
+"""So fast it goes back [m/s, rad/s], turning towards the inside [1/s]."""
+CREEP = 0.25
+"""A boat that is to turn without going makes so much way, for the rudder needs it [m/s]."""
+DRIFTS = 0.02
+"""Slower than this nothing drifts [m/s]."""
+ASTERN, OTHER_WAY = 0.2, 0.4
+"""With the inside farther behind it than the first, a cosine, it begins astern; beyond the second it goes the other way than
+it does: it has turned, and would go out."""
+
+
+def way_back(inward: tuple[float, float], before: float) -> float:
+    """1 for ahead and -1 for astern, the one that leads back to where it is `inward` in `base_link`; `before` it went so, 0 for neither."""
+    if before:
+        return before if before * inward[0] > -OTHER_WAY else -before
+    return 1.0 if inward[0] >= -ASTERN else -1.0
+
+
+def back(inward: tuple[float, float], way: float) -> Twist:
+    """The way back to the inside, which is `inward` in `base_link`: ahead for a `way` of 1 or astern for -1, turning there.
+
+    A `way` of 0 is that of one that turns where it is: bow first, and no faster than it looks there.
+    """
+    bow = way or 1.0
+    turn = BACK_GAIN * math.atan2(bow * inward[1], bow * inward[0])
+    speed = bow * BACK_SPEED * (1.0 if way else max(0.0, inward[0]))
+    return Twist.planar(speed, within(turn, BACK_TURN))
+
+
+class Drift:
+    """Tells once that a robot drifts over its fence, and again when it was back in between."""
+
+    def __init__(self) -> None:
+        self._said = False
+
+    def told(self, name: str, room: float, outward: float, *, returns: bool = False) -> str:
+        """What to say of a robot with this `room` [m] that goes `outward` [m/s]; empty for nothing."""
+        if room > BACK_TO:
+            self._said = False
+        if self._said or room > BACK_AT or outward < DRIFTS:
+            return ""
+        self._said = True
+        name = name or "The robot"
+        return (
+            f"{name} drifts towards its fence; it goes back by itself."
+            if returns
+            else f"{name} drifts over its fence."
+        )

@@ -1,0 +1,99 @@
+"""Going by courses: of boats, swimmers and what flies, which keep a heading, a speed and a height by themselves."""
+
+from __future__ import annotations
+
+import math
+
+from bridge.core.units import wrap
+from bridge.msgs.pilothouse_msgs import Manoeuvre
+from robotside.core.pose2 import Points, Pose2
+from robotside.core.robot import Manoeuvrable, Robot
+from robotside.core.vehicle_kinds import kind_of
+from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, OneWay
+from robotside.navigation.pure_pursuit import Manner
+
+__all__ = ["TAKES_OFF_TO", "Coursing"]
+
+TAKES_OFF_TO = 2.0
+"""Above where it stands, which is over people's heads [m]."""
+
+FASTEST = 2.0
+"""It goes by itself no faster than this [m/s]."""
+
+TURNS_FIRST = 0.6
+"""Farther off its course than this, what turns where it is does so before it goes [rad]."""
+
+SLOW = 0.4
+"""The speed at which a boat, which turns only by going, comes about [m/s]."""
+
+BOAT_TURNS = 3.0
+"""Of the bend in which a boat comes about [m]."""
+
+ALIGNED = 0.1
+"""It looks to where it should within this [rad]."""
+
+MANNERS = {
+    "boat": Manner(1.5, 3.0, 4.0, 1.0, 0.2, 0.3, 0.4),
+    "hexapod": Manner(0.4, 0.8, 1.2, 1.0, 0.15, 0.1, 0.2),
+    "quadrotor": Manner(0.3, 0.6, 1.0, 0.8, 0.5, 0.15, 0.8),
+}
+"""By kind; the circles of arrival are as large as waves, currents and the way that one has on make them."""
+
+
+class Coursing(OneWay):
+    """`going.Going` of a robot that keeps courses."""
+
+    stands = False
+    keeps_courses = True
+    discs: tuple[float, ...] = (0.0,)
+    look = 10.0
+
+    def __init__(self, robot: Robot) -> None:
+        info = robot.info
+        super().__init__(MANNERS[info.kind])
+        self._robot, self._comes_about = robot, kind_of(info.kind).comes_about
+        self.cruise, self.clear = min(CRUISE * info.max_speed, FASTEST), info.radius + 0.18
+        self.turning = BOAT_TURNS if kind_of(info.kind).comes_about else 0.0
+        self.height = math.nan
+        self.aloft = "take_off" not in info.manoeuvres
+        self.measured = math.nan
+
+    def steer(self, pose: Pose2, points: Points, *, sure: bool) -> None:
+        """Go on."""
+        follower = self._follower
+        if follower is None:
+            return
+        distance, bearing = follower.aim(pose, self._speed)
+        speed = follower.speed(pose, bearing, distance)
+        if abs(bearing) > TURNS_FIRST:
+            speed = SLOW if self._comes_about else 0.0
+        self._speed = speed if sure else min(speed, UNSURE_SPEED)
+        self.along(wrap(pose.yaw + bearing), self._speed)
+
+    def face(self, pose: Pose2, yaw: float) -> bool:
+        """Turn to `yaw`; a boat, which turns only by going, looks wherever it came from."""
+        if self._comes_about or abs(wrap(yaw - pose.yaw)) < ALIGNED:
+            return True
+        self.along(yaw, 0.0)
+        return False
+
+    def ready(self) -> str:
+        """What stands on the ground takes off first."""
+        if self.aloft:
+            return ""
+        self.take_off()
+        return "Taking off."
+
+    def take_off(self, height: float = math.nan) -> None:
+        """Rise to `height` above the map's origin [m], NaN for the usual one."""
+        told = self.height if math.isnan(height) else height
+        usual = TAKES_OFF_TO + (0.0 if math.isnan(self.measured) else self.measured)
+        self._order(Manoeuvre(kind="take_off", height=usual if math.isnan(told) else told))
+
+    def along(self, yaw: float, speed: float, throttle: float = math.nan) -> None:
+        """Keep to `yaw` [rad] at a `speed` [m/s], NaN for what the `throttle`, -1 to 1, gives."""
+        self._order(Manoeuvre(kind="course", yaw=yaw, speed=speed, throttle=throttle, height=self.height))
+
+    def _order(self, order: Manoeuvre) -> None:
+        if isinstance(self._robot, Manoeuvrable):
+            self._robot.manoeuvre(order)

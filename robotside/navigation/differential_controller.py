@@ -1,0 +1,84 @@
+"""Going on wheels that turn the robot where it stands: pure pursuit, and arcs that stay free of what the laser sees."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from bridge.msgs.geometry_msgs import Twist
+from robotside.core.pose2 import Points, Pose2
+from robotside.core.robot import Robot
+from robotside.navigation.avoidance import Avoidance, free_lengths
+from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, Grounded, OneWay
+
+__all__ = ["Wheeling"]
+
+STANDS = 0.03
+"""Slower than this it gets nowhere [m/s]."""
+
+PATIENCE, BACKS, BACK = 80, 50, 0.12
+"""After so many times of getting nowhere it goes back for so many, at this speed [m/s]; there are about twenty a second."""
+
+CLOSE, ROOM = 0.04, 0.4
+"""It goes back where it passes everything by this, and has so much room [m]."""
+
+
+class Wheeling(OneWay, Grounded):
+    """`going.Going` of a robot that turns where it stands."""
+
+    stands = False
+    keeps_courses = False
+    discs: tuple[float, ...] = (0.0,)
+    turning = 0.0
+    look = 6.0
+
+    def __init__(self, robot: Robot) -> None:
+        super().__init__()
+        info = robot.info
+        self._robot, self._turn = robot, info.max_yaw_rate
+        self._avoidance = Avoidance(info.radius, max_yaw_rate=info.max_yaw_rate)
+        self.cruise, self.clear = CRUISE * info.max_speed, info.radius + 0.18
+        self._stood = 0
+        """Times that it was to go on and could not, of late."""
+
+    def forget(self) -> None:
+        """Have no way any more."""
+        super().forget()
+        self._stood = 0
+
+    def steer(self, pose: Pose2, points: Points, *, sure: bool) -> None:
+        """Go on."""
+        follower = self._follower
+        if follower is None:
+            return
+        distance, bearing = follower.aim(pose, self._speed)
+        cruise = follower.speed(pose, bearing, distance)
+        speed = cruise if sure else min(cruise, UNSURE_SPEED)
+        way = self._avoidance.choose(distance, bearing, min(speed, self._speed + 0.08), points)
+        self._speed = way.twist.linear.x
+        self._stood = self._stood + 1 if self._speed < STANDS else max(self._stood - 2, 0)
+        if self._stood > PATIENCE and self._backs(points):
+            self._robot.drive(Twist.planar(-BACK, 0.0))
+            return
+        self._robot.drive(way.twist)
+
+    def _backs(self, points: Points) -> bool:
+        """It makes room again where it has stood for a while, as long as there is some behind it."""
+        if self._stood > PATIENCE + BACKS:
+            self._stood = 0
+        behind = points * np.array([-1.0, -1.0])
+        return float(free_lengths(np.zeros(1), behind, self._robot.info.radius + CLOSE)[0]) > ROOM
+
+    def face(self, pose: Pose2, yaw: float) -> bool:
+        """Turn to `yaw` where it stands."""
+        error = math.remainder(yaw - pose.yaw, math.tau)
+        if abs(error) < 0.05:
+            return True
+        rate = math.copysign(min(0.6 * self._turn, max(0.15, 1.5 * abs(error))), error)
+        self._robot.drive(Twist.planar(0.0, rate))
+        return False
+
+    def ready(self) -> str:
+        """It always is."""
+        return ""

@@ -1,0 +1,318 @@
+"""Bringing the robot to a place: plans the way, follows it, evades, plans anew, and knows when it is stuck."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from enum import Enum
+
+import numpy as np
+
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
+from robotside.core.pose2 import Points, Pose2
+from robotside.core.robot import Manoeuvrable, Robot
+from robotside.mapping.obstacle_memory import Obstacles
+from robotside.mapping.occupancy_grid import Grid
+from robotside.navigation.ackermann_controller import Trucking, girth
+from robotside.navigation.course_controller import Coursing
+from robotside.navigation.differential_controller import Wheeling
+from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, Going, Search
+from robotside.navigation.planner import STEP, Planner, Unreachable, place_sentence
+
+__all__ = ["CRUISE", "UNSURE_SPEED", "Goal", "Guide", "Leg"]
+
+REPLAN = 1.0
+"""Least time between two plans [s]."""
+
+STUCK = 10.0
+"""Without getting 0.1 m nearer or turning for this long, the way is blocked [s]."""
+
+PATIENCE = 20.0
+"""To get ready to go [s]."""
+
+AT_ONCE = 40
+"""Steps of a search for a way in one update: a few milliseconds, so that whoever presses STOP is heard."""
+
+AT_REST, COMES_TO_REST = 0.15, 3.0
+"""Slower than this it stands, and after so long it is taken to [m/s, s]."""
+
+GIVE_UP = 3
+"""Times stuck on one leg before it is given up."""
+
+
+class Leg(Enum):
+    """How the way to the goal stands."""
+
+    UNDER_WAY = "under way"
+    ARRIVED = "arrived"
+    BLOCKED = "blocked"
+
+
+class Goal:
+    """A place to go to."""
+
+    def __init__(self, name: str, x: float, y: float, yaw: float = math.nan, place: str = "") -> None:
+        self.name = name
+        """As a sentence begins with it: `Point 3`."""
+        self.place = place
+        """The name that people gave to it; empty when it has none."""
+        self.x, self.y = x, y
+        """In `map` [m]."""
+        self.yaw = yaw
+        """Direction to stand in [rad]; NaN when any will do."""
+
+    @property
+    def spoken(self) -> str:
+        """As it stands within a sentence: `point 3`, but `Office 12`."""
+        name = self.name.rstrip(",")
+        return name if name == self.place else f"{name[0].lower()}{name[1:]}"
+
+
+GOINGS: dict[str, Callable[[Robot], Going]] = {
+    "wheels": Wheeling,
+    "ackermann": Trucking,
+    "boat": Coursing,
+    "hexapod": Coursing,
+    "quadrotor": Coursing,
+}
+"""How robots go, by kind."""
+
+
+def going_of(robot: Robot) -> Going:
+    """How a robot of its kind goes; one of an unknown kind as if on wheels."""
+    return GOINGS.get(robot.info.kind, Wheeling)(robot)
+
+
+def room_of(info: RobotInfo) -> float:
+    """The room that a robot needs round its place, whichever way it points [m]."""
+    return girth(info) if info.kind == "ackermann" else info.radius
+
+
+class Guide:
+    """Drives one robot on one map."""
+
+    def __init__(self, robot: Robot, grid: Grid, show: Callable[[Points], None]) -> None:
+        info = robot.info
+        self._robot, self._show = robot, show
+        self.kind = info.kind
+        """Of robot, as its information calls it."""
+        self.going: Going = going_of(robot)
+        """How it goes along a way."""
+        self._radius = room_of(info)
+        self.take_map(grid)
+        self._goal: Goal | None = None
+        self.reason = ""
+        """Why the way is blocked, as one sentence; empty when it is not."""
+        self.waits_for = ""
+        """What it does before it can go, as one sentence; empty when it goes."""
+        self.sure = True
+        """The position is trusted; otherwise it creeps."""
+        self._turning = False
+        self._waits_since = math.inf
+        self._planned = self._moved = -math.inf
+        self._best = math.inf
+        self._stuck = 0
+        self._asked = math.inf
+        self._search: Search | None = None
+        self._seen: tuple[Pose2, float] | None = None
+
+    def take_map(self, grid: Grid) -> None:
+        """Plan on `grid` from now on; only between two tasks."""
+        self.planner = Planner(grid, self._radius)
+        """What plans the ways on the map."""
+        self.obstacles = Obstacles(grid)
+        """What was seen that is not on the map."""
+
+    @property
+    def remaining(self) -> float:
+        """Along the path to the goal [m]; NaN without one."""
+        return self._left
+
+    _left = math.nan
+
+    @property
+    def cruise(self) -> float:
+        """The speed that it travels with [m/s]."""
+        return self.going.cruise
+
+    @property
+    def radius(self) -> float:
+        """Of the room that the robot needs round its place [m]."""
+        return self._radius
+
+    @property
+    def planning(self) -> bool:
+        """It stands and looks for a way."""
+        return math.isfinite(self._asked)
+
+    @property
+    def turning(self) -> bool:
+        """It is there and turns to the direction asked for."""
+        return self._turning
+
+    def move(self, twist: Twist) -> None:
+        """Move so until the next order, `update` or `rest`, with nobody looking for obstacles but the caller."""
+        self._robot.drive(twist)
+
+    def measured(self, height: float) -> None:
+        """The robot is at a `height` above the map's origin [m]."""
+        self.going.measured = height
+
+    def flies(self, phase: str) -> None:
+        """What it does in the air, of a robot that flies, as its `FlightState` says."""
+        self.going.aloft = phase in ("flying", "landing")
+
+    @property
+    def height(self) -> float:
+        """Of the robot above the map's origin [m]; NaN while not known."""
+        return self.going.measured
+
+    def keep_height(self, height: float) -> None:
+        """Go at a `height` above the map's origin [m] from now on; NaN for the one that it is at."""
+        self.going.height = height
+
+    def take_off(self, height: float) -> None:
+        """Rise from the ground to a `height` above the map's origin [m], NaN for the usual one."""
+        self.going.take_off(height)
+
+    def command(self, manoeuvre: Manoeuvre) -> None:
+        """The same for what a twist does not say, of a robot that knows manoeuvres; others stay as they are."""
+        if isinstance(self._robot, Manoeuvrable):
+            self._robot.manoeuvre(manoeuvre)
+
+    def head_for(self, goal: Goal) -> None:
+        """Begin a new leg; the path is planned with the next `update`."""
+        self._goal, self.reason = goal, ""
+        self.going.forget()
+        self._drop()
+        self._waits_since = math.inf
+        self._stuck, self._left, self._moved = 0, math.nan, -math.inf
+
+    def rest(self) -> None:
+        """Stand still and forget the path; a leg that goes on later is planned from wherever it is then."""
+        self._robot.stop()
+        self.going.forget()
+        self._drop()
+        self._waits_since = math.inf
+        self._left = math.nan
+        self._moved = -math.inf
+
+    def finish(self) -> None:
+        """Stand still; there is no goal any more."""
+        self.rest()
+        self._goal = None
+        self._show(np.empty((0, 2)))
+
+    def update(self, pose: Pose2, points: Points, now: float) -> Leg:
+        """Drive on from `pose`, with the laser seeing `points` (in `base_link`); call it often."""
+        goal = self._goal
+        self._turning = False
+        if goal is None:
+            return Leg.ARRIVED
+        going = self.going
+        self.waits_for = self.ready(now)
+        if self.waits_for:
+            return Leg.BLOCKED if self.reason else Leg.UNDER_WAY
+        if not going.under_way and not self.planning:
+            self._ask(now)
+        looks = self.planning and not self._look(pose, goal, now)
+        if looks and (going.stands or not going.under_way):
+            self._robot.stop()  # it may be rolling still, with no way to roll along
+            return Leg.BLOCKED if self.reason else Leg.UNDER_WAY
+        if going.arrived(pose):
+            return self._face(pose, goal)
+        self._left = going.remaining(pose)
+        if not self._progresses(pose, now):
+            return Leg.BLOCKED
+        if now - self._planned >= REPLAN and self._in_the_way(now):
+            self._ask(now)
+        if self.planning and not looks:
+            looks = not self._look(pose, goal, now)
+        if not looks or not going.stands:
+            going.steer(pose, points, sure=self.sure)
+        return Leg.UNDER_WAY
+
+    def ready(self, now: float) -> str:
+        """Get ready to go: what it does for that, as one sentence, empty when it goes. After too long there is a `reason`."""
+        waits = self.going.ready()
+        if not waits:
+            self._waits_since = math.inf
+            return ""
+        self._waits_since = min(self._waits_since, now)
+        if now - self._waits_since > PATIENCE:
+            self.reason = f"{waits[:-1]} took longer than {PATIENCE:.0f} s; the robot stays where it is."
+        return waits
+
+    def _ask(self, now: float) -> None:
+        """A way is to be looked for; what cannot do that on the way stands for it."""
+        self._asked, self._seen = now, None
+        if self.going.stands:
+            self._robot.stop()
+
+    def _look(self, pose: Pose2, goal: Goal, now: float) -> bool:
+        """Look for the way that was asked for, as long as one update may take; True when there is one to go on."""
+        if self._search is None and self.going.stands and not self._stands(pose, now):
+            return False
+        if self._search is None:
+            known = self.obstacles.points(now)
+            self._search = self.going.search(self.planner, pose, (goal.x, goal.y, goal.yaw), goal.name, known)
+        try:
+            for _ in range(AT_ONCE):
+                next(self._search)
+        except StopIteration as found:
+            self._left = self.going.remaining(pose)
+            self._show(found.value)
+        except Unreachable as problem:
+            # an old path stays; standing still on it is noticed
+            self.reason = "" if self.going.under_way else str(problem)
+        else:
+            return False
+        self._moved += now - self._asked
+        self._planned = now
+        self._drop()
+        return self.going.under_way
+
+    def _stands(self, pose: Pose2, now: float) -> bool:
+        before, self._seen = self._seen, (pose, now)
+        if before is None:
+            return False
+        was, then = before
+        slow = pose.distance(was.x, was.y) < AT_REST * max(now - then, 1e-3)
+        return slow or now - self._asked > COMES_TO_REST
+
+    def _drop(self) -> None:
+        """Look for no way any more."""
+        self._asked, self._search, self._seen = math.inf, None, None
+
+    def _in_the_way(self, now: float) -> bool:
+        ahead = self.going.ahead[: int(self.going.look / STEP)]
+        return bool(len(self.obstacles.near(ahead, self.going.clear, now)))
+
+    def _face(self, pose: Pose2, goal: Goal) -> Leg:
+        """At the place: turn to the direction asked for, if any."""
+        self._left = 0.0
+        if math.isnan(goal.yaw) or self.going.face(pose, goal.yaw):
+            return Leg.ARRIVED
+        self._turning = True
+        return Leg.UNDER_WAY
+
+    def _progresses(self, pose: Pose2, now: float) -> bool:
+        """False when it has stood too long, after some plans anew; `reason` says where."""
+        if self._moved == -math.inf or self._left < self._best - 0.1:
+            self._moved, self._best = now, self._left
+            return True
+        if now - self._moved < STUCK:
+            return True
+        self._stuck += 1
+        self._moved = now
+        if self._stuck < GIVE_UP and self._goal:
+            self._best = math.inf
+            self._ask(now)
+            return True
+        name = self._goal.name if self._goal else "the goal"
+        self.reason = f"Stuck at ({pose.x:.1f}, {pose.y:.1f}): the way to {place_sentence(name, *self._at())} is blocked."
+        return False
+
+    def _at(self) -> tuple[float, float]:
+        return (self._goal.x, self._goal.y) if self._goal else (math.nan, math.nan)

@@ -1,0 +1,140 @@
+"""How a kind of robot goes along a way: what the guide asks of it. There is one for wheels, for trucks, and for what keeps courses."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Generator
+from typing import Protocol
+
+import numpy as np
+
+from robotside.core.pose2 import Points, Pose2
+from robotside.navigation.planner import Planner
+from robotside.navigation.pure_pursuit import ON_WHEELS, Follower, Manner
+
+__all__ = ["CRUISE", "UNSURE_SPEED", "Going", "Grounded", "OneWay", "Search"]
+
+CRUISE = 0.9
+"""Part of the robot's greatest speed that it travels with by itself."""
+
+UNSURE_SPEED = 0.15
+"""Speed while the position is unsure [m/s]."""
+
+
+Search = Generator[None, None, Points]
+"""For a way: each step is a bit of work of less than a few milliseconds; it returns the points of the way."""
+
+
+class Going(Protocol):
+    """Goes one way after the other; it stands without one until a `search` has ended, and again after `forget`."""
+
+    stands: bool
+    """It has to stand while a way is looked for, since that takes its time."""
+    keeps_courses: bool
+    """The robot knows manoeuvres that keep a heading, a speed and a height."""
+    discs: tuple[float, ...]
+    """So far ahead of `base_link` are the middles of the discs that cover its body [m]."""
+    turning: float
+    """Of the tightest bend in which it turns [m]; 0 when it turns where it is."""
+    cruise: float
+    """The speed that it travels with [m/s]."""
+    look: float
+    """How far along the way something new makes the guide plan anew [m]."""
+    clear: float
+    """What is nearer than this to the way is in it [m]."""
+    height: float
+    """To go at, above the map's origin [m]; NaN for the present one. A task sets it, and what keeps no height leaves it be."""
+    measured: float
+    """Its height now, above the map's origin [m]; NaN while not known. Whoever measures it sets it."""
+    aloft: bool
+    """It is where it moves: what takes off is in the air. Whoever hears of its flight sets it."""
+
+    @property
+    def under_way(self) -> bool:
+        """It has a way."""
+
+    @property
+    def ahead(self) -> Points:
+        """What is left of the way, from beside the robot on."""
+
+    def search(
+        self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
+    ) -> Search:
+        """For a way from `pose` to `goal` (x, y [m], yaw [rad], NaN for any) round `obstacles`, which is then taken.
+
+        Until it is found the way that it has stays. Unreachable raises.
+        """
+
+    def forget(self) -> None:
+        """Have no way any more; the robot rests."""
+
+    def remaining(self, pose: Pose2) -> float:
+        """Along the way to its end [m]."""
+
+    def arrived(self, pose: Pose2) -> bool:
+        """The way is gone to its end."""
+
+    def steer(self, pose: Pose2, points: Points, *, sure: bool) -> None:
+        """Go on from `pose`, with something at `points` in `base_link`; slowly where that is not `sure`."""
+
+    def face(self, pose: Pose2, yaw: float) -> bool:
+        """At the end: turn to `yaw` [rad]; True when it looks there, or never will."""
+
+    def ready(self) -> str:
+        """Get ready to go, if it has to; why it is not yet, as one sentence, empty when it is."""
+
+    def take_off(self, height: float = math.nan) -> None:
+        """Rise from the ground to `height` above the map's origin [m], NaN for the usual one; what cannot stays there."""
+
+
+class Grounded:
+    """What `Going` says of heights, for what stays on the ground."""
+
+    def __init__(self) -> None:
+        self.height = self.measured = math.nan
+        self.aloft = True
+
+    def take_off(self, height: float = math.nan) -> None:
+        """It stays on the ground."""
+
+
+class OneWay:
+    """What `Going` says of the way, for what goes along a single path."""
+
+    cruise: float
+
+    def __init__(self, manner: Manner = ON_WHEELS) -> None:
+        super().__init__()
+        self._manner = manner
+        self._follower: Follower | None = None
+        self._speed = 0.0
+
+    @property
+    def under_way(self) -> bool:
+        """It has a way."""
+        return self._follower is not None
+
+    @property
+    def ahead(self) -> Points:
+        """What is left of the way, from beside the robot on."""
+        return self._follower.ahead if self._follower else np.empty((0, 2))
+
+    def search(
+        self, planner: Planner, pose: Pose2, goal: tuple[float, float, float], name: str, obstacles: Points
+    ) -> Search:
+        """For a way to `goal`. Unreachable raises."""
+        path = yield from planner.search((pose.x, pose.y), goal[:2], name, obstacles)
+        self._follower = Follower(path, cruise=self.cruise, manner=self._manner)
+        return path
+
+    def forget(self) -> None:
+        """Have no way any more."""
+        self._follower, self._speed = None, 0.0
+
+    def remaining(self, pose: Pose2) -> float:
+        """Along the way to its end [m]."""
+        return self._follower.remaining(pose) if self._follower else math.nan
+
+    def arrived(self, pose: Pose2) -> bool:
+        """The way is gone to its end."""
+        return self._follower is not None and self._follower.arrived(pose)

@@ -1,0 +1,149 @@
+"""Finding traffic cones in a camera picture: orange above and below white, tall and narrow."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, UnidentifiedImageError
+
+from robotside.mapping.connected_components import boxes
+
+__all__ = ["Sighting", "find_cones"]
+
+WIDTH = 320
+"""Columns of the picture that is searched; larger ones are made smaller first."""
+
+LEAST = 12
+"""Orange pixels of the searched picture that make a thing."""
+
+SPECK = 3
+"""Orange pixels that hang together and are fewer than this are noise."""
+
+GAP = 0.6
+"""Most between the two orange parts of a cone, as a part of their height together."""
+
+MASK = NDArray[np.bool_]
+PIXELS = NDArray[np.int16]
+Box = tuple[slice, slice]
+
+
+@dataclass(frozen=True, slots=True)
+class Sighting:
+    """A cone in a picture. Lengths are parts of the picture: 0 is its left or upper edge, 1 the right or lower."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+    score: float
+    """0 to 1."""
+
+    @property
+    def centre(self) -> float:
+        """Across the picture."""
+        return (self.left + self.right) / 2
+
+    @property
+    def width(self) -> float:
+        """Part of the picture's width."""
+        return self.right - self.left
+
+    @property
+    def height(self) -> float:
+        """Part of the picture's height."""
+        return self.bottom - self.top
+
+
+def find_cones(jpeg: bytes) -> list[Sighting]:
+    """The cones in a picture, best first; a picture that cannot be read shows none."""
+    try:
+        with Image.open(io.BytesIO(jpeg)) as image:
+            image.draft("RGB", (WIDTH, WIDTH))
+            rgb = np.asarray(image.convert("RGB"))
+    except (UnidentifiedImageError, OSError, ValueError):
+        return []
+    step = max(1, round(rgb.shape[1] / WIDTH))
+    return _search(rgb[::step, ::step].astype(np.int16))
+
+
+def _search(rgb: PIXELS) -> list[Sighting]:
+    red, green, blue = rgb[..., 0], rgb[..., 1], rgb[..., 2]
+    orange = (red > 90) & (red - green > 45) & (green - blue > 8) & (red - blue > 75) & (green * 20 > red * 5)
+    if np.count_nonzero(orange) < LEAST:
+        return []
+    low = np.minimum(np.minimum(red, green), blue)
+    high = np.maximum(np.maximum(red, green), blue)
+    pale = (low > 100) & (high - low < 45)
+    found = []
+    for box in _groups(orange):
+        sighting = _judge(orange[box], pale[box], box, rgb.shape)
+        if sighting is not None:
+            found.append(sighting)
+    return sorted(found, key=lambda sighting: -sighting.score)
+
+
+def _groups(orange: MASK) -> Iterator[Box]:
+    """The boxes round orange things; what stands above another across a gap, as above a white band, is one with it."""
+    whole: list[Box] = []
+    for box in boxes(orange):
+        if np.count_nonzero(orange[box]) < SPECK:
+            continue
+        above = next((number for number, other in enumerate(whole) if _stands_on(other, box)), None)
+        if above is None:
+            whole.append(box)
+        else:
+            whole[above] = (_both(whole[above][0], box[0]), _both(whole[above][1], box[1]))
+    yield from whole
+
+
+def _both(a: slice, b: slice) -> slice:
+    return slice(min(a.start, b.start), max(a.stop, b.stop))
+
+
+def _stands_on(upper: Box, lower: Box) -> bool:
+    """The two are parts of one narrow thing: one above the other, not far, and in line."""
+    (up, across), (down, below) = upper, lower
+    gap = down.start - up.stop
+    tall = (up.stop - up.start) + (down.stop - down.start)
+    aside = abs((across.start + across.stop) - (below.start + below.stop)) / 2
+    wide = max(across.stop - across.start, below.stop - below.start)
+    return bool(-2 <= gap <= GAP * tall and aside <= 0.35 * wide)
+
+
+def _judge(orange: MASK, pale: MASK, box: Box, shape: tuple[int, ...]) -> Sighting | None:
+    """The sighting that a group of orange pixels stands for; None when it does not look like a cone."""
+    rows, columns = orange.shape
+    count = int(np.count_nonzero(orange))
+    if count < LEAST or rows < 6 or not 0.9 <= rows / columns <= 5.0:
+        return None
+    white = _white_between(orange, pale)
+    narrowing = _narrowing(orange)
+    if white < 0.25 and rows > 14:
+        return None
+    score = min(1.0, 0.35 + 0.4 * min(white, 1.0) + 0.25 * narrowing)
+    top, left = box[0].start, box[1].start
+    return Sighting(
+        left / shape[1], top / shape[0], (left + columns) / shape[1], (top + rows) / shape[0], score
+    )
+
+
+def _white_between(orange: MASK, pale: MASK) -> float:
+    """Part of the expected white band that is there: pale rows with orange above and below."""
+    full = orange.sum(axis=1)
+    band = (pale & ~orange).sum(axis=1)
+    above = np.cumsum(full) > 0.1 * full.sum()
+    below = np.cumsum(full[::-1])[::-1] > 0.1 * full.sum()
+    middle = (band > full) & above & below
+    return float(middle.sum() / (0.25 * len(full)))
+
+
+def _narrowing(orange: MASK) -> float:
+    """1 when the upper half is clearly narrower than the lower one, 0 when it is not."""
+    widths = orange.sum(axis=1).astype(float)
+    half = len(widths) // 2
+    upper, lower = widths[:half].max(initial=0.0), widths[half:].max(initial=0.0)
+    return float(np.clip(1.6 - 1.2 * upper / max(lower, 1.0), 0.0, 1.0))

@@ -1,0 +1,144 @@
+"""Watching out for intruders: pictures and laser together become places on the map."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance
+from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray
+from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.msgs.std_msgs import Header, Time
+from bridge.msgs.vision_msgs import (
+    BoundingBox2D,
+    Detection2D,
+    Detection2DArray,
+    ObjectHypothesis,
+    ObjectHypothesisWithPose,
+    Point2D,
+    Pose2D,
+)
+from robotside.core.bus import Publish
+from robotside.core.pose2 import Points, Pose2
+from robotside.localisation.pose_estimator import Track
+from robotside.perception.cone_detector import Sighting, find_cones
+from robotside.perception.intruder_tracker import Intruders
+
+__all__ = ["CameraMount", "Watch"]
+
+PERIOD = 0.2
+"""Between two pictures that are searched [s]."""
+
+REACH = 7.0
+"""Sightings from farther away are not placed on the map [m]."""
+
+CONE_HEIGHT = (0.35, 0.95)
+"""How tall a thing at the measured distance must be to be a cone [m]."""
+
+FORGETS = 1.0
+"""Laser points older than this against the picture are not used [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class CameraMount:
+    """Where the camera sits in `base_link`, looking straight ahead."""
+
+    x: float = 0.08
+    """[m]"""
+    z: float = 0.36
+    """Height above the ground [m]."""
+
+
+class Watch:
+    """Looks for cones in pictures at 5 Hz and places them with the laser."""
+
+    def __init__(
+        self,
+        track: Track,
+        fov: float,
+        publish: Publish,
+        report: Callable[[Intruder], None],
+        mount: CameraMount = CameraMount(),
+    ) -> None:
+        self._track, self._publish, self._report, self._mount = track, publish, report, mount
+        self._slope = math.tan((fov if math.isfinite(fov) else 1.2) / 2)
+        self.intruders = Intruders()
+        """All that were seen."""
+        self._next = -math.inf
+        self._points: Points = np.empty((0, 2))
+        self._points_stamp = -math.inf
+
+    def take_sweep(self, points: Points, stamp: float) -> None:
+        """Keep the laser's end points, in `map`, measured at `stamp` [s]."""
+        self._points, self._points_stamp = points, stamp
+
+    def take_image(self, image: CompressedImage, *, placing: bool) -> None:
+        """Search a picture, if it is time; `placing` is False while the position is not to be trusted."""
+        stamp = image.header.stamp.seconds
+        if stamp < self._next:
+            return
+        self._next = max(self._next + PERIOD, stamp)
+        size = jpeg_size(image.data)
+        sightings = find_cones(image.data)
+        pose = self._track.at(stamp) if placing else None
+        detections = [self._detection(sighting, pose, size, stamp) for sighting in sightings]
+        header = Header(image.header.stamp, image.header.frame_id)
+        self._publish("/detections", Detection2DArray(header, [d for d in detections if d is not None]))
+
+    def _detection(
+        self, sighting: Sighting, pose: Pose2 | None, size: tuple[int, int], stamp: float
+    ) -> Detection2D | None:
+        ratio = size[1] / size[0]
+        bearing = math.atan((1.0 - 2.0 * sighting.centre) * self._slope)
+        distance = self._distance(sighting, bearing, pose, ratio, stamp)
+        tall = sighting.height * 2.0 * self._slope * ratio * distance * math.cos(bearing)
+        whole = sighting.left > 0.0 and sighting.right < 1.0 and sighting.bottom < 1.0
+        if whole and not CONE_HEIGHT[0] < tall < CONE_HEIGHT[1]:
+            return None
+        place = Point(distance * math.cos(bearing), distance * math.sin(bearing), 0.0)
+        if pose is not None and whole and distance < REACH:
+            self._place(pose, place, distance, stamp)
+        what = ObjectHypothesis("cone", sighting.score)
+        box = BoundingBox2D(
+            Pose2D(Point2D(sighting.centre * size[0], (sighting.top + sighting.bottom) / 2 * size[1])),
+            sighting.width * size[0],
+            sighting.height * size[1],
+        )
+        where = PoseWithCovariance(Pose(place))
+        return Detection2D(Header(Time.at(stamp), "base_link"), [ObjectHypothesisWithPose(what, where)], box)
+
+    def _distance(
+        self, sighting: Sighting, bearing: float, pose: Pose2 | None, ratio: float, stamp: float
+    ) -> float:
+        """From the camera [m]: the laser's at this bearing, or where the ground is at the lower edge."""
+        drop = (2.0 * sighting.bottom - 1.0) * self._slope * ratio
+        ground = self._mount.z / drop / math.cos(bearing) if drop > 0.01 else math.inf
+        if pose is None or abs(stamp - self._points_stamp) > FORGETS:
+            return ground
+        eye = pose.then(Pose2(self._mount.x, 0.0, 0.0))
+        seen = eye.inverse().apply(self._points)
+        ranges, bearings = np.hypot(seen[:, 0], seen[:, 1]), np.arctan2(seen[:, 1], seen[:, 0])
+        half = math.atan(sighting.width * self._slope) + 0.02
+        fits = (np.abs(bearings - bearing) < half) & (np.abs(ranges - ground) < 0.35 * ground + 0.3)
+        return float(ranges[fits].min()) + 0.05 if fits.any() else ground
+
+    def _place(self, pose: Pose2, place: Point, distance: float, stamp: float) -> None:
+        there = pose.then(Pose2(self._mount.x + place.x, place.y, 0.0))
+        fresh = self.intruders.see(there.x, there.y, distance, stamp)
+        if fresh is None:
+            return
+        self._publish("/intruders", IntruderArray(Header(Time.at(stamp), "map"), self.intruders.known))
+        self._report(fresh)
+
+
+def jpeg_size(jpeg: bytes) -> tuple[int, int]:
+    """Width and height [pixel] that a JPEG file's header says; 640 x 480 when it has none."""
+    at = 2
+    while at + 9 < len(jpeg) and jpeg[at] == 0xFF:
+        if 0xC0 <= jpeg[at + 1] <= 0xCF and jpeg[at + 1] not in (0xC4, 0xC8, 0xCC):
+            return int.from_bytes(jpeg[at + 7 : at + 9], "big"), int.from_bytes(jpeg[at + 5 : at + 7], "big")
+        at += 2 + int.from_bytes(jpeg[at + 2 : at + 4], "big")
+    return 640, 480

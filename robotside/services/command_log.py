@@ -1,0 +1,99 @@
+"""One-shot commands: each is judged by age, executed once and answered, however often it is sent."""
+
+from __future__ import annotations
+
+import math
+from collections import OrderedDict
+from collections.abc import Callable
+
+from bridge.codec import from_json
+from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
+from robotside.control.command_expiry import AHEAD
+from robotside.core.text import number, plain
+from robotside.records.answers import KEPT
+
+__all__ = ["KEPT_FOR", "Commands", "Refusal"]
+
+KEPT_FOR = 60.0
+"""So long is an answer kept [s]; an id that comes later is one that was counted anew."""
+
+LONGEST_ID = 64
+"""Characters of a `command_id`; a longer one is refused, since two that are cut could look the same."""
+
+LONGEST = 300
+"""Characters kept of a refusal's sentence."""
+
+
+class Refusal(Exception):
+    """The robot will not do it; the text is one sentence for the operator."""
+
+
+class Commands:
+    """Runs commands and remembers what it answered."""
+
+    def __init__(self, now: Callable[[], float]) -> None:
+        self._now = now
+        self._answers: OrderedDict[tuple[str, str, str], tuple[float, CommandResponse | str]] = OrderedDict()
+
+    def run(
+        self,
+        service: str,
+        request: CommandRequest,
+        action: Callable[[], str | CommandResponse],
+        *,
+        sender: str = "",
+        ageless: bool = False,
+        response: type[CommandResponse] = CommandResponse,
+    ) -> CommandResponse:
+        """Do `action` and answer with the sentence or the answer it returns, or with the refusal it raises.
+
+        A request with a `command_id` that its `sender` has used on that service gets its first answer again. `ageless`
+        ones are done whenever and however often they come: STOP is as right late as in time.
+        """
+        if ageless:
+            return _answer(action, response)
+        if len(request.command_id) > LONGEST_ID:
+            said = f"A command_id has at most {LONGEST_ID} characters, not {len(request.command_id)}."
+            return response(False, said)
+        key, now = (sender, service, request.command_id), self._now()
+        given, known = self._answers.get(key, (-math.inf, None))
+        if known is not None and abs(now - given) <= KEPT_FOR:
+            return from_json(known, response) if isinstance(known, str) else known
+        untimely = self._untimely(request)
+        answer = response(False, untimely) if untimely else _answer(action, response)
+        if request.command_id:
+            self._answers[key] = now, answer
+            self._answers.move_to_end(key)
+            while len(self._answers) > KEPT:
+                self._answers.popitem(last=False)
+        return answer
+
+    def remember(self, sender: str, service: str, command_id: str, answer: CommandResponse | str) -> None:
+        """Answer so to a command that was done before a restart; a text is the answer as JSON."""
+        self._answers[sender, service, command_id] = self._now(), answer
+
+    def amend(self, sender: str, service: str, command_id: str, answer: CommandResponse) -> None:
+        """Answer so from now on to a command that was done: it came to something else."""
+        key = (sender, service, command_id)
+        if key in self._answers:
+            self._answers[key] = self._answers[key][0], answer
+
+    def _untimely(self, request: CommandRequest) -> str:
+        """Why it is not done, empty when it is in time."""
+        if math.isnan(request.stamp):
+            return ""
+        age = self._now() - request.stamp
+        if age < -AHEAD:
+            ahead, allowed = f"{number(-age)} s ahead of the robot's", f"at most {AHEAD:.0f} s is allowed"
+            return f"The command is not done: its clock is {ahead}; {allowed}."
+        if age <= request.valid_for:
+            return ""
+        return f"The command is too old: given {number(age)} s ago, valid for {number(request.valid_for)} s."
+
+
+def _answer(action: Callable[[], str | CommandResponse], response: type[CommandResponse]) -> CommandResponse:
+    try:
+        done = action()
+    except Refusal as refusal:
+        return response(False, plain(str(refusal), LONGEST))
+    return done if isinstance(done, CommandResponse) else response(True, done)

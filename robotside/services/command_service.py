@@ -1,0 +1,115 @@
+"""Makes services of what can be done: done once, not when too old, and answered only when what it changed is on the disk."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+from msgspec.structs import replace
+
+from bridge.codec import to_json
+from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
+from bridge.server.server import Service, Session
+from robotside.control.authority import Operator
+from robotside.records import Job, NotRecorded
+from robotside.records.database.rows import Answered
+from robotside.services.command_log import Commands, Refusal
+from robotside.station.station import Station
+
+__all__ = ["Action", "Answering"]
+
+PATIENCE = 10.0
+"""How long an answer waits for the disk [s]."""
+
+UNKEPT = "A restart would not know of it."
+"""Said of what was done and is not on the disk."""
+
+Action = Callable[[Operator, Any], str | CommandResponse]
+"""Does it and returns the sentence of success or the whole answer; raises Refusal or NotRecorded."""
+
+_Key = tuple[str, str, str]
+"""The sender's id, the service and the `command_id` of a command."""
+
+
+class Answering:
+    """The answers of one station."""
+
+    def __init__(self, station: Station) -> None:
+        self._station = station
+        self._commands = Commands(station.clock)
+        self._unwritten: dict[_Key, Job] = {}
+        for answered in station.records.answers.all():
+            self._commands.remember(*answered)
+
+    def service(
+        self,
+        name: str,
+        action: Action,
+        kind: str = "Command",
+        request: type[CommandRequest] = CommandRequest,
+        response: type[CommandResponse] = CommandResponse,
+        *,
+        ageless: bool = False,
+    ) -> Service:
+        """A service that runs `action` as a command. One that is `ageless` never waits for the disk."""
+
+        def call(client: Session, asked: CommandRequest) -> CommandResponse | Awaitable[CommandResponse]:
+            station = self._station
+            station.controls.introduce(client, asked.client_id, asked.client_name)
+            sender = station.controls.id(client)
+            station.readiness.told_time(asked.stamp)
+            with station.records.together() as job:
+                answer = self._commands.run(
+                    name,
+                    asked,
+                    lambda: _done(action, client, asked),
+                    sender=sender,
+                    ageless=ageless,
+                    response=response,
+                )
+                station.show_control()
+                if job.binding and asked.command_id and answer.success:
+                    told = Answered(sender, name, asked.command_id, to_json(answer).decode())
+                    station.records.answers.keep(told)
+            if ageless:
+                return answer
+            return self._answer((sender, name, asked.command_id), answer, job)
+
+        return Service(name, f"pilothouse_msgs/{kind}", request, response, call)
+
+    def _answer(
+        self, key: _Key, answer: CommandResponse, job: Job
+    ) -> CommandResponse | Awaitable[CommandResponse]:
+        """Answer at once if nobody has to wait; a command that is sent again waits with the first one."""
+        job = self._unwritten.get(key, job)
+        if job.done:
+            return self._judged(key, answer, job)
+        if not job.binding:
+            return answer
+        if key[2]:
+            self._unwritten[key] = job
+        return self._when_kept(key, answer, job)
+
+    async def _when_kept(self, key: _Key, answer: CommandResponse, job: Job) -> CommandResponse:
+        await job.kept(PATIENCE)
+        if job.done:
+            self._unwritten.pop(key, None)
+        return self._judged(key, answer, job)
+
+    def _judged(self, key: _Key, answer: CommandResponse, job: Job) -> CommandResponse:
+        """What was asked to be kept is refused when it is not; what was done all the same says that it is not kept."""
+        if not (job.trouble and job.binding and answer.success):
+            return answer
+        if job.orders:
+            judged = type(answer)(False, job.trouble)
+        else:
+            judged = replace(answer, message=f"{answer.message} {UNKEPT} {job.trouble}")
+        self._commands.amend(*key, judged)
+        return judged
+
+
+def _done(action: Action, client: Operator, asked: CommandRequest) -> str | CommandResponse:
+    try:
+        return action(client, asked)
+    except NotRecorded as problem:
+        raise Refusal(str(problem)) from problem

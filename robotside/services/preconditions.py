@@ -1,0 +1,66 @@
+"""What has to be so before an order is carried out: whoever asks for it may, and the robot can."""
+
+from __future__ import annotations
+
+from robotside.control.authority import Operator
+from robotside.control.command_gate import STOP_SENTENCE
+from robotside.services.command_log import Refusal
+from robotside.station.station import NO_MAP, Station
+from robotside.tasks.autonomy import LOW_BELOW
+from robotside.tasks.engine import TO_CHARGE, Task
+from robotside.tasks.task_factory import words_for
+
+__all__ = ["Permits"]
+
+
+class Permits:
+    """Each method raises Refusal with one sentence when it is not so."""
+
+    def __init__(self, station: Station) -> None:
+        self._station = station
+
+    def need_control(self, client: Operator) -> None:
+        """`client` has control, or takes it now."""
+        problem = self._station.controls.acquire(client, self._station.clock())
+        if problem:
+            raise Refusal(problem)
+
+    def may_change(self, client: Operator) -> None:
+        """Nobody else has control."""
+        problem = self._station.controls.objection(client)
+        if problem:
+            raise Refusal(problem)
+
+    def may_set_off(self, client: Operator, moves: bool) -> None:
+        """`client` may change what the robot will do by itself: it takes control when that `moves` the robot."""
+        if moves:
+            self.need_control(client)
+        else:
+            self.may_change(client)
+
+    def may_move(self, client: Operator) -> None:
+        """`client` may have the robot move by itself, and it can."""
+        if self._station.controls.stopped:
+            raise Refusal(STOP_SENTENCE)
+        self.need_control(client)
+        problem = self._station.unfit or self._station.lost
+        if problem:
+            raise Refusal(problem)
+
+    def has_map(self) -> None:
+        """Places can be judged."""
+        if not self._station.autonomy.has_map:
+            raise Refusal(NO_MAP)
+
+    def idle(self) -> None:
+        """No task is under way."""
+        engine = self._station.autonomy.engine
+        if engine.active:
+            raise Refusal(f"A task is {engine.status.state.lower()} already; stop it first.")
+
+    def charged(self, task: Task) -> None:
+        """There is charge enough for `task`."""
+        mind = self._station.autonomy
+        if task.moves and mind.low and task.name not in TO_CHARGE:
+            words = words_for(task.name)
+            raise Refusal(f"The battery is at {mind.battery:.0%}; {words} needs at least {LOW_BELOW:.0%}.")

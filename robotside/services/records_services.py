@@ -1,0 +1,106 @@
+"""The services that ask for what the robot keeps and change it: places, missions, history and events."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+from bridge.msgs.pilothouse_msgs import (
+    AcknowledgeEventsRequest,
+    AcknowledgeEventsResponse,
+    CommandRequest,
+    DeletePlaceRequest,
+    DeletePlaceResponse,
+    GetHistoryRequest,
+    GetHistoryResponse,
+    GetMissionsRequest,
+    GetMissionsResponse,
+    SetPlaceRequest,
+    SetPlaceResponse,
+)
+from bridge.msgs.std_msgs import Time
+from bridge.server.server import Service
+from robotside.control.authority import Operator
+from robotside.core.text import plain
+from robotside.records.places import LONGEST
+from robotside.records.runs import AT_ONCE
+from robotside.services.command_log import Refusal
+from robotside.services.command_service import Answering
+from robotside.services.preconditions import Permits
+from robotside.station.station import Station
+from robotside.tasks.behaviours.dock import before
+
+__all__ = ["kept_services"]
+
+MOST_ACKNOWLEDGED = 1000
+"""Events that one request may name."""
+
+
+def kept_services(station: Station, answering: Answering) -> Iterable[Service]:
+    """What the bridge offers of what `station` keeps."""
+    kept, service = _Kept(station), answering.service
+    yield service("/places/set", kept.set_place, "SetPlace", SetPlaceRequest, SetPlaceResponse)
+    yield service("/places/delete", kept.delete_place, "DeletePlace", DeletePlaceRequest, DeletePlaceResponse)
+    yield service("/missions/get", kept.missions, "GetMissions", GetMissionsRequest, GetMissionsResponse)
+    yield service("/history/get", kept.history, "GetHistory", GetHistoryRequest, GetHistoryResponse)
+    yield service(
+        "/events/acknowledge",
+        kept.acknowledge,
+        "AcknowledgeEvents",
+        AcknowledgeEventsRequest,
+        AcknowledgeEventsResponse,
+    )
+
+
+class _Kept:
+    """What each service does."""
+
+    def __init__(self, station: Station) -> None:
+        self._station, self._records = station, station.records
+        self._permits = Permits(station)
+
+    def set_place(self, client: Operator, asked: SetPlaceRequest) -> SetPlaceResponse:
+        """Keep a place, unless somebody else drives, or the robot can never stand there."""
+        self._permits.may_change(client)
+        place = asked.place
+        station, name = self._station, plain(place.name, LONGEST["name"]) or "The place"
+        judge = station.fault if station.autonomy.has_map else station.keeper.fault
+        x, y = place.x, place.y
+        if place.kind == "dock" and math.isfinite(place.yaw):
+            start = before(place)  # at the dock itself it may well touch a wall
+            name, x, y = f"The place before {name}", start.x, start.y
+        problem = judge(name, x, y)
+        if problem:
+            raise Refusal(problem)
+        place = self._records.places.set(place)
+        said = f"{place.name} is kept."
+        return SetPlaceResponse(True, said, place.id)
+
+    def delete_place(self, client: Operator, asked: DeletePlaceRequest) -> str:
+        """Forget a place."""
+        self._permits.may_change(client)
+        return f"{self._records.places.delete(asked.id).name} is forgotten."
+
+    def missions(self, _: Operator, __: CommandRequest) -> GetMissionsResponse:
+        """All missions that have a name."""
+        found = self._records.missions.known()
+        return GetMissionsResponse(True, "", [mission.name for mission in found], found)
+
+    def history(self, _: Operator, asked: GetHistoryRequest) -> GetHistoryResponse:
+        """What was done, newest first."""
+        if asked.before < 0 or not 1 <= asked.limit <= AT_ONCE:
+            said = f"before must be 0 or more and limit 1 to {AT_ONCE}, not {asked.before} and {asked.limit}."
+            raise Refusal(said)
+        return GetHistoryResponse(True, "", self._records.runs.before(asked.before, asked.limit))
+
+    def acknowledge(self, client: Operator, asked: AcknowledgeEventsRequest) -> str:
+        """Note that somebody has seen to events; needs no control."""
+        if len(asked.ids) > MOST_ACKNOWLEDGED:
+            raise Refusal(f"At most {MOST_ACKNOWLEDGED} events at once, not {len(asked.ids)}.")
+        station = self._station
+        now, by = Time.at(station.clock()), station.controls.name(client)
+        fresh = self._records.events.acknowledge(
+            asked.ids, by, now, lambda event: station.bus.publish("/events", event)
+        )
+        events = "event" if len(fresh) == 1 else "events"
+        return f"{len(fresh)} {events} acknowledged." if fresh else "Somebody has seen to it already."

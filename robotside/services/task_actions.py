@@ -1,0 +1,92 @@
+"""Tasks as ROS actions: a client sets one going, hears how far it is and is told what became of it."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Iterable
+
+import msgspec
+
+from bridge.core.errors import Refused
+from bridge.msgs import Msg
+from bridge.msgs.pilothouse_msgs import (
+    CommandResponse,
+    RunTaskFeedback,
+    RunTaskGoal,
+    RunTaskResult,
+    TaskProgress,
+    TaskStatus,
+)
+from bridge.server.server import Action, Session
+from robotside.services.stop_services import runner
+from robotside.station.station import Station
+
+__all__ = ["actions"]
+
+_OVER = ("SUCCEEDED", "CANCELED", "FAILED")
+
+
+def actions(station: Station) -> Iterable[Action]:
+    """What the bridge offers for `station` beside its services."""
+    goals = _Goals(station)
+    yield Action(
+        "/task/run", "pilothouse_msgs/RunTask", RunTaskGoal, RunTaskResult, RunTaskFeedback, goals.run
+    )
+
+
+class _Goals:
+    """Follows the tasks that were begun as goals."""
+
+    def __init__(self, station: Station) -> None:
+        self._station = station
+        self._begin = runner(station)
+
+    async def run(self, client: Session, goal: RunTaskGoal, tell: Callable[[Msg], None]) -> RunTaskResult:
+        """Begin a task as `/task/start` does and wait for its end; cancelled, it ends the task.
+
+        Raises Refused with the sentence for the client: why it was not begun, or why it did not succeed.
+        """
+        begun = self._begin(client, goal)
+        task_id, name = self._station.autonomy.engine.status.task_id, self._station.controls.name(client)
+        end: asyncio.Future[TaskStatus] = asyncio.get_running_loop().create_future()
+
+        def watch(_: str, msg: Msg) -> None:
+            if isinstance(msg, TaskProgress) and msg.task_id == task_id:
+                tell(RunTaskFeedback(**msgspec.structs.asdict(msg)))
+            elif isinstance(msg, TaskStatus) and not end.done() and _over(msg, task_id):
+                end.set_result(msg)
+
+        leave = [self._station.bus.subscribe(topic, watch) for topic in ("/task/progress", "/task/status")]
+        try:
+            answer = begun if isinstance(begun, Msg) else await begun
+            if not (isinstance(answer, CommandResponse) and answer.success):
+                raise Refused(answer.message if isinstance(answer, CommandResponse) else "It was not begun.")
+            return _result(await end)
+        except asyncio.CancelledError:
+            self._take_back(client, name, task_id)
+            raise
+        finally:
+            for end_of in leave:
+                end_of()
+
+    def _take_back(self, client: Session, name: str, task_id: int) -> None:
+        """End the task of `client`, called `name`, unless it is over or somebody else has taken it over; Refused with that one's name."""
+        problem = self._station.controls.objection(client)
+        if problem:
+            raise Refused(problem)
+        engine = self._station.autonomy.engine
+        if engine.active and engine.status.task_id == task_id:
+            there = self._station.controls.knows(client)
+            engine.cancel(
+                f"Canceled by {name}." if there else f"Canceled: {name}, who asked for it, is gone."
+            )
+
+
+def _over(status: TaskStatus, task_id: int) -> bool:
+    return status.task_id > task_id or (status.task_id == task_id and status.state in _OVER)
+
+
+def _result(status: TaskStatus) -> RunTaskResult:
+    if status.state != "SUCCEEDED":
+        raise Refused(status.reason)
+    return RunTaskResult(status.task_id, status.state, status.reason, status.visited)

@@ -1,0 +1,276 @@
+"""Tasks: what the operator asked, from start to end, and what is said about it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import msgspec
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskRun, TaskStatus
+from bridge.msgs.std_msgs import Time
+from robotside.core.pose2 import Points, Pose2
+from robotside.navigation.navigator import Guide
+from robotside.records.events import Say
+from robotside.tasks.behaviours.course import Noted, Outline
+from robotside.tasks.behaviours.situation import Situation
+
+__all__ = ["TO_CHARGE", "Engine", "Task"]
+
+PROGRESS_PERIOD = 0.5
+"""Between two progress messages [s]."""
+
+TO_CHARGE = ("go_home", "dock")
+"""Tasks that bring it to where it can be charged, whatever the battery says."""
+
+ON_THE_WAY = ("driving", "turning")
+"""Phases in which the way that is left is known."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """Something to do."""
+
+    name: str
+    """One of `bridge.msgs.pilothouse_msgs.TASKS`."""
+    title: str
+    """As a sentence begins with it: `Patrol`."""
+    root: Behaviour
+    course: Outline
+    order: TaskOrder = field(default_factory=TaskOrder)
+    """What was asked for, so that it can be asked for again."""
+    done: Callable[[], str] = lambda: "Done."
+    """What is said at its end."""
+    by: str = ""
+    """Who started it; empty when the robot or its schedule did."""
+    moves: bool = True
+    """It takes the robot elsewhere, for which there must be charge enough."""
+
+    @property
+    def spoken(self) -> str:
+        """The title as it stands within a sentence."""
+        return f"{self.title[0].lower()}{self.title[1:]}"
+
+
+class Engine:
+    """Runs one task at a time and tells of each change once."""
+
+    def __init__(
+        self,
+        guide: Guide,
+        situation: Situation,
+        *,
+        show: Callable[[TaskStatus], None],
+        progress: Callable[[TaskProgress], None],
+        say: Say,
+        clock: Callable[[], float],
+        cruise: float,
+    ) -> None:
+        """`clock` is the operators' [s], by which messages are stamped; `cruise` is the usual speed [m/s]."""
+        self._guide, self._situation = guide, situation
+        self._show, self._progress, self._say = show, progress, say
+        self._clock, self._cruise = clock, cruise
+        self.task: Task | None = None
+        """The task that has not ended."""
+        self._begun_at = self._odometer = 0.0
+        self._next_progress = self._ticked = -math.inf
+        self._halted = False
+        """It did not run at the last tick."""
+        self.status = TaskStatus()
+        """As last shown."""
+        show(self.status)
+
+    @property
+    def running(self) -> bool:
+        """A task is under way and moves the robot."""
+        return self.status.state == "RUNNING"
+
+    @property
+    def paused(self) -> bool:
+        """A task waits to be resumed."""
+        return self.status.state == "PAUSED"
+
+    @property
+    def interrupted(self) -> bool:
+        """A task that a restart cut waits to be taken up or discarded."""
+        return self.status.state == "INTERRUPTED"
+
+    @property
+    def active(self) -> bool:
+        """There is a task that has not ended."""
+        return self.task is not None
+
+    @property
+    def noted(self) -> Noted:
+        """How far the task is, for a restart."""
+        return self.task.course.noted() if self.task else Noted()
+
+    def recall(self, last: int, run: TaskRun | None) -> None:
+        """Show how the task before a restart ended; `last` is the number it had, `run` None when nothing is known of it."""
+        self.status = TaskStatus(task_id=last)
+        if run is not None and run.id == last and run.ended.seconds > 0:
+            self.status = TaskStatus(
+                task_id=last,
+                task=run.order.task,
+                state=run.state,
+                reason=run.reason,
+                visited=run.visited,
+                places=run.order.places,
+                stamp=run.ended,
+            )
+        self._show(self.status)
+
+    def offer(self, status: TaskStatus) -> None:
+        """Show a task that a restart cut; nothing is done about it."""
+        self.status = status
+        self._show(status)
+        self._say("task", status.reason, "warn")
+
+    def start(self, task: Task, now: float, *, task_id: int = 0, driven: float = 0.0) -> None:
+        """Begin `task`; one that has not ended yet is canceled.
+
+        A task that is taken up after a restart keeps its `task_id`, after `driven` [m].
+        """
+        if not task_id:
+            self.cancel(f"{self.title} ended: {task.spoken} was asked for instead.")
+        self.task, self._begun_at = task, self._odometer - driven
+        self._next_progress = self._ticked = now
+        self._situation.begin()
+        self._situation.now = now
+        self._guide.keep_height(task.order.height)
+        course = task.course
+        verb = "goes on" if task_id else "started"
+        self.status = TaskStatus(
+            task_id=task_id or self.status.task_id + 1,
+            task=task.name,
+            state="RUNNING",
+            reason=f"{task.title} {verb}.",
+            motion=course.motion,
+            waypoints=course.count,
+            visited=course.visited,
+            lap=course.lap,
+            laps=course.laps,
+            places=course.places,
+            stamp=Time.at(self._clock()),
+        )
+        self._show(self.status)
+        self._say("task", f"{task.title} {verb}.", "info")
+
+    @property
+    def title(self) -> str:
+        """Of the task that has not ended, as a sentence begins with it; empty when there is none."""
+        if self.task:
+            return self.task.title
+        return "The task before the restart" if self.interrupted else ""
+
+    def pause(self, reason: str, level: str = "info") -> None:
+        """Hold the running task where it is; `reason` is one sentence."""
+        if self.running:
+            self._tell("PAUSED", reason)
+            self._say("task", reason, level)
+            self._guide.rest()  # last: the robot may fail to obey, and the task is held all the same
+
+    def resume(self) -> None:
+        """Go on with the paused task, from wherever the robot is now."""
+        if self.paused and self.task:
+            self._guide.rest()
+            self._situation.unhear()
+            self._tell("RUNNING", self._situation.doing.text or f"{self.task.title} goes on.")
+            self._say("task", f"{self.task.title} resumed.", "info")
+
+    def confirm(self, by: str) -> bool:
+        """Answer what the task asks; False when it asks nothing."""
+        if not (self.running and self.status.asks):
+            return False
+        self._situation.confirmed_by = by
+        return True
+
+    def cancel(self, reason: str) -> None:
+        """End the task before its time."""
+        if self.task or self.interrupted:
+            self._end("CANCELED", reason, "warn")
+
+    def fail(self, reason: str) -> None:
+        """End the task, which cannot go on; `reason` is one sentence."""
+        if self.task:
+            self._end("FAILED", reason, "alarm")
+
+    def tick(self, pose: Pose2, points: Points, odometer: float, now: float) -> None:
+        """Do the next bit of the running task; `odometer` is all that was ever driven [m]."""
+        self._odometer = odometer
+        here, halted = self._situation, self._halted
+        self._halted = not self.running
+        if not self.running or self.task is None:
+            return
+        task = self.task
+        if halted:
+            here.idle += max(0.0, now - self._ticked)
+        self._ticked = now
+        here.now, here.pose, here.points = now, pose, points
+        task.root.tick_once()
+        here.unhear()
+        if task.root.status is Status.RUNNING:
+            self._tell("RUNNING", here.doing.text)
+            self._report(task.course, now)
+        elif task.root.status is Status.SUCCESS:
+            self._end("SUCCEEDED", task.done(), "ok")
+        else:
+            self._end("FAILED", self._guide.reason or f"{task.title} failed.", "alarm")
+
+    def _end(self, state: str, reason: str, level: str) -> None:
+        task, self.task = self.task, None
+        if task is not None:
+            task.root.stop(Status.INVALID)
+            self._guide.finish()
+        self._count(task.course if task else None, state, reason)
+        self._say("task", reason, level)
+
+    def _tell(self, state: str, reason: str) -> None:
+        if self.task:
+            self._count(self.task.course, state, reason)
+
+    def _count(self, course: Outline | None, state: str, reason: str) -> None:
+        """Show the state with the course's counts, if anything of it is new."""
+        doing, running = self._situation.doing, state == "RUNNING"
+        fresh = msgspec.structs.replace(
+            self.status,
+            state=state,
+            reason=reason or self.status.reason,
+            waypoint=course.number if course and state in ("RUNNING", "PAUSED") else 0,
+            phase=doing.phase if running else "",
+            asks=doing.asks if running else "",
+            place=doing.place,
+        )
+        if course:
+            fresh = msgspec.structs.replace(
+                fresh,
+                motion=course.motion,
+                waypoints=course.count,
+                visited=course.visited,
+                lap=course.lap,
+                laps=course.laps,
+                places=course.places,
+            )
+        if fresh != self.status:
+            self.status = msgspec.structs.replace(fresh, stamp=Time.at(self._clock()))
+            self._show(self.status)
+
+    def _report(self, course: Outline, now: float) -> None:
+        if now < self._next_progress:
+            return
+        self._next_progress = max(self._next_progress + PROGRESS_PERIOD, now - PROGRESS_PERIOD)
+        here = self._situation
+        left = self._guide.remaining if here.doing.phase in ON_THE_WAY else 0.0
+        self._progress(
+            TaskProgress(
+                Time.at(self._clock()),
+                self.status.task_id,
+                course.progress(left),
+                left,
+                course.time_left(left, self._cruise) + here.still,
+                self._odometer - self._begun_at,
+            )
+        )

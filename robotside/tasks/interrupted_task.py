@@ -1,0 +1,54 @@
+"""A task that a crash or a power cut ended in the middle: offered, and taken up only when somebody says so."""
+
+from __future__ import annotations
+
+import msgspec
+
+from bridge.msgs.pilothouse_msgs import TaskStatus
+from robotside.records.runs import UnderWay
+from robotside.tasks.behaviours.course import Noted
+from robotside.tasks.engine import Engine, Task
+from robotside.tasks.task_factory import Assignments, words_for
+
+__all__ = ["Interrupted"]
+
+
+class Interrupted:
+    """The one task that was cut, as long as nobody has decided about it."""
+
+    def __init__(self, cut: UnderWay, engine: Engine) -> None:
+        """Offer it."""
+        self._cut, self._engine = cut, engine
+        run = cut.run
+        offer = "choose Resume to go on, or Discard"
+        said = f"The robot's computer restarted in the middle of {words_for(run.order.task)}; {offer}."
+        engine.offer(
+            TaskStatus(
+                task_id=run.id,
+                task=run.order.task,
+                state="INTERRUPTED",
+                reason=said,
+                visited=run.visited,
+                places=run.order.places,
+            )
+        )
+
+    def task(self, assignments: Assignments) -> Task:
+        """The task as it goes on from where it was; Refusal when it cannot be done any more."""
+        run = self._cut.run
+        task = assignments.task(run.order, run.by)
+        task.course.take_up(_noted(self._cut.course))
+        return task
+
+    def resume(self, task: Task, now: float) -> None:
+        """Go on with `task`, which is that of `task()`, under its old number, at `now` [s, robot clock]."""
+        run = self._cut.run
+        self._engine.start(task, now, task_id=run.id, driven=run.distance)
+
+
+def _noted(text: str) -> Noted:
+    """How far it was; the start when nothing was noted that can be read."""
+    try:
+        return msgspec.json.decode(text, type=Noted)
+    except msgspec.DecodeError:
+        return Noted()

@@ -1,0 +1,345 @@
+"""What was asked for made into a task: names become places, everything is looked at, and what cannot be is said why."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import msgspec
+from py_trees.composites import Sequence as Chain
+
+from bridge.msgs.pilothouse_msgs import TASKS, Mission, Place, RobotInfo, TaskOrder, Waypoint
+from robotside.core.text import plain
+from robotside.core.vehicle_kinds import kind_of
+from robotside.navigation.navigator import Goal, Guide
+from robotside.records import Records
+from robotside.records.events import Say
+from robotside.services.command_log import Refusal
+from robotside.tasks.behaviours.course import Course, Span
+from robotside.tasks.behaviours.deliver import deliver
+from robotside.tasks.behaviours.dock import Dock, before
+from robotside.tasks.behaviours.fly import Land, Surface, TakeOff
+from robotside.tasks.behaviours.follow_heading import FollowHeading
+from robotside.tasks.behaviours.hold import Hold
+from robotside.tasks.behaviours.lead import lead
+from robotside.tasks.behaviours.patrol import at_place, patrol, patrol_course, single, way
+from robotside.tasks.behaviours.situation import Situation
+from robotside.tasks.engine import Task
+
+__all__ = ["Assignments", "tasks_of", "words_for"]
+
+MOST_PLACES = 100
+"""That one task may name."""
+
+LONGEST_MESSAGE = 200
+"""Characters kept of what is told to a person."""
+
+LONGEST_NAME = 64
+"""Characters kept of a name and a tag."""
+
+LONGEST_TIME = 24 * 3600.0
+"""To hold or to follow a heading, where a time is given [s]."""
+
+NAMED = 8
+"""Places that a refusal names."""
+
+LOWEST = 0.3
+"""What flies is sent no lower [m]."""
+
+_WORDS = {
+    "patrol": "a patrol",
+    "deliver": "a delivery",
+    "guide": "a guided tour",
+    "go_to": "a way to a place",
+    "go_home": "the way home",
+    "hold": "holding",
+    "follow_heading": "following a heading",
+    "dock": "docking",
+    "take_off": "taking off",
+    "land": "landing",
+    "surface": "surfacing",
+}
+
+
+def words_for(task: str) -> str:
+    """What a task is called within a sentence."""
+    return _WORDS.get(task, task)
+
+
+def tasks_of(info: RobotInfo) -> list[str]:
+    """The tasks that a robot knows, which depend on its kind and its manoeuvres."""
+    unknown = {task for task in ("take_off", "land", "surface") if task not in info.manoeuvres}
+    if not kind_of(info.kind).docks:
+        unknown.add("dock")
+    return [task for task in TASKS if task not in unknown]
+
+
+class Assignments:
+    """Makes tasks for one robot. Every method raises Refusal with one sentence when the task cannot be done."""
+
+    def __init__(
+        self,
+        guide: Guide,
+        situation: Situation,
+        info: RobotInfo,
+        *,
+        say: Say,
+        rng: random.Random,
+        records: Records,
+        fault: Callable[[str, float, float], str],
+        heights: tuple[float, float] = (-math.inf, math.inf),
+    ) -> None:
+        """`fault` tells why the robot cannot or may not stand at a place that is called so; empty when it can.
+
+        `heights` are the lowest and the highest at which it can and may be, above the map's origin [m].
+        """
+        self._heights = heights
+        self._guide, self._situation, self._info = guide, situation, info
+        self._say, self._rng, self._records, self._fault = say, rng, records, fault
+        self._makers: dict[str, Callable[[TaskOrder], Task]] = {
+            "patrol": self._patrol,
+            "deliver": self._deliver,
+            "guide": self._lead,
+            "go_to": self._go_to,
+            "go_home": self._go_home,
+            "hold": self._hold,
+            "follow_heading": self._follow_heading,
+            "dock": self._dock,
+            "take_off": self._take_off,
+            "land": self._land,
+            "surface": self._surface,
+        }
+
+    def task(self, order: TaskOrder, by: str = "") -> Task:
+        """What does `order`, which `by` has asked for."""
+        make = self._makers.get(order.task)
+        if make is None:
+            raise Refusal(f"There is no task {order.task!r}; there are {', '.join(TASKS)}.")
+        known = tasks_of(self._info)
+        if order.task not in known:
+            raise Refusal(
+                f"{self._info.name} does not know {words_for(order.task)}; it knows {', '.join(known)}."
+            )
+        order = _tidy(order)
+        self._check_height(order.height)
+        if self._situation.flight == "turned_over":
+            raise Refusal(f"{self._info.name} has turned over; put it upright first.")
+        return replace(make(order), order=order, by=by)
+
+    def home(self) -> Waypoint | None:
+        """Where the robot returns to: the mission's home, else the first place that is one; None when it is not set."""
+        mission = self._records.missions.current
+        if mission.home:
+            return mission.home[0]
+        place = next((place for place in self._records.places.all() if place.kind == "home"), None)
+        return Waypoint(place.x, place.y, place.yaw) if place else None
+
+    def check_mission(self, mission: Mission) -> None:
+        """Look whether the robot can stand at every point of `mission`."""
+        for number, point in enumerate(mission.waypoints, 1):
+            self._check(f"Point {number}", point.x, point.y)
+
+    def _patrol(self, order: TaskOrder) -> Task:
+        mission = self._records.missions.current
+        if order.places:
+            places = self._places(order, 1, MOST_PLACES, "A patrol needs at least one place")
+            goals = [at_place(place) for place in places]
+            dwell = mission.dwell if mission.motion == "intermittent" else 0.0
+            course = Course(goals, motion=mission.motion, laps=mission.laps, dwell=dwell, rng=self._rng)
+        elif mission.waypoints:
+            self.check_mission(mission)
+            course = patrol_course(mission, self._rng)
+        else:
+            raise Refusal("The mission has no points; set at least one.")
+        tree = patrol(course, self._guide, self._situation, self._say, lambda x, y: self._fault("It", x, y))
+
+        def done() -> str:
+            return f"Patrol done: {course.visited} {_points(course.visited)} visited."
+
+        return Task("patrol", "Patrol", tree, course, done=done)
+
+    def _deliver(self, order: TaskOrder) -> Task:
+        rule = "A delivery needs two places, from and to, and may have a third to go on to"
+        places = self._places(order, 2, 3, rule)
+        tag = order.recipient_tag
+        course, tree = deliver(places, order.message, tag, self._guide, self._situation, self._say)
+        return Task("deliver", "Delivery", tree, course, done=lambda: f"Delivered at {places[1].name}.")
+
+    def _lead(self, order: TaskOrder) -> Task:
+        places = self._places(order, 1, MOST_PLACES, "A guided tour needs at least one place")
+        course, tree = lead(places, order.message, self._guide, self._situation, self._say)
+
+        def done() -> str:
+            return (
+                f"Guided tour done: {course.visited} {'place' if course.visited == 1 else 'places'} visited."
+            )
+
+        return Task("guide", "Guided tour", tree, course, done=done)
+
+    def _go_to(self, order: TaskOrder) -> Task:
+        if order.goals and not order.places:
+            return self._to_points(order.goals)
+        place = self._places(order, 1, 1, "go_to needs one place, or points")[0]
+        course = Course([at_place(place)])
+        tree = way(course, self._guide, self._situation)
+        title = f"Way to {place.name}"
+        return Task("go_to", title, tree, course, done=lambda: f"{place.name} reached.")
+
+    def _to_points(self, goals: Sequence[Waypoint]) -> Task:
+        names = (
+            ["The goal"]
+            if len(goals) == 1
+            else [f"Goal {n} of {len(goals)}" for n in range(1, len(goals) + 1)]
+        )
+        for name, goal in zip(names, goals, strict=True):
+            self._check(name, goal.x, goal.y)
+        points = [Goal(name, goal.x, goal.y, goal.yaw) for name, goal in zip(names, goals, strict=True)]
+        course = Course(points)
+        tree = way(course, self._guide, self._situation, self._say if len(goals) > 1 else None)
+        return Task("go_to", "Way to the goal", tree, course, done=lambda: "Way to the goal done.")
+
+    def _go_home(self, _: TaskOrder) -> Task:
+        home = self.home()
+        if home is None:
+            raise Refusal("Home is not set; set it on the map first.")
+        self._check("Home", home.x, home.y)
+        course, tree = single("Home", home, self._guide, self._situation)
+        if "land" in tasks_of(self._info):
+            down = Land(self._guide, self._situation)
+            tree = Chain("home and down", memory=True, children=[tree, down])
+        return Task("go_home", "Way home", tree, course, done=lambda: "Home.")
+
+    def _hold(self, order: TaskOrder) -> Task:
+        span = self._span(order)
+        tree = Hold(span, self._guide, self._situation, order.height)
+        done = f"Held for {order.duration:.0f} s."
+        return Task("hold", "Holding", tree, span, done=lambda: done, moves=kind_of(self._info.kind).flies)
+
+    def _follow_heading(self, order: TaskOrder) -> Task:
+        if math.isinf(order.heading):
+            raise Refusal(f"The heading must be a number [rad], not {order.heading}.")
+        most = self._info.max_speed
+        if not (math.isnan(order.speed) or 0 < order.speed <= most):
+            raise Refusal(f"The speed must be above 0 and at most {most:g} m/s, not {order.speed:g} m/s.")
+        span = self._span(order)
+        if not math.isnan(order.throttle) and not (-1 <= order.throttle <= 1 and order.throttle):
+            raise Refusal(f"The throttle must be a part from -1 to 1 and not 0, not {order.throttle:g}.")
+        tree = FollowHeading(
+            order.heading, order.speed, span, self._guide, self._situation, throttle=order.throttle
+        )
+        done = f"Followed the heading for {order.duration:.0f} s."
+        return Task("follow_heading", "Following a heading", tree, span, done=lambda: done)
+
+    def _take_off(self, order: TaskOrder) -> Task:
+        tree = TakeOff(self._guide, self._situation, order.height)
+        return Task("take_off", "Take-off", tree, self._moment(), done=lambda: "In the air.")
+
+    def _land(self, _: TaskOrder) -> Task:
+        tree = Land(self._guide, self._situation)
+        return Task("land", "Landing", tree, self._moment(), done=lambda: "Landed.", moves=False)
+
+    def _surface(self, _: TaskOrder) -> Task:
+        tree = Surface(self._guide, self._situation)
+        return Task("surface", "Surfacing", tree, self._moment(), done=lambda: "At the surface.", moves=False)
+
+    def _moment(self) -> Span:
+        """Of a task that visits nothing and takes as long as it takes."""
+        return Span(math.nan, lambda: self._situation.worked)
+
+    def _check_height(self, height: float) -> None:
+        """Refuse a height at which a robot of this kind cannot be."""
+        if math.isnan(height):
+            return
+        name, kind = self._info.name, kind_of(self._info.kind)
+        if not (kind.flies or kind.dives):
+            raise Refusal(f"{name} keeps no height; leave it out.")
+        lowest, highest = self._heights
+        lowest, highest = (max(LOWEST, lowest), highest) if kind.flies else (lowest, min(0.0, highest))
+        lowest = math.ceil(10 * lowest) / 10 if lowest > -math.inf else lowest
+        highest = math.floor(10 * highest) / 10 if highest < math.inf else highest
+        if math.isinf(height) or not lowest <= height <= highest:
+            allowed = _span_words(lowest, highest, "" if kind.flies else ", 0 being the surface")
+            where = f" in {self._info.world}" if self._info.world else ""
+            raise Refusal(f"The height of {name}{where} must be {allowed}, not {height:g} m.")
+
+    def _dock(self, order: TaskOrder) -> Task:
+        dock = self._named_dock(order)
+        if math.isnan(dock.yaw):
+            raise Refusal(f"{dock.name} has no direction; docking needs the one to stand in there.")
+        start = before(dock)
+        self._check(f"The place before {dock.name}", start.x, start.y)
+        course = Course([start])
+        course.index = 0
+        tree = Dock(dock, course, self._guide, self._situation)
+        done = f"Docked at {dock.name}: the battery takes charge."
+        return Task("dock", "Docking", tree, course, done=lambda: done)
+
+    def _named_dock(self, order: TaskOrder) -> Place:
+        if order.places:
+            return self._places(order, 1, 1, "Docking needs one place", stands=False)[0]
+        dock = next((place for place in self._records.places.all() if place.kind == "dock"), None)
+        if dock is None:
+            raise Refusal("There is no place of the kind dock; make one first.")
+        return dock
+
+    def _span(self, order: TaskOrder) -> Span:
+        if not (math.isnan(order.duration) or 0 < order.duration <= LONGEST_TIME):
+            allowed = f"above 0 and at most {LONGEST_TIME:.0f} s, or left out until stopped"
+            raise Refusal(f"The duration must be {allowed}, not {order.duration:g} s.")
+        return Span(order.duration, lambda: self._situation.worked)
+
+    def _places(
+        self, order: TaskOrder, least: int, most: int, rule: str, *, stands: bool = True
+    ) -> list[Place]:
+        """The places of the order's names; `stands` when the robot is to stand right there."""
+        if not least <= len(order.places) <= most:
+            raise Refusal(f"{rule}, not {len(order.places)}.")
+        places = [self._place(name) for name in order.places]
+        for place in places if stands else ():
+            self._check(place.name, place.x, place.y)
+        return places
+
+    def _place(self, name: str) -> Place:
+        place, home = self._records.places.named(name), self.home()
+        if place is not None:
+            return place
+        if name.strip().casefold() == "home" and home is not None:
+            return Place(name="Home", kind="home", x=home.x, y=home.y, yaw=home.yaw)
+        known = [place.name for place in self._records.places.all()]
+        there = ", ".join(known[:NAMED]) + (f" and {len(known) - NAMED} more" if len(known) > NAMED else "")
+        which = f"there are {there}" if known else "no place has a name yet"
+        raise Refusal(f"There is no place {name!r}; {which}.")
+
+    def _check(self, name: str, x: float, y: float) -> None:
+        problem = self._fault(name, x, y)
+        if problem:
+            raise Refusal(problem)
+
+
+def _span_words(lowest: float, highest: float, more: str) -> str:
+    """What is allowed, as in `from 0.3 to 30 m`."""
+    if math.isinf(highest):
+        return f"at least {lowest:g} m{more}"
+    if math.isinf(lowest):
+        return f"at most {highest:g} m{more}"
+    return f"from {lowest:g} to {highest:g} m{more}"
+
+
+def _tidy(order: TaskOrder) -> TaskOrder:
+    """The same order with its texts cut to readable lines; Refusal when it names too many places."""
+    if max(len(order.places), len(order.goals)) > MOST_PLACES:
+        count = max(len(order.places), len(order.goals))
+        raise Refusal(f"A task names at most {MOST_PLACES} places or points, not {count}.")
+    return msgspec.structs.replace(
+        order,
+        places=[plain(name, LONGEST_NAME) for name in order.places],
+        goals=[msgspec.structs.replace(goal, name=plain(goal.name, LONGEST_NAME)) for goal in order.goals],
+        message=plain(order.message, LONGEST_MESSAGE),
+        recipient_tag=plain(order.recipient_tag, LONGEST_NAME),
+    )
+
+
+def _points(count: int) -> str:
+    return "point" if count == 1 else "points"

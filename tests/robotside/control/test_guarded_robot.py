@@ -1,0 +1,163 @@
+"""The gate between everything that drives and the robot."""
+
+from __future__ import annotations
+
+import msgspec
+import pytest
+
+from bridge.msgs.geometry_msgs import Twist
+from bridge.msgs.pilothouse_msgs import Manoeuvre
+from robotside.control.guarded_robot import Guarded, port_info
+from robotside.motion.manoeuvres import Order
+from tests.fakes import FakeRobot
+
+AHEAD = Twist.planar(0.3, 0.0)
+HOVER, LAND = Manoeuvre(kind="hover"), Manoeuvre(kind="land")
+
+
+class Flier(FakeRobot):
+    """It knows two manoeuvres."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.info = msgspec.structs.replace(self.info, manoeuvres=["hover", "land"])
+        self.orders: list[Manoeuvre] = []
+
+    def manoeuvre(self, order: Manoeuvre) -> None:
+        self.orders.append(order)
+
+
+def held(order: Order, allowed: float) -> Order:
+    return Twist.planar(min(order.linear.x, allowed), 0.0) if isinstance(order, Twist) else order
+
+
+def test_a_twist_brakes_while_stop_is_pressed_and_drives_again_afterwards() -> None:
+    robot, pressed = FakeRobot(), True
+    guarded = Guarded(robot, lambda: pressed)
+    guarded.drive(AHEAD)
+    assert robot.commands == [None]
+    pressed = False
+    guarded.drive(AHEAD)
+    assert robot.commands == [None, AHEAD]
+
+
+def test_a_twist_is_clamped_and_looked_at_again_wherever_the_robot_gets() -> None:
+    robot, allowed = FakeRobot(), 0.3
+    guarded = Guarded(robot, lambda: False, lambda order: held(order, allowed))
+    guarded.again()
+    guarded.drive(Twist.planar(0.5, 0.0))
+    guarded.again()
+    assert robot.commands == [Twist.planar(0.3, 0.0)]
+    allowed = 0.1
+    guarded.again()
+    allowed = 0.0
+    guarded.again()
+    guarded.again()
+    assert robot.commands[1:] == [Twist.planar(0.1, 0.0), None]
+    allowed = 0.3
+    guarded.again()
+    assert robot.commands[3:] == [Twist.planar(0.3, 0.0)]
+
+
+def test_after_a_stop_nothing_is_looked_at_again() -> None:
+    robot = FakeRobot()
+    guarded = Guarded(robot, lambda: False, lambda twist: Twist.planar(0.1 * len(robot.commands), 0.0))
+    guarded.drive(AHEAD)
+    guarded.stop()
+    guarded.again()
+    assert robot.commands[-1] is None
+
+
+def test_stop_ends_what_was_wanted_even_when_a_twist_comes_while_it_is_pressed() -> None:
+    robot, pressed = FakeRobot(), False
+    guarded = Guarded(robot, lambda: pressed, lambda twist: Twist.planar(0.1 * len(robot.commands), 0.0))
+    guarded.drive(AHEAD)
+    pressed = True
+    guarded.drive(AHEAD)
+    pressed = False
+    guarded.again()
+    assert robot.commands[-1] is None
+
+
+def test_a_fault_in_the_limits_brakes_the_robot() -> None:
+    robot, broken = FakeRobot(), False
+
+    def clamp(order: Order) -> Order:
+        if broken:
+            raise ZeroDivisionError
+        return order
+
+    guarded = Guarded(robot, lambda: False, clamp)
+    guarded.drive(AHEAD)
+    broken = True
+    with pytest.raises(ZeroDivisionError):
+        guarded.again()
+    with pytest.raises(ZeroDivisionError):
+        guarded.drive(AHEAD)
+    assert robot.commands == [AHEAD, None, None]
+    broken = False
+    guarded.again()
+    assert robot.at_rest
+
+
+def test_a_manoeuvre_goes_to_who_knows_it_and_brakes_while_stop_is_pressed() -> None:
+    robot, pressed = Flier(), False
+    guarded = Guarded(robot, lambda: pressed)
+    guarded.manoeuvre(HOVER)
+    guarded.again()
+    assert robot.orders == [HOVER]
+    pressed = True
+    guarded.manoeuvre(LAND)
+    assert (len(robot.orders), robot.commands) == (1, [None])
+    pressed = False
+    guarded.again()
+    assert len(robot.orders) == 1
+    guarded.manoeuvre(Manoeuvre(kind="rest"))
+    assert robot.commands == [None, None]
+
+
+def test_a_manoeuvre_is_looked_at_again_wherever_the_robot_gets() -> None:
+    robot, free = Flier(), True
+    guarded = Guarded(robot, lambda: False, lambda order: order if free else Twist())
+    guarded.manoeuvre(HOVER)
+    free = False
+    guarded.again()
+    assert robot.commands == [None]
+
+
+def test_one_that_knows_no_manoeuvres_gets_what_its_limits_make_of_them_and_refuses_to_land() -> None:
+    robot = FakeRobot()
+    guarded = Guarded(robot, lambda: False, lambda order: AHEAD)
+    guarded.manoeuvre(Manoeuvre(kind="course"))
+    assert robot.commands == [AHEAD]
+    with pytest.raises(ValueError, match=r"^Fake-1 cannot land\.$"):
+        guarded.manoeuvre(LAND)
+    assert robot.commands == [AHEAD]
+
+
+def test_a_robot_behind_a_port_that_takes_twists_only_is_not_said_to_know_more() -> None:
+    robot = FakeRobot()
+    robot.info = msgspec.structs.replace(robot.info, manoeuvres=["hover"])
+    assert port_info(robot).manoeuvres == []
+    assert port_info(Flier()).manoeuvres == ["hover", "land"]
+
+
+def test_what_carries_nothing_and_is_real_says_so() -> None:
+    guarded = Guarded(FakeRobot(), lambda: False)
+    with pytest.raises(ValueError, match=r"^Fake-1 has no arm that takes orders\.$"):
+        guarded.command("arm", AHEAD)
+    with pytest.raises(ValueError, match="Fake-1 is real"):
+        guarded.reset()
+
+
+def test_everything_but_driving_passes_through() -> None:
+    robot = FakeRobot()
+    guarded = Guarded(robot, lambda: True)
+    assert guarded.info == robot.info
+    assert "/map" in [topic for topic, _ in guarded.read(0.0)]
+    guarded.want("/camera/image/compressed", True)
+    assert robot.wanted == {"/camera/image/compressed": True}
+    guarded.stop()
+    assert robot.commands == [None]
+    guarded.close()
+    assert robot.closed

@@ -1,0 +1,162 @@
+"""Tasks of robots of every kind that know nothing but twists, as those behind somebody else's bridge do."""
+
+from __future__ import annotations
+
+import ast
+import math
+from pathlib import Path
+
+import msgspec
+import pytest
+
+import robotside
+from app.screens.connect.connect import KINDS as KINDS_SHOWN
+from bridge.msgs.pilothouse_msgs import (
+    FlightState,
+    Manoeuvre,
+    RobotInfo,
+    StartTaskRequest,
+    TaskOrder,
+    Waypoint,
+)
+from robotside.control.safe_state import USUAL
+from robotside.core.config import NOTHING_SET, Config, LimitSettings
+from robotside.core.vehicle_kinds import KINDS, unknown
+from robotside.motion.stopping_path import HANDLING
+from robotside.navigation.course_controller import MANNERS, Coursing
+from robotside.navigation.differential_controller import Wheeling
+from robotside.navigation.navigator import GOINGS
+from robotside.tasks.task_factory import tasks_of
+from sim.robot import ROBOTS
+from tests.fakes import FakeRobot
+from tests.robotside.scene import Scene
+from widgets.core.task_words import GOES, HOLDS
+
+EVERYWHERE = ["patrol", "deliver", "guide", "go_to", "go_home", "hold", "follow_heading"]
+
+
+class Agile(FakeRobot):
+    """One that is told manoeuvres and does none of them."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.orders: list[str] = []
+
+    def manoeuvre(self, order: Manoeuvre) -> None:
+        self.orders.append(order.kind)
+
+
+def scene(kind: str, state: Path, *manoeuvres: str, config: Config = NOTHING_SET) -> Scene:
+    robot = Agile() if manoeuvres else FakeRobot()
+    robot.info = msgspec.structs.replace(robot.info, kind=kind, manoeuvres=list(manoeuvres))
+    scene = Scene(robot, state, config=config)
+    scene.run(3.5)  # until it knows where it is
+    return scene
+
+
+@pytest.mark.parametrize(
+    ("kind", "near"), [("ackermann", 0.8), ("boat", 3.1), ("hexapod", 0.9), ("quadrotor", 0.7)]
+)
+def test_it_patrols_by_twists_alone(kind: str, near: float, tmp_path: Path) -> None:
+    run = scene(kind, tmp_path)
+    run.set(Waypoint(5.0, 0.0), laps=1)
+    run.start()
+    assert run.run_task().reason == "Patrol done: 1 point visited."
+    assert math.dist(run.robot.pose[:2], (5.0, 0.0)) < near
+
+
+def test_which_tasks_there_are_depends_on_kind_and_manoeuvres() -> None:
+    def known(kind: str, *manoeuvres: str) -> list[str]:
+        return tasks_of(RobotInfo(kind=kind, manoeuvres=list(manoeuvres)))
+
+    assert known("wheels", "twist") == [*EVERYWHERE, "dock"]
+    assert known("ackermann", "twist", "steer") == EVERYWHERE
+    assert known("hexapod", "course", "surface") == [*EVERYWHERE, "surface"]
+    assert known("quadrotor", "hover", "take_off", "land") == [*EVERYWHERE, "take_off", "land"]
+
+
+def test_the_tasks_are_told_with_the_robots_information(tmp_path: Path) -> None:
+    info = scene("boat", tmp_path).station.bus.last("/robot/info")
+    assert isinstance(info, RobotInfo)
+    assert info.tasks == EVERYWHERE
+
+
+def test_a_height_is_refused_by_what_keeps_none(tmp_path: Path) -> None:
+    run = scene("wheels", tmp_path)
+    order = TaskOrder(task="hold", height=1.0)
+    assert (
+        run.refused("/task/start", StartTaskRequest(order=order)) == "Fake-1 keeps no height; leave it out."
+    )
+
+
+def test_a_height_that_is_not_allowed_is_refused_before_it_takes_off(tmp_path: Path) -> None:
+    run = scene("quadrotor", tmp_path, "take_off", config=Config(limits=LimitSettings(max_height=2.0)))
+    order = StartTaskRequest(order=TaskOrder(task="take_off", height=3.0))
+    assert (
+        run.refused("/task/start", order) == "The height of Fake-1 in hall must be from 0.3 to 2 m, not 3 m."
+    )
+    order = StartTaskRequest(order=TaskOrder(task="take_off", height=2.0))
+    run.ask("/task/start", order)
+
+
+def test_who_rises_no_farther_than_half_way_gives_up_and_says_so(tmp_path: Path) -> None:
+    run = scene("quadrotor", tmp_path, "take_off")
+    run.robot.more.append(("/flight", FlightState(phase="flying")))
+    run.ask("/task/start", StartTaskRequest(order=TaskOrder(task="take_off", height=9.0)))
+    status = run.run_task(30.0)
+    assert status.state == "FAILED"
+    assert status.reason == "It comes no nearer to 9 m than 0.0 m; it stays there."
+
+
+def test_who_does_not_come_off_the_ground_gives_up_and_says_so(tmp_path: Path) -> None:
+    run = scene("quadrotor", tmp_path, "take_off")
+    run.robot.more.append(("/flight", FlightState(phase="landed")))
+    run.ask("/task/start", StartTaskRequest(order=TaskOrder(task="follow_heading")))
+    run.run(1.0)
+    assert run.task.phase == "taking off"
+    status = run.run_task(30.0)
+    assert status.state == "FAILED"
+    assert status.reason == "Taking off took longer than 20 s; the robot stays where it is."
+    assert isinstance(run.robot, Agile)
+    assert set(run.robot.orders) == {"take_off"}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_is_known_wherever_it_counts(kind: str) -> None:
+    """A kind that a place does not know would pass for wheels there, without a word."""
+    assert unknown(kind) == ""
+    assert kind in HANDLING
+    assert kind in USUAL
+    assert kind in GOINGS
+    assert (kind in MANNERS) == (GOINGS[kind] is Coursing)
+    assert kind in KINDS_SHOWN
+    assert kind in HOLDS
+    assert kind in GOES
+
+
+def test_every_simulated_vehicle_is_of_a_known_kind() -> None:
+    assert {model.parameters.info.kind for model in ROBOTS.values()} == set(KINDS)
+
+
+def test_no_other_place_decides_by_a_kind() -> None:
+    tables = {"kinds.py", "guide.py", "coursing.py", "tracks.py", "safe_state.py"}
+    kinds = set(KINDS) - {"wheels"}
+    root = Path(robotside.__file__).parent
+    found = {
+        path.name
+        for path in root.rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text()))
+        if isinstance(node, ast.Constant) and node.value in kinds
+    }
+    assert found == tables
+
+
+def test_an_unknown_kind_is_said_once_and_goes_as_if_on_wheels(tmp_path: Path) -> None:
+    run = scene("hovercraft", tmp_path)
+    run.run(1.0)
+    said = "A robot of the kind 'hovercraft' is not known here; it is driven as if on wheels. Known are"
+    told = run.station.events.since(0, run.station.events.boot)
+    events = [event.text for event in told if event.text.startswith(said)]
+    assert len(events) == 1
+    assert isinstance(run.station.autonomy.guide.going, Wheeling)
+    assert "dock" not in run.station.info.tasks

@@ -1,0 +1,64 @@
+"""Connections to the web site, on loopback."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+import httpx
+import pytest
+
+from robotside.gateways import http_visit as visit
+from tests.fakes import FakeRobot
+from tests.robotside.gateways.test_camera_streams import filming, looking
+from tests.robotside.gateways.test_station_server import serving
+
+
+async def end_of(reader: asyncio.StreamReader) -> bytes:
+    try:
+        async with asyncio.timeout(5):
+            return await reader.read()
+    except ConnectionResetError:
+        return b""
+
+
+@pytest.mark.parametrize("said", [b"", b"GET / HT", b"GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n"])
+async def test_a_connection_that_does_not_end_is_ended(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, said: bytes
+) -> None:
+    monkeypatch.setattr(visit, "LONGEST", 0.2)
+    async with serving(tmp_path, FakeRobot()) as serves:
+        reader, writer = await asyncio.open_connection("127.0.0.1", serves.addresses.http_port)
+        writer.write(said)
+        assert (b"200 OK" in await end_of(reader)) is said.endswith(b"\r\n\r\n")
+        writer.close()
+
+
+async def test_for_one_connection_too_many_the_oldest_that_asks_nothing_is_closed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(visit, "MOST", 2)
+    async with (
+        serving(tmp_path, FakeRobot()) as serves,
+        httpx.AsyncClient(base_url=serves.addresses.http) as web,
+    ):
+        slow = [await asyncio.open_connection("127.0.0.1", serves.addresses.http_port) for _ in range(2)]
+        for _, writer in slow:
+            writer.write(b"GET / HT")
+        assert (await web.get("/healthz")).json()["ok"] is True
+        assert await end_of(slow[0][0]) == b""
+        slow[1][1].write(b"TP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n")
+        assert b"200 OK" in await end_of(slow[1][0])
+        for _, writer in slow:
+            writer.close()
+
+
+async def test_one_connection_too_many_is_closed_while_all_others_are_answered(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(visit, "MOST", 1)
+    async with filming(tmp_path) as (robot, serves, web), looking(web):
+        await robot.until(True)
+        reader, writer = await asyncio.open_connection("127.0.0.1", serves.addresses.http_port)
+        assert await end_of(reader) == b""
+        writer.close()

@@ -1,0 +1,83 @@
+"""Driving a truck: no bend tighter than it can, no more room taken than its body needs."""
+
+from __future__ import annotations
+
+import math
+
+import msgspec
+import numpy as np
+import pytest
+
+from robotside.core.pose2 import Points, Pose2
+from robotside.mapping.occupancy_grid import Grid
+from robotside.navigation.ackermann_controller import HORIZON, Trucking
+from robotside.navigation.planner import Planner, Unreachable
+from tests.fakes import FakeRobot
+
+NOTHING: Points = np.empty((0, 2))
+GRID = Grid(np.zeros((400, 400), dtype=np.bool_), 0.1, -20.0, -20.0)
+
+
+def truck(start: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> tuple[FakeRobot, Trucking]:
+    robot = FakeRobot(start=start)
+    robot.info = msgspec.structs.replace(
+        robot.info, kind="ackermann", max_speed=5.0, max_yaw_rate=1.4, radius=2.6, min_radius=3.5
+    )
+    return robot, Trucking(robot)
+
+
+def drive(goal: tuple[float, float, float], things: Points = NOTHING) -> tuple[FakeRobot, float]:
+    """To the end of its way; and its tightest bend [1/m]."""
+    robot, going = truck()
+    list(going.search(Planner(GRID, 0.9), Pose2(*robot.pose), goal, "The goal", NOTHING))
+    now, tightest = 0.0, 0.0
+    list(robot.read(now))
+    while not going.arrived(Pose2(*robot.pose)) and now < 120.0:
+        pose = Pose2(*robot.pose)
+        if not going.under_way:
+            list(going.search(Planner(GRID, 0.9), pose, goal, "The goal", NOTHING))
+        going.steer(pose, pose.inverse().apply(things), sure=True)
+        if abs(robot.twist.linear.x) > 0.2:
+            tightest = max(tightest, abs(robot.twist.angular.z / robot.twist.linear.x))
+        now += 0.05
+        list(robot.read(now))
+    return robot, tightest
+
+
+@pytest.mark.parametrize(
+    "goal", [(7.0, 2.0, math.nan), (-3.0, 4.0, math.nan), (5.0, 4.0, math.pi), (-4.0, 0.0, 0.0)]
+)
+def test_it_comes_to_its_goal_by_bends_that_it_can_drive(goal: tuple[float, float, float]) -> None:
+    robot, tightest = drive(goal)
+    assert math.dist(robot.pose[:2], goal[:2]) < 0.6
+    assert tightest < 1 / 3.5 + 1e-6
+    if not math.isnan(goal[2]):
+        assert abs(math.remainder(robot.pose[2] - goal[2], math.tau)) < 0.35
+
+
+def test_it_stands_before_what_lies_in_its_way() -> None:
+    things = np.column_stack([np.full(80, 6.0), np.linspace(-4.0, 4.0, 80)])
+    robot, _ = drive((9.0, 0.0, math.nan), things)
+    assert robot.at_rest
+    assert 1.0 < 6.0 - robot.pose[0] - 2.5 < 2.0 or robot.pose[0] < 2.6
+
+
+def test_its_body_needs_room_ahead_of_the_axle_and_beside_it_no_more_than_it_is_wide() -> None:
+    _, going = truck()
+    assert going.free(0.0, NOTHING) == HORIZON
+    assert going.free(0.0, np.array([[5.0, 0.0]])) == pytest.approx(1.75, abs=0.3)
+    assert going.free(0.0, np.array([[5.0, 1.2]])) == HORIZON
+    assert going.free(0.25, np.array([[4.0, 1.6]])) < 3.0
+
+
+def test_who_stands_close_to_something_may_go_away_from_it() -> None:
+    _, going = truck()
+    close = np.array([[3.2, 0.0]])
+    assert going.free(0.0, close) == 0.0
+    assert going.free(0.0, close, -1.0) == HORIZON
+
+
+def test_a_goal_off_the_map_is_named() -> None:
+    robot, going = truck()
+    with pytest.raises(Unreachable, match=r"Point 3 at \(50.0, 0.0\) is off the map"):
+        list(going.search(Planner(GRID, 0.9), Pose2(*robot.pose), (50.0, 0.0, math.nan), "Point 3", NOTHING))

@@ -1,0 +1,45 @@
+"""Going on wheels where nothing leads on."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from robotside.core.pose2 import Points, Pose2
+from robotside.mapping.occupancy_grid import Grid
+from robotside.navigation.differential_controller import BACK, BACKS, PATIENCE, Wheeling
+from robotside.navigation.planner import Planner
+from tests.fakes import FakeRobot
+
+GRID = Grid(np.zeros((100, 100), dtype=np.bool_), 0.1, -5.0, -5.0)
+RING = np.linspace(-1.2, 1.2, 40)
+AHEAD = 0.45 * np.column_stack([np.cos(RING), np.sin(RING)])
+
+
+def steered(points: Points, times: int) -> list[float]:
+    """How fast it was told to go each time, with something at `points`, wherever it is [m/s]."""
+    robot = FakeRobot()
+    going = Wheeling(robot)
+    list(
+        going.search(
+            Planner(GRID, 0.18), Pose2(0.0, 0.0, 0.0), (4.0, 0.0, math.nan), "The goal", np.empty((0, 2))
+        )
+    )
+    speeds = []
+    for _ in range(times):
+        going.steer(Pose2(0.0, 0.0, 0.0), points, sure=True)
+        speeds.append(robot.twist.linear.x)
+    return speeds
+
+
+def test_after_a_while_it_makes_room_behind_it_and_tries_again() -> None:
+    speeds = steered(AHEAD, PATIENCE + BACKS + 10)
+    assert speeds[:PATIENCE] == [0.0] * PATIENCE
+    assert speeds[PATIENCE : PATIENCE + BACKS] == [-BACK] * BACKS
+    assert speeds[-5:] == [0.0] * 5
+
+
+def test_it_stands_where_there_is_no_room_behind_it_either() -> None:
+    speeds = steered(np.concatenate([AHEAD, -AHEAD]), PATIENCE + 20)
+    assert set(speeds) == {0.0}

@@ -1,0 +1,129 @@
+"""Each intruder once; and where the camera's sightings come to lie on the map."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from bridge.msgs import Msg
+from bridge.msgs.pilothouse_msgs import Intruder
+from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.msgs.std_msgs import Header, Time
+from bridge.msgs.vision_msgs import Detection2DArray
+from robotside.core.pose2 import Pose2
+from robotside.localisation.pose_estimator import Track
+from robotside.perception.intruder_tracker import CONFIRM, Intruders
+from robotside.perception.intruder_watch import Watch, jpeg_size
+from tests.robotside.perception.test_cone_detector import cone, jpeg, picture
+
+FOV = 1.2
+
+
+def test_a_thing_is_reported_with_its_third_sighting_and_never_again() -> None:
+    intruders = Intruders()
+    told = [intruders.see(5.0 + 0.1 * (n % 2), 2.0, 4.0, float(n)) for n in range(20)]
+    assert [n for n, intruder in enumerate(told) if intruder] == [CONFIRM - 1]
+    assert len(intruders.known) == 1
+    assert intruders.known[0].sightings == 20
+
+
+def test_two_things_are_numbered_in_the_order_of_their_reports() -> None:
+    intruders = Intruders()
+    for n in range(CONFIRM):
+        intruders.see(0.0, 0.0, 4.0, float(n))
+        intruders.see(3.0, 0.0, 4.0, float(n))
+    assert [(i.id, i.position.x) for i in intruders.known] == [(1, 0.0), (2, 3.0)]
+
+
+def test_near_sightings_count_more_than_far_ones() -> None:
+    intruders = Intruders()
+    intruders.see(5.8, 0.0, 6.0, 0.0)
+    intruders.see(5.0, 0.0, 1.0, 1.0)
+    intruders.see(5.0, 0.0, 1.0, 2.0)
+    assert intruders.known[0].position.x == pytest.approx(5.0, abs=0.05)
+
+
+def test_scattered_single_sightings_are_nothing() -> None:
+    intruders = Intruders()
+    for n in range(10):
+        intruders.see(3.0 * n, 0.0, 4.0, float(n))
+    assert intruders.known == []
+
+
+def test_sightings_that_are_long_past_do_not_count() -> None:
+    intruders = Intruders()
+    for n in range(CONFIRM):
+        assert intruders.see(0.0, 0.0, 4.0, 30.0 * n) is None
+
+
+class Scene:
+    """A cone 3 m ahead and a little to the left of a robot at (1, 2) that looks north."""
+
+    def __init__(self) -> None:
+        self.said: list[tuple[str, Msg]] = []
+        self.found: list[Intruder] = []
+        track = Track()
+        for n in range(40):
+            track.add(n * 0.05, Pose2(1.0, 2.0, math.pi / 2))
+        self.watch = Watch(track, FOV, lambda topic, msg: self.said.append((topic, msg)), self.found.append)
+        image, draw = picture()
+        focal = 320 / math.tan(FOV / 2)
+        cone(draw, 320 - focal * 0.5 / 2.92, 240 + focal * 0.36 / 2.92, 0.6 * focal / 2.92)
+        self._jpeg = jpeg(image)
+
+    def look(self, stamp: float, *, placing: bool = True) -> None:
+        self.watch.take_image(
+            CompressedImage(Header(Time.at(stamp), "camera"), "jpeg", self._jpeg), placing=placing
+        )
+
+    def detections(self) -> list[Detection2DArray]:
+        return [msg for _, msg in self.said if isinstance(msg, Detection2DArray)]
+
+
+@pytest.mark.parametrize("laser", [True, False])
+def test_a_cone_is_placed_on_the_map_by_the_laser_or_by_the_ground(laser: bool) -> None:
+    scene = Scene()
+    for n in range(CONFIRM):
+        if laser:
+            scene.watch.take_sweep(np.array([[0.5, 4.97], [0.52, 4.95], [5.0, 2.0]]), 0.2 * n)
+        scene.look(0.2 * n)
+    assert len(scene.found) == 1
+    place = scene.found[0].position
+    assert math.hypot(place.x - 0.5, place.y - 5.0) < (0.15 if laser else 0.4)
+
+
+def test_pictures_are_searched_five_times_a_second_and_each_search_is_told() -> None:
+    scene = Scene()
+    for n in range(30):
+        scene.look(n / 15)
+    assert len(scene.detections()) == pytest.approx(10, abs=1)
+    detection = scene.detections()[0].detections[0]
+    assert detection.results[0].hypothesis.class_id == "cone"
+    assert detection.bbox.center.position.x == pytest.approx(320 - 80, abs=8)
+
+
+def test_with_an_unsure_position_a_cone_is_shown_but_not_placed() -> None:
+    scene = Scene()
+    for n in range(10):
+        scene.look(0.2 * n, placing=False)
+    assert scene.detections()[-1].detections
+    assert scene.found == []
+
+
+def test_the_size_of_a_picture_is_read_from_its_header() -> None:
+    assert jpeg_size(jpeg(picture(320, 240)[0])) == (320, 240)
+    assert jpeg_size(b"") == (640, 480)
+
+
+def test_where_the_robot_was_is_asked_between_two_poses() -> None:
+    track = Track()
+    assert track.at(0.0) is None
+    track.add(0.0, Pose2(0.0, 0.0, 3.1))
+    track.add(1.0, Pose2(2.0, 0.0, -3.1))
+    middle = track.at(0.5)
+    assert middle is not None
+    assert middle.x == pytest.approx(1.0)
+    assert abs(middle.yaw) == pytest.approx(math.pi, abs=0.01)
+    assert track.at(5.0) == Pose2(2.0, 0.0, -3.1)

@@ -1,0 +1,238 @@
+"""What the services do and refuse, without sockets and in virtual time."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+
+from bridge.msgs.arrays import Int32Array
+from bridge.msgs.geometry_msgs import (
+    Point,
+    Pose,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Twist,
+)
+from bridge.msgs.pilothouse_msgs import (
+    AcknowledgeEventsRequest,
+    CommandRequest,
+    GetEventsRequest,
+    GetMissionRequest,
+    Mission,
+    SetMissionRequest,
+    StartTaskRequest,
+    Waypoint,
+)
+from robotside.control.command_gate import STOP_SENTENCE
+from tests.fakes import Box, FakeRobot
+from tests.robotside.scene import SQUARE, Scene
+
+
+def test_control_given_back_while_driving_stops_the_robot_at_once(scene: Scene) -> None:
+    scene.drive(Twist.planar(0.3, 0.2))
+    assert scene.ask("/control/release").success
+    assert scene.robot.at_rest
+    assert scene.control.driver == ""
+    braked = len(scene.robot.commands)
+    scene.run(1.0)
+    assert len(scene.robot.commands) == braked
+
+
+def test_stop_is_obeyed_from_anyone_and_latched(scene: Scene) -> None:
+    scene.ask("/control/acquire")
+    scene.drive(Twist.planar(0.3, 0.0))
+    bert = scene.client("bert")
+    answer = scene.ask("/stop", CommandRequest(client_id="b", client_name="Bert"), bert)
+    assert answer.success
+    assert scene.robot.commands[-1] is None
+    assert (scene.control.mode, scene.control.stopped_by) == ("STOPPED", "Bert")
+    assert scene.control.stopped_by_id == "b"
+    scene.drive(Twist.planar(0.3, 0.0))
+    assert scene.robot.commands[-1] is None
+    assert "STOP is pressed" in scene.events("command")[-1]
+
+
+def test_stop_is_obeyed_however_old_and_however_often_it_comes(scene: Scene) -> None:
+    old = CommandRequest(command_id="s1", stamp=scene.now - 100.0)
+    assert scene.ask("/stop", old).success
+    assert scene.ask("/stop/release").success
+    assert scene.ask("/stop", old).success
+    assert scene.control.stopped
+
+
+def test_stop_is_released_only_with_control(scene: Scene) -> None:
+    bert = scene.client("bert")
+    scene.ask("/control/acquire", CommandRequest(client_name="Anna"))
+    scene.ask("/stop", client=bert)
+    assert "Anna has control" in scene.refused("/stop/release", client=bert)
+    assert scene.ask("/stop/release").success
+    assert scene.control.mode == "MANUAL"
+
+
+def test_a_release_that_was_asked_for_before_the_latest_stop_leaves_it(scene: Scene) -> None:
+    bert = scene.client("bert")
+    scene.ask("/control/acquire", CommandRequest(client_name="Anna"))
+    scene.ask("/stop", CommandRequest(stamp=scene.now, client_name="Anna"))
+    late = CommandRequest(stamp=scene.now + 0.5, client_name="Anna")
+    scene.run(1.0)
+    scene.ask("/stop", CommandRequest(stamp=scene.now, client_name="Bert"), bert)
+    said = scene.refused("/stop/release", late)
+    assert said == "STOP was pressed after that was asked for: it stays."
+    assert scene.control.stopped
+    scene.run(1.0)
+    assert scene.ask("/stop/release", CommandRequest(stamp=scene.now, client_name="Anna")).success
+
+
+def test_a_stop_from_a_clock_ahead_is_released_all_the_same(scene: Scene) -> None:
+    scene.ask("/control/acquire")
+    scene.ask("/stop", CommandRequest(stamp=scene.now + 3600.0))
+    scene.run(1.0)
+    assert scene.ask("/stop/release", CommandRequest(stamp=scene.now)).success
+
+
+def test_with_stop_pressed_tasks_are_refused(scene: Scene) -> None:
+    scene.set(*SQUARE)
+    scene.ask("/stop")
+    for name, request in (
+        ("/task/start", StartTaskRequest()),
+        ("/task/go_home", None),
+        ("/task/resume", None),
+    ):
+        assert "STOP is pressed" in scene.refused(name, request)
+
+
+def test_with_stop_pressed_a_paused_task_stays_where_it_is_whatever_is_asked(scene: Scene) -> None:
+    scene.set(*SQUARE)
+    scene.start()
+    scene.run(2.0)
+    scene.ask("/stop", CommandRequest(client_name="Anna"))
+    before = len(scene.robot.commands)
+    for name, request in (
+        ("/task/start", StartTaskRequest()),
+        ("/task/start", StartTaskRequest(task="go_home")),
+        ("/task/go_home", None),
+        ("/task/resume", None),
+    ):
+        assert scene.refused(name, request) == STOP_SENTENCE
+        scene.run(0.5)
+    assert (scene.task.task, scene.task.state, scene.task.reason) == ("patrol", "PAUSED", "Stopped by Anna.")
+    assert not any(scene.robot.commands[before:])
+
+
+def test_a_mission_without_points_is_refused_at_the_start(scene: Scene) -> None:
+    said = scene.refused("/task/start", StartTaskRequest())
+    assert said == "The mission has no points; set at least one."
+
+
+def test_a_point_in_a_wall_is_refused_with_its_number_and_place(tmp_path: Path) -> None:
+    scene = Scene(FakeRobot(boxes=[Box(2.0, 1.0, 5.0, 3.0)]), tmp_path)
+    mission = Mission(waypoints=[Waypoint(1.0, 0.0), Waypoint(3.5, 2.0)])
+    said = scene.refused("/mission/set", SetMissionRequest(mission=mission))
+    assert said == "Point 2 at (3.5, 2.0) is in a wall or another obstacle."
+
+
+@pytest.mark.parametrize(
+    ("mission", "said"),
+    [
+        (Mission(motion="zigzag"), "There is no motion 'zigzag'; there are loop, random, intermittent."),
+        (Mission(dwell=math.nan), "The dwell must be 0 to 600 s, not nan s."),
+        (Mission(laps=-1), "The laps must be 0 to 999, not -1."),
+        (Mission(waypoints=[Waypoint(math.nan, 0.0)]), "Point 1 at (nan, 0.0) is off the map."),
+        (Mission(home=[Waypoint(99.0, 0.0)]), "Home at (99.0, 0.0) is off the map."),
+    ],
+)
+def test_a_mission_that_makes_no_sense_is_refused_with_what_is_allowed(
+    scene: Scene, mission: Mission, said: str
+) -> None:
+    assert scene.refused("/mission/set", SetMissionRequest(mission=mission)) == said
+
+
+def test_a_command_from_somebody_without_control_names_the_driver(scene: Scene) -> None:
+    scene.set(*SQUARE)
+    scene.ask("/control/acquire", CommandRequest(client_id="t1", client_name="tablet-A"))
+    bert = scene.client("bert")
+    for name, request in (
+        ("/task/start", StartTaskRequest()),
+        ("/task/pause", None),
+        ("/mission/set", SetMissionRequest()),
+    ):
+        assert scene.refused(name, request, bert).startswith("tablet-A has control")
+
+
+def test_a_low_battery_refuses_the_start_with_its_value(scene: Scene) -> None:
+    scene.set(*SQUARE)
+    scene.robot.battery = 0.14
+    scene.run(1.1)
+    said = scene.refused("/task/start", StartTaskRequest())
+    assert said == "The battery is at 14%; a patrol needs at least 15%."
+
+
+def test_a_command_that_is_too_old_is_refused(scene: Scene) -> None:
+    request = CommandRequest(stamp=scene.now - 6.0)
+    assert "too old" in scene.refused("/control/acquire", request)
+
+
+def test_the_same_command_twice_is_done_once(scene: Scene) -> None:
+    scene.set(*SQUARE)
+    request = StartTaskRequest(command_id="c1")
+    first = scene.ask("/task/start", request)
+    assert scene.ask("/task/start", request) == first
+    assert scene.task.task_id == 1
+    assert "A task is running already" in scene.refused("/task/start", StartTaskRequest(command_id="c2"))
+
+
+def test_what_one_client_was_answered_is_no_answer_for_another(scene: Scene) -> None:
+    counted = CommandRequest(command_id="2", client_id="C")
+    assert scene.ask("/control/acquire", counted).message == "You have control."
+    scene.ask("/control/release", counted)
+    scene.ask("/control/acquire", CommandRequest(command_id="2", client_id="D"), scene.client("bert"))
+    assert scene.control.driver_id == "D"
+
+
+@pytest.mark.parametrize(("x", "shown"), [(12.0, "12.0"), (1e6, "1e+06"), (-1e308, "-1e+308")])
+def test_a_place_off_the_map_is_refused_with_what_the_map_holds(scene: Scene, x: float, shown: str) -> None:
+    before = scene.station.autonomy.whereabouts.pose
+    far = PoseWithCovarianceStamped(pose=PoseWithCovariance(Pose(Point(x, 0.0))))
+    scene.station.hear(scene.anna, "/initialpose", far, None)
+    assert scene.station.autonomy.whereabouts.pose == before
+    assert scene.events("command") == [
+        f"The place at ({shown}, 0.0) is off the map, which is x -11.0 to 11.0 m, y -7.0 to 7.0 m."
+    ]
+
+
+def test_what_was_missed_can_be_asked_for(scene: Scene) -> None:
+    scene.set(*SQUARE)
+    scene.start()
+    everything = scene.ask("/events/get", GetEventsRequest()).events  # type: ignore[attr-defined]
+    assert [event.id for event in everything] == list(range(1, len(everything) + 1))
+    later = scene.ask("/events/get", GetEventsRequest(2, "b1")).events  # type: ignore[attr-defined]
+    assert later == everything[2:]
+    assert scene.ask("/events/get", GetEventsRequest(2, "another")).events == everything  # type: ignore[attr-defined]
+
+
+def test_the_answer_says_whether_there_is_more_and_what_others_have_seen_to(scene: Scene) -> None:
+    for number in range(4):
+        scene.station.events.say("contact", f"It touched something {number}.", "alarm")
+    ask = GetEventsRequest(since=1, boot="b1", most=2)
+    answer: Any = scene.ask("/events/get", ask)
+    assert ([event.id for event in answer.events], answer.more, answer.oldest) == ([2, 3], True, 1)
+    seen = AcknowledgeEventsRequest(client_name="Anna", ids=Int32Array([1]))
+    assert scene.ask("/events/acknowledge", seen).success
+    ask = msgspec.structs.replace(ask, since=3, open=Int32Array([1, 3]), most=500)
+    last: Any = scene.ask("/events/get", ask)
+    first, *later = last.events
+    assert (first.id, first.acknowledged_by, last.more) == (1, "Anna", False)
+    assert [event.id for event in later] == list(range(4, later[-1].id + 1))
+
+
+def test_a_mission_survives_a_restart(tmp_path: Path) -> None:
+    scene = Scene(FakeRobot(), tmp_path)
+    scene.set(*SQUARE, motion="intermittent", dwell=3.0)
+    again = Scene(FakeRobot(), tmp_path)
+    mission = again.ask("/mission/get", GetMissionRequest()).mission  # type: ignore[attr-defined]
+    assert mission == scene.station.mission
+    assert mission.waypoints == SQUARE
