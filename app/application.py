@@ -46,7 +46,7 @@ from app.session.pictures import Pictures
 from app.session.records import Records
 from app.session.session import Session
 from app.stop.fleet import Fleet
-from bridge.core.frames import Frame
+from bridge.core.camera_frames import Frame
 from bridge.discovery.network import NetworkThread
 from bridge.msgs.pilothouse_msgs import Event
 from widgets import CATALOGUE

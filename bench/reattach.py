@@ -20,7 +20,7 @@ from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
 from bench.support.pair import PHONE, app
 from bench.support.station import ROUND, order, serving
-from bridge.client.remote import RemoteRobot
+from bridge.client.remote_robot import RemoteRobot
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
     Event,

@@ -27,7 +27,7 @@ import psutil
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
 from bench.support.station import Serving, serving
-from bridge.client.remote import RemoteRobot
+from bridge.client.remote_robot import RemoteRobot
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from sim.core.noise import Noise

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from app.core.worker import NewestWorker
 from app.link.feeds import Mailbox
-from bridge.core.frames import Frame
+from bridge.core.camera_frames import Frame
 
 __all__ = ["PICTURE", "Camera", "Picture", "best_decoder"]
 

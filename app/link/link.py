@@ -20,9 +20,9 @@ from app.link.feeds import Mailbox
 from app.link.offer import DRIVE, MANOEUVRE, Offer, ask
 from app.link.sources import Peek, Seen, Sources
 from bridge.client.client import BridgeClient, CameraStream, LinkState, Phase
-from bridge.core.choice import drive_message
+from bridge.core.camera_frames import Frame
 from bridge.core.errors import BridgeError, NoReply, NotConnected
-from bridge.core.frames import Frame
+from bridge.core.topic_choice import drive_message
 from bridge.discovery.network import NetworkThread
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist, TwistStamped

@@ -1,7 +1,7 @@
 """What a robot offers, as its rosapi tells, and which of its topics take the place of the usual ones.
 
 On a robot of ours every topic has its usual name. Any other has names of its own: `/scan_front`, `/imu`,
-`/turtle1/cmd_vel`. Among them `bridge.core.choice` chooses.
+`/turtle1/cmd_vel`. Among them `bridge.core.topic_choice` chooses.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from bridge.core.choice import CAMERA, DRIVE, OURS, command, source
 from bridge.core.errors import BridgeError, NoReply, NotConnected
+from bridge.core.topic_choice import CAMERA, DRIVE, OURS, command, source
 from bridge.core.topics import TOPICS
 from bridge.msgs import Msg, ros1_name
 from bridge.msgs.geometry_msgs import TwistStamped

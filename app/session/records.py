@@ -10,7 +10,7 @@ from pathlib import Path
 from app.link.link import EVENT
 from app.link.recorder import Recorder
 from app.session.session import Session
-from bridge.core.frames import Frame
+from bridge.core.camera_frames import Frame
 from bridge.core.topics import TOPICS
 from bridge.msgs import Msg
 

@@ -17,8 +17,8 @@ from app.link.offer import DRIVE, NOTHING, Offer, ask
 from app.stop.local_stop import LocalStop
 from app.stop.stopping import Stopping
 from bridge.client.client import BridgeClient, LinkState, Phase
-from bridge.core.choice import drive_message
 from bridge.core.errors import BridgeError
+from bridge.core.topic_choice import drive_message
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.msgs.nav_msgs import Odometry

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import psutil
 
 from bench.support.child import Child, child
-from bridge.client.remote import RemoteRobot
+from bridge.client.remote_robot import RemoteRobot
 from bridge.core.errors import BridgeError
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,

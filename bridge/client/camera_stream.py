@@ -10,8 +10,8 @@ from collections.abc import Callable
 
 from bridge.client.connection import Connection, dial
 from bridge.core.address import BadAddress, LinkLost
+from bridge.core.camera_frames import Frame, unpack
 from bridge.core.errors import ProtocolError
-from bridge.core.frames import Frame, unpack
 from bridge.discovery.reconnecting import Reconnecting
 
 __all__ = ["CameraStream"]

@@ -14,12 +14,12 @@ from typing import TypeVar
 import msgspec
 from msgspec import UNSET, Raw
 
-from bridge.client.asking import Asking
 from bridge.client.camera_stream import CameraStream
+from bridge.client.client_goals import part_of
+from bridge.client.client_services import Call, Providing, Run
 from bridge.client.connection import Connection, dial
-from bridge.client.goals import part_of
 from bridge.client.heartbeat import Heartbeat
-from bridge.client.providing import Call, Providing, Run
+from bridge.client.service_calls import Asking
 from bridge.codec import from_builtins, from_json, to_json
 from bridge.core.address import BadAddress, LinkLost
 from bridge.core.errors import ProtocolError

@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Callable
 
 from bridge.client.connection import Connection
-from bridge.client.pings import Ping, Pings
+from bridge.client.ping_statistics import Ping, Pings
 from bridge.codec import from_json
 from bridge.core.address import LinkLost
 from bridge.core.errors import ProtocolError

@@ -5,8 +5,8 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable
 
-from bridge.server.flow.levels import Picture
-from bridge.server.flow.quality import COARSEST, Quality
+from bridge.server.flow.picture_quality import COARSEST, Quality
+from bridge.server.flow.quality_levels import Picture
 from bridge.server.flow.sockets import Socket, end, wait
 
 __all__ = ["CameraSocket"]

@@ -26,23 +26,23 @@ from websockets.http11 import Request, Response
 
 from bridge.core.compat import Compat
 from bridge.core.errors import BridgeError
-from bridge.core.offer import Action, Service, Session
+from bridge.core.robot_catalogue import Action, Service, Session
 from bridge.core.topics import TOPICS, Topic
 from bridge.msgs import Msg
 from bridge.protocol import LARGEST_HEARD
+from bridge.server.callback_connection import HeardConnection
 from bridge.server.camera_socket import CameraSocket
-from bridge.server.exchange import Exchange
-from bridge.server.flow.levels import Levels, Shrink
-from bridge.server.flow.outgoing import Reduce
-from bridge.server.flow.outlet import Round
-from bridge.server.flow.pulse import PERIOD
-from bridge.server.flow.reducing import Reducing
+from bridge.server.client_services import Exchange
+from bridge.server.flow.message_reducing import Reducing
+from bridge.server.flow.outgoing_messages import Reduce
+from bridge.server.flow.quality_levels import Levels, Shrink
+from bridge.server.flow.round_trip import PERIOD
+from bridge.server.flow.send_queue import Round
 from bridge.server.flow.sockets import end
-from bridge.server.rosapi.params import Params
-from bridge.server.rosapi.rosapi import RosApi
-from bridge.server.rosapi.who import Who
-from bridge.server.server_connection import HeardConnection
-from bridge.server.serving import Client, Offer
+from bridge.server.rosapi.node_graph import Who
+from bridge.server.rosapi.parameters import Params
+from bridge.server.rosapi.services import RosApi
+from bridge.server.rosbridge_session import Client, Offer
 from bridge.server.switchboard import Switchboard
 
 __all__ = ["Action", "BridgeServer", "Service", "Session"]

@@ -14,9 +14,9 @@ from bridge.core.topics import Topic, camera_topics
 from bridge.msgs import TYPES, Msg, ros1_name
 from bridge.protocol import Subscribed
 from bridge.protocol.merging import MOST_FIELDS
-from bridge.server.flow.lanes import Lane, Stream
-from bridge.server.flow.levels import Picture
-from bridge.server.flow.outgoing import Outgoing, Reduce
+from bridge.server.flow.outgoing_messages import Outgoing, Reduce
+from bridge.server.flow.priority_lanes import Lane, Stream
+from bridge.server.flow.quality_levels import Picture
 
 __all__ = ["CAMERA_TOPIC", "MOST_TOPICS", "Channel", "Listener", "Switchboard", "Watcher"]
 

@@ -14,8 +14,8 @@ from msgspec import structs
 
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.core.address import host_and_port
-from bridge.core.choice import drive_message
 from bridge.core.errors import BridgeError, NotConnected
+from bridge.core.topic_choice import drive_message
 from bridge.discovery.network import NetworkThread
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist, TwistStamped

@@ -1,11 +1,11 @@
-"""Which topics of a robot that is not ours stand for which of ours: as `bridge.core.choice` chooses."""
+"""Which topics of a robot that is not ours stand for which of ours: as `bridge.core.topic_choice` chooses."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from bridge.core.choice import CAMERA, DRIVE, USUAL, command, source
+from bridge.core.topic_choice import CAMERA, DRIVE, USUAL, command, source
 from bridge.msgs import Msg, ros1_name
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry
 from bridge.msgs.pilothouse_msgs import ControlStatus, Following, LineSensor, RobotInfo, TagRead

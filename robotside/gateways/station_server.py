@@ -9,7 +9,7 @@ from functools import partial
 
 import uvicorn
 
-from bridge.core import frames
+from bridge.core import camera_frames as frames
 from bridge.core.errors import BridgeError
 from bridge.core.topics import TOPICS, camera_topics
 from bridge.discovery.beacon import Beacon, Hello

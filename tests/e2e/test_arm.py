@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from bridge.client.remote import RemoteRobot
+from bridge.client.remote_robot import RemoteRobot
 from bridge.msgs.pilothouse_msgs import ArmState, LightState
 from examples.demo.robot import RobotProcess
 from tests.e2e.handheld import Handheld, handheld

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from bridge.client.remote import RemoteRobot
+from bridge.client.remote_robot import RemoteRobot
 from bridge.msgs.geometry_msgs import Twist
 from examples.demo.robot import RobotProcess
 from examples.demo.witness import Witness

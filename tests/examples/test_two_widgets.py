@@ -9,11 +9,11 @@ import time
 
 import pytest
 
-from bridge.client.remote import RemoteRobot
+from bridge.client.remote_robot import RemoteRobot
 from bridge.msgs.geometry_msgs import Quaternion, Twist
 from bridge.msgs.sensor_msgs import Imu
 from examples.two_widgets import two_widgets
-from tests.bridge.client.test_remote import Served
+from tests.bridge.client.test_remote_robot import Served
 from tests.bridge.wires import PATIENCE
 
 

@@ -10,7 +10,7 @@ from PIL import Image
 
 from app.link.camera import PICTURE, Camera, Decoder, _kivy, _pillow, best_decoder
 from app.link.feeds import Mailbox
-from bridge.core.frames import Frame
+from bridge.core.camera_frames import Frame
 
 
 def jpeg() -> bytes:

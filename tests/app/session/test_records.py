@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from app.session.records import Records
-from bridge.core.frames import Frame
+from bridge.core.camera_frames import Frame
 from bridge.msgs import Msg
 from bridge.msgs.nav_msgs import Odometry
 

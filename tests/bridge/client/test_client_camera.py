@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 
 from bridge.client.client import CameraStream
-from bridge.core import frames
+from bridge.core import camera_frames as frames
 from tests.bridge.wires import Clock, Record, server, url
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from bridge.client.client import Phase
 from bridge.core.errors import NoReply, NotConnected, ProtocolError, Refused
-from bridge.core.offer import Action
+from bridge.core.robot_catalogue import Action
 from bridge.msgs import Msg
 from bridge.msgs.std_srvs import SetBoolRequest, SetBoolResponse, TriggerResponse
 from tests.bridge.client.foreign_server import foreign

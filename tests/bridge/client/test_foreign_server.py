@@ -13,7 +13,7 @@ import pytest
 from websockets.asyncio.client import connect
 
 from bridge.client.client import Phase
-from bridge.client.remote import RemoteRobot
+from bridge.client.remote_robot import RemoteRobot
 from bridge.core.errors import NoReply, ProtocolError, Refused
 from bridge.discovery.network import NetworkThread
 from bridge.msgs import Msg

@@ -12,7 +12,7 @@ from msgspec import Raw
 from bridge.codec import from_json, to_json, unread
 from bridge.core.errors import ProtocolError
 from bridge.msgs import TYPES, nav_msgs, sensor_msgs, std_msgs
-from bridge.server.flow.outgoing import Form, Outgoing
+from bridge.server.flow.outgoing_messages import Form, Outgoing
 from tests.bridge.strategies import messages
 
 

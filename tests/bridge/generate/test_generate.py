@@ -20,7 +20,7 @@ from bridge.msgs.arrays import Float32Array, UInt16Array
 from bridge.msgs.builtin_interfaces import Time
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.std_msgs import Header
-from bridge.server.rosapi.typedefs import typedefs
+from bridge.server.rosapi.type_descriptions import typedefs
 from tests.bridge.strategies import messages
 
 ROOT = Path(__file__).parents[3]

@@ -19,9 +19,10 @@ from bridge.protocol import (
     Op,
     Reduction,
 )
-from bridge.server import server_connection, serving
-from bridge.server.rosapi.params import Params
-from bridge.server.rosapi.rosapi import Graph, RosApi
+from bridge.server import callback_connection as server_connection
+from bridge.server import rosbridge_session as serving
+from bridge.server.rosapi.parameters import Params
+from bridge.server.rosapi.services import Graph, RosApi
 
 TEXT = (Path(__file__).parents[3] / "docs" / "bridge.md").read_text()
 TABLE = TEXT.split("<!-- operations:")[1].split("<!-- end of operations -->")[0]

@@ -6,10 +6,10 @@ import asyncio
 import contextlib
 from contextlib import asynccontextmanager
 
-from bridge.core import frames
+from bridge.core import camera_frames as frames
 from bridge.server.camera_socket import CameraSocket
-from bridge.server.flow.levels import Levels
-from bridge.server.flow.quality import COARSEST
+from bridge.server.flow.picture_quality import COARSEST
+from bridge.server.flow.quality_levels import Levels
 from tests.bridge.peers import peer
 from tests.bridge.wires import Clock, Record, Wire, server, wire
 

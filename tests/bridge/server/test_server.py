@@ -9,7 +9,7 @@ import pytest
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from bridge.core import frames
+from bridge.core import camera_frames as frames
 from bridge.core.errors import BridgeError, Refused
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.geometry_msgs import Twist, Vector3

@@ -12,7 +12,7 @@ from bridge.msgs.pilothouse_msgs import Event, RobotInfo
 from bridge.msgs.std_msgs import String
 from bridge.protocol import Subscribed
 from bridge.server import switchboard
-from bridge.server.flow.lanes import Lane
+from bridge.server.flow.priority_lanes import Lane
 from bridge.server.switchboard import CAMERA_TOPIC, MOST_TOPICS, Switchboard
 
 

@@ -12,9 +12,9 @@ from bridge.msgs.arrays import Float32Array
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header
-from bridge.server.flow.window import START
+from bridge.server.flow.send_window import START
 from tests.bridge.peers import peer
-from tests.bridge.server.test_serving import House, said
+from tests.bridge.server.test_rosbridge_session import House, said
 from tests.bridge.wires import server, wire
 
 PICTURES = "/camera/image/compressed"

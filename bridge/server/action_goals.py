@@ -1,0 +1,168 @@
+"""The goals of one client: carried out by the robot or by another client."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Callable, Mapping
+
+import msgspec
+from msgspec import Raw
+
+from bridge.client.client_goals import CANCELED, SUCCEEDED
+from bridge.codec import shown, to_json
+from bridge.core.errors import BridgeError, Refused
+from bridge.core.robot_catalogue import Action, Session
+from bridge.msgs import Msg
+from bridge.protocol import (
+    MISSING,
+    ActionFeedback,
+    ActionResult,
+    CancelActionGoal,
+    Id,
+    SendActionGoal,
+    Subscribed,
+    absolute,
+    arguments,
+    goal_status,
+    too_deep,
+)
+from bridge.server.client_services import Exchange, Party
+from bridge.server.flow.outgoing_messages import Outgoing, said
+from bridge.server.flow.priority_lanes import Lane, Stream
+from bridge.server.flow.send_queue import Outlet
+from bridge.server.flow.sockets import end
+
+__all__ = ["Errands"]
+
+log = logging.getLogger(__name__)
+
+
+class Errands:
+    """What one client set going and is to hear the end of."""
+
+    def __init__(
+        self,
+        client: Party,
+        session: Session,
+        outlet: Outlet,
+        actions: Mapping[str, Action],
+        exchange: Exchange,
+    ) -> None:
+        """`actions` are the robot's own, by name."""
+        self._client = client
+        self._session = session
+        self._outlet = outlet
+        self._actions = actions
+        self._exchange = exchange
+        self._cancel: dict[Id, Callable[[], object]] = {}
+        self._news: dict[Id, Stream] = {}
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    def begin(self, op: SendActionGoal) -> None:
+        """Set a goal going; what is wrong with it is told as its result. ProtocolError for an id that is taken."""
+        self._client.remembered.begin_goal(op)
+        self._news[op.id] = Stream(f"{op.action} {op.id}", Lane.TELEMETRY, Subscribed(op.action))
+        try:
+            self._cancel[op.id] = self._start(op)
+        except BridgeError as error:
+            self._end(op, _failed(op, str(error)))
+
+    def cancel(self, op: CancelActionGoal) -> None:
+        """Take a goal back; its result is still to come. ProtocolError when it is not under way."""
+        goal = self._client.remembered.goal_to_cancel(op)
+        self._cancel[goal.id]()
+
+    async def close(self) -> None:
+        """The client is gone: take all its goals back."""
+        for cancel in list(self._cancel.values()):
+            cancel()
+        await end(self._tasks)
+
+    def _start(self, op: SendActionGoal) -> Callable[[], object]:
+        name = absolute(op.action)
+        action = self._actions.get(name)
+        told = msgspec.structs.replace(op, args=MISSING)  # which would keep all of its frame until it is over
+        if action is None:
+            if name not in self._exchange.actions:
+                raise Refused(f"This robot has no action {shown(name)}.")
+            return self._exchange.hand_goal(
+                self._client,
+                name,
+                op,
+                lambda news: self._tell(told, news.values),
+                lambda end: self._over(told, end),
+            )
+        goal = arguments(op.args, action.goal)
+        op = told
+        task = asyncio.create_task(self._carry_out(op, action, goal))
+        self._tasks.add(task)
+
+        def ended(task: asyncio.Task[None]) -> None:
+            self._tasks.discard(task)
+            if task.cancelled():
+                self._end(op, _done(op, to_json(action.result()), CANCELED))
+
+        task.add_done_callback(ended)
+        return task.cancel
+
+    async def _carry_out(self, op: SendActionGoal, action: Action, goal: Msg) -> None:
+        def tell(feedback: Msg) -> None:
+            if op.feedback:
+                self._tell(op, Raw(to_json(feedback)))
+
+        try:
+            result = await action.start(self._session, goal, tell)
+            self._end(op, _done(op, to_json(result), SUCCEEDED))
+        except BridgeError as error:
+            self._end(op, _failed(op, str(error)))
+        except Exception:
+            log.exception("%s from %s failed", op.action, self._session.address)
+            self._end(op, _failed(op, f"The robot failed at {op.action}; its log says why."))
+
+    def _tell(self, op: SendActionGoal, values: Raw) -> None:
+        news = self._news.get(op.id)
+        if news is not None and not too_deep(bytes(values)):
+            self._outlet.offer(news, _News(op, values, self._client.remembered.answer_size(op)))
+
+    def _over(self, op: SendActionGoal, told: ActionResult | None) -> None:
+        """What another client says became of a goal."""
+        if told is None:
+            self._end(op, _failed(op, f"The client that carries {op.action} out is gone."))
+        elif too_deep(bytes(told.values)):
+            self._end(op, _failed(op, f"The result of {op.action} is nested too deeply."))
+        else:
+            self._end(op, msgspec.structs.replace(told, id=op.id, action=op.action, status=goal_status(told)))
+
+    def _end(self, op: SendActionGoal, result: ActionResult) -> None:
+        self._client.remembered.end_goal(op.id)
+        self._cancel.pop(op.id, None)
+        news = self._news.pop(op.id, None)
+        if news is not None:
+            self._outlet.forget(news)
+            self._client.send(result, size=self._client.remembered.answer_size(op))
+
+
+class _News(Outgoing):
+    """How far a goal is; sent as any message of a topic, so that a newer one replaces it while it waits."""
+
+    __slots__ = ("_op", "_size", "_values")
+
+    def __init__(self, op: SendActionGoal, values: Raw, size: int | None) -> None:
+        super().__init__(op.action, values)
+        self._op = op
+        self._values = values
+        self._size = size
+
+    def frame(self, form: object) -> bytes:
+        """The operation in WebSocket frames."""
+        return said(ActionFeedback(id=self._op.id, action=self._op.action, values=self._values), self._size)
+
+
+def _done(op: SendActionGoal, values: bytes, status: int) -> ActionResult:
+    return ActionResult(id=op.id, action=op.action, values=Raw(values), status=status)
+
+
+def _failed(op: SendActionGoal, reason: str) -> ActionResult:
+    """As the servers in use tell it: the reason in the place of the result, and the status unknown."""
+    return ActionResult(id=op.id, action=op.action, values=Raw(msgspec.json.encode(reason)), result=False)
