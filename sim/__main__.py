@@ -14,11 +14,11 @@ from typing import NoReturn
 from PIL import Image
 
 from sim.core.shapes import Shape, from_yaw
-from sim.core.tables import FileFault
+from sim.core.toml_tables import FileFault
 from sim.rendering.renderer import NoRendererError, Renderer
 from sim.rendering.view import View
 from sim.vehicles.model import Model, numbered
-from sim.vehicles.starts import starts
+from sim.vehicles.start_places import starts
 from sim.world.world import World, load
 
 try:

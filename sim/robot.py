@@ -15,11 +15,11 @@ import msgspec
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Point, Pose, Quaternion, Twist
 from bridge.msgs.pilothouse_msgs import Event, Manoeuvre, Place, RobotInfo
-from sim.core.orders import check, cut
+from sim.core.order_limits import check, cut
 from sim.payloads import PAYLOADS, laden, mount
 from sim.simulation.cameras import CAMERA_TOPIC, Cameras
 from sim.simulation.mishaps import Mishaps
-from sim.simulation.run import Run
+from sim.simulation.shared_run import Run
 from sim.simulation.simulation import Simulation
 from sim.vehicles.aqua import AQUA
 from sim.vehicles.ardrone import ARDRONE
@@ -28,7 +28,7 @@ from sim.vehicles.minnow import MINNOW
 from sim.vehicles.model import Model, Vehicle, numbered, suits
 from sim.vehicles.patrol import PATROL
 from sim.vehicles.scout import SCOUT
-from sim.vehicles.starts import starts
+from sim.vehicles.start_places import starts
 from sim.world.occupancy import occupancy
 from sim.world.world import WORLDS, Start, World, load
 

@@ -8,7 +8,7 @@ from typing import Annotated, Self, TypeVar
 
 import msgspec
 
-from sim.core.tables import read, text_of
+from sim.core.toml_tables import read, text_of
 from sim.sensors.battery import BatteryParameters
 from sim.sensors.imu import ImuParameters
 from sim.vehicles.load import Load

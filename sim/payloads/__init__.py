@@ -12,7 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from sim.core.parameters import Table
-from sim.core.tables import read, text_of
+from sim.core.toml_tables import read, text_of
 from sim.payloads.arm import ArmParameters, MountedArm
 from sim.payloads.mounted import (
     CameraMount,

@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.core.blank import given_back
 from sim.core.shapes import Quat, Shape, Vec3, place
+from sim.core.zero_pages import given_back
 from sim.physics.bodies import GRAVITY, STEPS_PER_SECOND, Contact, Floating, Joint, State, WheeledBody
 
 __all__ = ["GRAVITY", "STEPS_PER_SECOND", "Bullet", "Contact", "Joint", "State", "WheeledBody"]

@@ -15,7 +15,7 @@ from PIL import Image
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.msgs.std_msgs import Header, Time
 from sim.core.parameters import CameraParameters
-from sim.core.schedule import Schedule
+from sim.core.sensor_schedule import Schedule
 from sim.core.shapes import Shape, compose, from_yaw, place
 from sim.physics.backend_bullet import State
 from sim.rendering.renderer import NoRendererError, Renderer

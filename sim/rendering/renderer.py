@@ -16,7 +16,7 @@ from sim.core.shapes import Colour, Shape
 from sim.rendering.mipmaps import add_mipmaps
 from sim.rendering.sky import HORIZON, SIZE, ZENITH, dome, grain, panorama, seen
 from sim.rendering.view import View
-from sim.world.ground import SUN, markings
+from sim.world.ground_picture import SUN, markings
 from sim.world.solids import FLOATS, KINDS, mesh, rows
 from sim.world.world import World
 

@@ -16,7 +16,7 @@ from bridge.msgs.geometry_msgs import (
 )
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.std_msgs import Header, Time
-from sim.core.schedule import Schedule
+from sim.core.sensor_schedule import Schedule
 from sim.core.shapes import rotate_back
 from sim.physics.backend_bullet import State
 

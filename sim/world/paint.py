@@ -12,7 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.world.ground import arrow_corners
+from sim.world.ground_picture import arrow_corners
 from sim.world.world import World
 
 __all__ = ["Paint"]

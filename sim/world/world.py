@@ -10,11 +10,11 @@ from typing import Annotated, Literal
 import msgspec
 
 from sim.core.shapes import Shape
-from sim.core.tables import FileFault, fault, read, text_of
-from sim.world.faults import faults
+from sim.core.toml_tables import FileFault, fault, read, text_of
 from sim.world.props import Prop, block, car, cone, lamp, tree, wall
 from sim.world.props_people import fruit_tree, person, table
 from sim.world.props_water import buoy, coral, diver
+from sim.world.world_faults import faults
 
 __all__ = ["WORLDS", "World", "WorldError", "load"]
 

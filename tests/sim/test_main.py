@@ -16,7 +16,7 @@ from PIL import Image
 
 from sim.__main__ import main
 from sim.core.shapes import Shape
-from sim.core.tables import FileFault
+from sim.core.toml_tables import FileFault
 from sim.robot import ROBOTS
 from sim.vehicles.model import Model
 from sim.vehicles.patrol import PARAMETERS, Patrol

@@ -11,9 +11,9 @@ from PIL import Image
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
-from sim.core.orders import cut
+from sim.core.order_limits import cut
 from sim.robot import CAMERA_TOPIC, ROBOTS, SimRobot, make_several
-from sim.simulation.run import Run
+from sim.simulation.shared_run import Run
 from sim.simulation.simulation import Simulation
 from sim.vehicles.aqua import AQUA
 from sim.vehicles.ardrone import ARDRONE

@@ -28,7 +28,7 @@ from robotside.__main__ import main
 from robotside.core.clock import RobotClock
 from robotside.gateways.station_server import Addresses, Serving
 from robotside.station.station import Station
-from sim.core.tables import FileFault
+from sim.core.toml_tables import FileFault
 from tests.fakes import FakeRobot
 from tests.robotside.scene import records_at
 

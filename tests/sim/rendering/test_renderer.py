@@ -12,7 +12,7 @@ from sim.core.shapes import Shape, from_yaw
 from sim.rendering import renderer as module
 from sim.rendering.renderer import NoRendererError, Renderer
 from sim.rendering.view import View
-from sim.world.ground import markings
+from sim.world.ground_picture import markings
 from sim.world.world import load
 from tests.sim.rooms import orange, room
 

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from sim.core.schedule import Schedule
+from sim.core.sensor_schedule import Schedule
 
 
 @pytest.mark.parametrize("rate", [1, 5, 10, 15, 20, 50, 240])

@@ -9,7 +9,7 @@ import pytest
 
 from sim.robot import ROBOTS, WORLDS, home_of, make, make_several
 from sim.vehicles.model import Model, numbered, suits
-from sim.vehicles.starts import starts
+from sim.vehicles.start_places import starts
 from sim.world.world import Start, load, parse
 
 NARROW = """

@@ -9,7 +9,7 @@ import msgspec
 import pytest
 
 from sim.core.parameters import load as load_parameters
-from sim.core.tables import FileFault, line_of, read, text_of
+from sim.core.toml_tables import FileFault, line_of, read, text_of
 from sim.payloads import load as load_payloads
 from sim.vehicles.patrol import PatrolParameters
 from sim.world.world import WorldError, load

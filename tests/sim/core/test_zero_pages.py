@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from sim.core.blank import given_back
+from sim.core.zero_pages import given_back
 
 SIZE = 64 << 20
 

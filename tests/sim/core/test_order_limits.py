@@ -7,7 +7,7 @@ import math
 import pytest
 
 from bridge.msgs.pilothouse_msgs import Event, Manoeuvre
-from sim.core.orders import cut
+from sim.core.order_limits import cut
 from sim.robot import SimRobot
 from sim.vehicles.aqua import AQUA
 from sim.vehicles.ardrone import ARDRONE
