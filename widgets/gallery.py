@@ -26,7 +26,7 @@ KIT = {
     "Buttons": "widgets.parts.buttons",
     "Choices": "widgets.parts.choices",
     "Stepper": "widgets.parts.stepper",
-    "Amounts": "widgets.parts.amounts",
+    "Amounts": "widgets.parts.sliders",
     "TextField": "widgets.parts.text_field",
     "Rows": "widgets.parts.rows",
     "EventRow": "widgets.status.event_row",

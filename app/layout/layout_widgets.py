@@ -12,7 +12,7 @@ from bridge.core.topics import topic
 from bridge.msgs.geometry_msgs import PoseStamped
 from widgets.controls.stick import Stick
 from widgets.core.base import Control
-from widgets.core.grip import Grip
+from widgets.core.finger_grip import Grip
 from widgets.core.icons import ICONS
 
 __all__ = ["check_control", "check_icon", "check_instrument", "drives"]

@@ -12,8 +12,8 @@ import pytest
 from PIL import Image
 
 from bridge.core.geo import Datum
+from widgets.core.canvas_ink import Ink
 from widgets.core.geometry import View
-from widgets.core.ink import Ink
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.compass import Compass

@@ -9,7 +9,7 @@ from pathlib import Path
 import kivy
 import pytest
 
-from widgets.core import ink
+from widgets.core import canvas_ink as ink
 from widgets.instruments import horizon
 from widgets.sensors import video
 

@@ -26,10 +26,10 @@ from kivy.uix.widget import Widget
 
 import widgets.parts.rows  # noqa: F401 - its rules draw what is used here
 from widgets.core.base import Control, text_texture
-from widgets.core.frames import Outlined
+from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
 from widgets.parts.buttons import PushButton
-from widgets.parts.gauge import wide
+from widgets.parts.sensor_card import wide
 
 __all__ = ["Action", "ActionColumn"]
 

@@ -22,12 +22,12 @@ from kivy.uix.widget import Widget
 from bridge.core.units import heading_from_yaw, yaw_from_heading
 from bridge.msgs.pilothouse_msgs import Compass, Manoeuvre
 from widgets.core.base import fitting_size
+from widgets.core.canvas_ink import Word, tint
+from widgets.core.finger_grip import Grip
 from widgets.core.geometry import DASH, HULL, dial_point, dial_text, heading_text, shortest_turn
-from widgets.core.grip import Grip
-from widgets.core.ink import Word, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.parts.gauge import Gauge
+from widgets.parts.sensor_card import Gauge
 
 __all__ = ["CourseDial", "samples"]
 

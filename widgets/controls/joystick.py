@@ -17,10 +17,10 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import Twist
 from widgets.controls.stick import DEAD, Stick
-from widgets.core.ink import tint
+from widgets.core.canvas_ink import tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.parts.caption import Captioned
+from widgets.parts.stick_caption import Captioned
 
 __all__ = ["DEAD", "Joystick"]
 

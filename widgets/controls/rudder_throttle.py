@@ -18,12 +18,12 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RudderState
 from widgets.controls.stick import DEAD, Stick
+from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import HULL, Points, rounded
-from widgets.core.ink import Word, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.readout import figure
-from widgets.parts.gauge import Gauge, wide
+from widgets.parts.sensor_card import Gauge, wide
 
 __all__ = ["RudderThrottle", "samples"]
 

@@ -18,12 +18,12 @@ from kivy.properties import AliasProperty, ListProperty, NumericProperty, Option
 from kivy.uix.widget import Widget
 
 from widgets.core.base import fitting_size
-from widgets.core.grip import Grip
+from widgets.core.canvas_ink import Word, tint
+from widgets.core.finger_grip import Grip
 from widgets.core.icons import icon
-from widgets.core.ink import Word, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.parts.gauge import Gauge, first_fitting, wide
+from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["OUTCOMES", "SlideToConfirm", "samples"]
 

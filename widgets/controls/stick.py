@@ -16,9 +16,9 @@ from kivy.properties import AliasProperty, NumericProperty, OptionProperty
 
 from bridge.msgs import Msg
 from widgets.core.base import text_texture
-from widgets.core.grip import Grip
+from widgets.core.canvas_ink import Drawing, Ink
+from widgets.core.finger_grip import Grip
 from widgets.core.icons import icon
-from widgets.core.ink import Drawing, Ink
 from widgets.core.theme import theme
 
 __all__ = ["DEAD", "SLIGHT", "Stick"]

@@ -17,11 +17,11 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from widgets.controls.stick import Stick
-from widgets.core.ink import Word, ground, tint
+from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.parts.gauge import Gauge, first_fitting
 from widgets.parts.labels import spaced
+from widgets.parts.sensor_card import Gauge, first_fitting
 
 __all__ = ["TiltCircle", "samples"]
 

@@ -1,4 +1,4 @@
-"""Discs, rings, lines, dashes and triangles as vertices for one mesh. No Kivy in here; `widgets.core.ink` draws them.
+"""Discs, rings, lines, dashes and triangles as vertices for one mesh. No Kivy in here; `widgets.core.canvas_ink` draws them.
 
 Every vertex has twelve floats: place (2), local place (2), form (4) and colour (4). The form tells the
 shader which distance to the shape's edge to compute, so that edges are smooth at any size without

@@ -17,7 +17,7 @@ from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
 from widgets.core.base import Control
-from widgets.core.frames import Outlined
+from widgets.core.surfaces import Outlined
 from widgets.parts.column import Column
 from widgets.parts.labels import Text
 from widgets.parts.rows import group_label

@@ -16,7 +16,7 @@ from kivy.properties import ListProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
 from widgets.core.base import Control
-from widgets.core.ink import Drawing, Ink, Word, Words, tint
+from widgets.core.canvas_ink import Drawing, Ink, Word, Words, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 

@@ -15,7 +15,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.parts.labels  # noqa: F401 - its rules draw the icon and the words
-from widgets.core.frames import Outlined
+from widgets.core.surfaces import Outlined
 
 __all__ = ["PHASES", "ReactionTest"]
 

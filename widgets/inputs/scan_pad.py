@@ -17,7 +17,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.parts.labels  # noqa: F401 - its rules draw the words
-from widgets.core.frames import Outlined
+from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
 from widgets.parts.buttons import QuietButton
 

@@ -15,11 +15,11 @@ from kivy.metrics import dp, sp
 from kivy.properties import BooleanProperty, NumericProperty, OptionProperty
 from kivy.uix.widget import Widget
 
+from widgets.core.canvas_ink import Drawing, Ink, Word, Words, tint
 from widgets.core.icons import icon
-from widgets.core.ink import Drawing, Ink, Word, Words, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.parts.gauge import first_fitting
+from widgets.parts.sensor_card import first_fitting
 
 __all__ = ["ShakeLesson"]
 

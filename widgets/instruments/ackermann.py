@@ -18,13 +18,13 @@ from kivy.uix.widget import Widget
 from bridge.msgs.arrays import Float64Array
 from bridge.msgs.pilothouse_msgs import AckermannState
 from widgets.core.base import fitting_size
+from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import DASH, Points, rounded
-from widgets.core.ink import Word, ground, tint
-from widgets.core.nearness import away_text
+from widgets.core.sensor_geometry import away_text
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.readout import figure
-from widgets.parts.gauge import Gauge, first_fitting, wide
+from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["AckermannView", "samples"]
 

@@ -16,14 +16,14 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
+from widgets.core.canvas_ink import Word
 from widgets.core.geometry import DASH
-from widgets.core.ink import Word
 from widgets.core.shapes import Shapes
 from widgets.core.task_words import heading_of
 from widgets.core.theme import theme
 from widgets.instruments.readout import DASH as LONG_DASH
 from widgets.instruments.readout import figure
-from widgets.parts.gauge import Gauge, first_fitting, wide
+from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["CommandedMotion", "Figure", "samples"]
 

@@ -21,8 +21,8 @@ from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.msgs.sensor_msgs import Imu
+from widgets.core.canvas_ink import Drawing, Ink, Word, Words, tint
 from widgets.core.geometry import dial_point, dial_text, heading_of, heading_text
-from widgets.core.ink import Drawing, Ink, Word, Words, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 

@@ -18,12 +18,12 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import ControlStatus, Manoeuvre
 from bridge.msgs.sensor_msgs import FluidPressure
+from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import DASH, Points, nice_floor
-from widgets.core.ink import Word, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.readout import figure
-from widgets.parts.gauge import Gauge, first_fitting, wide
+from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["DepthGauge", "samples"]
 

@@ -19,10 +19,10 @@ from kivy.uix.widget import Widget
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.sensor_msgs import Imu
-from widgets.core.frames import Glass
+from widgets.core.canvas_ink import Drawing, Ink, Word, Words, tint
 from widgets.core.geometry import CARDINALS, DASH, heading_of, shortest_turn, tape_marks
-from widgets.core.ink import Drawing, Ink, Word, Words, tint
 from widgets.core.shapes import Shapes
+from widgets.core.surfaces import Glass
 from widgets.core.theme import theme
 
 __all__ = ["HeadingTape", "samples"]

@@ -17,12 +17,12 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.pilothouse_msgs import ControlStatus, FlightState
 from widgets.core.base import fitting_size
+from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import DASH, nice_floor
-from widgets.core.ink import Word, ground, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.readout import figure
-from widgets.parts.gauge import Gauge, first_fitting, wide
+from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["HeightTape", "samples"]
 

@@ -17,10 +17,10 @@ from kivy.properties import AliasProperty, BooleanProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.sensor_msgs import Imu
-from widgets.core.frames import Glass
+from widgets.core.canvas_ink import Drawing, Ink, Word, Words, shader
 from widgets.core.geometry import DASH, dial_point, horizon_rise, screen_angle
-from widgets.core.ink import Drawing, Ink, Word, Words, shader
 from widgets.core.shapes import Shapes
+from widgets.core.surfaces import Glass
 from widgets.core.theme import theme
 
 __all__ = ["ArtificialHorizon", "samples"]

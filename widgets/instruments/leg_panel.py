@@ -19,13 +19,13 @@ from kivy.uix.widget import Widget
 from bridge.msgs.arrays import Float64Array
 from bridge.msgs.pilothouse_msgs import MotorArray
 from bridge.msgs.sensor_msgs import JointState
+from widgets.core.canvas_ink import Word
 from widgets.core.geometry import DASH, dial_point
 from widgets.core.icons import icon
-from widgets.core.ink import Word
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.readout import figure
-from widgets.parts.gauge import Gauge, first_fitting, wide
+from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["LegPanel", "leg_of", "samples"]
 

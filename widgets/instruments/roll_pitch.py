@@ -20,11 +20,11 @@ from kivy.uix.widget import Widget
 from bridge.msgs.pilothouse_msgs import Compass
 from bridge.msgs.std_msgs import Header, Time
 from widgets.core.base import fitting_size
+from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import DASH, Points
-from widgets.core.ink import Word, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.parts.gauge import Gauge, first_fitting, wide
+from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["RollPitch", "spread_of", "samples"]
 

@@ -17,14 +17,14 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.arrays import Float64Array
 from bridge.msgs.pilothouse_msgs import MotorArray
+from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import DASH, Points
 from widgets.core.icons import icon
-from widgets.core.ink import Word, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.readout import figure
 from widgets.map.map_marks import arrow
-from widgets.parts.gauge import Gauge, first_fitting, wide
+from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["RotorSpeeds", "samples"]
 

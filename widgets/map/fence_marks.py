@@ -12,9 +12,9 @@ import numpy as np
 from kivy.metrics import dp, sp
 
 from widgets.core.base import text_texture
+from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import Points, View
 from widgets.core.icons import icon
-from widgets.core.ink import Word, ground, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.map.fence import Border, Fence

@@ -20,8 +20,8 @@ from kivy.uix.widget import Widget
 from kivy_garden.mapview import MapView
 
 from bridge.core.geo import Datum
+from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import View, tween
-from widgets.core.ink import Word, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.map.grid_map import fenced, patrol

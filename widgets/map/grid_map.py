@@ -31,8 +31,8 @@ from bridge.msgs.geometry_msgs import (
 )
 from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
 from bridge.msgs.pilothouse_msgs import Limits
+from widgets.core.canvas_ink import Ink, tint
 from widgets.core.geometry import Points, occupancy_pixels, screen_angle, spread, tween
-from widgets.core.ink import Ink, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.map.map_marks import grid_lines

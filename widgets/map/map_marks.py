@@ -13,9 +13,9 @@ import numpy as np
 from kivy.metrics import dp, sp
 
 from widgets.core.base import text_texture
+from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import Points, View, length_text, nice_floor, thinned
 from widgets.core.icons import icon
-from widgets.core.ink import Word, ground, tint
 from widgets.core.shapes import Shapes
 from widgets.core.task_words import KINDS
 from widgets.core.theme import theme

@@ -28,8 +28,8 @@ from bridge.msgs.nav_msgs import Path
 from bridge.msgs.pilothouse_msgs import IntruderArray, Limits
 from bridge.msgs.sensor_msgs import LaserScan
 from widgets.core.base import VEIL
+from widgets.core.canvas_ink import Drawing, Ink, Word, Words, ground, tint
 from widgets.core.geometry import Points, Trail, View, nice_floor, scan_points, spread
-from widgets.core.ink import Drawing, Ink, Word, Words, ground, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.map import fence_marks

@@ -17,7 +17,7 @@ from kivy.uix.widget import Widget
 
 import widgets.parts.labels  # noqa: F401 - its rules draw the icons
 from widgets.core.base import fitting_size, text_texture
-from widgets.core.frames import Pressable
+from widgets.core.surfaces import Pressable
 from widgets.core.theme import theme
 
 __all__ = ["IconButton", "NavButton", "PrimaryButton", "PushButton", "QuietButton"]

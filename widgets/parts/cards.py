@@ -13,7 +13,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 import widgets.parts.buttons  # noqa: F401 - its rules draw what can be done about a toast
-from widgets.core.frames import Outlined
+from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
 from widgets.parts.labels import SectionLabel, Text, ValueUnit
 

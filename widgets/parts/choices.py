@@ -21,7 +21,7 @@ from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
 from widgets.core.base import fitting_size
-from widgets.core.frames import Outlined
+from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
 
 __all__ = ["Segmented", "Toggle"]

@@ -13,7 +13,7 @@ from kivy.uix.label import Label
 from kivy.uix.widget import Widget
 
 from widgets.core.base import text_texture
-from widgets.core.frames import Pressable
+from widgets.core.surfaces import Pressable
 from widgets.core.theme import theme
 
 __all__ = ["Chip", "Icon", "Remark", "SectionLabel", "Text", "ValueUnit", "spaced", "wrapped"]

@@ -12,7 +12,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.scrollview import ScrollView
 from kivy.uix.widget import Widget
 
-from widgets.core.frames import Pressable
+from widgets.core.surfaces import Pressable
 from widgets.parts.buttons import IconButton
 from widgets.parts.choices import Toggle
 from widgets.parts.column import Column

@@ -30,7 +30,7 @@ from kivy.uix.widget import Widget
 import widgets.parts.labels  # noqa: F401 - its rules draw the rows
 from bridge.msgs import Msg
 from widgets.core.base import RobotWidget, age_text
-from widgets.core.fields import ARRAY, BRANCH, DASH, LEAF, Path, Row, describe, rows, unit
+from widgets.core.message_fields import ARRAY, BRANCH, DASH, LEAF, Path, Row, describe, rows, unit
 from widgets.core.theme import theme
 from widgets.sensors.field_row import FieldRow, line_width, text_width, whole_height
 
@@ -92,7 +92,7 @@ class FieldView(RobotWidget, FloatLayout):
     folds = DictProperty()
     """Paths that a finger has opened (True) or folded (False)."""
     lines = ListProperty()
-    """Rows of the tree, as `widgets.core.fields.rows` gives them."""
+    """Rows of the tree, as `widgets.core.message_fields.rows` gives them."""
     edges = ListProperty([0.0])
     """Where each row begins from the top, and where the last one ends [px]."""
 

@@ -20,13 +20,13 @@ from bridge.msgs.geometry_msgs import Point, Pose, PoseWithCovariance, PoseWithC
 from bridge.msgs.pilothouse_msgs import Intruder, IntruderArray
 from bridge.msgs.std_msgs import Header, Time
 from widgets.core.base import age_text
+from widgets.core.canvas_ink import Drawing, Ink, Word, Words
 from widgets.core.icons import icon
-from widgets.core.ink import Drawing, Ink, Word, Words
-from widgets.core.nearness import ago_text, away_text, side_text
+from widgets.core.sensor_geometry import ago_text, away_text, side_text
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.map.map_marks import arrow
-from widgets.parts.gauge import first_fitting, wide
+from widgets.parts.sensor_card import first_fitting, wide
 
 __all__ = ["IntruderBadge", "samples"]
 

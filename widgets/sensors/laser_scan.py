@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.sensor_msgs import LaserScan
-from widgets.core.frames import Glass
+from widgets.core.canvas_ink import Drawing, Ink, Word, Words, ground, tint
 from widgets.core.geometry import DASH, Points, length_text, scan_points, scan_reach
 from widgets.core.icons import icon
-from widgets.core.ink import Drawing, Ink, Word, Words, ground, tint
 from widgets.core.shapes import Shapes
+from widgets.core.surfaces import Glass
 from widgets.core.theme import theme
 from widgets.map.map_marks import arrow
 

@@ -17,13 +17,13 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.pilothouse_msgs import LineSensor
+from widgets.core.canvas_ink import Word
 from widgets.core.geometry import DASH, tween
-from widgets.core.ink import Word
-from widgets.core.nearness import LEAST_CONTRAST, contrast_of, line_offset
+from widgets.core.sensor_geometry import LEAST_CONTRAST, contrast_of, line_offset
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.map.map_marks import arrow
-from widgets.parts.gauge import Gauge, first_fitting
+from widgets.parts.sensor_card import Gauge, first_fitting
 
 __all__ = ["LineSensorView", "samples"]
 

@@ -20,14 +20,14 @@ from numpy.typing import NDArray
 from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.pilothouse_msgs import Bumper, SonarRing
 from widgets.core.base import fitting_size
+from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.geometry import DASH, Points, length_text, scan_reach
 from widgets.core.icons import icon
-from widgets.core.ink import Word, ground, tint
-from widgets.core.nearness import away_text, side_text
+from widgets.core.sensor_geometry import away_text, side_text
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.map.map_marks import arrow
-from widgets.parts.gauge import Gauge, first_fitting
+from widgets.parts.sensor_card import Gauge, first_fitting
 
 __all__ = ["SonarRingView", "samples"]
 

@@ -17,13 +17,13 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.sensor_msgs import Range
 from bridge.msgs.std_msgs import Header, Time
+from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import DASH
-from widgets.core.ink import Word, tint
-from widgets.core.nearness import aim, away_text, side_text
+from widgets.core.sensor_geometry import aim, away_text, side_text
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.map.map_marks import arrow
-from widgets.parts.gauge import Gauge, first_fitting, wide
+from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["UltrasoundView", "samples"]
 

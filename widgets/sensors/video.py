@@ -21,9 +21,9 @@ from kivy.uix.widget import Widget
 
 from bridge.msgs.vision_msgs import Detection2D, Detection2DArray
 from widgets.core.base import VEIL, fitting_size, text_texture
+from widgets.core.canvas_ink import Drawing, Ink, Word, Words, shader, tint
 from widgets.core.geometry import contain, cover
 from widgets.core.icons import icon
-from widgets.core.ink import Drawing, Ink, Word, Words, shader, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 

@@ -20,7 +20,7 @@ from kivy.uix.widget import Widget
 import widgets.parts.rows  # noqa: F401 - its rules draw what scrolls here
 from bridge.msgs.pilothouse_msgs import Check, Checklist
 from widgets.core.base import RobotWidget
-from widgets.core.frames import Outlined
+from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
 
 __all__ = ["CheckHead", "CheckLine", "CheckList"]

@@ -17,7 +17,7 @@ from kivy.uix.widget import Widget
 
 import widgets.parts.labels  # noqa: F401 - its rules draw what is used here
 from widgets.core.base import Control
-from widgets.core.frames import Outlined
+from widgets.core.surfaces import Outlined
 from widgets.core.theme import theme
 from widgets.parts.buttons import IconButton, PrimaryButton, PushButton, QuietButton
 from widgets.parts.column import Column

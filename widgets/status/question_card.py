@@ -20,7 +20,7 @@ import widgets.parts.column
 import widgets.parts.labels  # noqa: F401 - their rules draw what is used here
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskStatus
 from widgets.core.base import Control
-from widgets.core.frames import Outlined
+from widgets.core.surfaces import Outlined
 from widgets.core.task_words import title
 
 __all__ = ["QuestionCard"]

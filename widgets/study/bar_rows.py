@@ -15,11 +15,11 @@ import numpy as np
 from kivy.metrics import dp, sp
 from kivy.properties import NumericProperty, StringProperty
 
+from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.icons import icon
-from widgets.core.ink import Word, ground, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.parts.gauge import Gauge, first_fitting, wide
+from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["Bar", "BarRows", "Group", "nice_step"]
 

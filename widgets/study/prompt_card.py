@@ -13,9 +13,9 @@ from kivy.metrics import dp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
-import widgets.parts.amounts
 import widgets.parts.labels  # noqa: F401 - their rules draw what is used here
-from widgets.core.frames import Outlined
+import widgets.parts.sliders
+from widgets.core.surfaces import Outlined
 from widgets.parts.column import Column
 
 __all__ = ["PromptCard", "samples"]

@@ -15,10 +15,10 @@ from kivy.metrics import dp, sp
 from kivy.properties import ListProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
-from widgets.core.ink import Word, ground, tint
+from widgets.core.canvas_ink import Word, ground, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.parts.gauge import Gauge, first_fitting, wide
+from widgets.parts.sensor_card import Gauge, first_fitting, wide
 
 __all__ = ["ScoreHistory", "samples"]
 

@@ -18,7 +18,7 @@ from kivy.uix.widget import Widget
 import widgets.parts.labels  # noqa: F401 - its rules draw the sentences
 from widgets.core.theme import theme
 from widgets.parts.choices import Segmented
-from widgets.study.answer_sheet import AnswerRow, AnswerSheet
+from widgets.study.questionnaire import AnswerRow, AnswerSheet
 
 __all__ = ["ITEMS", "SusForm", "samples"]
 

@@ -18,11 +18,11 @@ from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
-from widgets.core.ink import Drawing, Ink, Word, Words
+from widgets.core.canvas_ink import Drawing, Ink, Word, Words
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.parts.buttons import IconButton
-from widgets.study.answer_sheet import AnswerRow, AnswerSheet
+from widgets.study.questionnaire import AnswerRow, AnswerSheet
 
 __all__ = ["SCALES", "TlxScales", "samples"]
 

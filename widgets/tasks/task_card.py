@@ -14,12 +14,12 @@ from kivy.lang import Builder
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, ObjectProperty, StringProperty
 from kivy.uix.widget import Widget
 
-import widgets.parts.amounts
 import widgets.parts.labels  # noqa: F401 - their rules draw what is used here
+import widgets.parts.sliders
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskStatus
 from widgets.core.base import RobotWidget
-from widgets.core.frames import Outlined
+from widgets.core.surfaces import Outlined
 from widgets.core.task_words import STATES, TASKS, distance_words, span_words, title
 from widgets.parts.column import Column
 

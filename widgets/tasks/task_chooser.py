@@ -18,7 +18,7 @@ from kivy.uix.widget import Widget
 import widgets.parts.labels  # noqa: F401 - its rules draw the icons
 from bridge.msgs.pilothouse_msgs import TaskOrder
 from widgets.core.base import Control
-from widgets.core.frames import Pressable
+from widgets.core.surfaces import Pressable
 from widgets.core.task_words import TASKS
 from widgets.parts.column import Grid
 

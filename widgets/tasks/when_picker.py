@@ -20,7 +20,7 @@ import widgets.parts.choices
 import widgets.parts.stepper  # noqa: F401 - their rules draw what is used here
 from bridge.msgs.pilothouse_msgs import ScheduledTask
 from widgets.core.base import Control
-from widgets.core.frames import Outlined
+from widgets.core.surfaces import Outlined
 from widgets.core.task_words import DAYS
 from widgets.parts.column import Column
 

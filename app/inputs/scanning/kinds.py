@@ -13,13 +13,13 @@ from kivy.uix.widget import Widget
 from widgets import HeadingDial, StopAll, StopButton
 from widgets.controls.slide_confirm import SlideToConfirm
 from widgets.controls.stick import Stick
-from widgets.core.grip import Grip
-from widgets.core.hold import Hold
+from widgets.core.finger_grip import Grip
+from widgets.core.hold_progress import Hold
 from widgets.map.map_gestures import MapGestures
-from widgets.parts.amounts import Fader
 from widgets.parts.cards import Banner, Sheet, SheetGrip
 from widgets.parts.choices import Toggle
 from widgets.parts.rows import DragHandle
+from widgets.parts.sliders import Fader
 from widgets.parts.stepper import StepperEnd
 
 __all__ = ["kind_of"]

@@ -17,7 +17,7 @@ from app.inputs.scanning.area import Area
 from app.inputs.scanning.finding import Box, in_window
 from app.inputs.scanning.placing import beside
 from widgets.controls.stop.stop_button import LONG_HOLD
-from widgets.core.hold import HOLD
+from widgets.core.hold_progress import HOLD
 from widgets.inputs.scan_keyboard import ScanKeyboard
 from widgets.inputs.scan_pad import PadKey, ScanPad
 

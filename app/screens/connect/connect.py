@@ -14,7 +14,7 @@ from kivy.uix.floatlayout import FloatLayout
 from app.discovery.discovery import Entry
 from app.layout.arrange import connect_columns
 from app.screens.parts.chip import InputsChip  # noqa: F401 - its rule draws what is used here
-from widgets.core.frames import EdgedBox  # noqa: F401 - its rule draws the bar
+from widgets.core.surfaces import EdgedBox  # noqa: F401 - its rule draws the bar
 from widgets.core.theme import theme
 from widgets.parts.kit import Banner, Card, Text
 

@@ -12,8 +12,8 @@ from kivy.uix.widget import Widget
 from app.layout.layout import Layout
 from app.session.actions import CARRIED, Actions
 from widgets.controls.action_column import Action
-from widgets.parts.gauge import wide
 from widgets.parts.kit import Card, QuietButton, Text
+from widgets.parts.sensor_card import wide
 
 __all__ = ["ActionButtons"]
 

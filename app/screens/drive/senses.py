@@ -12,8 +12,8 @@ from app.layout.arrange import Rect
 from app.link.feeds import Feeds
 from app.screens.parts.placing import put
 from bridge.msgs import Msg
-from widgets.parts.gauge import Gauge
 from widgets.parts.kit import Card, Icon
+from widgets.parts.sensor_card import Gauge
 
 __all__ = ["Senses"]
 

@@ -13,7 +13,7 @@ from app.screens.parts.placing import put
 from app.session.dashboard import AGE_STEP, Dashboard
 from app.session.session import Session
 from widgets import IntruderBadge, Video
-from widgets.core.nearness import away_text
+from widgets.core.sensor_geometry import away_text
 
 __all__ = ["Sight"]
 

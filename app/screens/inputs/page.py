@@ -12,7 +12,7 @@ from kivy.uix.floatlayout import FloatLayout
 from app.layout import arrange
 from app.layout.arrange import Body
 from app.screens.inputs.screen import InputsScreen
-from widgets.core.frames import EdgedBox  # noqa: F401 - its rule draws the bar
+from widgets.core.surfaces import EdgedBox  # noqa: F401 - its rule draws the bar
 from widgets.parts.kit import IconButton, Text
 
 __all__ = ["InputsPage"]

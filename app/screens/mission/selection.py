@@ -7,7 +7,7 @@ from kivy.properties import StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
-from widgets.core.frames import Outlined
+from widgets.core.surfaces import Outlined
 
 __all__ = ["SelectionBar"]
 

@@ -10,7 +10,7 @@ from kivy.properties import BooleanProperty, ListProperty
 from kivy.uix.boxlayout import BoxLayout
 
 from app.screens.inputs import PANES
-from widgets.core.frames import Pressable
+from widgets.core.surfaces import Pressable
 from widgets.core.theme import theme
 from widgets.parts.kit import Icon, Text
 

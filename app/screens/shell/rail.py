@@ -13,7 +13,7 @@ from app.layout.arrange import Rect
 from app.screens.connect.connect import THEMES
 from app.screens.parts.placing import put
 from bridge.msgs.pilothouse_msgs import Event
-from widgets.core.frames import Edged
+from widgets.core.surfaces import Edged
 from widgets.core.theme import theme
 from widgets.parts.kit import NavButton, PushButton
 

@@ -18,7 +18,7 @@ from app.screens.parts.chip import InputsChip  # noqa: F401 - its rule draws wha
 from app.screens.shell import standing
 from app.session.session import Session
 from widgets.core.base import text_texture
-from widgets.core.frames import EdgedBox
+from widgets.core.surfaces import EdgedBox
 from widgets.core.theme import theme
 
 __all__ = ["TopBar"]

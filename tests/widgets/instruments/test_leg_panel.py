@@ -9,7 +9,7 @@ from bridge.msgs.pilothouse_msgs import MotorArray
 from bridge.msgs.sensor_msgs import JointState
 from widgets.core.shapes import Shapes
 from widgets.instruments.leg_panel import MOST, LegPanel, leg_of
-from widgets.parts.gauge import wide
+from widgets.parts.sensor_card import wide
 
 
 @pytest.fixture

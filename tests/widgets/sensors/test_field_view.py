@@ -8,7 +8,7 @@ from typing import ClassVar
 import pytest
 from msgspec.structs import replace
 
-import widgets.core.fields
+import widgets.core.message_fields
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import Imu
 from bridge.msgs.std_msgs import String

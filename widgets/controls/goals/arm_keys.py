@@ -10,10 +10,10 @@ from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, BooleanProperty, ListProperty, NumericProperty, StringProperty
 
 from bridge.msgs.pilothouse_msgs import ArmOrder
-from widgets.core.grip import Grip
+from widgets.core.finger_grip import Grip
 from widgets.core.theme import theme
 from widgets.parts.buttons import QuietButton
-from widgets.parts.gauge import Gauge, wide
+from widgets.parts.sensor_card import Gauge, wide
 
 __all__ = ["CHOICE", "ArmKeys", "PoseKey", "said"]
 

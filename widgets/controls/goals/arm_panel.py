@@ -37,12 +37,12 @@ from widgets.controls.goals.arm_picture import (
     side_points,
 )
 from widgets.controls.slide_confirm import OUTCOMES
+from widgets.core.canvas_ink import Word
 from widgets.core.geometry import DASH, dial_point
-from widgets.core.ink import Word
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.readout import figure
-from widgets.parts.gauge import first_fitting, wide
+from widgets.parts.sensor_card import first_fitting, wide
 
 __all__ = ["ArmPanel", "samples"]
 

@@ -28,17 +28,17 @@ from bridge.msgs.geometry_msgs import (
 from bridge.msgs.nav_msgs import Path
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from bridge.msgs.std_msgs import Header
-from widgets.controls.goals.errand import Errand
 from widgets.controls.goals.goal_picture import Box, draw, ground
+from widgets.controls.goals.goal_status import Errand
 from widgets.core.base import fitting_size
+from widgets.core.canvas_ink import Word, tint
+from widgets.core.finger_grip import Grip
 from widgets.core.geometry import DASH
-from widgets.core.grip import Grip
 from widgets.core.icons import icon
-from widgets.core.ink import Word, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.readout import figure
-from widgets.parts.gauge import Gauge
+from widgets.parts.sensor_card import Gauge
 
 __all__ = ["STEP", "TURN", "GoalPad", "samples"]
 

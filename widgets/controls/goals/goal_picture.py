@@ -10,8 +10,8 @@ import numpy as np
 from kivy.metrics import dp, sp
 
 from widgets.core.base import fitting_size
+from widgets.core.canvas_ink import Word, tint
 from widgets.core.geometry import Points, View, nice_floor, rounded
-from widgets.core.ink import Word, tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.readout import figure

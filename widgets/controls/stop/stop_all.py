@@ -16,7 +16,7 @@ from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.widget import Widget
 
 from widgets.core.base import Control, fitting_size
-from widgets.core.frames import Outlined
+from widgets.core.surfaces import Outlined
 
 __all__ = ["StopAll"]
 

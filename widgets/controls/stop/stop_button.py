@@ -16,8 +16,8 @@ from kivy.uix.anchorlayout import AnchorLayout
 from kivy.uix.widget import Widget
 
 from widgets.core.base import Control
-from widgets.core.frames import Outlined
-from widgets.core.hold import HOLD, Hold
+from widgets.core.hold_progress import HOLD, Hold
+from widgets.core.surfaces import Outlined
 from widgets.parts.labels import spaced
 
 __all__ = ["PHASES", "StopButton"]

@@ -13,8 +13,8 @@ from app.inputs.scanning.finding import in_window
 from app.inputs.scanning.openings import MOMENT, Openings
 from tests.headless import Stage
 from widgets import GridMap, Joystick, LiftLever, SlideToConfirm, StopButton
-from widgets.parts.amounts import Fader
 from widgets.parts.kit import TextField
+from widgets.parts.sliders import Fader
 
 SIZE = (412, 892)
 

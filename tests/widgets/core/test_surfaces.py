@@ -4,7 +4,7 @@ import pytest
 from kivy.graphics import Color, Rectangle, SmoothRoundedRectangle
 from kivy.uix.widget import Widget
 
-from widgets.core.frames import Edged, Glass, Outlined, Pressable
+from widgets.core.surfaces import Edged, Glass, Outlined, Pressable
 from widgets.core.theme import theme
 
 

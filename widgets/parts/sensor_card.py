@@ -13,9 +13,9 @@ from kivy.metrics import dp, sp
 from kivy.properties import StringProperty
 
 from widgets.core.base import text_texture
-from widgets.core.frames import Glass
-from widgets.core.ink import Drawing, Ink, Word, Words
+from widgets.core.canvas_ink import Drawing, Ink, Word, Words
 from widgets.core.shapes import Shapes
+from widgets.core.surfaces import Glass
 from widgets.core.theme import theme
 
 __all__ = ["Gauge", "first_fitting", "wide"]

@@ -15,7 +15,7 @@ from bridge.msgs.geometry_msgs import Point, Pose, Twist, Vector3
 from bridge.msgs.nav_msgs import GridCells
 from bridge.msgs.sensor_msgs import LaserEcho, MultiEchoLaserScan
 from bridge.msgs.std_msgs import Duration, Header, Time
-from widgets.core.fields import (
+from widgets.core.message_fields import (
     ARRAY,
     BRANCH,
     LEAF,

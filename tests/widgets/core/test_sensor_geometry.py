@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from widgets.core.nearness import ago_text, aim, away_text, line_offset, side_text, wheel_name
+from widgets.core.sensor_geometry import ago_text, aim, away_text, line_offset, side_text, wheel_name
 
 DARK, BRIGHT, DEAD = 0.1, 0.8, math.nan
 

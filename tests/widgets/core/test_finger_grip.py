@@ -4,7 +4,7 @@ import pytest
 from kivy.properties import NumericProperty
 from kivy.uix.widget import Widget
 
-from widgets.core.grip import Grip
+from widgets.core.finger_grip import Grip
 
 
 class Handle(Grip, Widget):

@@ -7,8 +7,8 @@ import weakref
 import numpy as np
 import pytest
 
-from widgets.core import ink
-from widgets.core.ink import Drawing, Ink, Word, Words, tint
+from widgets.core import canvas_ink as ink
+from widgets.core.canvas_ink import Drawing, Ink, Word, Words, tint
 from widgets.core.shapes import FLOATS, Shapes
 from widgets.core.theme import theme
 from widgets.instruments import horizon

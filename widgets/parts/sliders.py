@@ -15,7 +15,7 @@ from kivy.properties import (
 )
 from kivy.uix.widget import Widget
 
-from widgets.core.frames import Outlined
+from widgets.core.surfaces import Outlined
 
 __all__ = ["Fader", "Progress"]
 
