@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from app.device import is_android
-from app.discovery.discovery import check_address
+from app.discovery.known_robots import check_address
 from app.layout import layout as layouts
 
 __all__ = ["main", "prepare", "quieten"]

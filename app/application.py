@@ -15,35 +15,35 @@ from kivy.app import App
 from kivy.clock import Clock
 from kivy.core.window import Window
 
-from app.core.kept import known
-from app.core.settings import Settings
-from app.core.telling import tell
+from app.core.checked_settings import known
+from app.core.notifications import tell
+from app.core.settings_store import Settings
 from app.device import device_name, is_android, own_folder
-from app.discovery.discovery import Robots, check_address
-from app.discovery.nearby import HELLO, LATENCY, Nearby
-from app.garbage import Collector
+from app.discovery.beacon_listener import HELLO, LATENCY, Nearby
+from app.discovery.known_robots import Robots, check_address
+from app.garbage_collector import Collector
 from app.inputs.inputs import Inputs
 from app.inputs.methods import Methods
-from app.intents.acting import Acting
+from app.intents.intent_executor import Acting
 from app.intents.intents import Intents
-from app.intents.permits import Permits
+from app.intents.method_permits import Permits
 from app.layout.layout import Layout, choose, load, load_all
-from app.link.camera import PICTURE, Camera
+from app.link.camera_decoder import PICTURE, Camera
 from app.link.commands import Commands
-from app.link.events import Known
+from app.link.event_order import Known
 from app.link.feeds import Feeds, Mailbox, Post
 from app.link.link import Link
 from app.root import Root
 from app.screens.connect.connect import THEMES, ConnectScreen
-from app.screens.connect.simulating import CHANNEL as SIMULATED
-from app.screens.connect.simulating import Simulating
+from app.screens.connect.simulator_card import CHANNEL as SIMULATED
+from app.screens.connect.simulator_card import Simulating
 from app.screens.inputs.page import InputsPage
 from app.screens.parts.dialogs import AddressDialog, Question
 from app.screens.shell.stop_corner import StopCorner
 from app.session.logbook import marks
-from app.session.mission import MissionEditor
-from app.session.pictures import Pictures
-from app.session.records import Records
+from app.session.mission_editor import MissionEditor
+from app.session.picture_feed import Pictures
+from app.session.recordings import Records
 from app.session.session import Session
 from app.stop.fleet import Fleet
 from bridge.core.camera_frames import Frame
@@ -396,7 +396,7 @@ class PilothouseApp(App):
         self._unproven = ""
 
     def _enter_robot(self) -> None:
-        from app.screens.robot import robot_shell
+        from app.screens.robot_screens import robot_shell
 
         self._keep_address()
         self.connect.say("")

@@ -21,8 +21,8 @@ from typing import Literal
 
 import numpy as np
 
-from app.inputs.voice.audio.files import Samples, chunks, read
 from app.inputs.voice.audio.noise import RATE
+from app.inputs.voice.audio.sound_files import Samples, chunks, read
 from app.inputs.voice.recognition.hearing import Hearing, Judge, Phonemes
 from app.inputs.voice.recognition.lexicon import COMMANDS
 from app.inputs.voice.recognition.model import HamaModel

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from app.garbage import Collector
+from app.garbage_collector import Collector
 from tests import headless
 from tests.apart import Apart
 
@@ -51,7 +51,7 @@ COLLECTOR = pytest.StashKey[Collector]()
 
 
 def pytest_collection_finish(session: pytest.Session) -> None:
-    """Keep Python's collector out of the tests: `app.garbage` says what it does to a widget of an earlier one."""
+    """Keep Python's collector out of the tests: `app.garbage_collector` says what it does to a widget of an earlier one."""
     session.config.stash[COLLECTOR] = Collector()
 
 

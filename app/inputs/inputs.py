@@ -1,7 +1,7 @@
 """What the operator's hands and the system do to the app as a whole: keys, gamepads, a window that goes away.
 
 Presses go to STOP, then to switches (who puts himself first into `presses.takers`), then to what drives, then to what
-else they mean. What pushes a control is looked at in `app.inputs.pushing`.
+else they mean. What pushes a control is looked at in `app.inputs.stick_arbiter`.
 """
 
 from __future__ import annotations
@@ -14,17 +14,17 @@ from typing import Any
 from kivy.core.window import Keyboard, Window
 from kivy.uix.behaviors import FocusBehavior
 
-from app.core.origin import origins
+from app.core.command_origin import origins
 from app.device import input_devices, rotation, sdl_library
-from app.inputs.base.press import Press, Presses
+from app.inputs.base.button_presses import Press, Presses
+from app.inputs.binding_actions import Meanings
+from app.inputs.bindings import Mapped
 from app.inputs.gamepad.gamepad import Gamepads, News, Told
 from app.inputs.gamepad.sdl import Sdl
 from app.inputs.keys.key_drive import KeyDrive
-from app.inputs.mapped import Mapped
-from app.inputs.meaning import Meanings
 from app.inputs.pad_news import PadNews
-from app.inputs.pushing import Pushing
 from app.inputs.shortcuts import Shortcuts
+from app.inputs.stick_arbiter import Pushing
 from app.intents.intents import Heard
 
 __all__ = ["BACK", "Inputs", "typing"]

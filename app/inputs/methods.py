@@ -12,10 +12,10 @@ from typing import Any, Protocol
 
 from kivy.core.window import Window
 
-from app.core.origin import origins
+from app.core.command_origin import origins
 from app.device.motion import motion_source
-from app.inputs.motion.sensing import Sensing
-from app.inputs.problems import Problems
+from app.inputs.input_problems import Problems
+from app.inputs.motion.motion_sensing import Sensing
 from app.inputs.voice.process.ending import wait_for_ends
 from app.intents.intents import METHODS, Heard, Verdict
 
@@ -24,16 +24,16 @@ __all__ = ["MADE_BY", "Method", "Methods"]
 log = logging.getLogger(__name__)
 
 MADE_BY: dict[str, str] = {
-    "log": "app.study.responding:Responding",
-    "talk": "app.inputs.voice.talking:Talking",
-    "voice": "app.inputs.voice.speaking:Speaking",
-    "shake": "app.inputs.motion.shaking:Shaking",
-    "tilt": "app.inputs.motion.tilting:Tilting",
+    "log": "app.study.response_recording:Responding",
+    "talk": "app.inputs.voice.talkback:Talking",
+    "voice": "app.inputs.voice.voice_input:Speaking",
+    "shake": "app.inputs.motion.shake_input:Shaking",
+    "tilt": "app.inputs.motion.tilt_input:Tilting",
     "switches": "app.inputs.scanning.switches:Switches",
-    "gamepad": "app.inputs.by_hand:GamepadMethod",
-    "keyboard": "app.inputs.by_hand:KeyboardMethod",
+    "gamepad": "app.inputs.hand_methods:GamepadMethod",
+    "keyboard": "app.inputs.hand_methods:KeyboardMethod",
 }
-"""Name of each to its module and class, as in `"shake": "app.inputs.motion.shaking:Shaking"`; the class is called with the app."""
+"""Name of each to its module and class, as in `"shake": "app.inputs.motion.shake_input:Shaking"`; the class is called with the app."""
 
 
 class Method(Protocol):

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from app.inputs.bindings import Mapped
 from app.inputs.gamepad.gamepad import Gamepads, News
 from app.inputs.gamepad.pad_map import button_words
-from app.inputs.mapped import Mapped
 
 __all__ = ["PadNews"]
 

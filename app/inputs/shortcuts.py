@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.inputs.base.press import Press
+from app.inputs.base.button_presses import Press
+from app.inputs.binding_actions import Meanings
 from app.inputs.gamepad.pad_map import Profile
 from app.inputs.keys.key_table import FIXED, KeyTable
-from app.inputs.meaning import Meanings
 
 __all__ = ["Shortcuts"]
 

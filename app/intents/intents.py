@@ -20,8 +20,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
-from app.core.origin import Origin, origins
-from app.intents.permits import Permits
+from app.core.command_origin import Origin, origins
+from app.intents.method_permits import Permits
 
 __all__ = [
     "CANCEL_FOR",

@@ -21,7 +21,7 @@ from app.layout.layout_faults import (
     one_of,
     said,
 )
-from app.link.piloting import PARTS
+from app.link.control_mixer import PARTS
 from bridge.core.topics import TOPICS, topic
 
 __all__ = [
@@ -72,12 +72,12 @@ SLIDER_SLOT = "slider"
 STICK = "Stick"
 """What drives, where the layout has no word for it and it has to be told from another, or from an arm."""
 SAYS = {"RudderThrottle": ("throttle", "steering"), "TiltCircle": ("roll", "pitch")}
-"""Which of `app.link.piloting.PARTS` a control says; a stick says what its line says."""
+"""Which of `app.link.control_mixer.PARTS` a control says; a stick says what its line says."""
 ACTIONS = (
     *(f"task.{task}" for task in ("surface", "hold", "follow_heading", "take_off", "land", "go_home")),
     *("pause", "lights", "record", "snapshot", "camera", "reset"),
 )
-"""What a button or a slide may do: the keys of `app.session.actions.ACTIONS`, which is known only once Kivy is set up."""
+"""What a button or a slide may do: the keys of `app.session.layout_actions.ACTIONS`, which is known only once Kivy is set up."""
 _TEXTS = {"slot", "widget", "topic", "field", "title", "unit", "plus", "minus"}
 _NUMBERS = {"factor", "digits"}
 _CONTROL_TEXTS = {"slot", "widget", "topic", "title", "forward", "left", "pad", "action", "icon"}
@@ -127,7 +127,7 @@ class Control:
     topic: str = ""
     """What it shows beside what it says; empty for nothing."""
     forward: str = "ahead"
-    """Of a stick: which of `app.link.piloting.PARTS` it says when it is pushed away from the operator."""
+    """Of a stick: which of `app.link.control_mixer.PARTS` it says when it is pushed away from the operator."""
     left: str = "turn"
     """The same to the left; empty for one that goes up and down only."""
     pad: str = "left"
@@ -150,7 +150,7 @@ class Control:
 
     @property
     def says(self) -> tuple[str, ...]:
-        """Which of `app.link.piloting.PARTS` it says, if it drives."""
+        """Which of `app.link.control_mixer.PARTS` it says, if it drives."""
         return SAYS.get(self.widget, tuple(part for part in (self.forward, self.left) if part))
 
 

@@ -11,7 +11,7 @@ from collections.abc import Awaitable, Callable, Hashable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from app.core.origin import NOBODY, Origin
+from app.core.command_origin import NOBODY, Origin
 from bridge.core.errors import BridgeError, NoReply, NotConnected, Refused
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (

@@ -12,13 +12,13 @@ from collections.abc import Callable, Coroutine, Mapping
 from functools import partial
 from typing import Any
 
-from app.core.origin import NOBODY, origins
+from app.core.command_origin import NOBODY, origins
+from app.link.capabilities import DRIVE, MANOEUVRE, Offer, ask
 from app.link.commands import Commands, Outcome
 from app.link.drive_slot import Drive, DriveSlot, stamped_at
-from app.link.events import EventStream, Known
+from app.link.event_order import EventStream, Known
 from app.link.feeds import Mailbox
-from app.link.offer import DRIVE, MANOEUVRE, Offer, ask
-from app.link.sources import Peek, Seen, Sources
+from app.link.subscriptions import Peek, Seen, Sources
 from bridge.client.client import BridgeClient, CameraStream, LinkState, Phase
 from bridge.core.camera_frames import Frame
 from bridge.core.errors import BridgeError, NoReply, NotConnected

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any, Protocol
 
-from app.core.settings import Settings
+from app.core.settings_store import Settings
 from app.link.commands import Outcome
-from app.link.events import GRAVE, Known, Missed
+from app.link.event_order import GRAVE, Known, Missed
 from bridge.msgs.arrays import Int32Array
 from bridge.msgs.pilothouse_msgs import Event
 

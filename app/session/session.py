@@ -7,23 +7,23 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from app.core.origin import NOBODY, gave_stop, origins
-from app.core.settings import Settings
-from app.discovery.discovery import address
+from app.core.command_origin import NOBODY, gave_stop, origins
+from app.core.settings_store import Settings
+from app.discovery.known_robots import address
+from app.link.capabilities import CAMERA, Offer
 from app.link.commands import Outcome
 from app.link.feeds import Feeds, Post
 from app.link.link import EVENT, KNOWN, LINK, MISSED, OFFER, OUTCOME, Link
-from app.link.offer import CAMERA, Offer
-from app.session.checks import Checks
+from app.session.check_list import Checks
 from app.session.control import Authority
+from app.session.fence_refusals import Refusals
 from app.session.logbook import Logbook
-from app.session.mission import Draft, MissionEditor
-from app.session.missions import KeptMissions
-from app.session.own_name import OwnName
-from app.session.refusals import Refusals
+from app.session.mission_editor import Draft, MissionEditor
+from app.session.own_events import OwnName
+from app.session.stored_missions import KeptMissions
 from app.session.tasking import Tasking
 from app.stop.local_stop import LocalStop
-from app.stop.stopping import Stopping
+from app.stop.stop_state import Stopping
 from bridge.client.client import LinkState, Phase
 from bridge.msgs.geometry_msgs import (
     Point,
@@ -415,7 +415,7 @@ class Session:
     # what goes out
 
     def command(self, name: str, /, **fields: Any) -> None:
-        """Send a one-shot command of `app.link.commands.COMMANDS`, from the origin that is current (`app.core.origin`)."""
+        """Send a one-shot command of `app.link.commands.COMMANDS`, from the origin that is current (`app.core.command_origin`)."""
         self.link.command(name, **fields)
 
     def stop(self) -> None:

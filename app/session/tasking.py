@@ -7,9 +7,9 @@ from typing import Any, Protocol
 
 import msgspec
 
-from app.core.origin import Origin, origins
+from app.core.command_origin import Origin, origins
 from app.link.commands import Outcome
-from app.session.queueing import QueueEditor
+from app.session.queue_editor import QueueEditor
 from bridge.msgs.pilothouse_msgs import (
     GetHistoryResponse,
     Place,

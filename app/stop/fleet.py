@@ -17,9 +17,9 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Protocol
 
-from app.discovery.discovery import Entry
+from app.discovery.known_robots import Entry
 from app.stop.stop_lane import Report, StopLane
-from app.stop.stopping import DOUBT, silence
+from app.stop.stop_state import DOUBT, silence
 from bridge.discovery.network import NetworkThread
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
 from bridge.msgs.std_msgs import Time

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from app.stop.stopping import Known, judge, silence
+from app.stop.stop_state import Known, judge, silence
 from bridge.msgs.nav_msgs import Odometry
 
 __all__ = ["LocalStop"]

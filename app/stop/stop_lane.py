@@ -12,10 +12,10 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
 
+from app.link.capabilities import DRIVE, NOTHING, Offer, ask
 from app.link.commands import Commands, Outcome
-from app.link.offer import DRIVE, NOTHING, Offer, ask
 from app.stop.local_stop import LocalStop
-from app.stop.stopping import Stopping
+from app.stop.stop_state import Stopping
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.core.errors import BridgeError
 from bridge.core.topic_choice import drive_message

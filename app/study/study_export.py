@@ -13,9 +13,9 @@ from typing import Any
 
 import msgspec
 
-from app.study.responses import Response, files, read
-from app.study.workload import FILE as FORMS
-from app.study.workload import Workloads
+from app.study.questionnaires import FILE as FORMS
+from app.study.questionnaires import Workloads
+from app.study.response_log import Response, files, read
 
 __all__ = ["COLUMNS", "SETTINGS", "export", "table"]
 
@@ -128,7 +128,7 @@ def _dated(wall: float) -> tuple[int, int, int, int, int, int]:
 
 
 def _fill(archive: zipfile.ZipFile, folder: Path, settings: Mapping[str, Any], wall: float) -> None:
-    from app.study.workload import BASELINE
+    from app.study.questionnaires import BASELINE
 
     def put(name: str, data: str | bytes) -> None:
         info = zipfile.ZipInfo(name, _dated(wall))

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from app.inputs.voice.audio.files import Samples, read, resampled
 from app.inputs.voice.audio.noise import RATE
+from app.inputs.voice.audio.sound_files import Samples, read, resampled
 
 __all__ = ["NOISES", "Spoken", "espeak", "natural", "noisy"]
 

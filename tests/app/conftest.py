@@ -33,8 +33,8 @@ def collecting() -> Iterator[None]:
 @pytest.fixture
 def glass(stage: Stage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Glass]:
     from app import (
-        garbage,
-    )  # Kivy: where this folder is named, this file is read before tests/conftest.py prepares it
+        garbage_collector as garbage,  # Kivy: where this folder is named, this file is read before tests/conftest.py prepares it
+    )
     from app.application import PilothouseApp
     from widgets.core.theme import theme
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.intents.intents import Heard
-from app.study.responses import read
+from app.study.response_log import read
 
 
 def test_a_finger_and_a_voice_leave_a_line_each_with_what_the_robot_answered(driving):

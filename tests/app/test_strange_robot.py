@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from app.link.offer import CAMERA
-from app.session.topics import Topics
+from app.link.capabilities import CAMERA
+from app.session.topic_list import Topics
 from bridge.msgs.geometry_msgs import Twist
 from tests.app.link.test_link import AHEAD, Operator
 from tests.app.strange import Strange, strange_robot

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
-from app.core.kept import known, number, shown
+from app.core.checked_settings import known, number, shown
 from app.inputs.gamepad.sdl import PadState
 
 __all__ = [

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 
-from app.inputs.base.press import Press
-from app.inputs.keys.holding import GAP, LONGEST, Held
+from app.inputs.base.button_presses import Press
+from app.inputs.keys.held_key import GAP, LONGEST, Held
 from app.inputs.keys.key_table import ARROWS, DRIVING, KeyTable
 
 __all__ = ["GAP", "LONGEST", "KeyDrive"]

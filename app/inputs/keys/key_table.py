@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
-from app.core.kept import number, shown
+from app.core.checked_settings import number, shown
 
 __all__ = ["ARROWS", "DRIVING", "FIXED", "MEANT", "RISES", "SLOWS", "KeyTable", "key_words", "read"]
 

@@ -16,7 +16,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any, Self
 
-from app.core.kept import number, shown
+from app.core.checked_settings import number, shown
 from app.device.motion import GRAVITY, Axes
 
 __all__ = ["Level", "OneEuro", "Tilt", "TiltSettings", "between", "shaped", "turned"]

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from typing import Any
 
-from app.core.kept import number, shown
+from app.core.checked_settings import number, shown
 from app.inputs.scanning.presses import Timing
 from app.inputs.scanning.scan import Pace
 
@@ -36,7 +36,7 @@ class Key:
     source: str
     """`key` or `pad`."""
     name: str
-    """As of `app.inputs.base.press.Press`: `tab`, `enter`, `a`, `dpup`, `button 7`."""
+    """As of `app.inputs.base.button_presses.Press`: `tab`, `enter`, `a`, `dpup`, `button 7`."""
     device: str = ""
     """Name of the gamepad; empty for a keyboard, and for any gamepad."""
 

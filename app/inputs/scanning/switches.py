@@ -15,9 +15,9 @@ from typing import Any, Literal
 
 from kivy.core.window import Window
 
-from app.core.telling import tell
+from app.core.notifications import tell
 from app.device import vibrate
-from app.inputs.base.press import Press
+from app.inputs.base.button_presses import Press
 from app.inputs.inputs import typing
 from app.inputs.scanning import Mark
 from app.inputs.scanning.engine import Engine, Selection

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from app.core.kept import number
+from app.core.checked_settings import number
 
 __all__ = ["Usage"]
 

@@ -11,9 +11,9 @@ from kivy.metrics import Metrics
 from kivy.properties import BooleanProperty, ListProperty, NumericProperty, ObjectProperty, StringProperty
 from kivy.uix.floatlayout import FloatLayout
 
-from app.discovery.discovery import Entry
+from app.discovery.known_robots import Entry
 from app.layout.arrange import connect_columns
-from app.screens.parts.chip import InputsChip  # noqa: F401 - its rule draws what is used here
+from app.screens.parts.method_chip import InputsChip  # noqa: F401 - its rule draws what is used here
 from widgets.core.surfaces import EdgedBox  # noqa: F401 - its rule draws the bar
 from widgets.core.theme import theme
 from widgets.parts.kit import Banner, Card, Text

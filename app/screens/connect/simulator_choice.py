@@ -11,7 +11,7 @@ from kivy.properties import BooleanProperty, NumericProperty, ObjectProperty, St
 from kivy.uix.gridlayout import GridLayout
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
-from app.discovery.simulated import Choice, Offered
+from app.discovery.simulator_options import Choice, Offered
 from app.screens.connect.connect import KINDS
 from app.screens.parts.dialogs import Question
 from widgets.parts.labels import Icon

@@ -10,7 +10,7 @@ from kivy.uix.gridlayout import GridLayout
 from kivy.uix.widget import Widget
 
 from app.layout.layout import Layout
-from app.session.actions import CARRIED, Actions
+from app.session.layout_actions import CARRIED, Actions
 from widgets.controls.action_column import Action
 from widgets.parts.kit import Card, QuietButton, Text
 from widgets.parts.sensor_card import wide

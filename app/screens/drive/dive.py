@@ -8,9 +8,9 @@ from typing import Any
 from app.layout.arrange_dive import dive
 from app.layout.layout import Layout
 from app.layout.rects import Rect, StopPlace
-from app.screens.drive.driving import Driving
+from app.screens.drive.driving_base import Driving
 from app.screens.parts.placing import AWAY, off, put
-from app.session.actions import CARRIED
+from app.session.layout_actions import CARRIED
 from widgets import ActionColumn
 from widgets.controls.action_column import Action as Offered
 from widgets.parts.kit import Card

@@ -12,8 +12,8 @@ from app.layout.arrange import Rect
 from app.layout.layout import Layout
 from app.layout.rects import between
 from app.screens.drive.action_buttons import ActionButtons
-from app.screens.drive.driving import Driving
-from app.screens.drive.sight import Sight
+from app.screens.drive.driving_base import Driving
+from app.screens.drive.intruder_overlay import Sight
 from app.screens.parts.placing import off, put
 from widgets import SlideToConfirm
 from widgets.controls.stick import Stick

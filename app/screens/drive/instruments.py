@@ -8,8 +8,8 @@ from kivy.uix.widget import Widget
 
 import widgets
 from app.layout.layout import Instrument, Layout
+from app.link.capabilities import POSE, Offer
 from app.link.feeds import Feeds
-from app.link.offer import POSE, Offer
 from app.session.dashboard import Dashboard
 from widgets import Readout
 

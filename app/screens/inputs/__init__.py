@@ -17,7 +17,7 @@ PANES: dict[str, tuple[str, str, str]] = {
     "switches": ("radio_button_checked", "Switches", "app.screens.inputs.panes.switch_pane:SwitchPane"),
     "gamepad": ("gamepad", "Gamepad", "app.screens.inputs.panes.pad_pane:PadPane"),
     "keyboard": ("keyboard", "Keyboard", "app.screens.inputs.panes.keys_pane:KeysPane"),
-    "table": ("tune", "What each may do", "app.screens.inputs.table:TablePane"),
+    "table": ("tune", "What each may do", "app.screens.inputs.permit_table:TablePane"),
     "study": ("timeline", "Log and study", "app.screens.inputs.study.study_pane:StudyPane"),
 }
 """Name, as of the method where it is one, to icon, title, and module and class of its pane."""

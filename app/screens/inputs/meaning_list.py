@@ -6,7 +6,7 @@ from typing import Any
 
 from kivy.uix.boxlayout import BoxLayout
 
-from app.inputs.meaning import MEANINGS
+from app.inputs.binding_actions import MEANINGS
 from app.screens.parts.pane_head import PaneHead
 from widgets.parts.kit import Column, ListRow, Roll
 

@@ -12,7 +12,7 @@ from kivy.uix.widget import Widget
 
 from app.layout import arrange
 from app.layout.arrange import Body, Rect
-from app.link.camera import Picture
+from app.link.camera_decoder import Picture
 from app.link.feeds import Post
 from app.screens.inputs import panes
 from app.screens.inputs.method_row import MethodRow

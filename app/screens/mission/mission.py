@@ -16,17 +16,17 @@ from kivy.uix.widget import Widget
 
 from app.layout import arrange
 from app.layout.arrange import Rect
-from app.link.camera import Picture
+from app.link.camera_decoder import Picture
 from app.link.commands import Outcome
 from app.link.feeds import Post
 from app.link.link import EVENT, OFFER, OUTCOME
+from app.screens.mission.map_pointing import MODES, Pointing
 from app.screens.mission.mission_maps import Maps
-from app.screens.mission.panel import MissionPanel
-from app.screens.mission.pointing import MODES, Pointing
+from app.screens.mission.mission_panel import MissionPanel
 from app.screens.parts.placing import put
 from app.screens.shell.check_card import CheckCard
 from app.session.dashboard import Dashboard
-from app.session.refusals import summary
+from app.session.fence_refusals import summary
 from app.session.session import Session
 from bridge.msgs.pilothouse_msgs import Place, RobotInfo, TaskStatus
 from bridge.msgs.vision_msgs import Detection2DArray

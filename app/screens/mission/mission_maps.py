@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import widgets
-from app.screens.mission.pointing import Pointing
+from app.screens.mission.map_pointing import Pointing
 from app.session.dashboard import Dashboard
 from app.session.session import Session
 from bridge.core.geo import Datum

@@ -16,16 +16,16 @@ from app.link.commands import Outcome
 from app.link.feeds import Post
 from app.link.link import EVENT, LINK, OFFER, OUTCOME
 from app.screens.parts.placing import put
-from app.screens.shell import standing
+from app.screens.shell import status_text as standing
 from app.screens.shell.control_cards import ControlCards
+from app.screens.shell.intent_prompts import Wishes
 from app.screens.shell.notices import BRIEF, LONG, Notices
 from app.screens.shell.rail import Rail
-from app.screens.shell.resetting import Resetting
+from app.screens.shell.reset_card import Resetting
 from app.screens.shell.top_bar import TopBar
-from app.screens.shell.wishes import Wishes
 from app.session.dashboard import Dashboard
 from app.session.session import Session
-from app.stop.stopping import silence
+from app.stop.stop_state import silence
 from bridge.msgs.pilothouse_msgs import TaskStatus
 from widgets import QuestionCard, StopButton
 from widgets.core.base import age_text

@@ -12,7 +12,7 @@ from kivy.clock import Clock
 from kivy.metrics import Metrics
 from kivy.uix.floatlayout import FloatLayout
 
-from app.discovery.discovery import Entry
+from app.discovery.known_robots import Entry
 from app.layout import arrange
 from app.layout.arrange import Rect, StopPlace
 from app.screens.parts.placing import put

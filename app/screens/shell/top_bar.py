@@ -14,8 +14,8 @@ from kivy.uix.boxlayout import BoxLayout
 import widgets.instruments.battery
 import widgets.instruments.link_quality  # noqa: F401 - their rules draw what is used here
 import widgets.parts.kit
-from app.screens.parts.chip import InputsChip  # noqa: F401 - its rule draws what is used here
-from app.screens.shell import standing
+from app.screens.parts.method_chip import InputsChip  # noqa: F401 - its rule draws what is used here
+from app.screens.shell import status_text as standing
 from app.session.session import Session
 from widgets.core.base import text_texture
 from widgets.core.surfaces import EdgedBox

@@ -13,17 +13,17 @@ from kivy.uix.widget import Widget
 
 from app.layout import arrange
 from app.layout.arrange import Rect
-from app.link.camera import Picture
+from app.link.camera_decoder import Picture
 from app.link.feeds import Post
 from app.link.link import OUTCOME
 from app.screens.mission.mission_pane import MissionPane
 from app.screens.parts.placing import Area, above, put  # noqa: F401 - a rule names the area
+from app.screens.tasks.current_task import NowList
 from app.screens.tasks.event_list import EventList
-from app.screens.tasks.now_list import NowList
 from app.screens.tasks.order_pane import OrderPane
 from app.screens.tasks.place_pane import PlacePane
 from app.screens.tasks.settings_pane import SettingsPane
-from app.screens.tasks.task_acts import TaskActs
+from app.screens.tasks.task_actions import TaskActs
 from app.screens.tasks.task_tabs import TaskTabs
 from app.session.dashboard import Dashboard
 from app.session.session import Session

@@ -16,11 +16,11 @@ from kivy.uix.recycleview.views import RecycleDataViewBehavior
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.layout import arrange
 from app.layout.arrange import Rect
-from app.link.camera import Picture
+from app.link.camera_decoder import Picture
 from app.link.feeds import Post
 from app.screens.parts.placing import above, put
 from app.session.session import Session
-from app.session.topics import Line, Topics
+from app.session.topic_list import Line, Topics
 from widgets import FieldView
 from widgets.core.base import age_text
 from widgets.parts.cards import Card

@@ -10,7 +10,7 @@ import pytest
 
 from app.inputs.gamepad.sdl import PadState
 from app.intents.intents import Intents
-from app.intents.permits import Permits
+from app.intents.method_permits import Permits
 from app.link.drive_slot import DriveSlot
 from bridge.msgs.geometry_msgs import Twist
 from tests.headless import Stage

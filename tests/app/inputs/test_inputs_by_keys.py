@@ -116,7 +116,7 @@ def test_on_a_screen_with_nothing_to_drive_the_same_keys_are_left_to_others(hand
 
 
 def test_the_origin_of_stop_is_the_key_or_the_button(hands: Hands) -> None:
-    from app.core.origin import origins
+    from app.core.command_origin import origins
 
     said: list[tuple[str, str]] = []
     hands.stop.bind(on_command=lambda _: said.append((origins.current().method, origins.current().intent)))
@@ -140,7 +140,7 @@ def test_where_nothing_can_be_stopped_a_study_hears_of_stop_all_the_same(hands: 
 
 
 def test_a_key_that_a_field_takes_is_the_origin_of_what_follows(hands: Hands) -> None:
-    from app.core.origin import origins
+    from app.core.command_origin import origins
 
     hands.shell.screen = "mission"
     hands.stage.window.dispatch("on_key_down", 13, 40, None, [])

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from app.link.piloting import Parts, Piloting, Reach
+from app.link.control_mixer import Parts, Piloting, Reach
 from bridge.msgs.geometry_msgs import Twist
 from tests.app.inputs.pushing import PAD, Hands
 from tests.headless import Stage

@@ -11,11 +11,11 @@ from typing import Any
 import pytest
 
 import app.inputs.methods as methods_of
-from app.core.origin import NOBODY, origins
+from app.core.command_origin import NOBODY, origins
 from app.inputs.methods import Methods
 from app.inputs.voice.process.ending import end_aside
 from app.intents.intents import CONFIRM_FOR, Heard, Intents
-from app.intents.permits import Permits
+from app.intents.method_permits import Permits
 from tests.app.inputs.pushing import Settings
 from tests.headless import Stage
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from app.core.origin import NOBODY, Origin, origins
+from app.core.command_origin import NOBODY, Origin, origins
 from app.intents.intents import CANCEL_FOR, CONFIRM_FOR, INTENTS, METHODS, Heard, Intents, Verdict
-from app.intents.permits import SAYS, Permits
+from app.intents.method_permits import SAYS, Permits
 
 
 class Notes:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from app.layout.layout import ACTIONS, LayoutError, choose, load, load_all, names, parse
-from app.session import actions
+from app.session import layout_actions as actions
 from widgets import CATALOGUE
 
 WIDGETS = [

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from app.core.origin import Origin
+from app.core.command_origin import Origin
 from app.link.commands import COMMANDS, Commands, Outcome
 from bridge.core.errors import NoReply, NotConnected, Refused
 from bridge.msgs.pilothouse_msgs import (

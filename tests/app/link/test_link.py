@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from app.core.settings import Settings
+from app.core.settings_store import Settings
 from app.link.feeds import Feeds, Mailbox, Post
 from app.link.link import Link
 from app.session.logbook import marks

@@ -7,10 +7,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from app.core.settings import Settings
+from app.core.settings_store import Settings
 from app.link.feeds import Feeds, Post
 from app.link.link import LINK
-from app.screens.shell import standing
+from app.screens.shell import status_text as standing
 from app.session.session import Session
 from bridge.client.client import LinkState, Phase
 from bridge.msgs.pilothouse_msgs import ControlStatus

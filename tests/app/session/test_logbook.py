@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from app.core.settings import Settings
+from app.core.settings_store import Settings
 from app.link.commands import Outcome
-from app.link.events import Known, Missed
+from app.link.event_order import Known, Missed
 from app.session.logbook import AT_ONCE, LOGS, MOST, NEWS, Logbook, marks
 from bridge.msgs.pilothouse_msgs import Event
 from bridge.msgs.std_msgs import Time

@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from app.core.origin import Origin
-from app.core.settings import Settings
+from app.core.command_origin import Origin
+from app.core.settings_store import Settings
 from app.link.commands import Outcome
 from app.link.feeds import Feeds, Post
 from app.link.link import EVENT, LINK, OUTCOME
 from app.session.session import Session
-from app.stop.stopping import COMES_TO_REST
+from app.stop.stop_state import COMES_TO_REST
 from bridge.client.client import LinkState, Phase
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, TaskStatus
 from tests.bridge.wires import Clock

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from app.discovery.discovery import Entry
+from app.discovery.known_robots import Entry
 from app.stop.fleet import HEAD_START, Fleet, known
 from app.stop.stop_lane import Report
 from bridge.msgs.geometry_msgs import Twist

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from app.link.offer import Offer
+from app.link.capabilities import Offer
 from bridge.core.topic_choice import CAMERA, Command, command, drive_message, source
 from bridge.msgs import ros1_name
 from bridge.msgs.geometry_msgs import Twist, TwistStamped

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from statistics import median
 
-from app.inputs.motion.shake.ground import Ground, Motion
+from app.inputs.motion.shake.gravity import Ground, Motion
 from app.inputs.motion.shake.spread import Spread, Turning
 from app.inputs.motion.shake.tuning import (
     AXES,

@@ -15,9 +15,9 @@ from collections import deque
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from app.inputs.motion.shake.ground import Ground, Motion
-from app.inputs.motion.shake.halves import Halves
-from app.inputs.motion.shake.lines import lines
+from app.inputs.motion.shake.gravity import Ground, Motion
+from app.inputs.motion.shake.half_cycles import Halves
+from app.inputs.motion.shake.shake_axes import lines
 from app.inputs.motion.shake.spread import Spread, Turning
 from app.inputs.motion.shake.tuning import AXES, USUAL, Axis, Tuning
 

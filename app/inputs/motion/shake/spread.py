@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from app.inputs.motion.shake.ground import Motion
+from app.inputs.motion.shake.gravity import Motion
 
 __all__ = ["Spread", "Turning", "along", "principal"]
 

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
-from app.core.kept import number
-from app.inputs.motion.shake.ground import Motion
+from app.core.checked_settings import number
+from app.inputs.motion.shake.gravity import Motion
 
 __all__ = [
     "AXES",

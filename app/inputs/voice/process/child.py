@@ -15,8 +15,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TextIO
 
-from app.inputs.voice.audio.files import FileEars, read
 from app.inputs.voice.audio.microphone import Ears, Microphone
+from app.inputs.voice.audio.sound_files import FileEars, read
 from app.inputs.voice.process.running import NOTED
 from app.inputs.voice.process.service import Service, judge_of
 from app.inputs.voice.process.wire import THERE, event_line, read_grammar

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from app.inputs.voice.audio.endpoint import Endpointer, Segment
 from app.inputs.voice.audio.noise import CLEAR, NoiseMeter
 from app.inputs.voice.recognition.ctc import Acoustics, Found, Scorer
-from app.inputs.voice.recognition.looks import looks
+from app.inputs.voice.recognition.rechecks import looks
 from app.inputs.voice.recognition.recognizer import Grammar, Hear, Level, Rejected, Result, State
 from app.inputs.voice.recognition.spotter import Spotted, Spotter
 
@@ -46,7 +46,7 @@ class Phonemes:
         self._scorer, self._spotter = Scorer(grammar, model.tokens), Spotter(grammar, model)
 
     def judge(self, samples: NDArray[np.float32], heeded: Collection[str]) -> Found | None:
-        """By the whole utterance; where that is close to call, by further looks at it (`app.inputs.voice.recognition.looks`)."""
+        """By the whole utterance; where that is close to call, by further looks at it (`app.inputs.voice.recognition.rechecks`)."""
         views = [self._model.hear(samples)]
         found = self._scorer.judge(views, heeded)
         if found is None or not UNSURE[0] < found.confidence < UNSURE[1] or self._urgent(found):

@@ -1,6 +1,6 @@
 """The process that talks: lines of JSON come in on its standard input, and it tells when it began to say each and when it ended.
 
-`python -m app.inputs.voice.speech.talker natural` is started by `app.inputs.voice.speech.mouth` and ends with its standard input.
+`python -m app.inputs.voice.speech.talker natural` is started by `app.inputs.voice.speech.tts` and ends with its standard input.
 """
 
 from __future__ import annotations
@@ -144,7 +144,7 @@ def _clear() -> Speaker:
 
 
 SPEAKERS: dict[str, Callable[[], Speaker]] = {"natural": _natural, "clear": _clear}
-"""Each voice of `app.inputs.voice.speech.mouth.VOICES` to what says something by it."""
+"""Each voice of `app.inputs.voice.speech.tts.VOICES` to what says something by it."""
 
 
 if __name__ == "__main__":

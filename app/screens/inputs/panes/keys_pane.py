@@ -7,9 +7,9 @@ from typing import Any
 
 from kivy.uix.boxlayout import BoxLayout
 
-from app.inputs.base.press import Press
+from app.inputs.base.button_presses import Press
+from app.inputs.binding_actions import HOLDS, MEANINGS
 from app.inputs.keys.key_table import RISES, SLOWS, KeyTable, key_words
-from app.inputs.meaning import HOLDS, MEANINGS
 from app.screens.inputs.setting_row import number_row, switch_row
 from app.screens.parts.pane_head import PaneHead
 from widgets.inputs.key_help import KeyCap

@@ -8,10 +8,10 @@ from typing import Any
 
 from kivy.uix.boxlayout import BoxLayout
 
-from app.inputs.base.press import Press
+from app.inputs.base.button_presses import Press
+from app.inputs.binding_actions import meaning_icon, meaning_words
 from app.inputs.gamepad.pad_map import AXES, BUTTONS, DEAD_ZONES, EXPOS, WAYS, Profile, button_words
 from app.inputs.gamepad.sdl import PadState
-from app.inputs.meaning import meaning_icon, meaning_words
 from app.screens.inputs.meaning_list import MeaningList
 from app.screens.inputs.setting_row import number_row
 from widgets import PadPicture

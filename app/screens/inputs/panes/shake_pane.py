@@ -8,7 +8,7 @@ from typing import Any
 from kivy.uix.boxlayout import BoxLayout
 
 from app.inputs.motion.shake import AXES, WORDS, Axis
-from app.inputs.motion.shaking import CHOICES, Shaking
+from app.inputs.motion.shake_input import CHOICES, Shaking
 from app.intents.intents import INTENTS
 from app.screens.inputs.meaning_list import MeaningList
 from app.screens.inputs.setting_row import switch_row

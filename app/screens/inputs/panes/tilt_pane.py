@@ -11,7 +11,7 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from app.inputs.motion.tilt import RANGES
-from app.inputs.motion.tilting import LEAST, Tilting
+from app.inputs.motion.tilt_input import LEAST, Tilting
 from widgets import TiltCircle
 from widgets.parts.kit import Card, Column, ListRow, Remark, Roll, Stepper, Text, Toggle
 

@@ -10,7 +10,7 @@ from typing import Any
 from app.screens.inputs.setting_row import switch_row
 from app.screens.inputs.study.form_view import FormView
 from app.screens.inputs.study.log_view import look_of
-from app.study.workload import BASELINE, SUS_ABOVE
+from app.study.questionnaires import BASELINE, SUS_ABOVE
 from widgets.parts.kit import Column, QuietButton, Remark
 from widgets.study.score_history import ScoreHistory
 

@@ -15,8 +15,8 @@ from app.intents.intents import INTENTS, METHODS
 from app.screens.inputs import PANES
 from app.screens.inputs.setting_row import switch_row
 from app.screens.inputs.study.zip_row import SURE, ZipRow
-from app.study.responses import Response
-from app.study.responses_stats import (
+from app.study.response_log import Response
+from app.study.response_statistics import (
     PAPER,
     false_activations,
     presses,

@@ -11,7 +11,7 @@ from kivy.metrics import dp
 from kivy.properties import ObjectProperty, StringProperty
 from kivy.uix.boxlayout import BoxLayout
 
-from app.core.worker import NewestWorker
+from app.core.newest_worker import NewestWorker
 from app.device.sharing import sharing
 from app.screens.inputs.study.form_view import FormView
 from app.screens.inputs.study.load_view import LoadView

@@ -7,7 +7,7 @@ from typing import Any
 from kivy.properties import BooleanProperty
 from kivy.uix.boxlayout import BoxLayout
 
-from app.core.origin import origins
+from app.core.command_origin import origins
 from app.intents.intents import INTENTS, Heard
 from app.screens.inputs.study.log_view import look_of
 from app.study.study import Trials

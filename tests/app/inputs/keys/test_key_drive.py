@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from app.inputs.base.press import Press
+from app.inputs.base.button_presses import Press
 from app.inputs.keys.key_drive import GAP, LEAST, LONGEST, KeyDrive
 from app.inputs.keys.key_table import KeyTable
 

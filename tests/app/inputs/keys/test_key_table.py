@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
+from app.inputs.binding_actions import MEANINGS
 from app.inputs.keys.key_table import MEANT, KeyTable, key_words, read
-from app.inputs.meaning import MEANINGS
 
 
 def test_every_key_means_something_that_there_is() -> None:

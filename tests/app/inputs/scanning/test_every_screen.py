@@ -11,7 +11,7 @@ from kivy.core.window import Window
 from app.inputs.scanning.targets import OnGlass
 from app.intents.intents import Heard
 from app.screens.inputs.study.form_view import FormView
-from app.screens.shell.helping import HelpCard, toggle_help
+from app.screens.shell.key_help import HelpCard, toggle_help
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo, TaskStatus
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
@@ -148,7 +148,7 @@ def test_whatever_takes_a_finger_is_reached_by_switches(
     form: str, driving: Glass, robot: FakeRobot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # it would look through all of it 69 times
-    monkeypatch.setattr("app.garbage.Collector.look", lambda _: None)
+    monkeypatch.setattr("app.garbage_collector.Collector.look", lambda _: None)
     before = Window.size
     # the one that draws nowhere would be made anew with the size it had
     monkeypatch.setattr(Window, "create_window", lambda *_: None)

@@ -8,15 +8,15 @@ from typing import Any
 import pytest
 
 import app.inputs.scanning.switches as switching
-from app.core.origin import origins
-from app.inputs.base.press import Press, Presses
+from app.core.command_origin import origins
+from app.inputs.base.button_presses import Press, Presses
 from app.inputs.scanning import Mark, Target
 from app.inputs.scanning.engine import Engine, Selection
 from app.inputs.scanning.plan import Planner
 from app.inputs.scanning.settings import Key
 from app.inputs.scanning.switches import TYPES, Switches
 from app.intents.intents import Intents
-from app.intents.permits import Permits
+from app.intents.method_permits import Permits
 
 
 class Settings(dict[str, Any]):

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.core.origin import origins
+from app.core.command_origin import origins
 from app.inputs.voice.process.worker import InProcess
-from app.inputs.voice.speaking import Speaking
+from app.inputs.voice.voice_input import Speaking
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 

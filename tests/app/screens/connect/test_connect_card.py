@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from app.discovery.discovery import Entry
+from app.discovery.known_robots import Entry
 from app.screens.connect.connect import RobotCard
 
 ME = "id-of-this-handheld"

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from app.discovery.simulated import Choice
+from app.discovery.simulator_options import Choice
 from app.layout.rects import Rect
 from app.screens.connect.simulator_choice import SimulatorChoice
 from app.screens.parts.dialogs import AddressDialog, Question, free_room
-from app.screens.shell.helping import HelpCard
+from app.screens.shell.key_help import HelpCard
 from tests.app.glass import Glass
 from tests.headless import Stage
 

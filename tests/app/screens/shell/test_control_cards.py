@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from app.inputs.covering import covered
+from app.inputs.occlusion import covered
 from app.layout.arrange import Rect
 from bridge.msgs.pilothouse_msgs import Check, Checklist, ControlStatus, TaskStatus
 from bridge.msgs.std_msgs import Time

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.inputs.voice.audio.endpoint import LONGEST, PAUSE, Endpointer
-from app.inputs.voice.audio.files import chunks
+from app.inputs.voice.audio.sound_files import chunks
 from tests.app.inputs.voice.sounds import quiet, voice
 
 

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from app.inputs.voice.audio.files import chunks
 from app.inputs.voice.audio.noise import LASTING, NoiseMeter, decibels
+from app.inputs.voice.audio.sound_files import chunks
 from tests.app.inputs.voice.sounds import quiet, voice
 
 

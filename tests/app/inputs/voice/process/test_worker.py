@@ -11,7 +11,7 @@ import wave
 
 import pytest
 
-from app.inputs.voice.audio.files import FileEars, read
+from app.inputs.voice.audio.sound_files import FileEars, read
 from app.inputs.voice.process import child
 from app.inputs.voice.process.ending import wait_for_ends
 from app.inputs.voice.process.wire import THERE, event_line, grammar_fields, read_event

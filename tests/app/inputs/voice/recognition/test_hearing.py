@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from app.inputs.voice.audio.files import chunks
 from app.inputs.voice.audio.noise import decibels
+from app.inputs.voice.audio.sound_files import chunks
 from app.inputs.voice.recognition.ctc import Found, Scorer
 from app.inputs.voice.recognition.hearing import Hearing, Phonemes
 from app.inputs.voice.recognition.lexicon import COMMANDS

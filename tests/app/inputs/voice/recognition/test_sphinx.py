@@ -8,7 +8,7 @@ from app.inputs.voice.recognition.recognizer import Grammar, VoiceTrouble
 pytest.importorskip("pocketsphinx")
 hibari = pytest.importorskip("hibari")
 
-from app.inputs.voice.audio.files import resampled  # noqa: E402
+from app.inputs.voice.audio.sound_files import resampled  # noqa: E402
 from app.inputs.voice.recognition.sphinx import Sphinx  # noqa: E402
 
 

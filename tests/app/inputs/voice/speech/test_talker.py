@@ -12,16 +12,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.inputs.voice.audio.files import chunks, resampled
+from app.inputs.voice.audio.sound_files import chunks, resampled
 from app.inputs.voice.process.ending import wait_for_ends
 from app.inputs.voice.recognition.hearing import Hearing, Phonemes
 from app.inputs.voice.recognition.lexicon import COMMANDS
 from app.inputs.voice.recognition.model import HamaModel
 from app.inputs.voice.recognition.recognizer import Grammar, Result, VoiceTrouble
-from app.inputs.voice.speech import mouth as module
-from app.inputs.voice.speech.mouth import CRASHED, NO_ESPEAK, ChildMouth, mouth_of
+from app.inputs.voice.speech import tts as module
 from app.inputs.voice.speech.talker import NO_SPEAKER, play, serve
-from app.inputs.voice.talking import aloud
+from app.inputs.voice.speech.tts import CRASHED, NO_ESPEAK, ChildMouth, mouth_of
+from app.inputs.voice.talkback import aloud
 
 SOUND = np.full(2400, 0.5, np.float32)
 

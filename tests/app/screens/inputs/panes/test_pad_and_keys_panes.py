@@ -9,12 +9,12 @@ from typing import Any
 
 import pytest
 
-from app.inputs.base.press import Press, Presses
-from app.inputs.by_hand import GamepadMethod, KeyboardMethod
+from app.inputs.base.button_presses import Press, Presses
+from app.inputs.binding_actions import HOLDS
+from app.inputs.bindings import Mapped
 from app.inputs.gamepad.gamepad import Gamepads
 from app.inputs.gamepad.sdl import PadState
-from app.inputs.mapped import Mapped
-from app.inputs.meaning import HOLDS
+from app.inputs.hand_methods import GamepadMethod, KeyboardMethod
 from tests.headless import Stage
 
 PAD = PadState(1, "Red", 0.0, 0.0, stop=False, stop_button=1, raw=(0,))
@@ -218,7 +218,7 @@ def test_the_clutch_of_the_tilt_is_left_to_the_tilt(desk: Desk) -> None:
 
 
 def test_the_help_lists_what_the_keys_and_the_gamepads_that_are_there_do(desk: Desk, stage: Stage) -> None:
-    from app.screens.shell.helping import help_groups, toggle_help
+    from app.screens.shell.key_help import help_groups, toggle_help
 
     desk.mapped.set_profile("Red", desk.mapped.profile("Red").with_button("guide", "stop"))
     groups = dict(help_groups(desk.mapped, ["Red"]))

@@ -9,7 +9,7 @@ import pytest
 
 from app.device.motion import NoMotion
 from app.screens.inputs.panes.shake_pane import LESSON, TRY, ShakePane
-from tests.app.inputs.motion.test_shaking import Hand
+from tests.app.inputs.motion.test_shake_input import Hand
 
 
 def test_without_a_sensor_no_lesson_begins_and_its_place_says_why(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from app.inputs.base.press import Press, Presses
+from app.inputs.base.button_presses import Press, Presses
 from app.inputs.scanning.engine import Engine
 from app.inputs.scanning.plan import Planner
 from app.inputs.scanning.settings import DEFAULTS, Key

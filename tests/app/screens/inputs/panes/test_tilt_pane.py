@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from app.screens.inputs.panes.tilt_pane import AMOUNTS, FIXED, FREE, SWITCHES, TiltPane
-from tests.app.inputs.motion.test_tilting import Handheld
+from tests.app.inputs.motion.test_tilt_input import Handheld
 
 
 @pytest.fixture

@@ -8,17 +8,17 @@ from types import SimpleNamespace
 
 import pytest
 
-from app.core.origin import origins
-from app.core.settings import Settings
+from app.core.command_origin import origins
+from app.core.settings_store import Settings
 from app.intents.intents import Intents
-from app.intents.permits import Permits
+from app.intents.method_permits import Permits
 from app.screens.inputs.study.form_view import FormView
 from app.screens.inputs.study.log_view import facts
 from app.screens.inputs.study.setup_view import SetupView, commands_of
 from app.screens.inputs.study.study_pane import StudyPane
 from app.screens.inputs.study.trial_view import PRACTICE, TrialView
-from app.study.responding import Responding
-from app.study.responses import Response, ResponseLog
+from app.study.response_log import Response, ResponseLog
+from app.study.response_recording import Responding
 from app.study.study import COMMANDS
 
 

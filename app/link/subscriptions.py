@@ -1,0 +1,152 @@
+"""Which of the robot's topics the link listens to, and the one that somebody looks at field by field.
+
+Everything here lives in the network thread.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from app.link.capabilities import CAMERA, POSE, Offer
+from bridge.client.client import BridgeClient
+from bridge.core.errors import BridgeError
+from bridge.core.topics import TOPICS, Topic
+from bridge.msgs import TYPES, Msg, ros1_name
+from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
+from bridge.msgs.nav_msgs import Odometry
+from bridge.msgs.sensor_msgs import CompressedImage
+
+__all__ = ["Peek", "Seen", "Sources"]
+
+UNUSED = ("/tf", "/diagnostics", "/bumper")
+"""Topics that no screen shows."""
+FASTEST = 50
+"""No stream is asked for more often than this [ms]: the eye sees no more."""
+SLOW = {"/line_sensor": 100, "/joint_states": 100}
+"""Streams that are shown as figures, with the time between two that can be read [ms]."""
+BULKY = (
+    "sensor_msgs/LaserScan",
+    "nav_msgs/OccupancyGrid",
+    "sensor_msgs/CompressedImage",
+    "sensor_msgs/Image",
+    "sensor_msgs/PointCloud2",
+)
+"""Types whose numbers travel as CBOR; the real servers lose others in it."""
+ENDLESS = ("sensor_msgs/Range",)
+"""Types with an infinity that means something, which JSON cannot say: as CBOR, from a robot of ours."""
+
+Deliver = Callable[[str, Msg, float], object]
+"""Takes our name of a topic, the message, and when it came [s], our clock."""
+
+
+class Sources:
+    """The subscriptions of everything that the screens show, under our names whatever the robot's are."""
+
+    def __init__(self, client: BridgeClient, deliver: Deliver, event: Callable[[Any, float], object]) -> None:
+        """`event` takes what is told once each."""
+        self._client, self._deliver, self._event = client, deliver, event
+        self._ends: dict[str, tuple[str, Callable[[], None]]] = {}
+        self._offer: Offer | None = None
+
+    def follow(self, offer: Offer | None) -> None:
+        """Listen to what the robot offers; None, while that is not known, to the usual names."""
+        self._offer = offer
+        for entry in TOPICS:
+            if entry.to != "handheld" or entry.on_demand or entry.name in UNUSED:
+                continue
+            wanted = entry.name if offer is None else offer.source(entry.name)
+            name, end = self._ends.get(entry.name, (None, None))
+            if wanted == name:
+                continue
+            if end is not None:
+                del self._ends[entry.name]
+                end()
+            if wanted is not None:
+                self._ends[entry.name] = (wanted, self._subscribe(entry, wanted))
+
+    def _subscribe(self, entry: Topic, name: str) -> Callable[[], None]:
+        if entry.once:
+            return self._client.subscribe(name, entry.type, self._event, queue_length=100)
+        fast = entry.rate * FASTEST > 1000
+        return self._client.subscribe(
+            name,
+            entry.type,
+            lambda message, received: self._hear(entry.name, message, received),
+            throttle_rate=SLOW.get(entry.name, FASTEST if fast else 0),
+            compression="cbor" if entry.type.MSGTYPE in (ENDLESS if self._ours else ()) + BULKY else "none",
+        )
+
+    @property
+    def _ours(self) -> bool:
+        return self._offer is None or self._offer.ours
+
+    def _hear(self, name: str, message: Msg, received: float) -> None:
+        self._deliver(name, message, received)
+        if isinstance(message, Odometry) and self._offer is not None and self._offer.pose_by_odometry:
+            self._deliver(POSE, PoseWithCovarianceStamped(message.header, message.pose), received)
+
+    def camera(self, show: Callable[[CompressedImage, float], object]) -> Callable[[], None] | None:
+        """Listen to the pictures of a camera without a socket of its own; None when the robot has no such topic."""
+        name = CAMERA if self._offer is None else self._offer.source(CAMERA)
+        if name is None:
+            return None
+        return self._client.subscribe(
+            name, CompressedImage, show, compression="none" if self._ours else "cbor"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """What came of the topic that is looked at."""
+
+    topic: str
+    message: Msg | None = None
+    """None with a `kind` or a `problem`."""
+    kind: type[Msg] | None = None
+    """Class of what will come; told once, before the first message."""
+    problem: str = ""
+    """Why nothing can be shown, in one sentence."""
+
+
+class Peek:
+    """One topic of the robot, listened to for as long as somebody looks at it."""
+
+    def __init__(self, client: BridgeClient, tell: Callable[[Seen, float], object]) -> None:
+        """`tell` takes what came and when [s], our clock; NaN for what is no message."""
+        self._client, self._tell = client, tell
+        self._topic = ""
+        self._end: Callable[[], None] | None = None
+
+    async def open(self, topic: str, type_name: str) -> None:
+        """Learn the type, where it is not known, and listen; what was listened to before ends."""
+        self.close()
+        self._topic = topic
+        name = ros1_name(type_name)
+        try:
+            kind = TYPES.get(name) or await self._client.learn(name)
+        except BridgeError as error:
+            if self._topic == topic:
+                sentence = (
+                    f"{name} cannot be shown: this app does not know it, and learning it failed. {error}"
+                )
+                self._tell(Seen(topic, problem=sentence), float("nan"))
+            return
+        if self._topic != topic or self._end is not None:
+            return
+        self._tell(Seen(topic, kind=kind), float("nan"))
+        self._end = self._client.subscribe(
+            topic,
+            kind,
+            lambda message, received: self._tell(Seen(topic, message), received),
+            throttle_rate=FASTEST,
+            compression="cbor" if name in BULKY else "none",
+        )
+
+    def close(self) -> None:
+        """Listen no longer."""
+        self._topic = ""
+        if self._end is not None:
+            end, self._end = self._end, None
+            end()

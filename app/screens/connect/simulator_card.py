@@ -1,0 +1,139 @@
+"""The app's own simulator: what is chosen, what runs, and what is told of it on the connect screen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from app.discovery import simulator_process as simulator
+from app.discovery.simulator_options import Choice, Offered
+from app.screens.connect.simulator_choice import SimulatorChoice
+
+__all__ = ["CHANNEL", "Simulating"]
+
+CHANNEL = "simulator"
+"""Of the mailbox, on which its threads tell."""
+IDLE, STARTING, RUNNING = (
+    "Start the built-in simulator",
+    "Starting the simulator …",
+    "Start another simulation",
+)
+
+
+class Simulating:
+    """Starts the simulator and ends it with the app. `app` has what it needs: mailbox, settings, the connect screen."""
+
+    def __init__(
+        self,
+        app: Any,
+        command: Sequence[str] | None,
+        say: Callable[[str, str], None],
+        now: Callable[[], float],
+    ) -> None:
+        """`command` starts another simulator, about which nothing is asked; None for the one that is built in."""
+        self._app, self._command, self._say, self._now = app, command, say, now
+        self.current: simulator.Simulator | None = None
+        """The one that starts or runs."""
+        self.dialog: SimulatorChoice | None = None
+        """The question that is on the glass."""
+        self._inquiry: simulator.Inquiry | None = None
+        self._offered: Offered | None = None
+        self._count = 1
+        self._started = 0
+
+    @property
+    def possible(self) -> bool:
+        """There is a simulator on this machine."""
+        return bool(self._command) or simulator.available()
+
+    def ask(self) -> None:
+        """Ask which robots are to be simulated, and where."""
+        if self._command:
+            self.start()
+            return
+        remembered = Choice.remembered(self._app.settings.get("simulated"))
+        self.dialog = SimulatorChoice(remembered, self._chosen, running=self._runs)
+        self.dialog.bind(on_close=lambda *_: setattr(self, "dialog", None))
+        self._app.root.add_widget(self.dialog)
+        if self._offered is not None:
+            self.dialog.show_offered(self._offered)
+        elif self._inquiry is None:
+            tell = self._app.mailbox.queue
+            self._inquiry = simulator.Inquiry(
+                simulator.inquiry(),
+                lambda text: tell(CHANNEL, ("offered", text), self._now()),
+                lambda sentence: tell(CHANNEL, ("not offered", sentence), self._now()),
+            )
+            self._inquiry.start()
+
+    def start(self, choice: Choice | None = None) -> None:
+        """Start the simulator with what was chosen, the usual robot when nothing was; one that runs is ended."""
+        choice = choice or Choice()
+        self._started += 1
+        self._count = 1 if self._command else len(choice.robots)
+        arguments = self._command or simulator.command(f"sim:{','.join(choice.robots)}", choice.world)
+        self.current = simulator.Simulator(
+            arguments,
+            self._teller("ready"),
+            self._teller("failed"),
+            robots=self._count,
+            after=self.current,
+        )
+        self._show(STARTING, busy=True)
+        self._app.connect.say("")
+        self.current.start()
+
+    def hear(self, what: str, text: str) -> None:
+        """Take in what a thread told."""
+        if what == "offered":
+            self._take(text)
+        elif what == "not offered":
+            self._inquiry = None
+            if self.dialog is not None:
+                self.dialog.problem = text
+        elif what == "failed":
+            self.current = None
+            self._show(IDLE, busy=False)
+            self._say(text, "danger")
+        elif self.current is not None and self.current.url == text:
+            self._show(RUNNING, busy=bool(self._command))
+            if self._count > 1:
+                self._app.connect.say(f"{self._count} simulated robots are ready.", "ok")
+            elif self._app.session is None:
+                self._app.open(text)
+
+    def close(self) -> None:
+        """End what runs."""
+        for each in (self._inquiry, self.current):
+            if each is not None:
+                each.close()
+
+    @property
+    def _runs(self) -> bool:
+        return self.current is not None
+
+    def _chosen(self, choice: Choice) -> None:
+        self._app.settings.set("simulated", choice.kept)
+        self.start(choice)
+
+    def _take(self, text: str) -> None:
+        try:
+            self._offered = Offered.read(text)
+        except ValueError:
+            self.hear("not offered", "What the simulator offers is not to be understood.")
+            return
+        self._inquiry = None
+        if self.dialog is not None:
+            self.dialog.show_offered(self._offered)
+
+    def _show(self, text: str, *, busy: bool) -> None:
+        self._app.connect.simulating, self._app.connect.simulator_text = busy, text
+
+    def _teller(self, what: str) -> Callable[[str], None]:
+        started = self._started
+
+        def tell(text: str) -> None:
+            if started == self._started:  # else it is of one that was ended in the meantime
+                self._app.mailbox.queue(CHANNEL, (what, text), self._now())
+
+        return tell

@@ -1,0 +1,72 @@
+"""What was found that does not belong here, on the drive screen: a badge, and where it is in the picture."""
+
+from __future__ import annotations
+
+import math
+
+from kivy.properties import BooleanProperty
+
+from app.layout.arrange import Rect
+from app.link.capabilities import POSE
+from app.link.feeds import Feeds
+from app.screens.parts.placing import put
+from app.session.dashboard import AGE_STEP, Dashboard
+from app.session.session import Session
+from widgets import IntruderBadge, Video
+from widgets.core.sensor_geometry import away_text
+
+__all__ = ["Sight"]
+
+FOUND = "/intruders"
+"""Topic of what was found."""
+
+
+class Sight(IntruderBadge):
+    """The badge of one screen, which marks the last intruder in `video`; without a robot that looks it is not seen."""
+
+    told = BooleanProperty(False)
+    """The robot has said what it found, be it nothing."""
+    covered = BooleanProperty(False)
+    """Something lies over its place."""
+
+    def __init__(self, session: Session, video: Video, dashboard: Dashboard) -> None:
+        """Shows what comes by `dashboard`."""
+        super().__init__(state="live", opacity=0)
+        self._session, self._video = session, video
+        self._place = Rect(0, 0, 1, 1)
+        dashboard.bind(self, FOUND, fresh=False)
+        dashboard.bind(self, POSE, self.show_pose, fresh=False)
+
+    def place(self, rect: Rect, *, to_right: bool) -> None:
+        """Take its place on the glass."""
+        self.to_right = to_right
+        put(self, rect)
+
+    def tick(self) -> None:
+        """Bring up to date whether it is seen, and the mark in the picture."""
+        feeds: Feeds = self._session.feeds
+        self.told = feeds.latest(FOUND) is not None
+        self._show()
+        self.seen = len(self._video.boxes)
+        self._grow_old(feeds)
+        fov, first = self._session.info.camera_fov, self._session.shows_first_camera
+        self._video.field_of_view = fov if fov > 0 and first else math.nan
+        placed = self.told and self.count > 0 and feeds.state(POSE) == "live" and math.isfinite(self.angle)
+        placed = placed and first
+        marks = [(f"{self.number} · {away_text(self.away)}", self.angle)] if placed else []
+        if marks != self._video.marks:
+            self._video.marks = marks
+
+    def _show(self, *_: object) -> None:
+        self.opacity = 1 if self.told and not self.covered else 0
+
+    on_covered = _show
+
+    def _grow_old(self, feeds: Feeds) -> None:
+        """What was found is said once; where it is from here is as old as the robot's own place."""
+        told = [name for name in (FOUND, POSE) if feeds.latest(name) is not None]
+        ages = [feeds.age(name) for name in told if feeds.state(name) == "stale"]
+        old = max(ages, default=math.nan)
+        if ages and not abs(old - self.age) < AGE_STEP:
+            self.age = old
+        self.state = "stale" if ages else "live"

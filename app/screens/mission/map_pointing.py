@@ -1,0 +1,223 @@
+"""What a finger on the map does: add and move points, set home, make places, say where the robot is."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import msgspec
+from kivy.metrics import dp
+from kivy.uix.widget import Widget
+
+from app.screens.mission.selection_bar import SelectionBar
+from app.session.mission_editor import Draft
+from app.session.session import Session
+from bridge.msgs.pilothouse_msgs import Place, PlaceArray
+from widgets.parts.kit import IconButton, PrimaryButton, QuietButton
+
+__all__ = ["MODES", "Pointing"]
+
+MODES = [
+    ("view", "View"),
+    ("points", "Points"),
+    ("home", "Home"),
+    ("place", "Place"),
+    ("place_robot", "Robot"),
+]
+"""What a finger on the map does, and its word."""
+HINTS = {
+    "points": "Tap to add a point, drag to move one.",
+    "home": "Tap where the robot shall return to.",
+    "place": "Tap to make or change a place.",
+    "place_robot": "Drag it, turn it.",
+}
+
+
+class Pointing:
+    """The fingers on the map of one mission screen, and the bar that says what they hold."""
+
+    def __init__(self, screen: Any, session: Session) -> None:
+        """`screen` is the MissionScreen: its map, its mode, the app behind it."""
+        self._screen, self._session = screen, session
+        self.bar = SelectionBar()
+        self._named: list[Place] = []
+        self._moving: Place | None = None
+        """The place whose position the next tap says; None for a new one."""
+        self._ids: dict[str, Any] = {}
+        self._build()
+
+    def _build(self) -> None:
+        for button, icon, act in (
+            ("earlier", "arrow_upward", lambda *_: self._reorder(-1)),
+            ("later", "arrow_downward", lambda *_: self._reorder(1)),
+            ("delete", "delete", lambda *_: self._delete()),
+        ):
+            widget = IconButton(icon=icon, bare=True, pos_hint={"center_y": 0.5})
+            widget.bind(on_release=act)
+            self._ids[button] = widget
+        for button, text, width, act in (
+            ("place_cancel", "Cancel", "78dp", lambda *_: setattr(self._screen, "mode", "view")),
+            ("place_here", "Set here", "88dp", lambda *_: self._place_robot()),
+        ):
+            kind = PrimaryButton if button == "place_here" else QuietButton
+            word = kind(text=text, size_hint=(None, None), width=width, pos_hint={"center_y": 0.5})
+            # a target as high as gloves need would stick out of the bar
+            word.bind(on_release=act, height=lambda one, _: setattr(one, "height", dp(40)))
+            word.height = dp(40)
+            self._ids[button] = word
+        self._screen.ids.update(self._ids)
+
+    def follow(self, one: Any) -> None:
+        """Do what fingers on this map ask for."""
+        mission = self._session.mission
+        one.bind(
+            on_add=lambda _, x, y: mission.add(x, y),
+            on_move=lambda _, index, x, y: mission.move(index, x, y),
+            on_select=lambda *_: self.show(),
+            on_set_home=lambda _, x, y: mission.set_home(x, y),
+            on_new_place=lambda _, x, y: self._new_place(x, y),
+            on_open_place=lambda _, index: self._open_place(index),
+            grip=self._say,
+            fence=self._say,
+            robot_radius=self._say,
+        )
+
+    @property
+    def can_place(self) -> bool:
+        """The robot can be told where it is."""
+        offer = self._session.offer
+        return offer is None or offer.ours or not offer.rosapi or "/initialpose" in offer.topics
+
+    def modes(self) -> list[tuple[str, str]]:
+        """A finger on the map can do only what this robot takes."""
+        lacks = self._session.lacks_tasks
+        modes = [one for one in MODES if not lacks or one[0] == "view"]
+        if lacks and self.can_place:
+            modes.append(MODES[-1])
+        return modes
+
+    def mode_changed(self) -> None:
+        """Another mode was chosen."""
+        if self._screen.mode != "place":
+            self._moving = None
+        self.show()
+
+    def set_going(self, name: str) -> None:
+        """Who sets the robot going is not placing it any more."""
+        if name != "stop" and self._screen.mode == "place_robot":
+            self._screen.mode = "view"
+
+    def tick(self) -> None:
+        """Bring up to date what time changes."""
+        self._ids["place_here"].disabled = not self._session.connected or not self.can_place
+
+    # the bar
+
+    def show(self) -> None:
+        """Bring the bar up to date: what is selected, and what can be done with it."""
+        bar, row = self.bar, self.bar.ids.row
+        bar.text, wanted = self._said()
+        self._say()
+        for child in row.children[:-1]:
+            row.remove_widget(child)
+        for name in wanted:
+            row.add_widget(self._ids[name])
+        self._screen.show_selection(bool(bar.text))
+
+    def _said(self) -> tuple[str, tuple[str, ...]]:
+        """The words of the bar and the names of its buttons."""
+        screen, index, count = self._screen, int(self._screen.map.selected), len(self._screen.map.waypoints)
+        if screen.mode == "place_robot":
+            hint = HINTS["place_robot"] if self.can_place else "It takes no /initialpose."
+            return hint, ("place_cancel", "place_here")
+        if screen.mode == "points" and 0 <= index < count:
+            self._ids["earlier"].disabled = index == 0
+            self._ids["later"].disabled = index == count - 1
+            return f"Point {index + 1} of {count}", ("earlier", "later", "delete")
+        if screen.mode == "place" and self._moving is not None:
+            return f"Tap where {self._moving.name} is.", ()
+        return HINTS.get(screen.mode, ""), ()
+
+    def _trouble(self) -> str:
+        """Why the robot would refuse what is being edited, as one sentence; empty when it would not."""
+        screen, area, index = self._screen, self._screen.map, int(self._screen.map.selected)
+        found = self._session.refusals.draft(self._held())
+        if screen.mode == "home":
+            return found.get("Home", "")
+        points = {name: said for name, said in found.items() if name != "Home"}
+        if screen.mode != "points" or not points:
+            return ""
+        if 0 <= index < len(area.waypoints):
+            return points.get(f"Point {index + 1}", "")
+        more = len(points) - 1
+        first = next(iter(points.values()))
+        return f"{first.rstrip('.')}; {more} more would be refused too." if more else first
+
+    def _held(self) -> Draft:
+        """The draft with what a finger holds where the finger has brought it."""
+        draft, grip = self._session.mission.draft, self._screen.map.grip
+        if grip is None or not grip.moved:
+            return draft
+        if grip.what == "home":
+            return replace(draft, home=(grip.x, grip.y))
+        points = list(draft.points)
+        if grip.what == "waypoint" and grip.index < len(points):
+            points[grip.index] = (grip.x, grip.y)
+        return replace(draft, points=tuple(points))
+
+    def _say(self, *_: object) -> None:
+        self.bar.trouble = self._trouble()
+
+    def _reorder(self, step: int) -> None:
+        area = self._screen.map
+        index = int(area.selected)
+        target = index + step
+        if 0 <= index < len(area.waypoints) and 0 <= target < len(area.waypoints):
+            area.selected = target
+            self._session.mission.reorder(index, target)
+
+    def _delete(self) -> None:
+        area = self._screen.map
+        index = int(area.selected)
+        if 0 <= index < len(area.waypoints):
+            area.selected = -1
+            self._session.mission.remove(index)
+
+    # places and the robot's own
+
+    def show_places(self, one: Widget, msg: PlaceArray) -> None:
+        """Show the places that have names on a map."""
+        self._named = list(msg.places)
+        one.places = [(place.x, place.y, place.name, place.kind) for place in msg.places]
+
+    def move_place(self, place: Place) -> None:
+        """Let the next tap say where a place is."""
+        self._moving, self._screen.mode = place, "place"
+        self.show()
+
+    def _new_place(self, x: float, y: float) -> None:
+        """A finger pointed at where a place is; what it is called is asked on another screen."""
+        if not self._session.offers("/places/set"):
+            return
+        place, self._moving = self._moving or Place(), None
+        self._edit_place(msgspec.structs.replace(place, x=x, y=y))
+
+    def _open_place(self, index: int) -> None:
+        if self._moving is not None:  # a place may come to lie on another one's mark
+            self._new_place(self._named[index].x, self._named[index].y)
+        elif index < len(self._named):
+            self._edit_place(self._named[index])
+
+    def _edit_place(self, place: Place) -> None:
+        self._screen.mode = "view"
+        app = self._screen.app
+        app.show("tasks")
+        app.screens["tasks"].edit_place(place, returns=True)
+
+    def _place_robot(self) -> None:
+        placed = self._screen.map.placed
+        if len(placed) == 3 and all(map(math.isfinite, placed)):
+            self._session.place_robot(*placed)
+            self._screen.app.shell.say("Told the robot where it is.", "info")
+            self._screen.mode = "view"

@@ -1,0 +1,92 @@
+"""What was understood and waits, over every screen of a robot; and in a sentence what came of everything that was understood."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from app.device import vibrate
+from app.intents.intents import CANCEL_FOR, CONFIRM_FOR, INTENTS, PRESSED, Heard, Intents, Pending, Verdict
+from app.intents.method_permits import LOOKS
+from app.screens.inputs import PANES
+from app.screens.shell.notices import Notices
+from widgets import IntentCard
+
+__all__ = ["Wishes", "heard_words"]
+
+ABOUT = "intent"
+"""What the sentences tell of."""
+BUZZ = 0.08
+"""How long the phone vibrates when a gesture or a word was understood [s]."""
+FELT = ("voice", "shake", "switches")
+"""Methods whose user may not look at the glass."""
+
+
+def heard_words(heard: Heard) -> str:
+    """Who understood what, and how surely, as in `Voice, “go home”: 82 % sure.`"""
+    name = PANES[heard.method][1] if heard.method in PANES else heard.method.capitalize()
+    what = f", “{heard.said}”" if heard.said else ""
+    guess = heard.method not in PRESSED and not math.isnan(heard.confidence)
+    sure = f": {heard.confidence * 100:.0f} % sure." if guess else "."
+    return f"{name}{what}{sure}"
+
+
+class Wishes:
+    """The card of one robot's frame."""
+
+    def __init__(self, intents: Intents, notices: Notices, say: Any) -> None:
+        """`say` is as `Shell.say`."""
+        self._intents, self._notices, self._say = intents, notices, say
+        self._shown: Pending | None = None
+        self._refused = ""
+        """The method whose refusal was said last; empty where a success was."""
+        self.tight = False
+        """There is room for the card alone: what would be said beside it is said on it."""
+        self.card = IntentCard()
+        self.card.bind(on_command=lambda _, name: intents.answer(name == "yes"))
+        intents.on_taken.append(self._told)
+
+    def close(self) -> None:
+        """Tell of nothing any more."""
+        if self._told in self._intents.on_taken:
+            self._intents.on_taken.remove(self._told)
+
+    def look(self, now: float) -> None:
+        """Bring up to date what waits, and for how long; with each heartbeat, `now` is our clock [s]."""
+        pending = self._intents.pending
+        if pending is not self._shown:
+            self._shown = pending
+            if pending is not None:
+                self._notices.hush()
+                self._show(pending)
+            self._notices.keep(self.card, shown=pending is not None, first=True)
+        if pending is not None:
+            self.card.count(pending.until - now, CONFIRM_FOR if pending.question else CANCEL_FOR)
+
+    def _show(self, pending: Pending) -> None:
+        heard = pending.heard
+        who = PANES[heard.method][0] if heard.method in PANES else "touch_app"
+        words = self._intents.words(heard.intent)
+        said = heard_words(heard) + (" Yes or no, by any method." if pending.question else "")
+        self.card.ask(words=words, who=who, heard=said, question=pending.question)
+
+    def _told(self, heard: Heard, verdict: Verdict) -> None:
+        """What is done or cancelled is said; what waits has its card."""
+        if heard.method in FELT and verdict.what in ("acted", "waits", "asks"):
+            vibrate(BUZZ)
+        if not verdict.done or not verdict.sentence or verdict.what in ("cancelled", "practised"):
+            return  # its card goes, and whoever said no is told so; the study's own card says what was understood
+        done = verdict.what == "acted"
+        if done and (heard.method in PRESSED or heard.intent in LOOKS):
+            if heard.method == self._refused:  # what was refused before is not about this one
+                self._refused = ""
+                self._notices.unsay(ABOUT)
+            return  # whoever pressed it sees what it did
+        self._refused = "" if done else heard.method
+        lead = f"{heard_words(heard)} " if verdict.what == "acted" else ""
+        if verdict.what == "not now":
+            lead = f"{INTENTS[heard.intent].words}: "
+        if self.tight and self.card.parent is not None:
+            self.card.heard = lead + verdict.sentence
+        else:
+            self._say(lead + verdict.sentence, "info" if done else "warn", about=ABOUT)

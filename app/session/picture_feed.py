@@ -1,0 +1,64 @@
+"""The camera's pictures on their way to the glass: which stream is watched, how often one comes, how long it is believed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from app.link.camera_decoder import Picture
+from app.session.session import Session
+
+__all__ = ["Pictures"]
+
+PICTURE_LIVES = 1.0
+"""A camera that shows nothing new for longer is stale [s]."""
+
+
+class Pictures:
+    """What the app knows of one robot's camera. Everything here happens in the UI thread."""
+
+    def __init__(self, now: Callable[[], float]) -> None:
+        """`now` is our clock [s]."""
+        self._now = now
+        self._recent: list[float] = []
+        """When the pictures of the last second came [s]."""
+        self._newest = math.nan
+        self._watched: str | None = None
+
+    def show(self, picture: Picture, received: float, shell: Any, session: Session | None) -> None:
+        """Put a decoded picture on the screen that is on the glass; without a `shell` there is none."""
+        self._newest = received
+        if shell is None or not shell.screen:
+            return
+        self._recent = [at for at in self._recent if received - at < 1.0] + [received]
+        rate = float(len(self._recent)) if len(self._recent) > 1 else math.nan
+        latency = session.link.robot_time() - picture.stamp if session and picture.stamp else math.nan
+        shell.screens[shell.screen].show_picture(picture, rate, latency if latency > 0 else math.nan)
+
+    def judge(self, shell: Any) -> None:
+        """A picture is believed for a second; after that it says how old it is."""
+        video = shell.screens[shell.screen].video
+        if video is None:
+            return
+        age = self._now() - self._newest
+        video.state = "never" if math.isnan(age) else "live" if age < PICTURE_LIVES else "stale"
+        if video.state == "stale" and not abs(age - video.age) < 0.5:
+            video.age = age
+
+    def watch(self, session: Session) -> None:
+        """Ask for the picture that the robot offers, once it has said what there is."""
+        if not session.connected:
+            return
+        wanted = session.camera(self._watched)
+        if wanted != self._watched:
+            self._watched = wanted
+            session.link.watch(wanted)
+
+    def ask_again(self) -> None:
+        """The link is a new one: nothing is watched over it yet."""
+        self._watched = None
+
+    def forget(self) -> None:
+        """The robot is left: there is no picture and nothing is watched."""
+        self._watched, self._newest = None, math.nan

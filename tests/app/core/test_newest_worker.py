@@ -1,0 +1,35 @@
+"""The worker thread: newest wins, and what waits at the end is still done."""
+
+from __future__ import annotations
+
+import threading
+
+from app.core.newest_worker import NewestWorker
+
+
+def test_items_that_had_no_turn_are_skipped_and_counted() -> None:
+    done: list[int] = []
+    busy, go_on = threading.Event(), threading.Event()
+
+    def work(item: int) -> None:
+        busy.set()
+        go_on.wait(5)
+        done.append(item)
+
+    worker = NewestWorker(work, "test")
+    worker.put(1)
+    busy.wait(5)
+    for item in (2, 3, 4):
+        worker.put(item)
+    go_on.set()
+    worker.close()
+    assert done == [1, 4]
+    assert worker.skipped == 2
+
+
+def test_after_closing_nothing_is_done() -> None:
+    done: list[int] = []
+    worker = NewestWorker(done.append, "test")
+    worker.close()
+    worker.put(1)
+    assert done == []

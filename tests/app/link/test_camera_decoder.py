@@ -1,0 +1,71 @@
+"""The camera's worker: JPEG in, RGBA out, and a damaged picture is skipped."""
+
+from __future__ import annotations
+
+import io
+import threading
+
+import pytest
+from PIL import Image
+
+from app.link.camera_decoder import PICTURE, Camera, Decoder, _kivy, _pillow, best_decoder
+from app.link.feeds import Mailbox
+from bridge.core.camera_frames import Frame
+
+
+def jpeg() -> bytes:
+    """Left half red, right half blue, 64 x 32."""
+    image = Image.new("RGB", (64, 32), (255, 0, 0))
+    image.paste((0, 0, 255), (32, 0, 64, 32))
+    out = io.BytesIO()
+    image.save(out, "JPEG", quality=95)
+    return out.getvalue()
+
+
+def pillow() -> Decoder:
+    return _pillow(Image)
+
+
+@pytest.mark.parametrize("decode", [pillow(), best_decoder(), _kivy], ids=["pillow", "best", "kivy"])
+def test_a_picture_becomes_rows_of_four_bytes_from_the_top(decode: Decoder) -> None:
+    width, height, rgba = decode(jpeg())
+    assert (width, height, len(rgba)) == (64, 32, 64 * 32 * 4)
+    red, blue = rgba[:3], rgba[63 * 4 : 63 * 4 + 3]
+    assert red[0] > 200 > 60 > red[2]
+    assert blue[2] > 200 > 60 > blue[0]
+
+
+def test_a_damaged_picture_is_skipped_and_counted() -> None:
+    posted = threading.Event()
+    mailbox = Mailbox(posted.set)
+    camera = Camera(mailbox, pillow())
+    camera.show(Frame(1, 5.0, 64, 32, b"no picture"), 1.0)
+    camera.close()
+    assert camera.bad == 1
+    assert mailbox.drain() == []
+
+
+def test_a_decoded_picture_keeps_its_stamp_and_when_it_came() -> None:
+    posted = threading.Event()
+    mailbox = Mailbox(posted.set)
+    camera = Camera(mailbox, pillow())
+    camera.show(Frame(7, 5.0, 128, 64, jpeg()), 1.25)
+    camera.close()
+    ((channel, post),) = mailbox.drain()
+    assert (channel, post.received) == (PICTURE, 1.25)
+    assert (post.value.seq, post.value.stamp, post.value.width, post.value.height) == (7, 5.0, 64, 32)
+    assert post.value.taken == (128, 64)
+    assert posted.is_set()
+
+
+def test_a_picture_is_decoded_in_a_thread_of_its_own() -> None:
+    threads: list[threading.Thread] = []
+
+    def decode(data: bytes) -> tuple[int, int, bytes]:
+        threads.append(threading.current_thread())
+        return 1, 1, bytes(4)
+
+    camera = Camera(Mailbox(lambda: None), decode)
+    camera.show(Frame(1, 5.0, 1, 1, b""), 1.0)
+    camera.close()
+    assert [thread is not threading.current_thread() for thread in threads] == [True]

@@ -1,0 +1,220 @@
+"""What became of STOP: one answer to one question, whoever asks it."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from app.link.commands import STILL_SENDING, Outcome
+from app.stop.stop_state import COMES_TO_REST, DOUBT, Known, Stopping, Verdict, judge
+from bridge.msgs.pilothouse_msgs import ControlStatus
+from tests.bridge.wires import Clock
+
+CUT = "STOP is pressed, but the robot cannot be reached: the connection was cut."
+WHY = "No robot answers."
+
+
+@pytest.mark.parametrize(
+    ("known", "verdict"),
+    [
+        (Known(), Verdict("ready")),
+        (Known(asked_at=99.5), Verdict("sent")),
+        (
+            Known(asked_at=98.0),
+            Verdict("no_answer", "It does not answer; STOP is sent again and again."),
+        ),
+        (Known(asked_at=98.0, reached_at=99.5), Verdict("sent")),
+        (Known(asked_at=99.9, refusal=CUT), Verdict("no_answer", CUT)),
+        (
+            Known(asked_at=98.0, taken_at=98.1, latched=False),
+            Verdict("no_answer", "It took STOP and does not say that it rests."),
+        ),
+        (Known(latched=True, at_rest=True, by="Anna"), Verdict("stopped", "Pressed by Anna.")),
+        (
+            Known(latched=True, moves_since=100.1 - COMES_TO_REST),
+            Verdict("sent", "STOP is pressed; it comes to rest."),
+        ),
+        (
+            Known(latched=True, moves_since=99.9 - COMES_TO_REST),
+            Verdict("moves", "STOP is pressed, and it does not come to rest."),
+        ),
+        (Known(latched=True, moves_since=99.9, refusal=CUT), Verdict("no_answer", CUT)),
+        (
+            Known(asked_at=90.0, latched=False, released=True),
+            Verdict("released", "Somebody has released STOP."),
+        ),
+        (Known(reached=False, why=WHY), Verdict("ready")),
+        (Known(reached=False, asked_at=99.5, why=WHY), Verdict("sent")),
+        (Known(reached=False, asked_at=98.0, why=WHY), Verdict("no_answer", WHY)),
+        (Known(reached=False, asked_at=99.9, why=WHY, hopeless=True), Verdict("no_answer", WHY)),
+        (
+            Known(reached=False, lost_at=88.0, why=WHY),
+            Verdict("lost", "STOPPED when it was last heard, 12 s ago. No robot answers."),
+        ),
+        (Known(reached=False, lost_at=88.0, asked_at=99.5, why=WHY), Verdict("sent")),
+        (
+            Known(reached=False, lost_at=88.0, asked_at=89.0, why=WHY),
+            Verdict("no_answer", "STOPPED when it was last heard, 12 s ago. No robot answers."),
+        ),
+        (Known(lost_at=88.0), Verdict("lost", "STOPPED when it was last heard, 12 s ago.")),
+    ],
+)
+def test_what_is_known_decides(known: Known, verdict: Verdict) -> None:
+    assert judge(known, 100.0) == verdict
+
+
+class Watch:
+    """What is heard of one robot."""
+
+    def __init__(self) -> None:
+        self.clock = Clock()
+        self.stopping = Stopping(self.clock, "me")
+
+    def told(self, *, stopped: bool = True, at_rest: bool = True) -> None:
+        self.stopping.hear(ControlStatus(stopped=stopped, at_rest=at_rest), self.clock.time)
+
+    def outcome(self, phase: str, reason: str = "") -> None:
+        self.stopping.answered(Outcome("stop", "1", phase, reason))
+
+    @property
+    def phase(self) -> str:
+        return self.stopping.verdict.phase
+
+
+@pytest.fixture
+def watch() -> Watch:
+    return Watch()
+
+
+def test_a_robot_that_is_slow_to_rest_is_not_obeyed_only_after_its_time(watch: Watch) -> None:
+    watch.told(at_rest=False)
+    watch.clock.time += COMES_TO_REST - 0.1
+    watch.told(at_rest=False)
+    assert watch.phase == "sent"
+    watch.clock.time += 0.2
+    assert watch.phase == "moves"
+    watch.told()
+    assert watch.phase == "stopped"
+
+
+@pytest.mark.parametrize(
+    ("client_id", "said"),
+    [
+        ("me", ""),
+        ("another of the same name", "Pressed by tablet."),
+        ("", "Pressed by tablet."),
+    ],
+)
+def test_who_pressed_it_is_known_by_the_id_and_not_by_the_name(
+    watch: Watch, client_id: str, said: str
+) -> None:
+    watch.stopping.hear(ControlStatus(stopped=True, stopped_by="tablet", stopped_by_id=client_id), 100.0)
+    assert watch.stopping.verdict == Verdict("stopped", said)
+
+
+def test_a_handheld_without_an_id_takes_nobodys_stop_for_its_own() -> None:
+    stopping = Stopping(Clock(), "")
+    stopping.hear(ControlStatus(stopped=True, stopped_by="a browser"), 100.0)
+    assert stopping.verdict.sentence == "Pressed by a browser."
+
+
+def test_pressing_again_while_it_is_sent_puts_no_doubt_off(watch: Watch) -> None:
+    for _ in range(4):
+        watch.stopping.press()
+        watch.outcome("sent")
+        watch.clock.time += DOUBT / 3
+    assert watch.phase == "no_answer"
+
+
+def test_that_there_is_no_answer_is_no_reason(watch: Watch) -> None:
+    watch.stopping.press()
+    watch.clock.time += DOUBT
+    watch.outcome("no_reply", STILL_SENDING)
+    assert watch.stopping.verdict.sentence == "It does not answer; STOP is sent again and again."
+
+
+def test_what_was_done_and_is_pressed_no_longer_was_released_and_can_be_pressed_anew(watch: Watch) -> None:
+    watch.stopping.press()
+    watch.told()
+    watch.outcome("accepted")
+    watch.told(stopped=False)
+    assert watch.phase == "released"
+    watch.stopping.press()
+    assert watch.phase == "sent"
+
+
+def test_what_was_stopped_is_not_when_the_link_is_gone_nor_before_it_speaks_again(watch: Watch) -> None:
+    watch.told()
+    watch.stopping.reach(False, WHY)
+    watch.clock.time += 5.0
+    assert watch.phase == "lost"
+    assert watch.stopping.lost_for == 5.0
+    watch.stopping.reach(True)
+    assert watch.phase == "lost"
+    watch.stopping.reach(False, WHY)
+    assert watch.phase == "lost", "it said nothing in between"
+    watch.stopping.reach(True)
+    watch.told(stopped=False)
+    assert (watch.phase, math.isnan(watch.stopping.lost_for)) == ("ready", True)
+
+
+def test_a_word_that_is_delivered_after_the_link_was_lost_is_the_last_word_and_no_news(watch: Watch) -> None:
+    watch.stopping.press()
+    watch.stopping.reach(False, WHY)
+    watch.told()
+    watch.clock.time += 3.0
+    assert (watch.phase, watch.stopping.lost_for) == ("lost", 3.0)
+
+
+def test_a_word_that_comes_over_a_new_connection_counts_from_when_that_stands(watch: Watch) -> None:
+    watch.told()
+    watch.stopping.reach(False, WHY)
+    watch.clock.time += 3.0
+    watch.told()
+    assert (watch.phase, watch.stopping.lost_for) == ("lost", 3.0)
+    watch.stopping.reach(True)
+    assert watch.phase == "stopped"
+
+
+def test_a_word_of_the_old_connection_does_not_count_over_the_new_one(watch: Watch) -> None:
+    watch.told()
+    watch.clock.time += 1.0
+    watch.stopping.reach(False, WHY, at=watch.clock.time)
+    watch.clock.time += 3.0
+    watch.stopping.hear(ControlStatus(stopped=True), watch.clock.time - 3.5)
+    watch.stopping.reach(True)
+    assert watch.phase == "lost"
+
+
+def test_a_word_of_a_connection_that_did_not_come_to_stand_is_forgotten(watch: Watch) -> None:
+    watch.told()
+    watch.stopping.reach(False, WHY)
+    watch.clock.time += 3.0
+    watch.told()
+    watch.stopping.reach(False, WHY)
+    watch.stopping.reach(True)
+    assert watch.phase == "lost"
+
+
+def test_what_moved_when_the_link_went_is_not_said_to_have_been_stopped(watch: Watch) -> None:
+    watch.told(at_rest=False)
+    watch.stopping.reach(False, WHY)
+    assert watch.phase == "ready"
+
+
+def test_stop_pressed_without_a_link_is_said_to_be_unanswered(watch: Watch) -> None:
+    watch.told()
+    watch.stopping.reach(False, WHY)
+    watch.clock.time += 1.0
+    watch.stopping.press()
+    assert watch.phase == "sent"
+    watch.clock.time += DOUBT
+    assert watch.phase == "no_answer"
+
+
+def test_what_is_let_go_is_asked_for_no_longer(watch: Watch) -> None:
+    watch.outcome("no_reply", CUT)
+    assert watch.phase == "no_answer"
+    watch.stopping.forget()
+    assert watch.phase == "ready"

@@ -1,0 +1,171 @@
+"""Python's collector comes when the app calls it, for what there is, and goes back to Python afterwards."""
+
+from __future__ import annotations
+
+import gc
+import weakref
+from collections.abc import Iterator
+
+import pytest
+
+from app import garbage_collector as garbage
+from app.garbage_collector import Collector
+from tests.thrown import Lasting, automatic, make_much, throw_away
+
+
+class Cycle:
+    """Nothing but the collector ends it."""
+
+    def __init__(self) -> None:
+        self.itself = self
+
+
+def dropped() -> weakref.ref[Cycle]:
+    return weakref.ref(Cycle())
+
+
+@pytest.fixture
+def collector(monkeypatch: pytest.MonkeyPatch) -> Iterator[Collector]:
+    monkeypatch.setattr(Collector, "_at_work", 0)  # that of the tests is away for a while
+    with automatic():
+        collector = Collector()
+        gc.collect()
+        yield collector
+        collector.close()
+
+
+def test_without_it_a_widget_that_was_thrown_away_vanishes_in_the_middle_of_its_rule() -> None:
+    lasting = Lasting()
+    with automatic():
+        throw_away(lasting)
+        with pytest.raises(ReferenceError):
+            lasting.name = "after"
+
+
+def test_with_it_the_widget_stays_until_the_rule_is_through(collector: Collector) -> None:
+    lasting = Lasting()
+    gone = throw_away(lasting)
+    lasting.name = "after"
+    assert gone().followed[0] == "after"
+    collector.expect(gone())
+    collector.look()
+    assert gone() is None
+
+
+def test_nothing_is_collected_before_it_looks(collector: Collector) -> None:
+    gone = dropped()
+    make_much(None)
+    assert gone() is not None
+
+
+def test_what_few_objects_made_waits(collector: Collector) -> None:
+    gone = dropped()
+    collector.look()
+    assert gone() is not None
+
+
+def test_when_many_objects_were_made_the_young_are_collected(collector: Collector) -> None:
+    gone = dropped()
+    kept = [[] for _ in range(garbage.YOUNG)]
+    collector.look()
+    assert gone() is None
+    assert kept
+
+
+def old() -> tuple[Cycle, weakref.ref[Cycle]]:
+    """One that outlived a look, and how to see that it is gone."""
+    cycle = Cycle()
+    gc.collect(0)
+    return cycle, weakref.ref(cycle)
+
+
+def test_the_old_are_left_until_much_has_grown_old_with_them(collector: Collector) -> None:
+    cycle, gone = old()
+    del cycle
+    kept = [[] for _ in range(garbage.OLD // 2)]
+    collector.look()
+    assert gone() is not None
+    kept += [[] for _ in range(garbage.OLD)]
+    collector.look()
+    assert gone() is None
+
+
+def test_where_much_is_made_and_goes_again_the_old_are_left(collector: Collector) -> None:
+    cycle, gone = old()
+    del cycle
+    for _ in range(10):
+        for _ in range(garbage.OLD // 4):
+            Cycle()
+        collector.look()
+    assert gone() is not None
+
+
+def test_much_that_was_thrown_away_goes_with_the_next_look(collector: Collector) -> None:
+    cycle, gone = old()
+    collector.expect(cycle)
+    del cycle
+    assert gone() is not None
+    collector.look()
+    assert gone() is None
+    gone = dropped()
+    collector.look()
+    assert gone() is not None
+
+
+def test_what_something_still_holds_for_a_while_is_waited_for(collector: Collector) -> None:
+    cycle, gone = old()
+    collector.expect(cycle)
+    for _ in range(100):
+        collector.look()
+    del cycle
+    for _ in range(128):
+        collector.look()
+    assert gone() is None
+
+
+def test_what_never_goes_is_not_looked_for_for_ever(
+    collector: Collector, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cycle, _ = old()
+    found: list[object] = []
+    collector.expect(cycle)
+    monkeypatch.setattr(gc, "collect", lambda *of: found.append(of) or 0)
+    for _ in range(10_000):
+        collector.look()
+    assert len([of for of in found if not of]) == 1 + garbage.PATIENCE
+
+
+def test_what_was_there_before_is_not_looked_at(collector: Collector) -> None:
+    before = gc.get_freeze_count()
+    assert before > 10_000
+    collector.close()
+    assert gc.get_freeze_count() == 0
+
+
+def test_it_is_pythons_again_while_no_frame_comes_and_after_the_end() -> None:
+    with automatic():
+        collector = Collector()
+        assert not gc.isenabled()
+        collector.pause()
+        assert gc.isenabled()
+        collector.resume()
+        assert not gc.isenabled()
+        collector.close()
+        assert gc.isenabled()
+
+
+def test_who_had_turned_it_off_finds_it_off() -> None:
+    with automatic():
+        gc.disable()
+        collector = Collector()
+        collector.pause()
+        assert not gc.isenabled()
+        collector.close()
+        assert not gc.isenabled()
+
+
+def test_one_within_another_leaves_it_as_it_was(collector: Collector) -> None:
+    inner = Collector()
+    frozen = gc.get_freeze_count()
+    inner.close()
+    assert gc.get_freeze_count() == frozen
