@@ -13,8 +13,8 @@ from kivy.metrics import dp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
 from kivy.uix.widget import Widget
 
-import widgets.parts.labels  # noqa: F401 - their rules draw what is used here
-import widgets.parts.sliders
+import widgets.parts.labels
+import widgets.parts.sliders  # noqa: F401 - its rules draw what is used here
 from widgets.core.surfaces import Outlined
 from widgets.parts.column import Column
 

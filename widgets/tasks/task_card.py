@@ -14,8 +14,8 @@ from kivy.lang import Builder
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, ObjectProperty, StringProperty
 from kivy.uix.widget import Widget
 
-import widgets.parts.labels  # noqa: F401 - their rules draw what is used here
-import widgets.parts.sliders
+import widgets.parts.labels
+import widgets.parts.sliders  # noqa: F401 - its rules draw what is used here
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskStatus
 from widgets.core.base import RobotWidget

@@ -12,8 +12,8 @@ from kivy.properties import BooleanProperty, NumericProperty, OptionProperty, St
 from kivy.uix.boxlayout import BoxLayout
 
 import widgets.instruments.battery
-import widgets.instruments.link_quality  # noqa: F401 - their rules draw what is used here
-import widgets.parts.kit
+import widgets.instruments.link_quality
+import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.screens.parts.method_chip import InputsChip  # noqa: F401 - its rule draws what is used here
 from app.screens.shell import status_text as standing
 from app.session.session import Session
