@@ -14,7 +14,7 @@ from bridge.core.units import wrap
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.core.config import SafeStateSettings
-from robotside.limits.limits import Measured
+from robotside.motion.measured import Measured
 from robotside.motion.speed_limit import within
 
 __all__ = ["BRAKE", "Act", "SafeState"]

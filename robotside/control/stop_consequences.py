@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from robotside.core.vehicle_kinds import kind_of
-from robotside.limits.limits import Measured
+from robotside.motion.measured import Measured
 
 __all__ = ["still_moves"]
 

@@ -16,8 +16,9 @@ from robotside.control.safe_state import Act, SafeState
 from robotside.core.config import ControlSettings
 from robotside.core.vehicle_kinds import kind_of
 from robotside.limits.bumper_guard import AGAIN, kept_off
-from robotside.limits.limits import Measured, turned_over
+from robotside.limits.limits import turned_over
 from robotside.motion.manoeuvres import BY_STICK, Order, settled
+from robotside.motion.measured import Measured
 from robotside.records.events import Say
 from robotside.services.command_log import Refusal
 from robotside.tasks.engine import Engine

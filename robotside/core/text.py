@@ -6,7 +6,7 @@ import math
 
 from bridge.core.units import heading_from_yaw
 
-__all__ = ["heading", "number", "plain"]
+__all__ = ["heading", "number", "place_sentence", "plain"]
 
 
 def heading(yaw: float) -> str:
@@ -17,6 +17,11 @@ def heading(yaw: float) -> str:
 def number(value: float) -> str:
     """`value` with one decimal, or shortened from a million on, as in `1e+308`."""
     return f"{value:.1f}" if abs(value) < 1e6 else f"{value:.4g}"
+
+
+def place_sentence(name: str, x: float, y: float) -> str:
+    """A place as people read it: its name and coordinates."""
+    return f"{name} at ({number(x)}, {number(y)})"
 
 
 def plain(text: str, most: int) -> str:

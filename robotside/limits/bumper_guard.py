@@ -6,15 +6,12 @@ Pure: what the robot measures is passed in.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.core.vehicle_kinds import kind_of
 from robotside.motion.manoeuvres import Order, kept, leads_to
-
-if TYPE_CHECKING:
-    from robotside.limits.limits import Measured
+from robotside.motion.measured import Measured
 
 __all__ = ["AGAIN", "kept_off"]
 

@@ -7,7 +7,7 @@ before they are exceeded, and `robotside.limits.fence_guard` does the same for t
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import msgspec
@@ -17,17 +17,18 @@ from bridge.msgs.geometry_msgs import Point32, Polygon, Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
 from robotside.core.config import LimitSettings, Ring
 from robotside.core.pose2 import Pose2
+from robotside.core.text import place_sentence
 from robotside.core.vehicle_kinds import kind_of
 from robotside.limits.fence import Fence
 from robotside.limits.fence_guard import LEVEL_FROM, MOST_DOUBT, SURE_ENOUGH, Fencing, doubt_of
 from robotside.mapping.occupancy_grid import Grid
 from robotside.motion.manoeuvres import BY_ITSELF, Order, kept, leads_to, levelled
+from robotside.motion.measured import Measured
 from robotside.motion.speed_limit import slower, within
 from robotside.motion.station_keeping import BACK_AT, BACK_TO, CREEP, DRIFTS, Drift, back, way_back
-from robotside.motion.stopping_path import HANDLING, REACTION, REST, Handling, Moving
-from robotside.navigation.planner import place_sentence
+from robotside.motion.stopping_path import HANDLING, REACTION, Handling, Moving
 
-__all__ = ["GOAL_ROOM", "PATH_ROOM", "Clamped", "Keeper", "Kept", "Measured", "turned_over"]
+__all__ = ["GOAL_ROOM", "PATH_ROOM", "Clamped", "Keeper", "Kept", "turned_over"]
 
 GOAL_ROOM = 0.4
 """Kept between the body and the fence at a goal [m]: following a path is not exact."""
@@ -42,32 +43,6 @@ DIVING = 0.1
 UNSURE = 0.25
 """A robot that is not sure of its place goes at this part of its speed while it has a fence."""
 NOT_PLACED = "The robot does not know where it is, so it cannot keep to its fence; place it on the map."
-
-
-@dataclass(frozen=True, slots=True)
-class Measured:
-    """What the robot knows of itself; NaN and None for what it does not measure."""
-
-    pose: Pose2 | None = None
-    """In `map`."""
-    moving: Moving = REST
-    """As its wheels tell."""
-    height: float = math.nan
-    """Above the map's origin, which for boats is the water [m]."""
-    roll: float = 0.0
-    """[rad]"""
-    pitch: float = 0.0
-    """[rad], positive is nose down."""
-    spread: float = 0.0
-    """How far off the pose may be in the worst direction, one standard deviation [m]; NaN without a pose."""
-    sure: bool = True
-    """The robot holds the pose for right."""
-    landed: bool = False
-    """It says itself that it is on the ground, rotors off; False for one that does not fly."""
-    overturned: bool = False
-    """It says itself that it lies there on its back."""
-    touched: float | None = None
-    """Bearing in `base_link` of what its bumper touches [rad]; None for nothing, and where it cannot tell."""
 
 
 class Clamped(NamedTuple):

@@ -6,7 +6,7 @@ Pure: what the robot measures is passed in.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from msgspec.structs import replace
 
@@ -14,11 +14,9 @@ from bridge.core.units import wrap
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.core.vehicle_kinds import kind_of
+from robotside.motion.measured import Measured
 from robotside.motion.speed_limit import slower, within
 from robotside.motion.station_keeping import CREEP
-
-if TYPE_CHECKING:
-    from robotside.limits.limits import Measured
 
 __all__ = [
     "BY_ITSELF",

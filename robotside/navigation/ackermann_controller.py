@@ -12,9 +12,10 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Manoeuvrable, Robot
+from robotside.core.text import place_sentence
 from robotside.navigation.lattice_planner import Lattice, Piece
 from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, Grounded, Search
-from robotside.navigation.planner import Planner, Unreachable, place_sentence
+from robotside.navigation.planner import Planner, Unreachable
 from robotside.navigation.pure_pursuit import Follower, Manner
 
 __all__ = ["Trucking", "bend_of", "girth"]

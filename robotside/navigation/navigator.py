@@ -12,13 +12,14 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Manoeuvrable, Robot
+from robotside.core.text import place_sentence
 from robotside.mapping.obstacle_memory import Obstacles
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.ackermann_controller import Trucking, girth
 from robotside.navigation.course_controller import Coursing
 from robotside.navigation.differential_controller import Wheeling
 from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, Going, Search
-from robotside.navigation.planner import STEP, Planner, Unreachable, place_sentence
+from robotside.navigation.planner import STEP, Planner, Unreachable
 
 __all__ = ["CRUISE", "UNSURE_SPEED", "Goal", "Guide", "Leg"]
 

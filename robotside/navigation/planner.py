@@ -8,11 +8,11 @@ from collections.abc import Generator
 import numpy as np
 
 from robotside.core.pose2 import Points
-from robotside.core.text import number
+from robotside.core.text import place_sentence
 from robotside.mapping.occupancy_grid import Grid
 from robotside.mapping.wavefront import Bits, Cell, Wave, bits, rows_at_once
 
-__all__ = ["MARGIN", "PREFERRED", "STEP", "Planner", "Unreachable", "place_sentence"]
+__all__ = ["MARGIN", "PREFERRED", "STEP", "Planner", "Unreachable"]
 
 MARGIN = 0.08
 """Kept between the body and anything, where it is narrow [m]."""
@@ -42,11 +42,6 @@ _BELL /= _BELL.sum()
 
 class Unreachable(Exception):
     """There is no way; the text is one sentence that names the place."""
-
-
-def place_sentence(name: str, x: float, y: float) -> str:
-    """A place as people read it: its name and coordinates."""
-    return f"{name} at ({number(x)}, {number(y)})"
 
 
 class Planner:

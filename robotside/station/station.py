@@ -42,8 +42,9 @@ from robotside.core.pose2 import Pose2
 from robotside.core.robot import Robot
 from robotside.core.topic_demand import Demand
 from robotside.core.vehicle_kinds import kind_of, unknown
-from robotside.limits.limits import Keeper, Measured
+from robotside.limits.limits import Keeper
 from robotside.motion.manoeuvres import Order
+from robotside.motion.measured import Measured
 from robotside.records import Records
 from robotside.records.events import Events
 from robotside.records.records_publisher import Shown

@@ -11,7 +11,7 @@ from bridge.msgs.geometry_msgs import Twist
 from robotside.control.safe_state import GROUND, LONGEST, SURFACE, Act, SafeState
 from robotside.core.config import NOTHING_SET, SafeStateSettings
 from robotside.core.pose2 import Pose2
-from robotside.limits.limits import Measured
+from robotside.motion.measured import Measured
 from robotside.motion.stopping_path import Moving
 
 TICK = 1 / 20

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from robotside.control.stop_consequences import still_moves
-from robotside.limits.limits import Measured
+from robotside.motion.measured import Measured
 
 HOVERS = "Ada hovers, on its battery. Hold STOP to release it, then land."
 FLOATS = "Ada floats up. Hold STOP to release it, then hold its depth."

@@ -11,8 +11,8 @@ import pytest
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.limits.bumper_guard import kept_off
-from robotside.limits.limits import Measured
 from robotside.motion.manoeuvres import Order
+from robotside.motion.measured import Measured
 from robotside.services.stop_services import listener
 from sim.robot import ROBOTS, SimRobot
 from sim.simulation.simulation import Simulation

@@ -14,8 +14,9 @@ from bridge.msgs.geometry_msgs import Point32, Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
 from robotside.core.config import LimitSettings
 from robotside.core.pose2 import Pose2
-from robotside.limits.limits import NOT_PLACED, Keeper, Measured
+from robotside.limits.limits import NOT_PLACED, Keeper
 from robotside.mapping.occupancy_grid import Grid
+from robotside.motion.measured import Measured
 from robotside.motion.stopping_path import Moving
 from robotside.navigation.planner import Planner
 

@@ -13,8 +13,9 @@ from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.core.config import LimitSettings
 from robotside.core.pose2 import Pose2
-from robotside.limits.limits import Keeper, Kept, Measured
+from robotside.limits.limits import Keeper, Kept
 from robotside.motion.manoeuvres import at_rest, finite, leads_to, paced, settled
+from robotside.motion.measured import Measured
 from robotside.motion.stopping_path import Moving
 
 TRUCK = RobotInfo(

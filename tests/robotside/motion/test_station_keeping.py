@@ -9,7 +9,8 @@ import pytest
 from robotside.core.config import LimitSettings
 from robotside.core.pose2 import Pose2
 from robotside.limits.fence_guard import MOST_DOUBT
-from robotside.limits.limits import Keeper, Measured
+from robotside.limits.limits import Keeper
+from robotside.motion.measured import Measured
 from robotside.motion.station_keeping import BACK_SPEED, Drift, back, way_back
 from robotside.motion.stopping_path import Moving
 from tests.robotside.limits.test_limits import AQUA, SQUARE, WHEELS, twist

@@ -1,0 +1,37 @@
+"""The measured state of a robot: pose, speed, attitude, height, contact."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from robotside.core.pose2 import Pose2
+from robotside.motion.stopping_path import REST, Moving
+
+__all__ = ["Measured"]
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """What the robot knows of itself; NaN and None for what it does not measure."""
+
+    pose: Pose2 | None = None
+    """In `map`."""
+    moving: Moving = REST
+    """As its wheels tell."""
+    height: float = math.nan
+    """Above the map's origin, which for boats is the water [m]."""
+    roll: float = 0.0
+    """[rad]"""
+    pitch: float = 0.0
+    """[rad], positive is nose down."""
+    spread: float = 0.0
+    """How far off the pose may be in the worst direction, one standard deviation [m]; NaN without a pose."""
+    sure: bool = True
+    """The robot holds the pose for right."""
+    landed: bool = False
+    """It says itself that it is on the ground, rotors off; False for one that does not fly."""
+    overturned: bool = False
+    """It says itself that it lies there on its back."""
+    touched: float | None = None
+    """Bearing in `base_link` of what its bumper touches [rad]; None for nothing, and where it cannot tell."""
