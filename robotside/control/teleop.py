@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Protocol
 
 from bridge.core.liveness import LAPSE
 from bridge.msgs.geometry_msgs import Twist
@@ -14,19 +15,29 @@ from robotside.control.guarded_robot import Guarded
 from robotside.control.limit_violations import Excesses
 from robotside.control.safe_state import Act, SafeState
 from robotside.core.config import ControlSettings
+from robotside.core.refusal import Refusal
 from robotside.core.vehicle_kinds import kind_of
 from robotside.limits.bumper_guard import AGAIN, kept_off
 from robotside.limits.limits import turned_over
 from robotside.motion.manoeuvres import BY_STICK, Order, settled
 from robotside.motion.measured import Measured
 from robotside.records.events import Say
-from robotside.services.command_log import Refusal
-from robotside.tasks.engine import Engine
 
 __all__ = ["FOLLOW_LINK", "LOST_LINK_STOPS_TASK", "Helm", "Options"]
 
 FOLLOW_LINK = "follow_link"
 LOST_LINK_STOPS_TASK = "lost_link_stops_task"
+
+
+class TaskRunner(Protocol):
+    """What runs the robot's tasks, as much of it as driving by hand has to do with."""
+
+    @property
+    def running(self) -> bool:
+        """A task is under way and moves the robot."""
+
+    def pause(self, reason: str, level: str = "info") -> None:
+        """Hold the running task where it is; `reason` is one sentence."""
 
 
 class Options:
@@ -69,7 +80,7 @@ class Helm:
         self,
         controls: Controls,
         robot: Guarded,
-        engine: Engine,
+        engine: TaskRunner,
         safe: SafeState,
         options: Options,
         *,

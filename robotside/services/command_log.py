@@ -9,10 +9,11 @@ from collections.abc import Callable
 from bridge.codec import from_json
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from robotside.control.command_expiry import AHEAD
+from robotside.core.refusal import Refusal
 from robotside.core.text import number, plain
 from robotside.records.answers import KEPT
 
-__all__ = ["KEPT_FOR", "Commands", "Refusal"]
+__all__ = ["KEPT_FOR", "Commands"]
 
 KEPT_FOR = 60.0
 """So long is an answer kept [s]; an id that comes later is one that was counted anew."""
@@ -22,10 +23,6 @@ LONGEST_ID = 64
 
 LONGEST = 300
 """Characters kept of a refusal's sentence."""
-
-
-class Refusal(Exception):
-    """The robot will not do it; the text is one sentence for the operator."""
 
 
 class Commands:

@@ -11,9 +11,10 @@ from bridge.codec import to_json
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from bridge.server.server import Service, Session
 from robotside.control.authority import Operator
+from robotside.core.refusal import Refusal
 from robotside.records import Job, NotRecorded
 from robotside.records.database.rows import Answered
-from robotside.services.command_log import Commands, Refusal
+from robotside.services.command_log import Commands
 from robotside.station.station import Station
 
 __all__ = ["Action", "Answering"]

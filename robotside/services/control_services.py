@@ -16,7 +16,7 @@ from bridge.server.server import Service
 from robotside.control.authority import Operator
 from robotside.control.command_gate import STOP_SENTENCE
 from robotside.control.teleop import FOLLOW_LINK, LOST_LINK_STOPS_TASK
-from robotside.services.command_log import Refusal
+from robotside.core.refusal import Refusal
 from robotside.services.command_service import Answering
 from robotside.services.preconditions import Permits
 from robotside.services.task_services import TaskOrders

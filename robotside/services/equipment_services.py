@@ -19,8 +19,8 @@ from bridge.server.server import Service
 from robotside.control.authority import Operator
 from robotside.control.command_gate import STOP_SENTENCE
 from robotside.core.pose2 import Pose2
+from robotside.core.refusal import Refusal
 from robotside.core.text import plain
-from robotside.services.command_log import Refusal
 from robotside.services.command_service import Answering
 from robotside.services.preconditions import Permits
 from robotside.station.station import Station

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from robotside.control.authority import Operator
 from robotside.control.command_gate import STOP_SENTENCE
-from robotside.services.command_log import Refusal
+from robotside.core.refusal import Refusal
 from robotside.station.station import NO_MAP, Station
 from robotside.tasks.autonomy import LOW_BELOW
 from robotside.tasks.engine import TO_CHARGE, Task

@@ -21,10 +21,10 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.std_msgs import Time
 from bridge.server.server import Service
 from robotside.control.authority import Operator
+from robotside.core.refusal import Refusal
 from robotside.core.text import plain
 from robotside.records.places import LONGEST
 from robotside.records.runs import AT_ONCE
-from robotside.services.command_log import Refusal
 from robotside.services.command_service import Answering
 from robotside.services.preconditions import Permits
 from robotside.station.station import Station

@@ -31,9 +31,9 @@ from bridge.msgs.std_msgs import Time
 from bridge.server.server import Service, Session
 from robotside.control.authority import Operator
 from robotside.core.pose2 import Pose2
+from robotside.core.refusal import Refusal
 from robotside.core.text import plain
 from robotside.records import NotRecorded
-from robotside.services.command_log import Refusal
 from robotside.services.command_service import Answering
 from robotside.services.control_services import control_services
 from robotside.services.equipment_services import equipment_services

@@ -19,7 +19,7 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from bridge.server.server import Service
 from robotside.control.authority import Operator
-from robotside.services.command_log import Refusal
+from robotside.core.refusal import Refusal
 from robotside.services.command_service import Answering
 from robotside.services.preconditions import Permits
 from robotside.station.station import Station

@@ -39,6 +39,7 @@ from robotside.control.teleop import FOLLOW_LINK, LOST_LINK_STOPS_TASK, Helm, Op
 from robotside.core.bus import Bus
 from robotside.core.config import NOTHING_SET, Config
 from robotside.core.pose2 import Pose2
+from robotside.core.refusal import Refusal
 from robotside.core.robot import Robot
 from robotside.core.topic_demand import Demand
 from robotside.core.vehicle_kinds import kind_of, unknown
@@ -48,7 +49,6 @@ from robotside.motion.measured import Measured
 from robotside.records import Records
 from robotside.records.events import Events
 from robotside.records.records_publisher import Shown
-from robotside.services.command_log import Refusal
 from robotside.tasks.agenda import Agenda
 from robotside.tasks.autonomy import Autonomy
 from robotside.tasks.interrupted_task import Interrupted

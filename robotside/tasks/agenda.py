@@ -14,10 +14,10 @@ import msgspec
 from bridge.msgs.pilothouse_msgs import Schedule, ScheduledTask, TaskOrder, TaskQueue
 from bridge.msgs.std_msgs import Time
 from robotside.core.bus import Publish
+from robotside.core.refusal import Refusal
 from robotside.records import Job, NotRecorded, Records
 from robotside.records.events import Say
 from robotside.records.plans import MOST_QUEUED
-from robotside.services.command_log import Refusal
 from robotside.tasks.engine import TO_CHARGE, Engine
 from robotside.tasks.manual_hold import Manual
 from robotside.tasks.schedule import Turn, fault, following, turns

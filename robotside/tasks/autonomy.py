@@ -27,6 +27,7 @@ from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header, Time
 from robotside.core.bus import Bus
 from robotside.core.pose2 import Points, Pose2
+from robotside.core.refusal import Refusal
 from robotside.core.robot import Robot
 from robotside.core.topic_demand import Demand
 from robotside.limits.bumper_guard import AGAIN
@@ -39,7 +40,6 @@ from robotside.navigation.navigator import Guide
 from robotside.perception.intruder_watch import Watch
 from robotside.records import Records
 from robotside.records.events import Events
-from robotside.services.command_log import Refusal
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.patrol import patrol_route
 from robotside.tasks.behaviours.situation import Seen, Situation

@@ -11,12 +11,12 @@ import msgspec
 from py_trees.composites import Sequence as Chain
 
 from bridge.msgs.pilothouse_msgs import TASKS, Mission, Place, RobotInfo, TaskOrder, Waypoint
+from robotside.core.refusal import Refusal
 from robotside.core.text import plain
 from robotside.core.vehicle_kinds import kind_of
 from robotside.navigation.navigator import Goal, Guide
 from robotside.records import Records
 from robotside.records.events import Say
-from robotside.services.command_log import Refusal
 from robotside.tasks.behaviours.course import Course, Span
 from robotside.tasks.behaviours.deliver import deliver
 from robotside.tasks.behaviours.dock import Dock, before

@@ -7,8 +7,9 @@ import math
 import pytest
 
 from bridge.msgs.pilothouse_msgs import CommandRequest
+from robotside.core.refusal import Refusal
 from robotside.records.answers import KEPT
-from robotside.services.command_log import KEPT_FOR, Commands, Refusal
+from robotside.services.command_log import KEPT_FOR, Commands
 
 
 class Counter:
