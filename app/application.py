@@ -34,11 +34,12 @@ from app.link.event_order import Known
 from app.link.feeds import Feeds, Mailbox, Post
 from app.link.link import Link
 from app.root import Root
-from app.screens.connect.connect import THEMES, ConnectScreen
+from app.screens.connect.connect import ConnectScreen
 from app.screens.connect.simulator_card import CHANNEL as SIMULATED
 from app.screens.connect.simulator_card import Simulating
 from app.screens.inputs.page import InputsPage
 from app.screens.parts.dialogs import AddressDialog, Question
+from app.screens.parts.themes import THEMES
 from app.screens.shell.stop_corner import StopCorner
 from app.session.logbook import marks
 from app.session.mission_editor import MissionEditor

@@ -7,24 +7,62 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
 
+from app.link.feeds import Feeds
 from bridge.core.liveness import LAPSE
 from bridge.msgs.pilothouse_msgs import ControlStatus
 
-if TYPE_CHECKING:
-    from app.session.session import Session
-
-__all__ = ["Authority"]
+__all__ = ["Authority", "ControlledRobot"]
 
 News = Callable[[str, str], None]
 """A sentence for the operator and its level, as of a banner."""
 
 
+class Line(Protocol):
+    """The link to the robot, as far as control needs it."""
+
+    @property
+    def silence(self) -> float:
+        """Time since anything came [s]; infinite before the first message."""
+
+    def robot_time(self) -> float:
+        """The robot's clock [s]; NaN while it is not known."""
+
+
+class ControlledRobot(Protocol):
+    """The session with one robot, as far as control needs it."""
+
+    client_id: str
+    wants_control: bool
+    feeds: Feeds
+
+    @property
+    def link(self) -> Line:
+        """The link over which the robot is reached just now."""
+
+    @property
+    def connected(self) -> bool:
+        """The link stands."""
+
+    @property
+    def foreign(self) -> bool:
+        """The robot is known to have no Pilothouse services."""
+
+    def offers(self, service: str) -> bool:
+        """The robot has that service, or has not yet said which ones it has."""
+
+    def command(self, name: str, /, **fields: Any) -> None:
+        """Send a one-shot command of `app.link.commands.COMMANDS`."""
+
+    def rest(self) -> None:
+        """Tell the robot to rest; the stick must be pushed anew."""
+
+
 class Authority:
     """Control of one robot. Everything here happens in the UI thread."""
 
-    def __init__(self, session: Session) -> None:
+    def __init__(self, session: ControlledRobot) -> None:
         self._session = session
         self.on_news: News = lambda *_: None
         """Called with what the operator has to be told of a change."""

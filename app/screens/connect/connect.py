@@ -14,6 +14,7 @@ from kivy.uix.floatlayout import FloatLayout
 from app.discovery.known_robots import Entry
 from app.layout.arrange import connect_columns
 from app.screens.parts.method_chip import InputsChip  # noqa: F401 - its rule draws what is used here
+from app.screens.parts.themes import THEMES
 from widgets.core.surfaces import EdgedBox  # noqa: F401 - its rule draws the bar
 from widgets.core.theme import theme
 from widgets.parts.kit import Banner, Card, Text
@@ -28,8 +29,6 @@ KINDS = {
     "quadrotor": ("mode_fan", "Quadrotor"),
 }
 """Kind of robot to its icon and its name in plain words."""
-THEMES = {"dark": ("light_mode", "Sunlight", "sunlight"), "sunlight": ("bedtime", "Night", "night")}
-THEMES["night"] = ("dark_mode", "Dark", "dark")
 """Theme to icon, words and name of the one that a tap brings."""
 HINT = (
     "No robot has said hello on this network yet.\n"

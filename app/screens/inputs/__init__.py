@@ -8,15 +8,17 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 
+from app.screens.parts.method_signs import METHOD_SIGNS
+
 __all__ = ["PANES", "panes"]
 
 PANES: dict[str, tuple[str, str, str]] = {
-    "voice": ("mic", "Voice", "app.screens.inputs.panes.voice_pane:VoicePane"),
-    "shake": ("mobile_vibrate", "Shake", "app.screens.inputs.panes.shake_pane:ShakePane"),
-    "tilt": ("screen_rotation_alt", "Tilt", "app.screens.inputs.panes.tilt_pane:TiltPane"),
-    "switches": ("radio_button_checked", "Switches", "app.screens.inputs.panes.switch_pane:SwitchPane"),
-    "gamepad": ("gamepad", "Gamepad", "app.screens.inputs.panes.pad_pane:PadPane"),
-    "keyboard": ("keyboard", "Keyboard", "app.screens.inputs.panes.keys_pane:KeysPane"),
+    "voice": (*METHOD_SIGNS["voice"], "app.screens.inputs.panes.voice_pane:VoicePane"),
+    "shake": (*METHOD_SIGNS["shake"], "app.screens.inputs.panes.shake_pane:ShakePane"),
+    "tilt": (*METHOD_SIGNS["tilt"], "app.screens.inputs.panes.tilt_pane:TiltPane"),
+    "switches": (*METHOD_SIGNS["switches"], "app.screens.inputs.panes.switch_pane:SwitchPane"),
+    "gamepad": (*METHOD_SIGNS["gamepad"], "app.screens.inputs.panes.pad_pane:PadPane"),
+    "keyboard": (*METHOD_SIGNS["keyboard"], "app.screens.inputs.panes.keys_pane:KeysPane"),
     "table": ("tune", "What each may do", "app.screens.inputs.permit_table:TablePane"),
     "study": ("timeline", "Log and study", "app.screens.inputs.study.study_pane:StudyPane"),
 }

@@ -9,7 +9,7 @@ from kivy.uix.boxlayout import BoxLayout
 
 from app.intents.intents import INTENTS, METHODS, PRESSED, Intent
 from app.intents.method_permits import ALWAYS, SAYS
-from app.screens.inputs import PANES
+from app.screens.parts.method_signs import METHOD_SIGNS
 from widgets.parts.kit import Column, ListRow, QuietButton, Remark, Roll, Segmented, Toggle
 
 __all__ = ["TablePane", "how"]
@@ -36,7 +36,9 @@ class TablePane(BoxLayout):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(orientation="vertical", spacing="8dp", **kwargs)
-        self.choice = Segmented(options=[(method, PANES[method][1]) for method in TELLS], value=self.method)
+        self.choice = Segmented(
+            options=[(method, METHOD_SIGNS[method][1]) for method in TELLS], value=self.method
+        )
         self.choice.bind(on_choose=lambda _, method: setattr(self, "method", method))
         self.remark = Remark(text="")
         self.rows: dict[str, Permission] = {}
@@ -64,7 +66,7 @@ class TablePane(BoxLayout):
             row.switch.active = table.allowed(self.method, intent)
             row.faded = not row.switch.active
         self.usual.disabled = table.usual(self.method)
-        self.usual.text = f"{PANES[self.method][1]}: as usual again"
+        self.usual.text = f"{METHOD_SIGNS[self.method][1]}: as usual again"
         self.remark.text = table.problem or "What is forbidden is answered with a sentence and not done."
 
     def _fill(self, *_: object) -> None:

@@ -9,7 +9,7 @@ from kivy.lang import Builder
 from kivy.properties import BooleanProperty, ListProperty
 from kivy.uix.boxlayout import BoxLayout
 
-from app.screens.inputs import PANES
+from app.screens.parts.method_signs import METHOD_SIGNS
 from widgets.core.surfaces import Pressable
 from widgets.core.theme import theme
 from widgets.parts.kit import Icon, Text
@@ -79,10 +79,12 @@ class InputsChip(Pressable, BoxLayout):
     def _draw(self, *_: object) -> None:
         self.clear_widgets()
         # what does not work goes before what does: it must not be the one that has no room
-        told = sorted((one for one in self.methods if one[0] in PANES), key=self._rank)
+        told = sorted((one for one in self.methods if one[0] in METHOD_SIGNS), key=self._rank)
         shown = told[:BRIEF] if self.brief else told
         for name, well in shown:
-            self.add_widget(MethodSign(name=PANES[name][0], struck=not well, idle=well and name in self.idle))
+            self.add_widget(
+                MethodSign(name=METHOD_SIGNS[name][0], struck=not well, idle=well and name in self.idle)
+            )
         if not shown:
             self.add_widget(MethodSign(name=NOTHING, idle=True))
         if len(told) > len(shown):
@@ -94,7 +96,7 @@ class InputsChip(Pressable, BoxLayout):
             self.add_widget(more)
 
     def _rank(self, one: tuple[str, bool]) -> tuple[bool, bool, int]:
-        return one[1], one[0] in self.idle, list(PANES).index(one[0])
+        return one[1], one[0] in self.idle, list(METHOD_SIGNS).index(one[0])
 
     def collide_point(self, x: float, y: float) -> bool:
         """It is hit within a whole target round it."""

@@ -8,7 +8,7 @@ from typing import Any
 from app.device import vibrate
 from app.intents.intents import CANCEL_FOR, CONFIRM_FOR, INTENTS, PRESSED, Heard, Intents, Pending, Verdict
 from app.intents.method_permits import LOOKS
-from app.screens.inputs import PANES
+from app.screens.parts.method_signs import METHOD_SIGNS
 from app.screens.shell.notices import Notices
 from widgets import IntentCard
 
@@ -24,7 +24,7 @@ FELT = ("voice", "shake", "switches")
 
 def heard_words(heard: Heard) -> str:
     """Who understood what, and how surely, as in `Voice, “go home”: 82 % sure.`"""
-    name = PANES[heard.method][1] if heard.method in PANES else heard.method.capitalize()
+    name = METHOD_SIGNS[heard.method][1] if heard.method in METHOD_SIGNS else heard.method.capitalize()
     what = f", “{heard.said}”" if heard.said else ""
     guess = heard.method not in PRESSED and not math.isnan(heard.confidence)
     sure = f": {heard.confidence * 100:.0f} % sure." if guess else "."
@@ -65,7 +65,7 @@ class Wishes:
 
     def _show(self, pending: Pending) -> None:
         heard = pending.heard
-        who = PANES[heard.method][0] if heard.method in PANES else "touch_app"
+        who = METHOD_SIGNS[heard.method][0] if heard.method in METHOD_SIGNS else "touch_app"
         words = self._intents.words(heard.intent)
         said = heard_words(heard) + (" Yes or no, by any method." if pending.question else "")
         self.card.ask(words=words, who=who, heard=said, question=pending.question)

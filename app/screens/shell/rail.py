@@ -10,8 +10,8 @@ from kivy.properties import BooleanProperty, ListProperty, OptionProperty, Strin
 from kivy.uix.floatlayout import FloatLayout
 
 from app.layout.arrange import Rect
-from app.screens.connect.connect import THEMES
 from app.screens.parts.placing import put
+from app.screens.parts.themes import THEMES
 from bridge.msgs.pilothouse_msgs import Event
 from widgets.core.surfaces import Edged
 from widgets.core.theme import theme

@@ -3,25 +3,66 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
 
 from app.layout.arrange import Rect
+from app.screens.mission.mission_pane import MissionPane
 from app.screens.parts.act_buttons import ActButtons
-from bridge.msgs.pilothouse_msgs import Place
+from app.screens.tasks.event_list import EventList
+from app.screens.tasks.order_pane import OrderPane
+from app.screens.tasks.place_pane import PlacePane
+from app.session.session import Session
+from bridge.msgs.pilothouse_msgs import Place, ScheduledTask
+from widgets import PlaceList
 from widgets.core.task_words import title
-
-if TYPE_CHECKING:
-    from app.screens.tasks.tasks import TasksScreen
 
 __all__ = ["TaskActs"]
 
 PRIMARY = ("start", "save", "keep", "new", "new_scheduled", "recall", "keep_mission", "seen_all")
 
 
+class TaskLists(Protocol):
+    """The tasks screen, as far as its buttons need it."""
+
+    app: Any
+    ids: Any
+    session: Session
+    tab: str
+    detail: str
+    events: EventList
+    places: PlaceList
+    pane: OrderPane
+    place_pane: PlacePane
+    mission_pane: MissionPane
+    form: Any
+
+    @property
+    def mine(self) -> bool:
+        """The robot can be asked for something from here."""
+
+    def open(self, detail: str) -> None:
+        """Open what is beside the lists."""
+
+    def open_scheduled(self, task: ScheduledTask | None) -> None:
+        """Change a scheduled task; None for a new one."""
+
+    def close(self) -> None:
+        """Back to the lists, or to the map where a place was pointed at."""
+
+    def stay(self) -> None:
+        """What is opened next is not left for the map."""
+
+    def begin(self, task: str, places: tuple[str, ...] = ()) -> None:
+        """Open the form of a task, with places known already."""
+
+    def edit_place(self, place: Place, *, returns: bool = False) -> None:
+        """Make a place (id 0) or change one; `returns` to the map afterwards."""
+
+
 class TaskActs(ActButtons):
     """The buttons of one tasks screen."""
 
-    def __init__(self, screen: TasksScreen) -> None:
+    def __init__(self, screen: TaskLists) -> None:
         """`screen` has its lists and panes already."""
         self._screen, self._session = screen, screen.session
         super().__init__(

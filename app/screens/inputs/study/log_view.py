@@ -12,9 +12,9 @@ from kivy.uix.boxlayout import BoxLayout
 
 from app.device.sharing import Sharing
 from app.intents.intents import INTENTS, METHODS
-from app.screens.inputs import PANES
 from app.screens.inputs.setting_row import switch_row
 from app.screens.inputs.study.zip_row import SURE, ZipRow
+from app.screens.parts.method_signs import METHOD_SIGNS
 from app.study.response_log import Response
 from app.study.response_statistics import (
     PAPER,
@@ -40,7 +40,7 @@ AGAIN = 2.0
 
 def look_of(method: str) -> tuple[str, str]:
     """Icon and name of a method."""
-    return LOOKS.get(method) or PANES[method][:2]
+    return LOOKS.get(method) or METHOD_SIGNS[method]
 
 
 def _words(intent: str) -> str:
