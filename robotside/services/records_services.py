@@ -74,7 +74,7 @@ class _Kept:
             raise Refusal(problem)
         place = self._records.places.set(place)
         said = f"{place.name} is kept."
-        return SetPlaceResponse(True, said, place.id)
+        return SetPlaceResponse(True, said, id=place.id)
 
     def delete_place(self, client: Operator, asked: DeletePlaceRequest) -> str:
         """Forget a place."""
@@ -84,14 +84,14 @@ class _Kept:
     def missions(self, _: Operator, __: CommandRequest) -> GetMissionsResponse:
         """All missions that have a name."""
         found = self._records.missions.known()
-        return GetMissionsResponse(True, "", [mission.name for mission in found], found)
+        return GetMissionsResponse(True, names=[mission.name for mission in found], missions=found)
 
     def history(self, _: Operator, asked: GetHistoryRequest) -> GetHistoryResponse:
         """What was done, newest first."""
         if asked.before < 0 or not 1 <= asked.limit <= AT_ONCE:
             said = f"before must be 0 or more and limit 1 to {AT_ONCE}, not {asked.before} and {asked.limit}."
             raise Refusal(said)
-        return GetHistoryResponse(True, "", self._records.runs.before(asked.before, asked.limit))
+        return GetHistoryResponse(True, runs=self._records.runs.before(asked.before, asked.limit))
 
     def acknowledge(self, client: Operator, asked: AcknowledgeEventsRequest) -> str:
         """Note that somebody has seen to events; needs no control."""

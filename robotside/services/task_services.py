@@ -177,7 +177,7 @@ class TaskOrders:
         task = agenda.set_scheduled(asked.task)
         words = words_for(task.order.task)
         said = f"{words[0].upper()}{words[1:]} is scheduled, {agenda.when(task)}."
-        return SetScheduleResponse(True, said, task.id)
+        return SetScheduleResponse(True, said, id=task.id)
 
     def delete_scheduled(self, client: Operator, asked: DeleteScheduleRequest) -> str:
         """Forget a scheduled task."""

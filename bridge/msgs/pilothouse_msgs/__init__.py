@@ -25,9 +25,9 @@ from bridge.msgs.pilothouse_msgs.part1 import (
     Following,
     GetEventsRequest,
     GetEventsResponse,
-    GetHistoryRequest,
 )
 from bridge.msgs.pilothouse_msgs.part2 import (
+    GetHistoryRequest,
     GetHistoryResponse,
     GetMissionRequest,
     GetMissionResponse,
@@ -41,14 +41,14 @@ from bridge.msgs.pilothouse_msgs.part2 import (
     LineSensor,
     Manoeuvre,
     Mission,
-    MotorArray,
-    MoveArmRequest,
-    MoveArmResponse,
     TaskOrder,
     TaskRun,
     Waypoint,
 )
 from bridge.msgs.pilothouse_msgs.part3 import (
+    MotorArray,
+    MoveArmRequest,
+    MoveArmResponse,
     Place,
     PlaceArray,
     RecallMissionRequest,
@@ -66,14 +66,14 @@ from bridge.msgs.pilothouse_msgs.part3 import (
     SetMissionResponse,
     SetModeRequest,
     SetModeResponse,
-    SetOptionRequest,
-    SetOptionResponse,
-    SetPlaceRequest,
-    SetPlaceResponse,
     StartTaskRequest,
     TaskProgress,
 )
 from bridge.msgs.pilothouse_msgs.part4 import (
+    SetOptionRequest,
+    SetOptionResponse,
+    SetPlaceRequest,
+    SetPlaceResponse,
     SetQueueRequest,
     SetQueueResponse,
     SetScheduleRequest,

@@ -10,6 +10,7 @@ from msgspec import field
 from bridge.msgs.arrays import Float64Array, Int32Array
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.std_msgs import Header
 
@@ -35,7 +36,6 @@ __all__ = [
     "Following",
     "GetEventsRequest",
     "GetEventsResponse",
-    "GetHistoryRequest",
 ]
 
 
@@ -107,18 +107,26 @@ class CommandResponse(Msg, frozen=True, gc=False):
     """What `Command` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/CommandResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
     success: bool = False
     """It was accepted."""
     message: str = ""
     """One sentence: what was accepted, or why not and what is allowed."""
+    code: str = ""
+    """Why not, in one word of docs/bridge.md, as in stop_is_pressed; empty where it was accepted."""
+    actor_id: str = ""
+    """The client_id of whom the reason is about, as of who has control; empty when nobody, or it is not
+    known.
+    """
+    parameters: list[KeyValue] = []
+    """What the reason names, by the keys that the code has."""
 
 
 class AcknowledgeEventsResponse(CommandResponse, frozen=True, gc=False):
     """What `AcknowledgeEvents` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/AcknowledgeEventsResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
 
 
 class ArmOrder(Msg, frozen=True, gc=False):
@@ -305,7 +313,7 @@ class DeletePlaceResponse(CommandResponse, frozen=True, gc=False):
     """What `DeletePlace` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/DeletePlaceResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
 
 
 class DeleteScheduleRequest(CommandRequest, frozen=True, gc=False):
@@ -322,7 +330,7 @@ class DeleteScheduleResponse(CommandResponse, frozen=True, gc=False):
     """What `DeleteSchedule` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/DeleteScheduleResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
 
 
 class Event(Msg, frozen=True, gc=False):
@@ -339,6 +347,9 @@ class Event(Msg, frozen=True, gc=False):
         "geometry_msgs/Point",
         "string",
         "time",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
     )
     UNITS: ClassVar[dict[str, str]] = {"position": "m"}
     id: int32 = 0
@@ -359,6 +370,12 @@ class Event(Msg, frozen=True, gc=False):
     """Who has seen to it; empty while nobody has."""
     acknowledged: Time = Time()
     """When, operators' clock; 0 while nobody has."""
+    code: str = ""
+    """What happened, in one word of docs/bridge.md, as in stop_pressed; empty where it has none."""
+    actor_id: str = ""
+    """The client_id of who caused it; empty when nobody did, or it is not known."""
+    parameters: list[KeyValue] = []
+    """What the sentence names, by the keys that the code has."""
 
 
 class FlightState(Msg, frozen=True, gc=False):
@@ -419,23 +436,3 @@ class GetEventsResponse(Msg, frozen=True, gc=False):
     """There are later ones: ask again, since the last of these."""
     oldest: int32 = 0
     """Number of the oldest event that is kept; 0 when there is none, or it is not known."""
-
-
-class GetHistoryRequest(CommandRequest, frozen=True, gc=False):
-    """Ask for the tasks that were done."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetHistoryRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "string",
-        "float64",
-        "float64",
-        "string",
-        "string",
-        "int32",
-        "int32",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
-    before: int32 = 0
-    """Only runs with a smaller number; 0 begins with the newest."""
-    limit: int32 = 50
-    """At most so many."""

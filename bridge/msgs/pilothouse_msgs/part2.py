@@ -7,14 +7,16 @@ from typing import ClassVar
 
 from msgspec import field
 
-from bridge.msgs.arrays import Float32Array, Float64Array
+from bridge.msgs.arrays import Float32Array
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.geometry_msgs import Point, Polygon, Twist
-from bridge.msgs.pilothouse_msgs.part1 import ArmOrder, CommandRequest, CommandResponse
+from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "GetHistoryRequest",
     "GetHistoryResponse",
     "GetMissionRequest",
     "GetMissionResponse",
@@ -28,13 +30,30 @@ __all__ = [
     "LineSensor",
     "Manoeuvre",
     "Mission",
-    "MotorArray",
-    "MoveArmRequest",
-    "MoveArmResponse",
     "TaskOrder",
     "TaskRun",
     "Waypoint",
 ]
+
+
+class GetHistoryRequest(CommandRequest, frozen=True, gc=False):
+    """Ask for the tasks that were done."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetHistoryRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "int32",
+        "int32",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    before: int32 = 0
+    """Only runs with a smaller number; 0 begins with the newest."""
+    limit: int32 = 50
+    """At most so many."""
 
 
 class Waypoint(Msg, frozen=True, gc=False):
@@ -119,6 +138,9 @@ class TaskRun(Msg, frozen=True, gc=False):
         "float64",
         "int32",
         "string",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
     )
     UNITS: ClassVar[dict[str, str]] = {"distance": "m"}
     id: int32 = 0
@@ -139,13 +161,26 @@ class TaskRun(Msg, frozen=True, gc=False):
     """Waypoints or places reached."""
     by: str = ""
     """Who started it; empty when the schedule or the robot did."""
+    code: str = ""
+    """What the reason says, in one word of docs/bridge.md; empty where it has none."""
+    actor_id: str = ""
+    """The client_id of whom the reason is about; empty when nobody, or it is not known."""
+    parameters: list[KeyValue] = []
+    """What the reason names, by the keys that the code has."""
 
 
 class GetHistoryResponse(CommandResponse, frozen=True, gc=False):
     """What `GetHistory` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetHistoryResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "pilothouse_msgs/TaskRun[]")
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "bool",
+        "string",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
+        "pilothouse_msgs/TaskRun[]",
+    )
     runs: list[TaskRun] = []
     """Newest first."""
 
@@ -197,13 +232,28 @@ class GetMissionResponse(Msg, frozen=True, gc=False):
     """What `GetMission` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "pilothouse_msgs/Mission")
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "bool",
+        "string",
+        "pilothouse_msgs/Mission",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
+    )
     success: bool = False
     """Always true."""
     message: str = ""
     """One sentence when none was stored yet, else empty."""
     mission: Mission = field(default_factory=Mission)
     """The stored mission."""
+    code: str = ""
+    """Why not, in one word of docs/bridge.md, as in stop_is_pressed; empty where it was accepted."""
+    actor_id: str = ""
+    """The client_id of whom the reason is about, as of who has control; empty when nobody, or it is not
+    known.
+    """
+    parameters: list[KeyValue] = []
+    """What the reason names, by the keys that the code has."""
 
 
 class GetMissionsRequest(CommandRequest, frozen=True, gc=False):
@@ -235,7 +285,15 @@ class GetMissionsResponse(CommandResponse, frozen=True, gc=False):
     """What `GetMissions` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionsResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string[]", "pilothouse_msgs/KeptMission[]")
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "bool",
+        "string",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
+        "string[]",
+        "pilothouse_msgs/KeptMission[]",
+    )
     names: list[str] = []
     """In the order of the alphabet."""
     missions: list[KeptMission] = []
@@ -387,51 +445,3 @@ class Manoeuvre(Msg, frozen=True, gc=False):
     """course, hover, take_off: to hold above the map's origin [m], below water negative; NaN the present
     or the usual one.
     """
-
-
-class MotorArray(Msg, frozen=True, gc=False):
-    """The motors of a robot: wheels, propeller, legs or rotors."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/MotorArray"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "std_msgs/Header",
-        "string[]",
-        "float64[]",
-        "float64[]",
-        "float64[]",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"speeds": "rad/s", "torques": "N m", "temperatures": "degC"}
-    header: Header = Header()
-    """Frame base_link."""
-    names: list[str] = []
-    """Of each motor."""
-    speeds: Float64Array = field(default_factory=Float64Array)
-    """Of what the motor turns [rad/s]; of a leg its swing's greatest."""
-    torques: Float64Array = field(default_factory=Float64Array)
-    """There [N m]."""
-    temperatures: Float64Array = field(default_factory=Float64Array)
-    """Of the winding [degC]."""
-
-
-class MoveArmRequest(CommandRequest, frozen=True, gc=False):
-    """Where a mounted arm is to go."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/MoveArmRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "string",
-        "float64",
-        "float64",
-        "string",
-        "string",
-        "pilothouse_msgs/ArmOrder",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
-    order: ArmOrder = field(default_factory=ArmOrder)
-    """By a pose's name, a point for the tip, or angles."""
-
-
-class MoveArmResponse(CommandResponse, frozen=True, gc=False):
-    """What `MoveArm` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/MoveArmResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")

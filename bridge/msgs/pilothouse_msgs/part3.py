@@ -7,13 +7,17 @@ from typing import Annotated, ClassVar, TypeAlias
 
 from msgspec import Meta, field
 
+from bridge.msgs.arrays import Float64Array
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
-from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse
+from bridge.msgs.pilothouse_msgs.part1 import ArmOrder, CommandRequest, CommandResponse
 from bridge.msgs.pilothouse_msgs.part2 import Mission, TaskOrder
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "MotorArray",
+    "MoveArmRequest",
+    "MoveArmResponse",
     "Place",
     "PlaceArray",
     "RecallMissionRequest",
@@ -31,15 +35,59 @@ __all__ = [
     "SetMissionResponse",
     "SetModeRequest",
     "SetModeResponse",
-    "SetOptionRequest",
-    "SetOptionResponse",
-    "SetPlaceRequest",
-    "SetPlaceResponse",
     "StartTaskRequest",
     "TaskProgress",
 ]
 
 _Boolx7: TypeAlias = Annotated[list[bool], Meta(min_length=7, max_length=7)]
+
+
+class MotorArray(Msg, frozen=True, gc=False):
+    """The motors of a robot: wheels, propeller, legs or rotors."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/MotorArray"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "std_msgs/Header",
+        "string[]",
+        "float64[]",
+        "float64[]",
+        "float64[]",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"speeds": "rad/s", "torques": "N m", "temperatures": "degC"}
+    header: Header = Header()
+    """Frame base_link."""
+    names: list[str] = []
+    """Of each motor."""
+    speeds: Float64Array = field(default_factory=Float64Array)
+    """Of what the motor turns [rad/s]; of a leg its swing's greatest."""
+    torques: Float64Array = field(default_factory=Float64Array)
+    """There [N m]."""
+    temperatures: Float64Array = field(default_factory=Float64Array)
+    """Of the winding [degC]."""
+
+
+class MoveArmRequest(CommandRequest, frozen=True, gc=False):
+    """Where a mounted arm is to go."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/MoveArmRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "pilothouse_msgs/ArmOrder",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    order: ArmOrder = field(default_factory=ArmOrder)
+    """By a pose's name, a point for the tip, or angles."""
+
+
+class MoveArmResponse(CommandResponse, frozen=True, gc=False):
+    """What `MoveArm` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/MoveArmResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
 
 
 class Place(Msg, frozen=True, gc=False):
@@ -103,7 +151,7 @@ class RecallMissionResponse(CommandResponse, frozen=True, gc=False):
     """What `RecallMission` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/RecallMissionResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
 
 
 class RobotInfo(Msg, frozen=True, gc=False):
@@ -343,7 +391,7 @@ class SetLightsResponse(CommandResponse, frozen=True, gc=False):
     """What `SetLights` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetLightsResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
 
 
 class SetMissionRequest(CommandRequest, frozen=True, gc=False):
@@ -367,7 +415,7 @@ class SetMissionResponse(CommandResponse, frozen=True, gc=False):
     """What `SetMission` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetMissionResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
 
 
 class SetModeRequest(CommandRequest, frozen=True, gc=False):
@@ -384,57 +432,4 @@ class SetModeResponse(CommandResponse, frozen=True, gc=False):
     """What `SetMode` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetModeResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
-
-
-class SetOptionRequest(CommandRequest, frozen=True, gc=False):
-    """Change one of the robot's settings; it is kept over restarts."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "string",
-        "float64",
-        "float64",
-        "string",
-        "string",
-        "string",
-        "string",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
-    name: str = ""
-    """follow_link or lost_link_stops_task."""
-    value: str = ""
-    """on or off."""
-
-
-class SetOptionResponse(CommandResponse, frozen=True, gc=False):
-    """What `SetOption` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
-
-
-class SetPlaceRequest(CommandRequest, frozen=True, gc=False):
-    """Store a place, or change the one with its id."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetPlaceRequest"
-    ROSTYPES: ClassVar[tuple[str, ...]] = (
-        "string",
-        "float64",
-        "float64",
-        "string",
-        "string",
-        "pilothouse_msgs/Place",
-    )
-    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
-    place: Place = Place()
-    """Replaces what was stored under its id; 0 makes a new one."""
-
-
-class SetPlaceResponse(CommandResponse, frozen=True, gc=False):
-    """What `SetPlace` answers."""
-
-    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetPlaceResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "int32")
-    id: int32 = 0
-    """Of the place; 0 when it was not accepted."""
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")

@@ -9,12 +9,17 @@ from msgspec import field
 from bridge.msgs.arrays import Float32Array, Float64Array
 from bridge.msgs.base import Msg, int32
 from bridge.msgs.builtin_interfaces import Time
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.pilothouse_msgs.part1 import CommandRequest, CommandResponse
 from bridge.msgs.pilothouse_msgs.part2 import TaskOrder
-from bridge.msgs.pilothouse_msgs.part3 import ScheduledTask
+from bridge.msgs.pilothouse_msgs.part3 import Place, ScheduledTask
 from bridge.msgs.std_msgs import Header
 
 __all__ = [
+    "SetOptionRequest",
+    "SetOptionResponse",
+    "SetPlaceRequest",
+    "SetPlaceResponse",
     "SetQueueRequest",
     "SetQueueResponse",
     "SetScheduleRequest",
@@ -25,6 +30,66 @@ __all__ = [
     "TaskQueue",
     "TaskStatus",
 ]
+
+
+class SetOptionRequest(CommandRequest, frozen=True, gc=False):
+    """Change one of the robot's settings; it is kept over restarts."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "string",
+        "string",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    name: str = ""
+    """follow_link or lost_link_stops_task."""
+    value: str = ""
+    """on or off."""
+
+
+class SetOptionResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetOption` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
+class SetPlaceRequest(CommandRequest, frozen=True, gc=False):
+    """Store a place, or change the one with its id."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetPlaceRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "pilothouse_msgs/Place",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    place: Place = Place()
+    """Replaces what was stored under its id; 0 makes a new one."""
+
+
+class SetPlaceResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetPlace` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetPlaceResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "bool",
+        "string",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
+        "int32",
+    )
+    id: int32 = 0
+    """Of the place; 0 when it was not accepted."""
 
 
 class SetQueueRequest(CommandRequest, frozen=True, gc=False):
@@ -51,7 +116,7 @@ class SetQueueResponse(CommandResponse, frozen=True, gc=False):
     """What `SetQueue` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetQueueResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
 
 
 class SetScheduleRequest(CommandRequest, frozen=True, gc=False):
@@ -75,7 +140,14 @@ class SetScheduleResponse(CommandResponse, frozen=True, gc=False):
     """What `SetSchedule` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetScheduleResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "int32")
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "bool",
+        "string",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
+        "int32",
+    )
     id: int32 = 0
     """Of the scheduled task; 0 when it was not accepted."""
 
@@ -121,7 +193,7 @@ class StartTaskResponse(CommandResponse, frozen=True, gc=False):
     """What `StartTask` answers."""
 
     MSGTYPE: ClassVar[str] = "pilothouse_msgs/StartTaskResponse"
-    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string")
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
 
 
 class TagRead(Msg, frozen=True, gc=False):
@@ -170,6 +242,9 @@ class TaskStatus(Msg, frozen=True, gc=False):
         "string",
         "string",
         "string[]",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
     )
     stamp: Time = Time()
     """When it changed."""
@@ -205,3 +280,9 @@ class TaskStatus(Msg, frozen=True, gc=False):
     """Name of the place it heads for or stands at; empty for none."""
     places: list[str] = []
     """Names of the places of this task, in their order."""
+    code: str = ""
+    """What the reason says, in one word of docs/bridge.md; empty where it has none."""
+    actor_id: str = ""
+    """The client_id of whom the reason is about; empty when nobody, or it is not known."""
+    parameters: list[KeyValue] = []
+    """What the reason names, by the keys that the code has."""

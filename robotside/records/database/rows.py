@@ -13,6 +13,7 @@ from sqlalchemy.orm import Session
 
 from bridge.codec import from_json, to_json
 from bridge.core.errors import BridgeError
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event, Mission, Place, ScheduledTask, TaskOrder, TaskRun
 from bridge.msgs.std_msgs import Time
@@ -138,6 +139,26 @@ def _json(msg: Any) -> str:
     return to_json(msg).decode()
 
 
+def _code_row(msg: Event | TaskRun) -> dict[str, Any]:
+    """The columns of a code, whom it is about and its parameters, the last as a JSON object."""
+    parameters = {_text(pair.key): _text(pair.value) for pair in msg.parameters}
+    return {
+        "code": _text(msg.code),
+        "actor_id": _text(msg.actor_id),
+        "parameters": msgspec.json.encode(parameters).decode(),
+    }
+
+
+def _code(row: EventRow | RunRow) -> dict[str, Any]:
+    """The fields of `_code_row`, empty in a row of an older program."""
+    parameters = msgspec.json.decode(row.parameters or "{}", type=dict[str, str])
+    return {
+        "code": row.code or "",
+        "actor_id": row.actor_id or "",
+        "parameters": [KeyValue(key, value) for key, value in parameters.items()],
+    }
+
+
 def _place_row(place: Place) -> dict[str, Any]:
     return {
         "name": _text(place.name),
@@ -167,6 +188,7 @@ def _run_row(run: TaskRun) -> dict[str, Any]:
         "visited": run.visited,
         "started_by": _text(run.by),
         "content": _json(run.order),
+        **_code_row(run),
     }
 
 
@@ -181,6 +203,7 @@ def _run(row: RunRow) -> TaskRun:
         row.distance,
         row.visited,
         row.started_by,
+        **_code(row),
     )
 
 
@@ -196,6 +219,7 @@ def _event_row(event: Event) -> dict[str, Any]:
         "z": _known(where.z),
         "acknowledged_by": _text(event.acknowledged_by),
         "acknowledged": _instant(event.acknowledged),
+        **_code_row(event),
     }
 
 
@@ -209,6 +233,7 @@ def _event(row: EventRow) -> Event:
         position=Point(_number(row.x), _number(row.y), _number(row.z)),
         acknowledged_by=row.acknowledged_by,
         acknowledged=_time(row.acknowledged),
+        **_code(row),
     )
 
 

@@ -92,6 +92,9 @@ class RunRow(Base):
     visited: Mapped[int] = mapped_column(Integer)
     started_by: Mapped[str] = mapped_column(Text)
     content: Mapped[str] = mapped_column(Text)
+    code: Mapped[str | None] = mapped_column(Text)
+    actor_id: Mapped[str | None] = mapped_column(Text)
+    parameters: Mapped[str | None] = mapped_column(Text)
 
 
 class EventRow(Base):
@@ -108,6 +111,9 @@ class EventRow(Base):
     z: Mapped[float | None] = mapped_column(Double)
     acknowledged_by: Mapped[str] = mapped_column(Text)
     acknowledged: Mapped[int] = mapped_column(BigInteger)
+    code: Mapped[str | None] = mapped_column(Text)
+    actor_id: Mapped[str | None] = mapped_column(Text)
+    parameters: Mapped[str | None] = mapped_column(Text)
 
 
 class AnswerRow(Base):

@@ -69,7 +69,9 @@ def test_what_is_kept_is_known_once_the_robot_has_answered(robot: Robot) -> None
     robot.kept.on_change = lambda: changes.append(1)
     robot.kept.ask()
     assert not robot.kept.known
-    robot.answer("missions", answer=GetMissionsResponse(True, "", ["Day"], [KeptMission("Day", points=2)]))
+    robot.answer(
+        "missions", answer=GetMissionsResponse(True, names=["Day"], missions=[KeptMission("Day", points=2)])
+    )
     assert [one.name for one in robot.kept.kept] == ["Day"]
     assert (robot.kept.known, changes) == (True, [1])
 

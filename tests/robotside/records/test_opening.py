@@ -13,6 +13,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
+from alembic import command
 from alembic.autogenerate import compare_metadata
 from alembic.config import Config as AlembicConfig
 from alembic.migration import MigrationContext
@@ -22,6 +23,7 @@ from sqlalchemy.engine import make_url
 from sqlalchemy.exc import OperationalError
 
 from bridge.codec import to_json
+from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event, Mission, Place, ScheduledTask, TaskOrder, TaskRun, Waypoint
 from bridge.msgs.std_msgs import Time
@@ -35,6 +37,7 @@ OFFICE = Place(
     name="Büro 12 🚪", kind="office", floor="1", x=4.25, y=-2.0, yaw=math.pi, tag="04:a2", note="Klopfen!"
 )
 ORDER = TaskOrder(task="go_to", goals=[Waypoint(1.0, 2.0)], speed=0.4)
+MIGRATIONS = Path(opening.__file__).with_name("database") / "migrations"
 NOW = Time(1_795_279_047, 123_456_789)
 
 
@@ -48,9 +51,19 @@ async def fill(records: Records) -> Job:
         records.queue.add(ORDER)
         records.queue.add(msgspec.structs.replace(ORDER, task="hold"))
         run = records.runs.begin(TaskRun(order=ORDER, started=NOW, state="RUNNING", by="Anna"), '{"lap": 2}')
-        records.runs.note(msgspec.structs.replace(run, distance=12.5, visited=3), '{"lap": 3}')
+        records.runs.note(
+            msgspec.structs.replace(run, distance=12.5, visited=3, code="way_blocked", actor_id="a"),
+            '{"lap": 3}',
+        )
         event = Event(
-            stamp=NOW, level="warn", kind="task", text="'Hé' \\ %s :x", position=Point(1.0, 2.0, math.nan)
+            stamp=NOW,
+            level="warn",
+            kind="task",
+            text="'Hé' \\ %s :x",
+            position=Point(1.0, 2.0, math.nan),
+            code="task_paused",
+            actor_id="tablet-7",
+            parameters=[KeyValue("name", 'Zoë "7"'), KeyValue("task", "patrol")],
         )
         records.events.add(event, lambda _: None)
         records.note_stop("Anna")
@@ -137,19 +150,18 @@ async def test_the_migrations_make_the_tables_of_the_models(
 
 
 def test_the_newest_revision_is_the_one_that_its_file_is_named_after() -> None:
-    migrations = Path(opening.__file__).with_name("migrations")
     config = AlembicConfig()
-    config.set_main_option("script_location", str(migrations))
+    config.set_main_option("script_location", str(MIGRATIONS))
     script = ScriptDirectory.from_config(config)
     for each in script.walk_revisions():
         assert Path(each.path).name.startswith(f"v{each.revision}_")
-    assert opening._newest(migrations) == script.get_current_head()
+    assert opening._newest(MIGRATIONS) == script.get_current_head()
 
 
 def test_what_changes_tables_is_not_loaded_where_they_are_up_to_date(tmp_path: Path) -> None:
     open_records(tmp_path, None, print).close()
     program = (
-        "import sys; from pathlib import Path; from robotside.database.opening import open_records;"
+        "import sys; from pathlib import Path; from robotside.records.opening import open_records;"
         "open_records(Path(sys.argv[1]), None, print).close(); sys.exit('alembic' in sys.modules)"
     )
     command = [sys.executable, "-c", program, tmp_path]
@@ -166,7 +178,7 @@ async def test_a_database_of_a_newer_program_is_not_touched(
         connection.execute(text("UPDATE alembic_version SET version_num = '0999'"))
     engine.dispose()
     with pytest.raises(
-        CannotOpen, match="of a newer program.*revision '0999', this program knows up to '0001'"
+        CannotOpen, match="of a newer program.*revision '0999', this program knows up to '0002'"
     ):
         start()
 
@@ -283,7 +295,7 @@ async def test_a_server_that_was_away_is_found_again(start: Open, url: str | Non
 
 
 NEXT = """
-revision, down_revision, branch_labels, depends_on = "0002", "0001", None, None
+revision, down_revision, branch_labels, depends_on = "0003", "0002", None, None
 
 def upgrade():
     from alembic import op
@@ -299,8 +311,8 @@ async def test_before_a_migration_the_database_is_copied_as_it_was(
     await fill(records)
     records.close()
     shutil.rmtree(state / "backups", ignore_errors=True)
-    shutil.copytree(Path(opening.__file__).with_name("migrations"), program / "migrations")
-    (program / "migrations" / "versions" / "v0002_next.py").write_text(NEXT)
+    shutil.copytree(MIGRATIONS, program / "database" / "migrations")
+    (program / "database" / "migrations" / "versions" / "v0003_next.py").write_text(NEXT)
     monkeypatch.setattr(opening, "__file__", str(program / "opening.py"))
     open_records(state, None, print).close()
     first = min((state / "backups").iterdir())
@@ -308,9 +320,39 @@ async def test_before_a_migration_the_database_is_copied_as_it_was(
         closing(sqlite3.connect(first)) as before,
         closing(sqlite3.connect(state / "records.sqlite3")) as now,
     ):
-        assert before.execute("SELECT version_num FROM alembic_version").fetchall() == [("0001",)]
+        assert before.execute("SELECT version_num FROM alembic_version").fetchall() == [("0002",)]
         assert before.execute("SELECT count(*) FROM places").fetchall() == [(2,)]
-        assert now.execute("SELECT version_num FROM alembic_version").fetchall() == [("0002",)]
+        assert now.execute("SELECT version_num FROM alembic_version").fetchall() == [("0003",)]
+
+
+async def test_what_an_older_program_kept_is_read_as_without_codes(
+    start: Open, tmp_path: Path, url: str | None
+) -> None:
+    engine = engine_of(make_url(url or f"sqlite:///{tmp_path / 'records.sqlite3'}"))
+    config = AlembicConfig()
+    config.set_main_option("script_location", str(MIGRATIONS))
+    with engine.begin() as connection:
+        config.attributes["connection"] = connection
+        command.upgrade(config, "0001")
+        connection.execute(text("INSERT INTO facts (name, value) VALUES ('log', 'aa'), ('taken over', '1')"))
+        connection.execute(
+            text(
+                "INSERT INTO events (id, stamp, level, kind, text, acknowledged_by, acknowledged)"
+                " VALUES (7, 1, 'alarm', 'stop', 'STOP pressed by Anna.', '', 0)"
+            )
+        )
+        connection.execute(
+            text(
+                "INSERT INTO runs VALUES (3, 'hold', 1, 2, 'FAILED', 'Held up.', 0.5, 0, 'Anna', '{\"task\": \"hold\"}')"
+            )
+        )
+    engine.dispose()
+    records = start()
+    assert records.problems == []
+    (event,), (run,) = records.events.since(0, ""), records.runs.before()
+    assert (event.text, event.code, event.actor_id, event.parameters) == ("STOP pressed by Anna.", "", "", [])
+    assert (run.reason, run.code, run.actor_id, run.parameters) == ("Held up.", "", "", [])
+    records.close()
 
 
 async def test_of_two_who_write_the_second_finds_it_locked_before_it_has_looked_at_anything(

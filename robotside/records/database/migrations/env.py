@@ -8,7 +8,7 @@ from robotside.records.database.tables import Base
 
 connection = context.config.attributes.get("connection")
 if connection is None:
-    raise RuntimeError("These migrations are run by robotside.database.opening, which hands in a connection.")
+    raise RuntimeError("These migrations are run by robotside.records.opening, which hands in a connection.")
 context.configure(connection=connection, target_metadata=Base.metadata)
 with context.begin_transaction():
     context.run_migrations()
