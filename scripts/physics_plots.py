@@ -28,8 +28,8 @@ from sim.vehicles.minnow import MINNOW
 from sim.vehicles.minnow import PARAMETERS as BOAT
 from sim.vehicles.model import Model
 from sim.vehicles.scout import SCOUT
+from tests.sim.dynamics.otter import PUBLISHED, TOLD, sail
 from tests.sim.rooms import plain
-from tests.sim.vehicles.otter import PUBLISHED, TOLD, sail
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
 WATER = "[water]\ndepth = 15.0\n"

@@ -8,10 +8,10 @@ from typing import Annotated, Self, TypeVar
 
 import msgspec
 
+from sim.core.load import Load
 from sim.core.toml_tables import read, text_of
 from sim.sensors.battery import BatteryParameters
 from sim.sensors.imu import ImuParameters
-from sim.vehicles.load import Load
 
 __all__ = [
     "CameraParameters",

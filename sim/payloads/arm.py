@@ -13,13 +13,13 @@ from bridge.msgs.pilothouse_msgs import ArmOrder, ArmState
 from bridge.msgs.std_msgs import Header, Time
 from sim.core.parameters import Positive
 from sim.core.shapes import Shape, Vec3, compose, from_yaw
+from sim.dynamics.control import given, towards
 from sim.payloads.kinematics import Angles, Arm
 from sim.payloads.mounted import Mount
 from sim.payloads.simple import on_deck
 from sim.physics.backend_bullet import State
-from sim.vehicles.control import given, towards
+from sim.sensors.suite import Measurement
 from sim.vehicles.model import Vehicle
-from sim.vehicles.suite import Measurement
 
 __all__ = ["JOINTS", "ArmParameters", "MountedArm"]
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Protocol
 
 from bridge.msgs import Msg
+from sim.core.load import Load
 from sim.core.parameters import Parameters, Positive, Table
 from sim.core.shapes import Shape, Vec3
-from sim.vehicles.load import Load
 
 __all__ = [
     "CameraMount",

@@ -23,9 +23,9 @@ from sim.physics.backend_bullet import State
 from sim.sensors.laser import Laser, LaserParameters
 from sim.sensors.line import LineCells, LineParameters
 from sim.sensors.sonar import Sonar, SonarParameters
+from sim.sensors.suite import Measurement
 from sim.sensors.ultrasound import SIDES, UltrasoundParameters, Ultrasounds
 from sim.vehicles.model import Vehicle
-from sim.vehicles.suite import Measurement
 from sim.world.paint import Paint
 
 __all__ = [

@@ -8,7 +8,7 @@ from bridge.msgs.sensor_msgs import FluidPressure
 from bridge.msgs.std_msgs import Header, Time
 from sim.core.noise import Noise
 from sim.physics.backend_bullet import GRAVITY, State
-from sim.physics.weather import Weather
+from sim.world.weather import Weather
 
 __all__ = ["AIR_PRESSURE", "DepthGauge", "DepthParameters"]
 

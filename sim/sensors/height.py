@@ -11,7 +11,7 @@ from bridge.msgs.std_msgs import Header, Time
 from sim.core.noise import Noise
 from sim.core.shapes import rotate
 from sim.physics.backend_bullet import Bullet, State
-from sim.physics.weather import Weather
+from sim.world.weather import Weather
 
 __all__ = ["Height", "HeightParameters"]
 

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from sim.core.noise import Noise
 from sim.core.shapes import Shape, yaw_of
 from sim.physics.backend_bullet import STEPS_PER_SECOND, Bullet
-from sim.physics.weather import Weather
 from sim.rendering.camera import Studio
 from sim.vehicles.model import Model, Vehicle, suits
 from sim.vehicles.scene import Scene
+from sim.world.weather import Weather
 from sim.world.world import Start, World
 
 __all__ = ["Simulation"]

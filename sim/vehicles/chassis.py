@@ -19,9 +19,9 @@ from sim.sensors.battery import Battery
 from sim.sensors.bumper import BumperRing
 from sim.sensors.imu import InertialUnit
 from sim.sensors.reckoning import Reckoning, ReckoningParameters
+from sim.sensors.suite import Measure, Measurement, Suite, as_odometry
 from sim.vehicles.scene import Scene
 from sim.vehicles.start_places import places
-from sim.vehicles.suite import Measure, Measurement, Suite, as_odometry
 from sim.world.world import Start
 
 __all__ = ["Chassis"]

@@ -17,8 +17,8 @@ from sim.core.shapes import Shape
 from sim.physics.backend_bullet import State
 from sim.sensors.battery import Battery
 from sim.sensors.bumper import BumperRing
+from sim.sensors.suite import Suite
 from sim.vehicles.scene import Scene
-from sim.vehicles.suite import Suite
 from sim.world.world import World
 
 __all__ = ["Model", "Vehicle", "numbered", "suits"]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from sim.core.noise import Noise
 from sim.physics.backend_bullet import Bullet
-from sim.physics.weather import Weather
+from sim.world.weather import Weather
 from sim.world.world import Start, World
 
 __all__ = ["Scene"]

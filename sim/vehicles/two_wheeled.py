@@ -8,12 +8,12 @@ from typing import TypeVar
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from sim.core.shapes import from_yaw
+from sim.dynamics.differential import DifferentialDrive, DifferentialParameters, body_of
 from sim.physics.backend_bullet import GRAVITY, State
 from sim.physics.motors import Motors
 from sim.sensors.odometry import WheelOdometry
-from sim.vehicles.differential import DifferentialDrive, DifferentialParameters, body_of
+from sim.sensors.suite import Measurement
 from sim.vehicles.scene import Scene
-from sim.vehicles.suite import Measurement
 from sim.vehicles.wheeled import Wheeled
 
 __all__ = ["TwoWheeled"]

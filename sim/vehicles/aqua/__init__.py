@@ -12,20 +12,20 @@ from bridge.msgs.sensor_msgs import JointState
 from bridge.msgs.std_msgs import Header, Time
 from sim.core.parameters import load
 from sim.core.shapes import Shape, from_yaw
+from sim.dynamics.fins import LEGS, Fins
+from sim.dynamics.sixdof import SixDof
+from sim.dynamics.swimmer import Float, SwimmerBody, SwimmerParameters, inertia_of
 from sim.physics.backend_bullet import STEPS_PER_SECOND, State
 from sim.physics.bodies import Floating
 from sim.physics.motors import Motors
 from sim.sensors.compass import Compass
 from sim.sensors.depth import DepthGauge
+from sim.sensors.suite import Measurement
 from sim.vehicles.aqua.looks import looks
 from sim.vehicles.aqua.pilot import Pilot
 from sim.vehicles.chassis import Chassis
-from sim.vehicles.fins import LEGS, Fins
 from sim.vehicles.model import Model
 from sim.vehicles.scene import Scene
-from sim.vehicles.sixdof import SixDof
-from sim.vehicles.suite import Measurement
-from sim.vehicles.swimmer import Float, SwimmerBody, SwimmerParameters, inertia_of
 
 __all__ = ["AQUA", "PARAMETERS", "Aqua"]
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from sim.core.shapes import Quat, Shape, Vec3
 
 if TYPE_CHECKING:
-    from sim.vehicles.swimmer import SwimmerParameters
+    from sim.dynamics.swimmer import SwimmerParameters
 
 __all__ = ["looks"]
 

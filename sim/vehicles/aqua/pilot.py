@@ -7,10 +7,10 @@ import math
 from bridge.core.units import wrap
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from sim.core.shapes import Vec3
+from sim.dynamics.control import filled, given, within
+from sim.dynamics.sixdof import SixDof
+from sim.dynamics.swimmer import SwimmerParameters
 from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND
-from sim.vehicles.control import filled, given, within
-from sim.vehicles.sixdof import SixDof
-from sim.vehicles.swimmer import SwimmerParameters
 
 __all__ = ["Pilot"]
 

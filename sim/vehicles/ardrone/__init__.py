@@ -11,19 +11,19 @@ from bridge.msgs.pilothouse_msgs import FlightState, Manoeuvre
 from bridge.msgs.std_msgs import Header, Time
 from sim.core.parameters import load
 from sim.core.shapes import Shape, from_yaw, rotate
+from sim.dynamics.control import within
+from sim.dynamics.quadrotor import ROTORS, QuadrotorBody, QuadrotorParameters, Rotors
+from sim.dynamics.sixdof import Inertia, SixDof
 from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND, State
 from sim.physics.bodies import Floating
 from sim.physics.motors import Motors
 from sim.sensors.height import Height
+from sim.sensors.suite import Measurement
 from sim.vehicles.ardrone.looks import looks
 from sim.vehicles.ardrone.pilot import LOWEST, TUMBLED, Motion, Pilot
 from sim.vehicles.chassis import Chassis
-from sim.vehicles.control import within
 from sim.vehicles.model import Model
-from sim.vehicles.quadrotor import ROTORS, QuadrotorBody, QuadrotorParameters, Rotors
 from sim.vehicles.scene import Scene
-from sim.vehicles.sixdof import Inertia, SixDof
-from sim.vehicles.suite import Measurement
 
 __all__ = ["ARDRONE", "PARAMETERS", "Ardrone"]
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from sim.core.shapes import Quat, Shape, Vec3, from_yaw
 
 if TYPE_CHECKING:
-    from sim.vehicles.quadrotor import QuadrotorParameters
+    from sim.dynamics.quadrotor import QuadrotorParameters
 
 __all__ = ["looks"]
 

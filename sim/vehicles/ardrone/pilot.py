@@ -8,9 +8,9 @@ from typing import NamedTuple
 from bridge.core.units import wrap
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from sim.core.shapes import Vec3
+from sim.dynamics.control import filled, given, within
+from sim.dynamics.quadrotor import QuadrotorParameters
 from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND
-from sim.vehicles.control import filled, given, within
-from sim.vehicles.quadrotor import QuadrotorParameters
 
 __all__ = ["LOWEST", "TUMBLED", "Motion", "Pilot"]
 

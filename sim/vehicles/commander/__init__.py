@@ -13,20 +13,20 @@ from bridge.msgs.arrays import Float64Array
 from bridge.msgs.pilothouse_msgs import AckermannState, Manoeuvre
 from bridge.msgs.sensor_msgs import JointState
 from bridge.msgs.std_msgs import Header, Time
+from sim.core.load import Load, loaded
 from sim.core.parameters import CameraParameters, Parameters, load
 from sim.core.shapes import from_yaw
+from sim.dynamics.ackermann import AckermannBody, AckermannDrive, AckermannLimits, Axles, body_of
+from sim.dynamics.control import given
 from sim.physics.backend_bullet import GRAVITY, Joint, State
 from sim.physics.motors import Motors
 from sim.sensors.gps import Gps, GpsParameters
 from sim.sensors.laser import Laser, LaserParameters
 from sim.sensors.odometry import OdometryParameters, WheelOdometry
-from sim.vehicles.ackermann import AckermannBody, AckermannDrive, AckermannLimits, Axles, body_of
+from sim.sensors.suite import Measurement
 from sim.vehicles.commander.looks import looks
-from sim.vehicles.control import given
-from sim.vehicles.load import Load, loaded
 from sim.vehicles.model import Model
 from sim.vehicles.scene import Scene
-from sim.vehicles.suite import Measurement
 from sim.vehicles.wheeled import Wheeled
 
 __all__ = ["COMMANDER", "PARAMETERS", "Commander", "CommanderParameters"]

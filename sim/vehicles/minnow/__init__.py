@@ -12,20 +12,20 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre, RudderState
 from bridge.msgs.std_msgs import Header, Time
 from sim.core.parameters import load
 from sim.core.shapes import Shape, from_yaw, yaw_of
+from sim.dynamics.boat import BoatParameters, Drive, Helmsman
+from sim.dynamics.control import filled, given
+from sim.dynamics.hull import Hull, HullParameters, inertia_of
+from sim.dynamics.sixdof import SixDof
 from sim.physics.backend_bullet import STEPS_PER_SECOND, State
 from sim.physics.bodies import Floating
 from sim.physics.motors import Motors
 from sim.sensors.compass import Compass
 from sim.sensors.gps import Gps
-from sim.vehicles.boat import BoatParameters, Drive, Helmsman
+from sim.sensors.suite import Measurement
 from sim.vehicles.chassis import Chassis
-from sim.vehicles.control import filled, given
-from sim.vehicles.hull import Hull, HullParameters, inertia_of
 from sim.vehicles.minnow.looks import looks
 from sim.vehicles.model import Model
 from sim.vehicles.scene import Scene
-from sim.vehicles.sixdof import SixDof
-from sim.vehicles.suite import Measurement
 
 __all__ = ["MINNOW", "PARAMETERS", "Minnow"]
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from sim.core.shapes import Quat, Shape, Vec3
 
 if TYPE_CHECKING:
-    from sim.vehicles.boat import BoatParameters
+    from sim.dynamics.boat import BoatParameters
 
 __all__ = ["looks"]
 

@@ -6,15 +6,15 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from sim.core.parameters import load
+from sim.dynamics.differential import DifferentialParameters
 from sim.physics.backend_bullet import State
 from sim.sensors.gps import Gps, GpsParameters
 from sim.sensors.laser import Laser, LaserParameters
 from sim.sensors.line import LineCells, LineParameters
+from sim.sensors.suite import Measurement
 from sim.sensors.ultrasound import UltrasoundParameters, Ultrasounds
-from sim.vehicles.differential import DifferentialParameters
 from sim.vehicles.model import Model
 from sim.vehicles.patrol.looks import looks
-from sim.vehicles.suite import Measurement
 from sim.vehicles.two_wheeled import TwoWheeled
 from sim.world.paint import Paint
 

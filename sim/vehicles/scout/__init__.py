@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from sim.core.parameters import load
+from sim.dynamics.differential import DifferentialParameters
 from sim.sensors.sonar import Sonar, SonarParameters
-from sim.vehicles.differential import DifferentialParameters
 from sim.vehicles.model import Model
 from sim.vehicles.scout.looks import looks
 from sim.vehicles.two_wheeled import TwoWheeled

@@ -7,8 +7,8 @@ import math
 from bridge.core.units import wrap
 from sim.core.parameters import Positive, Table
 from sim.core.shapes import Vec3
+from sim.dynamics.control import towards, within
 from sim.physics.backend_bullet import STEPS_PER_SECOND
-from sim.vehicles.control import towards, within
 
 __all__ = ["LEGS", "FinParameters", "Fins"]
 

@@ -11,11 +11,11 @@ from pathlib import Path
 
 from sim.core.noise import Noise
 from sim.core.shapes import Shape, Vec3
+from sim.dynamics.hull import Hull, HullParameters, inertia_of
+from sim.dynamics.sixdof import SixDof
 from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND, Bullet
 from sim.physics.bodies import Floating
-from sim.physics.weather import Weather
-from sim.vehicles.hull import Hull, HullParameters, inertia_of
-from sim.vehicles.sixdof import SixDof
+from sim.world.weather import Weather
 from tests.sim.rooms import plain
 
 MASS, PAYLOAD, THRUST, ARM = 80.0, 25.0, 0.01108, 0.395

@@ -9,15 +9,15 @@ from typing import Self
 from msgspec.structs import replace
 
 from bridge.core.units import wrap
+from sim.core.load import Load, loaded, mass_of
 from sim.core.parameters import CameraParameters, Parameters, Part, Positive, Table
 from sim.core.shapes import Vec3
+from sim.dynamics.control import towards, within
+from sim.dynamics.hull import HullParameters
 from sim.physics.backend_bullet import STEPS_PER_SECOND
 from sim.sensors.compass import CompassParameters
 from sim.sensors.gps import GpsParameters
 from sim.sensors.reckoning import ReckoningParameters
-from sim.vehicles.control import towards, within
-from sim.vehicles.hull import HullParameters
-from sim.vehicles.load import Load, loaded, mass_of
 
 __all__ = ["BoatParameters", "Drive", "Helmsman", "Propeller", "Rudder"]
 

@@ -8,16 +8,16 @@ from typing import Self
 
 from msgspec.structs import replace
 
+from sim.core.load import Load, about, mass_of
 from sim.core.parameters import CameraParameters, Limits, Parameters, Positive, Table
 from sim.core.shapes import Vec3
+from sim.dynamics.fins import FinParameters
+from sim.dynamics.sixdof import Inertia, SixDof
 from sim.physics.backend_bullet import GRAVITY
-from sim.physics.weather import Weather
 from sim.sensors.compass import CompassParameters
 from sim.sensors.depth import DepthParameters
 from sim.sensors.reckoning import ReckoningParameters
-from sim.vehicles.fins import FinParameters
-from sim.vehicles.load import Load, about, mass_of
-from sim.vehicles.sixdof import Inertia, SixDof
+from sim.world.weather import Weather
 
 __all__ = ["Float", "SwimmerBody", "SwimmerLimits", "SwimmerParameters", "inertia_of"]
 

@@ -8,12 +8,12 @@ from typing import Self
 
 from msgspec.structs import replace
 
+from sim.core.load import Load, about, mass_of
 from sim.core.parameters import CameraParameters, Limits, Parameters, Positive, Table
 from sim.core.shapes import Vec3
 from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND
 from sim.sensors.height import HeightParameters
 from sim.sensors.reckoning import ReckoningParameters
-from sim.vehicles.load import Load, about, mass_of
 
 __all__ = ["ROTORS", "QuadrotorBody", "QuadrotorLimits", "QuadrotorParameters", "RotorParameters", "Rotors"]
 

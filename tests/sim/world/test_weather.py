@@ -9,7 +9,7 @@ import pytest
 
 from sim.core.noise import Noise
 from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND
-from sim.physics.weather import Weather
+from sim.world.weather import Weather
 from tests.sim.rooms import plain
 
 WAVES = "[water]\ndepth = 9.0\ncurrent = [0.1, -0.2]\n[[water.waves]]\nheight = 0.4\nperiod = 2.0\ndirection = 90\n"

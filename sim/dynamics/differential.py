@@ -8,12 +8,12 @@ from typing import Self
 from msgspec.structs import replace
 
 from bridge.msgs.geometry_msgs import Twist
+from sim.core.load import Load, loaded
 from sim.core.parameters import CameraParameters, Limits, Parameters, Positive, Table
 from sim.core.shapes import Shape
+from sim.dynamics.control import towards
 from sim.physics.backend_bullet import STEPS_PER_SECOND, Bullet, WheeledBody
 from sim.sensors.odometry import OdometryParameters
-from sim.vehicles.control import towards
-from sim.vehicles.load import Load, loaded
 
 __all__ = ["DifferentialDrive", "DifferentialLimits", "DifferentialParameters", "Wheels", "body_of"]
 

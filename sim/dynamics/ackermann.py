@@ -6,8 +6,8 @@ import math
 
 from sim.core.parameters import Limits, Positive, Table
 from sim.core.shapes import Shape
+from sim.dynamics.control import towards, within
 from sim.physics.backend_bullet import STEPS_PER_SECOND, Bullet, WheeledBody
-from sim.vehicles.control import towards, within
 
 __all__ = ["AckermannBody", "AckermannDrive", "AckermannLimits", "Axles", "body_of"]
 

@@ -7,10 +7,10 @@ import math
 import pytest
 
 from sim.core.shapes import Shape
+from sim.dynamics.sixdof import Inertia, SixDof
 from sim.physics.backend_bullet import STEPS_PER_SECOND, Bullet
 from sim.physics.bodies import Floating
-from sim.vehicles.sixdof import Inertia, SixDof
-from tests.sim.vehicles.otter import PUBLISHED, TOLD, sail
+from tests.sim.dynamics.otter import PUBLISHED, TOLD, sail
 
 NEAR = {"straight": 0.005, "turn": 0.02, "zig-zag": 0.1}
 """How near we come to the published way [m]; in the zig-zag its own step of 5 ms makes 6 cm."""

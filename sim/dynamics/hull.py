@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 from sim.core.parameters import Positive, Table
 from sim.core.shapes import Vec3
+from sim.dynamics.sixdof import Inertia, SixDof
 from sim.physics.backend_bullet import GRAVITY
-from sim.physics.weather import Weather
-from sim.vehicles.sixdof import Inertia, SixDof
+from sim.world.weather import Weather
 
 __all__ = ["Hull", "HullParameters", "inertia_of"]
 

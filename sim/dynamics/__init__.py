@@ -1,0 +1,1 @@
+"""Forces, drives and free-body motion that the vehicles are built from."""
