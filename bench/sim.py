@@ -17,9 +17,10 @@ from typing import Any
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
 from bridge.msgs.geometry_msgs import Twist, Vector3
+from sim.core.constants import STEPS_PER_SECOND
 from sim.core.noise import Noise
 from sim.core.shapes import from_yaw, rotate
-from sim.physics.backend_bullet import STEPS_PER_SECOND, Bullet
+from sim.physics.backend_bullet import Bullet
 from sim.rendering.renderer import Renderer
 from sim.rendering.view import View
 from sim.robot import SimRobot, make

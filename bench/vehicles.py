@@ -30,9 +30,9 @@ from bench.support.station import Serving, serving
 from bridge.client.remote_robot import RemoteRobot
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
+from sim.core.constants import STEPS_PER_SECOND
 from sim.core.noise import Noise
 from sim.core.shapes import from_yaw
-from sim.physics.backend_bullet import STEPS_PER_SECOND
 from sim.rendering.camera import jpeg
 from sim.rendering.renderer import Renderer
 from sim.rendering.view import View
@@ -41,7 +41,9 @@ from sim.sensors.laser import Laser
 from sim.simulation.simulation import Simulation
 from sim.vehicles.commander import PARAMETERS
 from sim.vehicles.model import Vehicle
-from sim.world.world import Start, World, load, parse
+from sim.world.tables import Start
+from sim.world.world import World
+from sim.world.world_files import load, parse
 
 KINDS = tuple(ROBOTS)
 CROWDS = (1, 5, 20)

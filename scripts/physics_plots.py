@@ -17,7 +17,8 @@ import msgspec
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from scripts.plots import BLUE, GREEN, ORANGE, Plot, Series, page
-from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND, State
+from sim.core.constants import GRAVITY, STEPS_PER_SECOND
+from sim.physics.backend_bullet import State
 from sim.simulation.simulation import Simulation
 from sim.vehicles.aqua import AQUA
 from sim.vehicles.aqua import PARAMETERS as SWIMMER

@@ -19,7 +19,8 @@ from sim.rendering.renderer import NoRendererError, Renderer
 from sim.rendering.view import View
 from sim.vehicles.model import Model, numbered
 from sim.vehicles.start_places import starts
-from sim.world.world import World, load
+from sim.world.world import World
+from sim.world.world_files import load
 
 try:
     from sim.robot import ROBOTS, WORLDS, home_of, make_several, model_of

@@ -6,7 +6,7 @@ from typing import Any
 
 from sim.robot import ROBOTS
 from sim.vehicles.model import suits
-from sim.world.world import WORLDS, load
+from sim.world.world_files import WORLDS, load
 
 __all__ = ["catalogue"]
 

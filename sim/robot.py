@@ -30,7 +30,9 @@ from sim.vehicles.patrol import PATROL
 from sim.vehicles.scout import SCOUT
 from sim.vehicles.start_places import starts
 from sim.world.occupancy import occupancy
-from sim.world.world import WORLDS, Start, World, load
+from sim.world.tables import Start
+from sim.world.world import World
+from sim.world.world_files import WORLDS, load
 
 __all__ = [
     "CAMERA_TOPIC",

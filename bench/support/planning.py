@@ -14,7 +14,7 @@ from robotside.mapping.obstacle_memory import FADES
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.navigator import Goal, Guide, Leg
 from sim.world.occupancy import occupancy
-from sim.world.world import load
+from sim.world.world_files import load
 
 __all__ = ["DEEP", "LAKE", "SHALLOW", "lake", "longest", "trap"]
 

@@ -11,7 +11,7 @@ from typing import NoReturn
 from app.__main__ import SIZE, THEMES
 from sim.robot import model_of
 from sim.vehicles.model import suits
-from sim.world.world import load
+from sim.world.world_files import load
 
 __all__ = ["STORIES", "options"]
 

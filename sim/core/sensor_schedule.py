@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from sim.physics.backend_bullet import STEPS_PER_SECOND
+from sim.core.constants import STEPS_PER_SECOND
 
 __all__ = ["Schedule"]
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 
+from sim.core.constants import STEPS_PER_SECOND
 from sim.core.parameters import Limits, Positive, Table
 from sim.core.shapes import Shape
 from sim.dynamics.control import towards, within
-from sim.physics.backend_bullet import STEPS_PER_SECOND, Bullet, WheeledBody
+from sim.physics.backend_bullet import Bullet, WheeledBody
 
 __all__ = ["AckermannBody", "AckermannDrive", "AckermannLimits", "Axles", "body_of"]
 

@@ -3,23 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Self
-
-from msgspec.structs import replace
 
 from bridge.core.units import wrap
-from sim.core.load import Load, loaded, mass_of
-from sim.core.parameters import CameraParameters, Parameters, Part, Positive, Table
+from sim.core.constants import STEPS_PER_SECOND
+from sim.core.parameters import Limits, Part, Positive, Table
 from sim.core.shapes import Vec3
 from sim.dynamics.control import towards, within
-from sim.dynamics.hull import HullParameters
-from sim.physics.backend_bullet import STEPS_PER_SECOND
-from sim.sensors.compass import CompassParameters
-from sim.sensors.gps import GpsParameters
-from sim.sensors.reckoning import ReckoningParameters
 
-__all__ = ["BoatParameters", "Drive", "Helmsman", "Propeller", "Rudder"]
+__all__ = ["Drive", "Helmsman", "Propeller", "Rudder"]
 
 
 class Propeller(Table, frozen=True, kw_only=True):
@@ -56,58 +47,13 @@ class Rudder(Table, frozen=True, kw_only=True):
     """Of the turn with the rudder hard over [m]."""
 
 
-class BoatParameters(Parameters, frozen=True, kw_only=True):
-    """The whole file of a boat."""
-
-    hull: HullParameters
-    propeller: Propeller
-    rudder: Rudder
-    reckoning: ReckoningParameters
-    compass: CompassParameters
-    gps: GpsParameters
-    camera: CameraParameters
-
-    @property
-    def radius(self) -> float:
-        """Of the circle that the hull fits in [m]."""
-        return math.hypot(self.hull.length, self.hull.beam) / 2
-
-    @property
-    def deck(self) -> tuple[float, float, float]:
-        """Where payloads are mounted, in `base_link` [m]."""
-        return (0.0, 0.0, self.hull.depth - self.hull.draft)
-
-    def laden(self, loads: Sequence[Load]) -> Self:
-        """Heavier: it lies deeper, drags more water, and heels towards what it carries."""
-        hull = self.hull
-        mass, centre, inertia = loaded(hull.mass, hull.centre_of_mass, hull.inertia, loads)
-        heavier = replace(hull, mass=mass, centre_of_mass=centre, inertia=inertia, load=mass_of(loads))
-        middle = tuple(sum(load.mass * load.at[axis] for load in loads) / heavier.load for axis in range(3))
-        return replace(self, hull=replace(heavier, load_at=middle))
-
-    @property
-    def cameras(self) -> tuple[CameraParameters, ...]:
-        """It has one."""
-        return (self.camera,)
-
-    @property
-    def max_steering(self) -> float:
-        """Greatest angle of the rudder [rad]."""
-        return self.rudder.limit
-
-    @property
-    def min_radius(self) -> float:
-        """Of the tightest turn that it drives [m]."""
-        return self.rudder.radius
-
-
 class Drive:
     """Propeller and rudder, which follow what they are told as fast as they can."""
 
-    def __init__(self, parameters: BoatParameters, density: float) -> None:
-        """At rest, rudder amidships, in water of this `density` [kg/m3]."""
-        self._propeller, self._rudder = parameters.propeller, parameters.rudder
-        self._stern = -parameters.hull.length / 2
+    def __init__(self, propeller: Propeller, rudder: Rudder, length: float, density: float) -> None:
+        """At rest, rudder amidships, on a hull of this `length` [m] in water of this `density` [kg/m3]."""
+        self._propeller, self._rudder = propeller, rudder
+        self._stern = -length / 2
         self._keep = math.exp(-1 / (self._propeller.lag * STEPS_PER_SECOND))
         self._density = density
         self._disc = density * math.pi * self._propeller.diameter**2 / 4
@@ -157,12 +103,12 @@ class Helmsman:
     STEERING_WAY = 0.12
     """Throttle without which the rudder has nothing to work with."""
 
-    def __init__(self, parameters: BoatParameters, drive: Drive) -> None:
-        """At ease."""
+    def __init__(self, limits: Limits, drag: float, drive: Drive) -> None:
+        """At ease; `drag` is the throttle that a speed of 1 m/s takes [s/m]."""
         self._drive = drive
-        self._limits = parameters.limits
-        self._drag = parameters.hull.damping[0] / parameters.propeller.thrust
-        self._usual = parameters.limits.speed**2 / 2
+        self._limits = limits
+        self._drag = drag
+        self._usual = limits.speed**2 / 2
         self._sum = 0.0
 
     def ease(self) -> None:

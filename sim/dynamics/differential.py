@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Self
-
-from msgspec.structs import replace
-
 from bridge.msgs.geometry_msgs import Twist
-from sim.core.load import Load, loaded
-from sim.core.parameters import CameraParameters, Limits, Parameters, Positive, Table
+from sim.core.constants import STEPS_PER_SECOND
+from sim.core.parameters import Limits, Positive, Table
 from sim.core.shapes import Shape
 from sim.dynamics.control import towards
-from sim.physics.backend_bullet import STEPS_PER_SECOND, Bullet, WheeledBody
-from sim.sensors.odometry import OdometryParameters
+from sim.physics.backend_bullet import Bullet, WheeledBody
 
-__all__ = ["DifferentialDrive", "DifferentialLimits", "DifferentialParameters", "Wheels", "body_of"]
+__all__ = ["DifferentialDrive", "DifferentialLimits", "Wheels", "body_of"]
 
 
 class Body(Table, frozen=True, kw_only=True):
@@ -85,42 +79,6 @@ class DifferentialLimits(Limits, frozen=True, kw_only=True):
     """The same for turning [rad/s2]."""
 
 
-class DifferentialParameters(Parameters, frozen=True, kw_only=True):
-    """What all robots with two driven wheels have."""
-
-    body: Body
-    wheels: Wheels
-    casters: Casters
-    limits: DifferentialLimits
-    rolling: Rolling
-    odometry: OdometryParameters
-    camera: CameraParameters
-
-    @property
-    def radius(self) -> float:
-        """Of the circle round `base_link` that the body fits in [m]."""
-        return self.body.radius
-
-    @property
-    def deck(self) -> tuple[float, float, float]:
-        """Where payloads are mounted, in `base_link` [m]."""
-        return (0.0, 0.0, self.body.height)
-
-    def laden(self, loads: Sequence[Load]) -> Self:
-        """Heavier, and higher or farther ahead in its balance."""
-        body = self.body
-        mass, (x, _, z), inertia = loaded(
-            body.mass, (body.ahead, 0.0, body.centre_of_mass), body.inertia, loads
-        )
-        heavier = replace(body, mass=mass, ahead=x, centre_of_mass=z, inertia=inertia)
-        return replace(self, body=heavier)
-
-    @property
-    def cameras(self) -> tuple[CameraParameters, ...]:
-        """It has one."""
-        return (self.camera,)
-
-
 class DifferentialDrive:
     """Holds the last wanted twist and approaches it no faster than the limits allow."""
 
@@ -170,9 +128,8 @@ class DifferentialDrive:
         self._backend.spin(self._body, 1, (speed + lag) / wheels.radius, wheels.torque)
 
 
-def body_of(parameters: DifferentialParameters) -> WheeledBody:
+def body_of(body: Body, wheels: Wheels, casters: Casters) -> WheeledBody:
     """The rigid body that the physics needs."""
-    body, wheels, casters = parameters.body, parameters.wheels, parameters.casters
     height = body.height - body.clearance
     middle = (body.height + body.clearance) / 2
     return WheeledBody(

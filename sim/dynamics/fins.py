@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from bridge.core.units import wrap
+from sim.core.constants import STEPS_PER_SECOND
 from sim.core.parameters import Positive, Table
 from sim.core.shapes import Vec3
 from sim.dynamics.control import towards, within
-from sim.physics.backend_bullet import STEPS_PER_SECOND
 
 __all__ = ["LEGS", "FinParameters", "Fins"]
 

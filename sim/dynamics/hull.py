@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from sim.core.constants import GRAVITY
 from sim.core.parameters import Positive, Table
 from sim.core.shapes import Vec3
 from sim.dynamics.sixdof import Inertia, SixDof
-from sim.physics.backend_bullet import GRAVITY
 from sim.world.weather import Weather
 
 __all__ = ["Hull", "HullParameters", "inertia_of"]

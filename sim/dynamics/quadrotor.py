@@ -3,23 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Self
 
-from msgspec.structs import replace
-
-from sim.core.load import Load, about, mass_of
-from sim.core.parameters import CameraParameters, Limits, Parameters, Positive, Table
+from sim.core.constants import STEPS_PER_SECOND
+from sim.core.parameters import Limits, Positive, Table
 from sim.core.shapes import Vec3
-from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND
-from sim.sensors.height import HeightParameters
-from sim.sensors.reckoning import ReckoningParameters
 
-__all__ = ["ROTORS", "QuadrotorBody", "QuadrotorLimits", "QuadrotorParameters", "RotorParameters", "Rotors"]
+__all__ = ["ROTORS", "QuadrotorBody", "QuadrotorLimits", "RotorParameters", "Rotors"]
 
 ROTORS = ["front_left", "front_right", "rear_right", "rear_left"]
-MOST_LOADED = 0.8
-"""It carries a weight of so much of its greatest thrust: it steers and climbs by the rest."""
 _PLACES = ((1, 1, -1), (1, -1, 1), (-1, -1, -1), (-1, 1, 1))
 """Of each rotor: ahead or behind, left or right, and which way its drag turns the body."""
 
@@ -66,61 +57,6 @@ class QuadrotorLimits(Limits, frozen=True, kw_only=True):
     """Roll and pitch [rad]."""
     height: Positive
     """Above where it started [m]."""
-
-
-class QuadrotorParameters(Parameters, frozen=True, kw_only=True):
-    """The whole file of a quadrotor."""
-
-    body: QuadrotorBody
-    rotors: RotorParameters
-    limits: QuadrotorLimits
-    reckoning: ReckoningParameters
-    range: HeightParameters
-    front: CameraParameters
-    down: CameraParameters
-
-    @property
-    def radius(self) -> float:
-        """Of the circle that the body fits in [m]."""
-        return self.body.width / math.sqrt(2)
-
-    @property
-    def deck(self) -> tuple[float, float, float]:
-        """Where payloads are mounted, in `base_link` [m]."""
-        return (0.0, 0.0, self.body.height / 2)
-
-    def laden(self, loads: Sequence[Load]) -> Self:
-        """Heavier: its rotors turn faster to carry it, and it turns more slowly; what it carries hangs in balance."""
-        body, rotors = self.body, self.rotors
-        mass = body.mass + mass_of(loads)
-        most = MOST_LOADED * 4 * rotors.lift * rotors.speed**2 / GRAVITY
-        if mass > most:
-            name, spare = self.info.name, most - body.mass
-            raise ValueError(
-                f"{name} carries {spare:.2f} kg at most; what is to be mounted weighs {mass_of(loads):.2f} kg."
-            )
-        inertia = about((0.0, 0.0, 0.0), body.inertia, loads)
-        return replace(self, body=replace(body, mass=mass, inertia=inertia))
-
-    @property
-    def cameras(self) -> tuple[CameraParameters, ...]:
-        """Ahead and down."""
-        return (self.front, self.down)
-
-    @property
-    def max_climb(self) -> float:
-        """Greatest speed up and down [m/s]."""
-        return self.limits.climb
-
-    @property
-    def max_tilt(self) -> float:
-        """Greatest roll and pitch that it holds by order [rad]."""
-        return self.limits.tilt
-
-    @property
-    def hover(self) -> float:
-        """Speed of the rotors that carries its weight [rad/s]."""
-        return math.sqrt(self.body.mass * GRAVITY / 4 / self.rotors.lift)
 
 
 class Rotors:

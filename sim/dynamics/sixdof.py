@@ -16,8 +16,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.core.constants import GRAVITY
 from sim.core.shapes import Vec3
-from sim.physics.backend_bullet import GRAVITY, Bullet
+from sim.physics.backend_bullet import Bullet
 
 __all__ = ["Inertia", "SixDof"]
 

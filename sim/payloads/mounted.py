@@ -6,8 +6,9 @@ from typing import Protocol
 
 from bridge.msgs import Msg
 from sim.core.load import Load
-from sim.core.parameters import Parameters, Positive, Table
+from sim.core.parameters import Positive, Table
 from sim.core.shapes import Shape, Vec3
+from sim.vehicles.parameters import Parameters
 
 __all__ = [
     "CameraMount",

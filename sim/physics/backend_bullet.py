@@ -16,11 +16,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.core.constants import GRAVITY, STEPS_PER_SECOND
 from sim.core.shapes import Quat, Shape, Vec3, place
 from sim.core.zero_pages import given_back
-from sim.physics.bodies import GRAVITY, STEPS_PER_SECOND, Contact, Floating, Joint, State, WheeledBody
+from sim.physics.bodies import Contact, Floating, Joint, State, WheeledBody
 
-__all__ = ["GRAVITY", "STEPS_PER_SECOND", "Bullet", "Contact", "Joint", "State", "WheeledBody"]
+__all__ = ["Bullet", "Contact", "Joint", "State", "WheeledBody"]
 
 SKY = (160, 200, 238)
 """What `Bullet.picture` shows where there is nothing: red, green, blue, 0 to 255."""

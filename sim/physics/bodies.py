@@ -6,12 +6,7 @@ from dataclasses import dataclass
 
 from sim.core.shapes import Quat, Shape, Vec3
 
-__all__ = ["GRAVITY", "STEPS_PER_SECOND", "Contact", "Floating", "Joint", "State", "WheeledBody"]
-
-STEPS_PER_SECOND = 240
-"""Fixed physics steps in a second of simulated time."""
-GRAVITY = 9.81
-"""[m/s2]"""
+__all__ = ["Contact", "Floating", "Joint", "State", "WheeledBody"]
 
 
 @dataclass(frozen=True, slots=True)

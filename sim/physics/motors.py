@@ -7,18 +7,31 @@ from collections.abc import Sequence
 from bridge.msgs.arrays import Float64Array
 from bridge.msgs.pilothouse_msgs import MotorArray
 from bridge.msgs.std_msgs import Header, Time
-from sim.core.parameters import Motor
+from sim.core.parameters import Part, Positive, Table
 
-__all__ = ["Motors"]
+__all__ = ["MotorParameters", "Motors"]
 
 SURROUNDINGS = 20.0
 """Temperature of air and water [degC]."""
 
 
+class MotorParameters(Table, frozen=True, kw_only=True):
+    """One of the motors with its gear, all alike."""
+
+    efficiency: Part
+    """Of motor and gear, without the losses in the winding."""
+    copper: Positive
+    """What the winding loses at 1 N m of what the motor turns, growing with the torque's square [W/(N m)2]."""
+    heat_capacity: Positive
+    """[J/K]"""
+    cooling: Positive
+    """To the surroundings [W/K]."""
+
+
 class Motors:
     """Some motors of the same make; each warms by its own losses and cools towards the surroundings."""
 
-    def __init__(self, parameters: Motor, names: Sequence[str]) -> None:
+    def __init__(self, parameters: MotorParameters, names: Sequence[str]) -> None:
         """As warm as the surroundings, at rest."""
         self._parameters, self.names = parameters, list(names)
         self.temperatures = [SURROUNDINGS] * len(names)

@@ -6,8 +6,9 @@ import math
 
 from bridge.msgs.pilothouse_msgs import Bumper
 from bridge.msgs.std_msgs import Header, Time
+from sim.core.constants import STEPS_PER_SECOND
 from sim.core.shapes import rotate_back
-from sim.physics.backend_bullet import STEPS_PER_SECOND, Contact, State
+from sim.physics.backend_bullet import Contact, State
 
 __all__ = ["BumperRing"]
 

@@ -9,9 +9,10 @@ import msgspec
 from bridge.core.units import heading_from_yaw
 from bridge.msgs.pilothouse_msgs import Compass as Told
 from bridge.msgs.std_msgs import Header, Time
+from sim.core.constants import GRAVITY
 from sim.core.noise import Noise
 from sim.core.shapes import Vec3, rotate_back
-from sim.physics.backend_bullet import GRAVITY, State
+from sim.physics.backend_bullet import State
 
 __all__ = ["Compass", "CompassParameters", "levelled"]
 

@@ -6,8 +6,9 @@ import msgspec
 
 from bridge.msgs.sensor_msgs import FluidPressure
 from bridge.msgs.std_msgs import Header, Time
+from sim.core.constants import GRAVITY
 from sim.core.noise import Noise
-from sim.physics.backend_bullet import GRAVITY, State
+from sim.physics.backend_bullet import State
 from sim.world.weather import Weather
 
 __all__ = ["AIR_PRESSURE", "DepthGauge", "DepthParameters"]

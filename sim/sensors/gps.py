@@ -9,7 +9,7 @@ from bridge.msgs.sensor_msgs import NavSatFix, NavSatStatus
 from bridge.msgs.std_msgs import Header, Time
 from sim.core.noise import Noise, Wander
 from sim.physics.backend_bullet import State
-from sim.world.world import Datum
+from sim.world.tables import Datum
 
 __all__ = ["Gps", "GpsParameters"]
 

@@ -9,9 +9,10 @@ import msgspec
 from bridge.msgs.geometry_msgs import Quaternion, Vector3
 from bridge.msgs.sensor_msgs import Imu
 from bridge.msgs.std_msgs import Header, Time
+from sim.core.constants import GRAVITY
 from sim.core.noise import Noise, Wander
 from sim.core.shapes import Vec3, compose, rotate_back
-from sim.physics.backend_bullet import GRAVITY, State
+from sim.physics.backend_bullet import State
 
 __all__ = ["ImuParameters", "InertialUnit"]
 

@@ -6,9 +6,10 @@ from collections.abc import Iterator
 
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event
+from sim.core.constants import STEPS_PER_SECOND
 from sim.core.parameters import Info
 from sim.core.shapes import rotate
-from sim.physics.backend_bullet import STEPS_PER_SECOND, State
+from sim.physics.backend_bullet import State
 from sim.vehicles.scene import Scene
 
 __all__ = ["Mishaps"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from sim.physics.backend_bullet import STEPS_PER_SECOND
+from sim.core.constants import STEPS_PER_SECOND
 from sim.simulation.simulation import Simulation
 
 __all__ = ["Run"]

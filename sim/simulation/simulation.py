@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from sim.core.constants import STEPS_PER_SECOND
 from sim.core.noise import Noise
 from sim.core.shapes import Shape, yaw_of
-from sim.physics.backend_bullet import STEPS_PER_SECOND, Bullet
+from sim.physics.backend_bullet import Bullet
 from sim.rendering.camera import Studio
 from sim.vehicles.model import Model, Vehicle, suits
 from sim.vehicles.scene import Scene
+from sim.world.tables import Start
 from sim.world.weather import Weather
-from sim.world.world import Start, World
+from sim.world.world import World
 
 __all__ = ["Simulation"]
 

@@ -11,7 +11,6 @@ import msgspec
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from bridge.msgs.std_msgs import Header, Time
-from sim.core.parameters import Parameters
 from sim.core.shapes import Shape
 from sim.physics.backend_bullet import State
 from sim.physics.motors import Motors
@@ -20,9 +19,10 @@ from sim.sensors.bumper import BumperRing
 from sim.sensors.imu import InertialUnit
 from sim.sensors.reckoning import Reckoning, ReckoningParameters
 from sim.sensors.suite import Measure, Measurement, Suite, as_odometry
+from sim.vehicles.parameters import Parameters
 from sim.vehicles.scene import Scene
 from sim.vehicles.start_places import places
-from sim.world.world import Start
+from sim.world.tables import Start
 
 __all__ = ["Chassis"]
 

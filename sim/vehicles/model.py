@@ -12,12 +12,13 @@ from msgspec import structs
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from sim.core.parameters import CameraParameters, Parameters
+from sim.core.parameters import CameraParameters
 from sim.core.shapes import Shape
 from sim.physics.backend_bullet import State
 from sim.sensors.battery import Battery
 from sim.sensors.bumper import BumperRing
 from sim.sensors.suite import Suite
+from sim.vehicles.parameters import Parameters
 from sim.vehicles.scene import Scene
 from sim.world.world import World
 

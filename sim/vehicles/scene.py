@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 from sim.core.noise import Noise
 from sim.physics.backend_bullet import Bullet
+from sim.world.tables import Start
 from sim.world.weather import Weather
-from sim.world.world import Start, World
+from sim.world.world import World
 
 __all__ = ["Scene"]
 

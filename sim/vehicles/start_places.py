@@ -9,7 +9,8 @@ import msgspec
 
 from sim.core.shapes import Shape, beside
 from sim.vehicles.model import Model
-from sim.world.world import Start, World
+from sim.world.tables import Start
+from sim.world.world import World
 
 __all__ = ["places", "starts"]
 

@@ -3,22 +3,73 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import TypeVar
+from collections.abc import Iterator, Sequence
+from typing import Self, TypeVar
+
+from msgspec.structs import replace
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
+from sim.core.constants import GRAVITY
+from sim.core.load import Load, loaded
+from sim.core.parameters import CameraParameters
 from sim.core.shapes import from_yaw
-from sim.dynamics.differential import DifferentialDrive, DifferentialParameters, body_of
-from sim.physics.backend_bullet import GRAVITY, State
+from sim.dynamics.differential import (
+    Body,
+    Casters,
+    DifferentialDrive,
+    DifferentialLimits,
+    Rolling,
+    Wheels,
+    body_of,
+)
+from sim.physics.backend_bullet import State
 from sim.physics.motors import Motors
-from sim.sensors.odometry import WheelOdometry
+from sim.sensors.odometry import OdometryParameters, WheelOdometry
 from sim.sensors.suite import Measurement
+from sim.vehicles.parameters import Parameters
 from sim.vehicles.scene import Scene
 from sim.vehicles.wheeled import Wheeled
 
-__all__ = ["TwoWheeled"]
+__all__ = ["TwoWheeled", "TwoWheeledParameters"]
 
-D = TypeVar("D", bound=DifferentialParameters)
+
+class TwoWheeledParameters(Parameters, frozen=True, kw_only=True):
+    """What all robots with two driven wheels have."""
+
+    body: Body
+    wheels: Wheels
+    casters: Casters
+    limits: DifferentialLimits
+    rolling: Rolling
+    odometry: OdometryParameters
+    camera: CameraParameters
+
+    @property
+    def radius(self) -> float:
+        """Of the circle round `base_link` that the body fits in [m]."""
+        return self.body.radius
+
+    @property
+    def deck(self) -> tuple[float, float, float]:
+        """Where payloads are mounted, in `base_link` [m]."""
+        return (0.0, 0.0, self.body.height)
+
+    def laden(self, loads: Sequence[Load]) -> Self:
+        """Heavier, and higher or farther ahead in its balance."""
+        body = self.body
+        mass, (x, _, z), inertia = loaded(
+            body.mass, (body.ahead, 0.0, body.centre_of_mass), body.inertia, loads
+        )
+        heavier = replace(body, mass=mass, ahead=x, centre_of_mass=z, inertia=inertia)
+        return replace(self, body=heavier)
+
+    @property
+    def cameras(self) -> tuple[CameraParameters, ...]:
+        """It has one."""
+        return (self.camera,)
+
+
+D = TypeVar("D", bound=TwoWheeledParameters)
 
 
 class TwoWheeled(Wheeled[D]):
@@ -30,7 +81,9 @@ class TwoWheeled(Wheeled[D]):
         """Stand still at the start, with bumper, inertial unit, odometry, motors and battery."""
         start, backend = scene.start, scene.backend
         body = backend.add_wheeled(
-            body_of(parameters), (start.x, start.y, scene.world.bottom), from_yaw(start.angle)
+            body_of(parameters.body, parameters.wheels, parameters.casters),
+            (start.x, start.y, scene.world.bottom),
+            from_yaw(start.angle),
         )
         super().__init__(scene, parameters, body)
         self._drive = DifferentialDrive(parameters.wheels, parameters.limits, backend, body)

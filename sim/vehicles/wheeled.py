@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Protocol, TypeVar
 
-from sim.core.parameters import Parameters
 from sim.vehicles.chassis import Chassis
+from sim.vehicles.parameters import Parameters
 
 __all__ = ["Wheeled"]
 

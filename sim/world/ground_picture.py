@@ -10,7 +10,8 @@ from functools import lru_cache
 from PIL import Image, ImageChops, ImageDraw, ImageFilter
 
 from sim.core.shapes import Shape, Vec3
-from sim.world.world import Spot, World
+from sim.world.tables import Spot
+from sim.world.world import World
 
 __all__ = ["SUN", "arrow_corners", "markings"]
 

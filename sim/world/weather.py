@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 
+from sim.core.constants import GRAVITY, STEPS_PER_SECOND
 from sim.core.noise import Noise
 from sim.core.shapes import Vec3
-from sim.physics.bodies import GRAVITY, STEPS_PER_SECOND
-from sim.world.world import Wave, World
+from sim.world.tables import Wave
+from sim.world.world import World
 
 __all__ = ["Weather"]
 

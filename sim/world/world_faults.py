@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from bridge.msgs.additions import PLACE_KINDS
+from sim.core.constants import GRAVITY
 from sim.core.shapes import Shape, beside
 from sim.world.props import CAR_MODELS
-
-if TYPE_CHECKING:
-    from sim.world.world import World
+from sim.world.world import World
 
 __all__ = ["LONGEST_NAME", "faults"]
 
@@ -28,7 +26,6 @@ LOW = 0.02
 """What is lower can be driven over [m]."""
 SCENERY = 30.0
 """So far beyond the ground trees may stand, to be seen [m]."""
-GRAVITY = 9.81
 BREAKING = 1 / 7
 """A wave in deep water that is higher than this part of its length breaks."""
 _EXACT = 1e-6

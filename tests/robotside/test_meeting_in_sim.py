@@ -12,7 +12,7 @@ from bridge.msgs.pilothouse_msgs import StartTaskRequest, TaskOrder, Waypoint
 from robotside.services.stop_services import services
 from robotside.station.station import Station
 from sim.robot import SimRobot, make_several
-from sim.world.world import Start
+from sim.world.tables import Start
 from tests.fakes import FakeClient
 from tests.robotside.scene import records_at
 

@@ -11,7 +11,7 @@ from bridge.msgs.sensor_msgs import JointState, Range
 from sim.robot import SimRobot
 from sim.simulation.simulation import Simulation
 from sim.vehicles.patrol import PATROL
-from sim.world.world import parse
+from sim.world.world_files import parse
 from tests.robotside.sim_run import Run
 from tests.sim.rooms import ROOM
 

@@ -10,7 +10,7 @@ import pytest
 from robotside.__main__ import main
 from robotside.core.config import BadConfig
 from robotside.options import MOST, One, UserMistake, configs, ports, read, robots, state
-from sim.world.world import WORLDS
+from sim.world.world_files import WORLDS
 
 
 def named(words: str) -> list[One]:

@@ -10,7 +10,8 @@ from sim.robot import SimRobot
 from sim.simulation.simulation import Simulation
 from sim.vehicles.model import Model
 from sim.vehicles.patrol import PATROL
-from sim.world.world import World, parse
+from sim.world.world import World
+from sim.world.world_files import parse
 
 ROOM = """
 name = "room"

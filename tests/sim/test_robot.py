@@ -12,7 +12,7 @@ from sim.robot import ROBOTS, WORLDS, make
 from sim.vehicles.model import Model
 from sim.vehicles.patrol import PARAMETERS, Patrol
 from sim.vehicles.patrol.looks import looks
-from sim.world.world import load
+from sim.world.world_files import load
 from tests.sim.rooms import robot_in, room
 
 STREAMS = (

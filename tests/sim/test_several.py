@@ -21,7 +21,7 @@ from sim.vehicles.commander import COMMANDER
 from sim.vehicles.minnow import MINNOW
 from sim.vehicles.patrol import PATROL
 from sim.vehicles.scout import SCOUT
-from sim.world.world import Start
+from sim.world.tables import Start
 from tests.sim.rooms import alone, plain, room, until
 
 WATER = "[water]\ndepth = 6.0\n"

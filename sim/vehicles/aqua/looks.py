@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from sim.core.shapes import Quat, Shape, Vec3
-
-if TYPE_CHECKING:
-    from sim.dynamics.swimmer import SwimmerParameters
+from sim.vehicles.aqua.parameters import AquaParameters
 
 __all__ = ["looks"]
 
 _HULL, _FIN, _GLASS, _TRIM = (0.93, 0.76, 0.12), (0.10, 0.10, 0.11), (0.10, 0.14, 0.19), (0.16, 0.17, 0.19)
 
 
-def looks(parameters: SwimmerParameters, position: Vec3, rotation: Quat) -> tuple[Shape, ...]:
+def looks(parameters: AquaParameters, position: Vec3, rotation: Quat) -> tuple[Shape, ...]:
     """The shapes to draw of one at `position`, turned by `rotation`."""
     body, fins = parameters.body, parameters.fins
     shapes = [

@@ -6,11 +6,11 @@ import math
 
 from bridge.core.units import wrap
 from bridge.msgs.pilothouse_msgs import Manoeuvre
+from sim.core.constants import GRAVITY, STEPS_PER_SECOND
 from sim.core.shapes import Vec3
 from sim.dynamics.control import filled, given, within
 from sim.dynamics.sixdof import SixDof
-from sim.dynamics.swimmer import SwimmerParameters
-from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND
+from sim.vehicles.aqua.parameters import AquaParameters
 
 __all__ = ["Pilot"]
 
@@ -37,7 +37,7 @@ DIVING = 0.1
 class Pilot:
     """Holds roll, pitch, yaw and height; a twist moves what is held, at its rates."""
 
-    def __init__(self, parameters: SwimmerParameters, drag: float) -> None:
+    def __init__(self, parameters: AquaParameters, drag: float) -> None:
         """`drag` ahead at 1 m/s [N]."""
         self._limits, self._drag = parameters.limits, drag
         self._afloat = parameters.body.height / 2 - parameters.body.height / parameters.body.buoyancy

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from sim.core.shapes import Quat, Shape, Vec3, from_yaw
-
-if TYPE_CHECKING:
-    from sim.dynamics.quadrotor import QuadrotorParameters
+from sim.vehicles.ardrone.parameters import ArdroneParameters
 
 __all__ = ["looks"]
 
 _HULL, _ARM, _GUARD, _EYE = (0.92, 0.45, 0.10), (0.10, 0.10, 0.11), (0.22, 0.23, 0.25), (0.05, 0.05, 0.06)
 
 
-def looks(parameters: QuadrotorParameters, position: Vec3, rotation: Quat) -> tuple[Shape, ...]:
+def looks(parameters: ArdroneParameters, position: Vec3, rotation: Quat) -> tuple[Shape, ...]:
     """The shapes to draw of one at `position`, turned by `rotation`."""
     arm = parameters.rotors.arm
     reach = arm / math.sqrt(2)

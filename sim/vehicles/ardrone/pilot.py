@@ -7,10 +7,10 @@ from typing import NamedTuple
 
 from bridge.core.units import wrap
 from bridge.msgs.pilothouse_msgs import Manoeuvre
+from sim.core.constants import GRAVITY, STEPS_PER_SECOND
 from sim.core.shapes import Vec3
 from sim.dynamics.control import filled, given, within
-from sim.dynamics.quadrotor import QuadrotorParameters
-from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND
+from sim.vehicles.ardrone.parameters import ArdroneParameters
 
 __all__ = ["LOWEST", "TUMBLED", "Motion", "Pilot"]
 
@@ -56,7 +56,7 @@ class Motion(NamedTuple):
 class Pilot:
     """Knows whether it is in the air, and keeps what the order wants."""
 
-    def __init__(self, parameters: QuadrotorParameters, start: Vec3) -> None:
+    def __init__(self, parameters: ArdroneParameters, start: Vec3) -> None:
         """On the ground at `start` [m]."""
         self._parameters, self._limits = parameters, parameters.limits
         self._floor = start[2]

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from sim.core.shapes import Quat, Shape, Vec3
-
-if TYPE_CHECKING:
-    from sim.vehicles.commander import CommanderParameters
+from sim.vehicles.commander.parameters import CommanderParameters
 
 __all__ = ["looks"]
 

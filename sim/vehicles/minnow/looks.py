@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from sim.core.shapes import Quat, Shape, Vec3
-
-if TYPE_CHECKING:
-    from sim.dynamics.boat import BoatParameters
+from sim.vehicles.minnow.parameters import MinnowParameters
 
 __all__ = ["looks"]
 
 _FLOAT, _DECK, _MAST, _BLACK = (0.93, 0.63, 0.10), (0.90, 0.91, 0.92), (0.60, 0.62, 0.65), (0.08, 0.08, 0.09)
 
 
-def looks(parameters: BoatParameters, position: Vec3, rotation: Quat) -> tuple[Shape, ...]:
+def looks(parameters: MinnowParameters, position: Vec3, rotation: Quat) -> tuple[Shape, ...]:
     """The shapes to draw of one at `position`, turned by `rotation`."""
     hull = parameters.hull
     side = hull.beam / 2 - 0.055

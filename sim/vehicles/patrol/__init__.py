@@ -1,60 +1,6 @@
-"""The patrol robot: two wheels, a laser, a camera, a satellite receiver, a line sensor, ultrasounds."""
+"""The patrol robot, on two driven wheels."""
 
-from __future__ import annotations
+from sim.vehicles.patrol.parameters import PARAMETERS, PatrolParameters
+from sim.vehicles.patrol.vehicle import PATROL, Patrol
 
-from collections.abc import Iterator
-from pathlib import Path
-
-from sim.core.parameters import load
-from sim.dynamics.differential import DifferentialParameters
-from sim.physics.backend_bullet import State
-from sim.sensors.gps import Gps, GpsParameters
-from sim.sensors.laser import Laser, LaserParameters
-from sim.sensors.line import LineCells, LineParameters
-from sim.sensors.suite import Measurement
-from sim.sensors.ultrasound import UltrasoundParameters, Ultrasounds
-from sim.vehicles.model import Model
-from sim.vehicles.patrol.looks import looks
-from sim.vehicles.two_wheeled import TwoWheeled
-from sim.world.paint import Paint
-
-__all__ = ["PARAMETERS", "PATROL", "Patrol", "PatrolParameters"]
-
-
-class PatrolParameters(DifferentialParameters, frozen=True, kw_only=True):
-    """The whole file."""
-
-    laser: LaserParameters
-    gps: GpsParameters
-    line: LineParameters
-    ultrasound: UltrasoundParameters
-
-
-PARAMETERS: PatrolParameters = load(Path(__file__).parent / "patrol.toml", PatrolParameters)
-"""The robot's numbers."""
-
-
-class Patrol(TwoWheeled[PatrolParameters]):
-    """The robot in a world that already has its ground and its things."""
-
-    def add_own(self) -> None:
-        """Laser, satellite receiver, line sensor and ultrasounds."""
-        own, scene, suite = self.parameters, self.scene, self.suite
-        laser = Laser(own.laser, scene.backend, self.body, scene.generator("laser"))
-        gps = Gps(own.gps, scene.world.datum, scene.generator("gps"))
-        line = LineCells(own.line, Paint(scene.world), scene.generator("line"))
-        self._ultrasounds = Ultrasounds(
-            own.ultrasound, scene.backend, self.body, scene.generator("ultrasound")
-        )
-        suite.add("laser", own.laser.rate, lambda _, at: [("/scan", laser.measure(at))])
-        suite.add("gps", own.gps.rate, lambda state, at: [("/fix", gps.measure(state, at))])
-        suite.add("line_sensor", own.line.rate, lambda state, at: [("/line_sensor", line.measure(state, at))])
-        suite.add("ultrasound", own.ultrasound.rate, self._measure_echoes)
-
-    def _measure_echoes(self, _: State, stamp: float) -> Iterator[Measurement]:
-        for side, echo in self._ultrasounds.measure(stamp):
-            yield f"/range/{side}", echo
-
-
-PATROL = Model(Patrol, PARAMETERS, looks, "land")
-"""All that is needed to make one."""
+__all__ = ["PATROL", "PARAMETERS", "Patrol", "PatrolParameters"]

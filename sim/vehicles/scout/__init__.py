@@ -1,38 +1,6 @@
-"""The scout: a SuperScout with sixteen sonars, a bumper ring and odometry."""
+"""The scout, a drum on two driven wheels with a ring of sonars."""
 
-from __future__ import annotations
+from sim.vehicles.scout.parameters import PARAMETERS, ScoutParameters
+from sim.vehicles.scout.vehicle import SCOUT, Scout
 
-from pathlib import Path
-
-from sim.core.parameters import load
-from sim.dynamics.differential import DifferentialParameters
-from sim.sensors.sonar import Sonar, SonarParameters
-from sim.vehicles.model import Model
-from sim.vehicles.scout.looks import looks
-from sim.vehicles.two_wheeled import TwoWheeled
-
-__all__ = ["PARAMETERS", "SCOUT", "Scout", "ScoutParameters"]
-
-
-class ScoutParameters(DifferentialParameters, frozen=True, kw_only=True):
-    """The whole file."""
-
-    sonar: SonarParameters
-
-
-PARAMETERS: ScoutParameters = load(Path(__file__).parent / "scout.toml", ScoutParameters)
-"""The robot's numbers."""
-
-
-class Scout(TwoWheeled[ScoutParameters]):
-    """The robot in a world that already has its ground and its things."""
-
-    def add_own(self) -> None:
-        """The ring of sonars."""
-        own = self.parameters.sonar
-        sonar = Sonar(own, self.scene.backend, self.body, self.scene.generator("sonar"))
-        self.suite.add("sonar", own.rate, lambda _, at: [("/sonar", sonar.measure(at))])
-
-
-SCOUT = Model(Scout, PARAMETERS, looks, "land", home="office")
-"""All that is needed to make one."""
+__all__ = ["SCOUT", "PARAMETERS", "Scout", "ScoutParameters"]

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from sim.core.shapes import Quat, Shape, Vec3, from_yaw
-
-if TYPE_CHECKING:
-    from sim.vehicles.scout import ScoutParameters
+from sim.vehicles.scout.parameters import ScoutParameters
 
 __all__ = ["looks"]
 

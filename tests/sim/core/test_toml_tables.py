@@ -8,11 +8,11 @@ from typing import Annotated, Literal
 import msgspec
 import pytest
 
-from sim.core.parameters import load as load_parameters
 from sim.core.toml_tables import FileFault, line_of, read, text_of
 from sim.payloads import load as load_payloads
+from sim.vehicles.parameters import load as load_parameters
 from sim.vehicles.patrol import PatrolParameters
-from sim.world.world import WorldError, load
+from sim.world.world_files import WorldError, load
 
 TEXT = '''\
 # a comment with [brackets] and x = 1

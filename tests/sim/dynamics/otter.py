@@ -9,11 +9,12 @@ import json
 from collections.abc import Callable
 from pathlib import Path
 
+from sim.core.constants import GRAVITY, STEPS_PER_SECOND
 from sim.core.noise import Noise
 from sim.core.shapes import Shape, Vec3
 from sim.dynamics.hull import Hull, HullParameters, inertia_of
 from sim.dynamics.sixdof import SixDof
-from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND, Bullet
+from sim.physics.backend_bullet import Bullet
 from sim.physics.bodies import Floating
 from sim.world.weather import Weather
 from tests.sim.rooms import plain

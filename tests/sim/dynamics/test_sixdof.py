@@ -6,9 +6,10 @@ import math
 
 import pytest
 
+from sim.core.constants import STEPS_PER_SECOND
 from sim.core.shapes import Shape
 from sim.dynamics.sixdof import Inertia, SixDof
-from sim.physics.backend_bullet import STEPS_PER_SECOND, Bullet
+from sim.physics.backend_bullet import Bullet
 from sim.physics.bodies import Floating
 from tests.sim.dynamics.otter import PUBLISHED, TOLD, sail
 

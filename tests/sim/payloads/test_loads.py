@@ -8,9 +8,9 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
+from sim.core.constants import GRAVITY
 from sim.core.load import Load, loaded
 from sim.payloads import PAYLOADS, laden, load
-from sim.physics.bodies import GRAVITY
 from sim.robot import ROBOTS, make, make_several
 from tests.sim.rooms import alone, plain, until
 

@@ -7,8 +7,9 @@ import sys
 import numpy as np
 import pytest
 
+from sim.core.constants import GRAVITY, STEPS_PER_SECOND
 from sim.core.shapes import Shape, from_yaw
-from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND, Bullet
+from sim.physics.backend_bullet import Bullet
 
 
 @pytest.fixture

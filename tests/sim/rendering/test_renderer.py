@@ -13,7 +13,7 @@ from sim.rendering import renderer as module
 from sim.rendering.renderer import NoRendererError, Renderer
 from sim.rendering.view import View
 from sim.world.ground_picture import markings
-from sim.world.world import load
+from sim.world.world_files import load
 from tests.sim.rooms import orange, room
 
 SIZE = (640, 480)

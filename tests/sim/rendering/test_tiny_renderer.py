@@ -10,7 +10,7 @@ from sim.core.shapes import from_yaw
 from sim.physics.backend_bullet import SKY
 from sim.rendering.tiny_renderer import TinyRenderer
 from sim.rendering.view import View
-from sim.world.world import load
+from sim.world.world_files import load
 from tests.sim.rooms import orange
 
 

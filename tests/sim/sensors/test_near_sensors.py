@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from sim.world.paint import Paint
-from sim.world.world import World, load, parse
+from sim.world.world import World
+from sim.world.world_files import load, parse
 from tests.sim.rooms import ROOM, robot_in, room
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND
+from sim.core.constants import GRAVITY, STEPS_PER_SECOND
 from sim.sensors.depth import AIR_PRESSURE
 from sim.vehicles.aqua import AQUA, PARAMETERS, Aqua
 from sim.vehicles.aqua.pilot import angles

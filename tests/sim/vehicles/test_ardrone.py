@@ -10,7 +10,7 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from sim.physics.backend_bullet import GRAVITY
+from sim.core.constants import GRAVITY
 from sim.robot import make
 from sim.vehicles.ardrone import ARDRONE, PARAMETERS, Ardrone
 from sim.vehicles.model import Model

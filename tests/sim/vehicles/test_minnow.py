@@ -11,9 +11,10 @@ import pytest
 from bridge.core.units import heading_from_yaw
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
+from sim.core.constants import GRAVITY, STEPS_PER_SECOND
 from sim.core.noise import Noise
 from sim.core.shapes import compose, from_yaw
-from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND, State
+from sim.physics.backend_bullet import State
 from sim.sensors.compass import Compass, levelled
 from sim.vehicles.minnow import MINNOW, PARAMETERS, Minnow
 from sim.vehicles.model import Model

@@ -10,7 +10,8 @@ import pytest
 from sim.robot import ROBOTS, WORLDS, home_of, make, make_several
 from sim.vehicles.model import Model, numbered, suits
 from sim.vehicles.start_places import starts
-from sim.world.world import Start, load, parse
+from sim.world.tables import Start
+from sim.world.world_files import load, parse
 
 NARROW = """
 name = "narrow"

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from bridge.msgs.geometry_msgs import Twist
-from sim.core.parameters import load
+from sim.vehicles.parameters import load
 from sim.vehicles.patrol import PARAMETERS, PatrolParameters
 from tests.sim.rooms import robot_in, room
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sim.world.occupancy import occupancy
-from sim.world.world import load
+from sim.world.world_files import load
 
 
 @pytest.fixture(scope="module")

@@ -7,8 +7,8 @@ import statistics
 
 import pytest
 
+from sim.core.constants import GRAVITY, STEPS_PER_SECOND
 from sim.core.noise import Noise
-from sim.physics.backend_bullet import GRAVITY, STEPS_PER_SECOND
 from sim.world.weather import Weather
 from tests.sim.rooms import plain
 

@@ -8,7 +8,7 @@ import pytest
 from scipy import ndimage
 
 from sim.world.occupancy import occupancy
-from sim.world.world import WORLDS, WorldError, load, parse
+from sim.world.world_files import WORLDS, WorldError, load, parse
 from tests.sim.rooms import ROOM, room
 
 TEXT = ROOM.format(length=20, width=10, x=0, y=0, yaw=0)

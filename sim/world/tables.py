@@ -1,0 +1,284 @@
+"""Tables of a world's file: each thing that can stand in a world, with the bounds of its numbers."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Literal
+
+import msgspec
+
+__all__ = [
+    "Bays",
+    "Block",
+    "Car",
+    "Cone",
+    "Coral",
+    "Datum",
+    "Diver",
+    "Entry",
+    "FruitTree",
+    "Ground",
+    "Lamp",
+    "Line",
+    "Partition",
+    "Person",
+    "Place",
+    "Spot",
+    "Start",
+    "Table",
+    "Tag",
+    "Tinted",
+    "Tree",
+    "Wall",
+    "Water",
+    "Wave",
+    "Wind",
+]
+
+Positive = Annotated[float, msgspec.Meta(gt=0, le=300)]
+Finite = Annotated[float, msgspec.Meta(ge=-1000, le=1000)]
+Part = Annotated[float, msgspec.Meta(ge=0, le=1)]
+
+
+class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """One table of the file."""
+
+
+class Datum(Entry, frozen=True):
+    """Where the map's origin lies on earth, WGS 84."""
+
+    latitude: Annotated[float, msgspec.Meta(gt=-90, lt=90)]
+    """[deg]"""
+    longitude: Annotated[float, msgspec.Meta(ge=-180, le=180)]
+    """[deg]"""
+    altitude: Finite = 0.0
+    """[m] above the ellipsoid."""
+
+
+class Ground(Entry, frozen=True):
+    """The level ground, centred on the map's origin."""
+
+    length: Positive
+    """Along x [m]."""
+    width: Positive
+    """Along y [m]."""
+    look: Literal["asphalt", "water", "floor", "grass"] = "asphalt"
+    """Of what one sees at z = 0, for pictures."""
+
+
+class Wall(Entry, frozen=True):
+    """The wall round the ground."""
+
+    height: Positive
+    """[m]"""
+    thickness: Positive
+    """[m]"""
+
+
+class Spot(Entry, frozen=True):
+    """A place and a direction."""
+
+    x: Finite
+    """[m]"""
+    y: Finite
+    """[m]"""
+    yaw: Finite = 0.0
+    """[deg] from east, anticlockwise, as people write it in the file."""
+
+    @property
+    def angle(self) -> float:
+        """`yaw` in [rad]."""
+        return math.radians(self.yaw)
+
+
+class Start(Spot, frozen=True):
+    """Where a robot is at first."""
+
+    z: Finite = 0.0
+    """Of one that swims, its depth below 0 [m]; others stand on the ground or float."""
+
+
+class Bays(Entry, frozen=True):
+    """A row of painted parking bays along x."""
+
+    x: Finite
+    """Western end [m]."""
+    y: Finite
+    """Southern edge [m]."""
+    count: Annotated[int, msgspec.Meta(ge=1, le=200)]
+    width: Positive
+    """Of one bay, along x [m]."""
+    depth: Positive
+    """Along y [m]."""
+
+
+class Line(Entry, frozen=True, rename={"start": "from", "end": "to"}):
+    """A painted line."""
+
+    start: tuple[Finite, Finite]
+    """[m]"""
+    end: tuple[Finite, Finite]
+    """[m]"""
+    width: Positive = 0.12
+    """[m]"""
+
+
+class Car(Spot, frozen=True, kw_only=True):
+    """A parked car; its middle stands on the spot and its nose points to `yaw`."""
+
+    model: str
+    colour: tuple[Part, Part, Part]
+
+
+class Tall(Spot, frozen=True):
+    """A thing with a height."""
+
+    height: Positive = 1.0
+    """[m]"""
+
+
+class Lamp(Tall, frozen=True):
+    """A lamp post, its arm towards `yaw`."""
+
+    height: Positive = 5.0
+
+
+class Cone(Tall, frozen=True):
+    """A traffic cone: it is not on the robot's map."""
+
+    height: Positive = 0.6
+
+
+class Tree(Tall, frozen=True):
+    """A tree."""
+
+    height: Positive = 6.0
+
+
+class Tinted(Spot, frozen=True):
+    """A thing with a colour."""
+
+    colour: tuple[Part, Part, Part] = (0.94, 0.72, 0.08)
+
+
+class Block(Tinted, frozen=True, kw_only=True):
+    """A plain box; with `z` above 0 it hangs there."""
+
+    length: Positive
+    """Along its own x [m]."""
+    width: Positive
+    """[m]"""
+    height: Positive
+    """[m]"""
+    z: Finite = 0.0
+    """Of its bottom [m]."""
+    colour: tuple[Part, Part, Part] = (0.72, 0.71, 0.68)
+
+
+class Diver(Spot, frozen=True):
+    """A diver who swims towards `yaw`."""
+
+    z: Finite = -2.0
+    """[m]"""
+
+
+class Coral(Tall, frozen=True):
+    """A coral on the ground."""
+
+    height: Positive = 0.7
+
+
+class Person(Tinted, frozen=True):
+    """Somebody who looks towards `yaw`, in a shirt of the colour: not on the robot's map."""
+
+    colour: tuple[Part, Part, Part] = (0.24, 0.42, 0.66)
+
+
+class Table(Spot, frozen=True):
+    """A table."""
+
+    length: Positive = 1.4
+    """[m]"""
+    width: Positive = 0.7
+    """[m]"""
+    height: Positive = 0.74
+    """[m]"""
+
+
+class FruitTree(Tall, frozen=True):
+    """An orange tree, its fruit towards `yaw`."""
+
+    height: Positive = 1.8
+    fruits: Annotated[int, msgspec.Meta(ge=0, le=200)] = 12
+
+
+class Partition(Line, frozen=True, rename={"start": "from", "end": "to"}):
+    """A wall from one point to another."""
+
+    width: Positive = 0.15
+    height: Positive = 2.4
+    """[m]"""
+    colour: tuple[Part, Part, Part] = (0.86, 0.85, 0.81)
+
+
+class Place(Spot, frozen=True, kw_only=True):
+    """A place that has a name."""
+
+    name: str
+    kind: str = "place"
+    """As in `bridge.msgs.additions.PLACE_KINDS`."""
+    floor: str = "0"
+    tag: str = ""
+    """Of the card of who belongs here; empty when nobody has one."""
+    note: str = ""
+    """What to tell people who are led here."""
+
+
+class Tag(Entry, frozen=True):
+    """A tag that a reader near it reads."""
+
+    tag: str
+    x: Finite
+    """[m]"""
+    y: Finite
+    """[m]"""
+    z: Finite = 0.5
+    """[m]"""
+
+
+class Wave(Entry, frozen=True):
+    """A train of regular waves in deep water."""
+
+    height: Annotated[float, msgspec.Meta(gt=0, le=20)]
+    """From trough to crest [m]."""
+    period: Annotated[float, msgspec.Meta(ge=0.5, le=30)]
+    """[s]"""
+    direction: Finite = 0.0
+    """Where it runs to [deg] from east, anticlockwise."""
+    phase: Finite = 0.0
+    """At the map's origin at the beginning [deg]."""
+
+
+class Water(Entry, frozen=True):
+    """Water over all of the world; its surface lies at z = 0, the ground under it."""
+
+    depth: Annotated[float, msgspec.Meta(ge=0.5, le=300)]
+    """[m]"""
+    density: Annotated[float, msgspec.Meta(ge=900, le=1200)] = 1000.0
+    """[kg/m3]"""
+    current: tuple[Finite, Finite] = (0.0, 0.0)
+    """Along x and y [m/s]."""
+    waves: tuple[Wave, ...] = ()
+
+
+class Wind(Entry, frozen=True):
+    """The wind over all of the world."""
+
+    speed: Annotated[float, msgspec.Meta(ge=0, le=60)]
+    """[m/s]"""
+    direction: Finite = 0.0
+    """Where it blows to [deg] from east, anticlockwise."""
+    gusts: Annotated[float, msgspec.Meta(ge=0, le=20)] = 0.0
+    """Standard deviation of what comes and goes, along x and y; half of it upward [m/s]."""
+    gust_time: Positive = 2.0
+    """Over which a gust is correlated [s]."""
