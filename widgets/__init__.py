@@ -7,7 +7,72 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from widgets.controls.action_column import ActionColumn as ActionColumn
+    from widgets.controls.course_dial import CourseDial as CourseDial
+    from widgets.controls.goals.arm_panel import ArmPanel as ArmPanel
+    from widgets.controls.goals.goal_pad import GoalPad as GoalPad
+    from widgets.controls.heading_dial import HeadingDial as HeadingDial
+    from widgets.controls.joystick import Joystick as Joystick
+    from widgets.controls.lift_lever import LiftLever as LiftLever
+    from widgets.controls.motion_selector import MotionSelector as MotionSelector
+    from widgets.controls.rudder_throttle import RudderThrottle as RudderThrottle
+    from widgets.controls.slide_confirm import SlideToConfirm as SlideToConfirm
+    from widgets.controls.speed_cap import SpeedCap as SpeedCap
+    from widgets.controls.stop.stop_all import StopAll as StopAll
+    from widgets.controls.stop.stop_button import StopButton as StopButton
+    from widgets.controls.stop.stop_list import StopList as StopList
+    from widgets.controls.tilt_circle import TiltCircle as TiltCircle
+    from widgets.inputs.key_help import KeyHelp as KeyHelp
+    from widgets.inputs.pad_picture import PadPicture as PadPicture
+    from widgets.instruments.ackermann import AckermannView as AckermannView
+    from widgets.instruments.battery import Battery as Battery
+    from widgets.instruments.commanded_motion import CommandedMotion as CommandedMotion
+    from widgets.instruments.compass import Compass as Compass
+    from widgets.instruments.depth_gauge import DepthGauge as DepthGauge
+    from widgets.instruments.heading_tape import HeadingTape as HeadingTape
+    from widgets.instruments.height_tape import HeightTape as HeightTape
+    from widgets.instruments.horizon import ArtificialHorizon as ArtificialHorizon
+    from widgets.instruments.leg_panel import LegPanel as LegPanel
+    from widgets.instruments.link_quality import LinkQuality as LinkQuality
+    from widgets.instruments.readout import Readout as Readout
+    from widgets.instruments.roll_pitch import RollPitch as RollPitch
+    from widgets.instruments.rotor_speeds import RotorSpeeds as RotorSpeeds
+    from widgets.map.geo_map import GeoMap as GeoMap
+    from widgets.map.grid_map import GridMap as GridMap
+    from widgets.parts.option_list import OptionList as OptionList
+    from widgets.sensors.encoders import EncodersView as EncodersView
+    from widgets.sensors.field_view import FieldView as FieldView
+    from widgets.sensors.intruder_badge import IntruderBadge as IntruderBadge
+    from widgets.sensors.laser_scan import LaserScanView as LaserScanView
+    from widgets.sensors.line_sensor import LineSensorView as LineSensorView
+    from widgets.sensors.sonar_ring import SonarRingView as SonarRingView
+    from widgets.sensors.ultrasound import UltrasoundView as UltrasoundView
+    from widgets.sensors.video import Video as Video
+    from widgets.status.check_list import CheckList as CheckList
+    from widgets.status.event_log import EventLog as EventLog
+    from widgets.status.handover_card import HandoverCard as HandoverCard
+    from widgets.status.intent_card import IntentCard as IntentCard
+    from widgets.status.mode_card import ModeCard as ModeCard
+    from widgets.status.notice_card import NoticeCard as NoticeCard
+    from widgets.status.paused_card import PausedCard as PausedCard
+    from widgets.status.question_card import QuestionCard as QuestionCard
+    from widgets.status.reset_card import ResetCard as ResetCard
+    from widgets.study.sus_form import SusForm as SusForm
+    from widgets.study.tlx_scales import TlxScales as TlxScales
+    from widgets.tasks.mission_list import MissionList as MissionList
+    from widgets.tasks.order_form import OrderForm as OrderForm
+    from widgets.tasks.order_queue import OrderQueue as OrderQueue
+    from widgets.tasks.place_form import PlaceForm as PlaceForm
+    from widgets.tasks.place_list import PlaceList as PlaceList
+    from widgets.tasks.run_list import RunList as RunList
+    from widgets.tasks.schedule_list import ScheduleList as ScheduleList
+    from widgets.tasks.task_buttons import TaskButtons as TaskButtons
+    from widgets.tasks.task_card import TaskCard as TaskCard
+    from widgets.tasks.task_chooser import TaskChooser as TaskChooser
+    from widgets.tasks.when_picker import WhenPicker as WhenPicker
 
 CATALOGUE: dict[str, str] = {
     "ActionColumn": "widgets.controls.action_column",
@@ -79,11 +144,13 @@ CATALOGUE: dict[str, str] = {
 __all__ = ["CATALOGUE", *CATALOGUE]  # noqa: PLE0604
 
 
-def __getattr__(name: str) -> Any:
-    """Import a widget's module when its class is first asked for."""
-    if name not in CATALOGUE:
-        raise AttributeError(f"module 'widgets' has no attribute {name!r}")
-    return getattr(import_module(CATALOGUE[name]), name)
+if not TYPE_CHECKING:  # a name that the catalogue does not have is found by the type checker, too
+
+    def __getattr__(name: str) -> Any:
+        """Import a widget's module when its class is first asked for."""
+        if name not in CATALOGUE:
+            raise AttributeError(f"module 'widgets' has no attribute {name!r}")
+        return getattr(import_module(CATALOGUE[name]), name)
 
 
 def __dir__() -> list[str]:

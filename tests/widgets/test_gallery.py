@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import ast
 import re
 from importlib import import_module
 from pathlib import Path
@@ -27,6 +28,12 @@ def dark_afterwards():
 
 def of(widget, kind):
     return [part for part in widget.walk() if isinstance(part, kind)]
+
+
+def test_every_widget_has_a_line_for_the_type_checker():
+    body = ast.parse(Path(widgets.__file__).read_text()).body
+    typed = next(node.body for node in body if isinstance(node, ast.If) and node.test.id == "TYPE_CHECKING")
+    assert {line.names[0].name: line.module for line in typed} == CATALOGUE
 
 
 @pytest.mark.parametrize("name", CATALOGUE)

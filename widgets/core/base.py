@@ -191,7 +191,7 @@ class RobotWidget(Widget):
     def _follow_state(self, *_: object) -> None:
         self.disabled = self.state == "disabled"
 
-    def show(self, msg: Msg) -> None:
+    def show(self, msg: Any) -> None:
         """Take over what the message says. Each widget says which types: `accepts`."""
         raise TypeError(f"{type(self).__name__} shows nothing, not even {msg.MSGTYPE}")
 

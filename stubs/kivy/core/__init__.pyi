@@ -1,0 +1,1 @@
+"""What Kivy takes from the platform: text, pictures, sound, the window."""

@@ -1,0 +1,1 @@
+"""What a scroll does at its ends."""

@@ -1,0 +1,3 @@
+"""Touches and what else comes from an input device."""
+
+from kivy.input.motionevent import MotionEvent as MotionEvent

@@ -1,0 +1,13 @@
+"""The kv language."""
+
+from typing import Any
+
+global_idmap: dict[str, Any]
+
+class BuilderBase:
+    def load_string(self, string: str, *, filename: str | None = None, rulesonly: bool = False) -> Any: ...
+    def load_file(self, filename: str, encoding: str = "utf8", *, rulesonly: bool = False) -> Any: ...
+    def unload_file(self, filename: str) -> None: ...
+    def sync(self) -> None: ...
+
+Builder: BuilderBase

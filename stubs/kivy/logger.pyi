@@ -1,0 +1,5 @@
+"""Kivy's log."""
+
+import logging
+
+Logger: logging.Logger

@@ -1,0 +1,1 @@
+"""Kivy's own widgets."""

@@ -1,0 +1,5 @@
+"""Children where their hints place them."""
+
+from kivy.uix.layout import Layout
+
+class FloatLayout(Layout): ...

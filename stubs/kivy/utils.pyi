@@ -1,0 +1,9 @@
+"""Small things that Kivy itself uses."""
+
+from collections.abc import Sequence
+
+platform: str
+
+def get_color_from_hex(s: str) -> list[float]: ...
+def get_hex_from_color(color: Sequence[float]) -> str: ...
+def escape_markup(text: str) -> str: ...

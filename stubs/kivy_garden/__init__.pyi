@@ -1,0 +1,1 @@
+"""Packages that garden publishes for Kivy."""
