@@ -16,10 +16,10 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Literal, NamedTuple
 
-from app.inputs.scanning import Mark, Target
-from app.inputs.scanning.engine import Engine, Selection
-from app.inputs.scanning.plan import Planner
-from app.inputs.scanning.presses import Timing
+from app.inputs.switch_access.scan.engine import Engine, Selection
+from app.inputs.switch_access.scan.plan import Planner
+from app.inputs.switch_access.scan.presses import Timing
+from app.inputs.switch_access.scan.target import Mark, Target
 from bench.support.figures import Figure
 from bench.support.harness import Context, Sides
 

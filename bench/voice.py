@@ -23,10 +23,10 @@ import numpy as np
 
 from app.inputs.voice.audio.noise import RATE
 from app.inputs.voice.audio.sound_files import Samples, chunks, read
+from app.inputs.voice.interfaces.speech_recognizer import Event, Grammar, Rejected, Result, VoiceTrouble
 from app.inputs.voice.recognition.hearing import Hearing, Judge, Phonemes
 from app.inputs.voice.recognition.lexicon import COMMANDS
 from app.inputs.voice.recognition.model import HamaModel
-from app.inputs.voice.recognition.recognizer import Event, Grammar, Rejected, Result, VoiceTrouble
 from bench.support.figures import Figure, percentile
 from bench.support.harness import Context, Sides
 from bench.support.voices import NOISES, espeak, natural, noisy

@@ -13,9 +13,7 @@ import time
 from collections.abc import Callable, Collection
 from typing import Any
 
-from app.inputs.voice.recognition.matching import Match, match, said_within
-from app.inputs.voice.recognition.phrases import PHRASES
-from app.inputs.voice.recognition.recognizer import (
+from app.inputs.voice.interfaces.speech_recognizer import (
     Grammar,
     Hear,
     Level,
@@ -25,6 +23,8 @@ from app.inputs.voice.recognition.recognizer import (
     State,
     VoiceTrouble,
 )
+from app.inputs.voice.recognition.matching import Match, match, said_within
+from app.inputs.voice.recognition.phrases import PHRASES
 
 __all__ = ["AndroidMouth", "AndroidRecognizer"]
 

@@ -29,7 +29,7 @@ MADE_BY: dict[str, str] = {
     "voice": "app.inputs.voice.voice_input:Speaking",
     "shake": "app.inputs.motion.shake_input:Shaking",
     "tilt": "app.inputs.motion.tilt_input:Tilting",
-    "switches": "app.inputs.scanning.switches:Switches",
+    "switches": "app.inputs.switch_access.switches:Switches",
     "gamepad": "app.inputs.hand_methods:GamepadMethod",
     "keyboard": "app.inputs.hand_methods:KeyboardMethod",
 }

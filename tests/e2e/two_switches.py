@@ -9,8 +9,8 @@ from typing import Any
 from kivy.base import EventLoop
 from kivy.core.window import Window
 
-from app.inputs.scanning import Mark, Target
-from app.inputs.scanning.area import COARSE, FINE
+from app.inputs.switch_access.scan.target import Mark, Target
+from app.inputs.switch_access.window.area import COARSE, FINE
 from tests.e2e.handheld import Handheld
 
 __all__ = ["TwoSwitches"]

@@ -17,8 +17,7 @@ from app.core.checked_settings import Kept, known, shown
 from app.core.notifications import tell
 from app.device import is_android
 from app.inputs.base.toggleable_method import Switched
-from app.inputs.voice.recognition.phrases import PHRASES
-from app.inputs.voice.recognition.recognizer import (
+from app.inputs.voice.interfaces.speech_recognizer import (
     Event,
     Grammar,
     Level,
@@ -29,6 +28,7 @@ from app.inputs.voice.recognition.recognizer import (
     VoiceRecognizer,
     VoiceTrouble,
 )
+from app.inputs.voice.recognition.phrases import PHRASES
 from app.intents.intents import Heard
 
 __all__ = ["KINDS", "Speaking"]

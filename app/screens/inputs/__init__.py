@@ -19,7 +19,7 @@ PANES: dict[str, tuple[str, str, str]] = {
     "switches": (*METHOD_SIGNS["switches"], "app.screens.inputs.panes.switch_pane:SwitchPane"),
     "gamepad": (*METHOD_SIGNS["gamepad"], "app.screens.inputs.panes.pad_pane:PadPane"),
     "keyboard": (*METHOD_SIGNS["keyboard"], "app.screens.inputs.panes.keys_pane:KeysPane"),
-    "table": ("tune", "What each may do", "app.screens.inputs.permit_table:TablePane"),
+    "table": ("tune", "What each may do", "app.screens.inputs.panes.permit_table:TablePane"),
     "study": ("timeline", "Log and study", "app.screens.inputs.study.study_pane:StudyPane"),
 }
 """Name, as of the method where it is one, to icon, title, and module and class of its pane."""

@@ -11,7 +11,7 @@ from app.inputs.binding_actions import MEANINGS, meaning_words
 from app.inputs.bindings import Mapped
 from app.inputs.gamepad.pad_map import AXES, WAYS, Profile, button_words
 from app.inputs.keys.key_table import ARROWS, DRIVING, KeyTable, key_words
-from app.inputs.scanning.settings import Options
+from app.inputs.switch_access.scan.settings import Options
 from app.screens.parts.dialogs import Question
 
 __all__ = ["HelpCard", "help_groups", "toggle_help"]

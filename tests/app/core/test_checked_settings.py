@@ -16,9 +16,9 @@ from app.inputs.bindings import Mapped
 from app.inputs.motion.motion_sensing import Sensing
 from app.inputs.motion.shake_input import Shaking
 from app.inputs.motion.tilt_input import Tilting
-from app.inputs.scanning import settings as switches
-from app.inputs.scanning.switches import Switches
-from app.inputs.scanning.usage import Usage
+from app.inputs.switch_access.scan import settings as switches
+from app.inputs.switch_access.switches import Switches
+from app.inputs.switch_access.usage import Usage
 from app.inputs.voice.talkback import Talking
 from app.inputs.voice.voice_input import Speaking
 from app.intents.intents import Intents

@@ -11,8 +11,7 @@ import pytest
 
 from app.device import speech
 from app.device.speech import ASKS, NO_PACK, NONE, REFUSED, TRIES, AndroidMouth, AndroidRecognizer
-from app.inputs.voice.recognition.phrases import PHRASES
-from app.inputs.voice.recognition.recognizer import (
+from app.inputs.voice.interfaces.speech_recognizer import (
     Grammar,
     Level,
     Partial,
@@ -21,6 +20,7 @@ from app.inputs.voice.recognition.recognizer import (
     State,
     VoiceTrouble,
 )
+from app.inputs.voice.recognition.phrases import PHRASES
 
 ENGLISH = Grammar(PHRASES["en"])
 

@@ -11,7 +11,7 @@ from app.inputs.gamepad.pad_map import Profile
 from app.inputs.input_snapshot import set_up
 from app.inputs.motion.shake_input import Shaking
 from app.inputs.motion.tilt_input import Tilting
-from app.inputs.scanning.switches import Switches
+from app.inputs.switch_access.switches import Switches
 from app.inputs.voice.voice_input import Speaking
 from app.intents.method_permits import Permits
 from tests.app.inputs.pushing import Settings

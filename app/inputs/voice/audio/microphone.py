@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.inputs.voice.audio.noise import RATE
-from app.inputs.voice.recognition.recognizer import VoiceTrouble
+from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
 
 __all__ = ["Ears", "Microphone", "audio_library"]
 

@@ -8,7 +8,7 @@ from collections import deque
 import numpy as np
 from numpy.typing import NDArray
 
-from app.inputs.voice.recognition.recognizer import Level
+from app.inputs.voice.interfaces.speech_recognizer import Level
 
 __all__ = ["CLEAR", "RATE", "TOO_LOUD", "USUAL", "NoiseMeter", "decibels"]
 

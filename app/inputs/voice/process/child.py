@@ -17,10 +17,10 @@ from typing import TextIO
 
 from app.inputs.voice.audio.microphone import Ears, Microphone
 from app.inputs.voice.audio.sound_files import FileEars, read
+from app.inputs.voice.interfaces.speech_recognizer import Event, State, VoiceTrouble
 from app.inputs.voice.process.running import NOTED
 from app.inputs.voice.process.service import Service, judge_of
 from app.inputs.voice.process.wire import THERE, event_line, read_grammar
-from app.inputs.voice.recognition.recognizer import Event, State, VoiceTrouble
 
 __all__ = ["main", "own_line"]
 

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from app.inputs.voice.audio.microphone import Ears
 from app.inputs.voice.audio.noise import RATE
+from app.inputs.voice.interfaces.speech_recognizer import Grammar, Hear, State, VoiceTrouble
 from app.inputs.voice.recognition.hearing import Hearing, Judge
-from app.inputs.voice.recognition.recognizer import Grammar, Hear, State, VoiceTrouble
 
 __all__ = ["JUDGES", "LINGERS", "MUTED", "Service", "judge_of"]
 

@@ -7,7 +7,15 @@ from dataclasses import asdict
 from dataclasses import fields as dataclass_fields
 from typing import Any
 
-from app.inputs.voice.recognition.recognizer import Event, Grammar, Level, Partial, Rejected, Result, State
+from app.inputs.voice.interfaces.speech_recognizer import (
+    Event,
+    Grammar,
+    Level,
+    Partial,
+    Rejected,
+    Result,
+    State,
+)
 
 __all__ = ["THERE", "event_line", "grammar_fields", "read_event", "read_grammar"]
 

@@ -21,12 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from app.inputs.voice.audio.microphone import Ears, Microphone
-from app.inputs.voice.process.breakdown import BEAT, Breakdowns, Signs, reason
-from app.inputs.voice.process.ending import end_aside
-from app.inputs.voice.process.running import Running
-from app.inputs.voice.process.service import Service, judge_of
-from app.inputs.voice.process.wire import THERE, grammar_fields, read_event
-from app.inputs.voice.recognition.recognizer import (
+from app.inputs.voice.interfaces.speech_recognizer import (
     Grammar,
     Hear,
     Result,
@@ -34,6 +29,11 @@ from app.inputs.voice.recognition.recognizer import (
     VoiceRecognizer,
     VoiceTrouble,
 )
+from app.inputs.voice.process.breakdown import BEAT, Breakdowns, Signs, reason
+from app.inputs.voice.process.ending import end_aside
+from app.inputs.voice.process.running import Running
+from app.inputs.voice.process.service import Service, judge_of
+from app.inputs.voice.process.wire import THERE, grammar_fields, read_event
 
 __all__ = ["PACKAGES", "InProcess", "InThread", "recognizer"]
 

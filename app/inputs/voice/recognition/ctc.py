@@ -16,8 +16,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from app.inputs.voice.interfaces.speech_recognizer import Grammar
 from app.inputs.voice.recognition.lexicon import PHONES, Sounds, background, pronunciations
-from app.inputs.voice.recognition.recognizer import Grammar
 
 __all__ = ["FRAME", "Acoustics", "Found", "Scorer", "Sequences", "frames_of"]
 

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from app.inputs.voice.audio.endpoint import Endpointer, Segment
 from app.inputs.voice.audio.noise import CLEAR, NoiseMeter
+from app.inputs.voice.interfaces.speech_recognizer import Grammar, Hear, Level, Rejected, Result, State
 from app.inputs.voice.recognition.ctc import Acoustics, Found, Scorer
 from app.inputs.voice.recognition.rechecks import looks
-from app.inputs.voice.recognition.recognizer import Grammar, Hear, Level, Rejected, Result, State
 from app.inputs.voice.recognition.spotter import Spotted, Spotter
 
 __all__ = ["Hearing", "Judge", "Phonemes"]

@@ -10,7 +10,7 @@ from functools import lru_cache
 from itertools import product
 from pathlib import Path
 
-from app.inputs.voice.recognition.recognizer import VoiceTrouble
+from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
 
 __all__ = ["COMMANDS", "PHONES", "WORDS", "background", "pronunciations", "spell"]
 

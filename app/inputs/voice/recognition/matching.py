@@ -10,8 +10,8 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
+from app.inputs.voice.interfaces.speech_recognizer import Grammar
 from app.inputs.voice.recognition.lexicon import PHONES, WORDS, background
-from app.inputs.voice.recognition.recognizer import Grammar
 
 __all__ = ["Match", "match", "said_within", "sounds"]
 

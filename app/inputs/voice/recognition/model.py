@@ -13,8 +13,8 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
 from app.inputs.voice.recognition.conformer import Conformer, unpacked
-from app.inputs.voice.recognition.recognizer import VoiceTrouble
 
 __all__ = ["HamaModel", "chosen", "one_core"]
 

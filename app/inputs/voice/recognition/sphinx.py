@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from app.inputs.voice.audio.endpoint import Segment
 from app.inputs.voice.audio.noise import RATE
+from app.inputs.voice.interfaces.speech_recognizer import Grammar, VoiceTrouble
 from app.inputs.voice.recognition.ctc import Found
 from app.inputs.voice.recognition.lexicon import background, pronunciations
-from app.inputs.voice.recognition.recognizer import Grammar, VoiceTrouble
 from app.inputs.voice.recognition.spotter import Spotted
 
 __all__ = ["Sphinx"]

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from app.inputs.voice.audio.endpoint import Segment
 from app.inputs.voice.audio.noise import RATE
+from app.inputs.voice.interfaces.speech_recognizer import Grammar
 from app.inputs.voice.recognition.ctc import FRAME, Acoustics, Sequences, frames_of
 from app.inputs.voice.recognition.lexicon import background, pronunciations
-from app.inputs.voice.recognition.recognizer import Grammar
 
 __all__ = ["Spotted", "Spotter"]
 

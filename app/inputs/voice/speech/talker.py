@@ -16,7 +16,7 @@ from typing import Any, Protocol, TextIO
 import numpy as np
 from numpy.typing import NDArray
 
-from app.inputs.voice.recognition.recognizer import VoiceTrouble
+from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
 
 __all__ = ["main", "play"]
 

@@ -10,7 +10,7 @@ from kivy.uix.boxlayout import BoxLayout
 from app.inputs.base.button_presses import Press
 from app.inputs.binding_actions import HOLDS, MEANINGS
 from app.inputs.keys.key_table import RISES, SLOWS, KeyTable, key_words
-from app.screens.inputs.setting_row import number_row, switch_row
+from app.screens.inputs.parts.setting_row import number_row, switch_row
 from app.screens.parts.pane_head import PaneHead
 from widgets.inputs.key_help import KeyCap
 from widgets.parts.kit import Column, ListRow, QuietButton, Roll

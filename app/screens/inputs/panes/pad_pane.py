@@ -12,8 +12,8 @@ from app.inputs.base.button_presses import Press
 from app.inputs.binding_actions import meaning_icon, meaning_words
 from app.inputs.gamepad.pad_map import AXES, BUTTONS, DEAD_ZONES, EXPOS, WAYS, Profile, button_words
 from app.inputs.gamepad.sdl import PadState
-from app.screens.inputs.meaning_list import MeaningList
-from app.screens.inputs.setting_row import number_row
+from app.screens.inputs.parts.meaning_list import MeaningList
+from app.screens.inputs.parts.setting_row import number_row
 from widgets import PadPicture
 from widgets.parts.kit import Column, IconButton, ListRow, QuietButton, Roll, Segmented
 from widgets.parts.labels import Remark

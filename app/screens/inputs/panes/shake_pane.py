@@ -10,8 +10,8 @@ from kivy.uix.boxlayout import BoxLayout
 from app.inputs.motion.shake import AXES, WORDS, Axis
 from app.inputs.motion.shake_input import CHOICES, Shaking
 from app.intents.intents import INTENTS
-from app.screens.inputs.meaning_list import MeaningList
-from app.screens.inputs.setting_row import switch_row
+from app.screens.inputs.parts.meaning_list import MeaningList
+from app.screens.inputs.parts.setting_row import switch_row
 from widgets.inputs.shake_lesson import ShakeLesson
 from widgets.parts.kit import Column, ListRow, PrimaryButton, QuietButton, Roll
 from widgets.parts.labels import Remark

@@ -8,11 +8,11 @@ from typing import Any
 from kivy.clock import Clock
 from kivy.uix.boxlayout import BoxLayout
 
-from app.inputs.scanning.presses import Event
-from app.inputs.scanning.reaction import Reaction
-from app.inputs.scanning.settings import DEFAULTS, MOST_KEYS, RANGES, Key, Options
-from app.inputs.scanning.switches import Switches
-from app.screens.inputs.setting_row import number_row, switch_row
+from app.inputs.switch_access.scan.presses import Event
+from app.inputs.switch_access.scan.reaction import Reaction
+from app.inputs.switch_access.scan.settings import DEFAULTS, MOST_KEYS, RANGES, Key, Options
+from app.inputs.switch_access.switches import Switches
+from app.screens.inputs.parts.setting_row import number_row, switch_row
 from widgets.inputs.reaction_test import ReactionTest
 from widgets.parts.kit import Column, IconButton, ListRow, PrimaryButton, QuietButton, Remark, Roll, Segmented
 from widgets.parts.rows import group_label

@@ -9,13 +9,13 @@ from kivy.uix.boxlayout import BoxLayout
 
 from app.device import is_android
 from app.inputs.voice.audio.noise import TOO_LOUD
+from app.inputs.voice.interfaces.speech_recognizer import Level, Result
 from app.inputs.voice.recognition.phrases import LANGUAGES, PHRASES
-from app.inputs.voice.recognition.recognizer import Level, Result
 from app.inputs.voice.speech.tts import VOICES
 from app.inputs.voice.talkback import RATES, Talking
 from app.inputs.voice.voice_input import Speaking
 from app.intents.intents import INTENTS
-from app.screens.inputs.setting_row import number_row, switch_row
+from app.screens.inputs.parts.setting_row import number_row, switch_row
 from widgets.inputs.noise_meter import NoiseMeter
 from widgets.parts.kit import Column, ListRow, PrimaryButton, QuietButton, Roll, Segmented
 from widgets.parts.labels import Remark

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from app.screens.inputs.setting_row import switch_row
+from app.screens.inputs.parts.setting_row import switch_row
 from app.screens.inputs.study.form_view import FormView
 from app.screens.inputs.study.log_view import look_of
 from app.study.questionnaires import BASELINE, SUS_ABOVE

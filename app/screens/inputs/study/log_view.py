@@ -12,7 +12,7 @@ from kivy.uix.boxlayout import BoxLayout
 
 from app.device.sharing import Sharing
 from app.intents.intents import INTENTS, METHODS
-from app.screens.inputs.setting_row import switch_row
+from app.screens.inputs.parts.setting_row import switch_row
 from app.screens.inputs.study.zip_row import SURE, ZipRow
 from app.screens.parts.method_signs import METHOD_SIGNS
 from app.study.response_log import Response

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from app.screens.inputs.setting_row import number_row, switch_row
+from app.screens.inputs.parts.setting_row import number_row, switch_row
 from app.screens.inputs.study.log_view import look_of
 from app.study.study import COMMANDS, POSTURES, TRIGGERS, Plan
 from widgets.parts.kit import Column, PrimaryButton, Remark, SectionLabel, Segmented, Toggle

@@ -8,8 +8,15 @@ from typing import Any
 
 import pytest
 
+from app.inputs.voice.interfaces.speech_recognizer import (
+    Grammar,
+    Level,
+    Rejected,
+    Result,
+    State,
+    VoiceTrouble,
+)
 from app.inputs.voice.process.service import MUTED
-from app.inputs.voice.recognition.recognizer import Grammar, Level, Rejected, Result, State, VoiceTrouble
 from app.inputs.voice.voice_input import (
     CLIPPED,
     CLIPS,

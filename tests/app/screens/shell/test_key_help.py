@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.inputs.bindings import Mapped
-from app.inputs.scanning.settings import Options
+from app.inputs.switch_access.scan.settings import Options
 from app.screens.shell.key_help import help_groups
 from tests.app.inputs.pushing import Settings
 

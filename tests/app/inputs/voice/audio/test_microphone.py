@@ -5,7 +5,7 @@ import types
 import pytest
 
 from app.inputs.voice.audio.microphone import QUEUED, SILENT, Microphone
-from app.inputs.voice.recognition.recognizer import VoiceTrouble
+from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
 
 
 class MiniaudioError(Exception):

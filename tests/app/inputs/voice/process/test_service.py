@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from app.inputs.voice.audio.sound_files import FileEars
+from app.inputs.voice.interfaces.speech_recognizer import Grammar, Result, State, VoiceTrouble
 from app.inputs.voice.process.service import FLAT, LINGERS, MUTED, Service
-from app.inputs.voice.recognition.recognizer import Grammar, Result, State, VoiceTrouble
 from tests.app.inputs.voice.recognition.test_hearing import GRAMMAR, Judge
 from tests.app.inputs.voice.sounds import quiet, voice
 

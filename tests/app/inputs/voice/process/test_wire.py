@@ -2,9 +2,9 @@
 
 import pytest
 
+from app.inputs.voice.interfaces.speech_recognizer import Grammar, Level, Partial, Rejected, Result, State
 from app.inputs.voice.process.wire import event_line, grammar_fields, read_event, read_grammar
 from app.inputs.voice.recognition.lexicon import COMMANDS
-from app.inputs.voice.recognition.recognizer import Grammar, Level, Partial, Rejected, Result, State
 
 GRAMMAR = Grammar(COMMANDS)
 

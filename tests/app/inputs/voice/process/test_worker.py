@@ -12,12 +12,12 @@ import wave
 import pytest
 
 from app.inputs.voice.audio.sound_files import FileEars, read
+from app.inputs.voice.interfaces.speech_recognizer import Grammar, Level, State, VoiceTrouble
 from app.inputs.voice.process import child
 from app.inputs.voice.process.ending import wait_for_ends
 from app.inputs.voice.process.wire import THERE, event_line, grammar_fields, read_event
 from app.inputs.voice.process.worker import InProcess, InThread, recognizer
 from app.inputs.voice.recognition.lexicon import COMMANDS
-from app.inputs.voice.recognition.recognizer import Grammar, Level, State, VoiceTrouble
 
 GRAMMAR = Grammar(COMMANDS)
 PROGRAM = """

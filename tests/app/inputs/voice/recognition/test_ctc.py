@@ -6,10 +6,10 @@ import math
 import numpy as np
 import pytest
 
+from app.inputs.voice.interfaces.speech_recognizer import Grammar
 from app.inputs.voice.recognition import ctc
 from app.inputs.voice.recognition.ctc import Scorer, Sequences, frames_of
 from app.inputs.voice.recognition.lexicon import COMMANDS, PHONES, pronunciations
-from app.inputs.voice.recognition.recognizer import Grammar
 from tests.app.inputs.voice.sounds import TOKENS, opinion
 
 EVERY = frozenset(COMMANDS)

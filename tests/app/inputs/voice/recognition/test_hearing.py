@@ -5,10 +5,10 @@ import pytest
 
 from app.inputs.voice.audio.noise import decibels
 from app.inputs.voice.audio.sound_files import chunks
+from app.inputs.voice.interfaces.speech_recognizer import Grammar, Level, Rejected, Result, State
 from app.inputs.voice.recognition.ctc import Found, Scorer
 from app.inputs.voice.recognition.hearing import Hearing, Phonemes
 from app.inputs.voice.recognition.lexicon import COMMANDS
-from app.inputs.voice.recognition.recognizer import Grammar, Level, Rejected, Result, State
 from app.inputs.voice.recognition.spotter import Spotted
 from tests.app.inputs.voice.sounds import Written, opinion, quiet, voice
 

@@ -2,8 +2,8 @@
 
 import pytest
 
+from app.inputs.voice.interfaces.speech_recognizer import Grammar, VoiceTrouble
 from app.inputs.voice.recognition.lexicon import COMMANDS, PHONES, WORDS, background, pronunciations, spell
-from app.inputs.voice.recognition.recognizer import Grammar, VoiceTrouble
 from app.intents.intents import INTENTS
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from app.inputs.voice.interfaces.speech_recognizer import Grammar
 from app.inputs.voice.recognition.matching import match, said_within
 from app.inputs.voice.recognition.phrases import LANGUAGES, PHRASES
-from app.inputs.voice.recognition.recognizer import Grammar
 
 ENGLISH = Grammar(PHRASES["en"])
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from app.inputs.voice.interfaces.speech_recognizer import VoiceTrouble
 from app.inputs.voice.recognition import model as module
 from app.inputs.voice.recognition.model import HamaModel
-from app.inputs.voice.recognition.recognizer import VoiceTrouble
 
 SIGNS = 2
 

@@ -2,8 +2,8 @@
 
 import pytest
 
+from app.inputs.voice.interfaces.speech_recognizer import Grammar, VoiceTrouble
 from app.inputs.voice.recognition.lexicon import COMMANDS
-from app.inputs.voice.recognition.recognizer import Grammar, VoiceTrouble
 
 pytest.importorskip("pocketsphinx")
 hibari = pytest.importorskip("hibari")

@@ -3,8 +3,8 @@
 import pytest
 
 from app.inputs.voice.audio.endpoint import Segment
+from app.inputs.voice.interfaces.speech_recognizer import Grammar
 from app.inputs.voice.recognition.lexicon import COMMANDS
-from app.inputs.voice.recognition.recognizer import Grammar
 from app.inputs.voice.recognition.spotter import EVERY, LOOKS, Spotter
 from tests.app.inputs.voice.sounds import Written, voice
 

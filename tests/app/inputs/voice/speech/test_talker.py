@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 from app.inputs.voice.audio.sound_files import chunks, resampled
+from app.inputs.voice.interfaces.speech_recognizer import Grammar, Result, VoiceTrouble
 from app.inputs.voice.process.ending import wait_for_ends
 from app.inputs.voice.recognition.hearing import Hearing, Phonemes
 from app.inputs.voice.recognition.lexicon import COMMANDS
 from app.inputs.voice.recognition.model import HamaModel
-from app.inputs.voice.recognition.recognizer import Grammar, Result, VoiceTrouble
 from app.inputs.voice.speech import tts as module
 from app.inputs.voice.speech.talker import NO_SPEAKER, play, serve
 from app.inputs.voice.speech.tts import CRASHED, NO_ESPEAK, ChildMouth, mouth_of

@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 
 from app.inputs.base.button_presses import Press, Presses
-from app.inputs.scanning.engine import Engine
-from app.inputs.scanning.plan import Planner
-from app.inputs.scanning.settings import DEFAULTS, Key
-from app.inputs.scanning.switches import Switches
+from app.inputs.switch_access.scan.engine import Engine
+from app.inputs.switch_access.scan.plan import Planner
+from app.inputs.switch_access.scan.settings import DEFAULTS, Key
+from app.inputs.switch_access.switches import Switches
 from app.screens.inputs.panes.switch_pane import SwitchPane
 from tests.headless import Stage
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from app.inputs.voice.recognition.recognizer import Level, Rejected, Result
+from app.inputs.voice.interfaces.speech_recognizer import Level, Rejected, Result
 from app.screens.inputs.panes.voice_pane import FREE, PUSH, TRY, VoicePane
 from tests.headless import Stage
 

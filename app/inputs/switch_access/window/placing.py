@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from app.inputs.scanning.finding import Box
+from app.inputs.switch_access.window.finding import Box
 
 __all__ = ["beside"]
 

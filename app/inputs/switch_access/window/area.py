@@ -6,8 +6,8 @@ from typing import Any
 
 from kivy.metrics import dp
 
-from app.inputs.scanning import finger
-from app.inputs.scanning.finding import in_window
+from app.inputs.switch_access.window import finger
+from app.inputs.switch_access.window.finding import in_window
 from widgets.controls.crosshair import Crosshair
 from widgets.inputs.scan_pad import PadKey, ScanPad
 from widgets.map.map_gestures import HELD, MapGestures

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 from kivy.uix.floatlayout import FloatLayout
 
-from app.inputs.scanning.finding import in_window
-from app.inputs.scanning.openings import MOMENT, Openings
+from app.inputs.switch_access.window.finding import in_window
+from app.inputs.switch_access.window.openings import MOMENT, Openings
 from tests.headless import Stage
 from widgets import GridMap, Joystick, LiftLever, SlideToConfirm, StopButton
 from widgets.parts.kit import TextField

@@ -7,14 +7,14 @@ from typing import Any
 
 import pytest
 
-import app.inputs.scanning.switches as switching
+import app.inputs.switch_access.switches as switching
 from app.core.command_origin import origins
 from app.inputs.base.button_presses import Press, Presses
-from app.inputs.scanning import Mark, Target
-from app.inputs.scanning.engine import Engine, Selection
-from app.inputs.scanning.plan import Planner
-from app.inputs.scanning.settings import Key
-from app.inputs.scanning.switches import TYPES, Switches
+from app.inputs.switch_access.scan.engine import Engine, Selection
+from app.inputs.switch_access.scan.plan import Planner
+from app.inputs.switch_access.scan.settings import Key
+from app.inputs.switch_access.scan.target import Mark, Target
+from app.inputs.switch_access.switches import TYPES, Switches
 from app.intents.intents import Intents
 from app.intents.method_permits import Permits
 

@@ -8,14 +8,14 @@ from typing import Any
 import pytest
 from kivy.core.window import Window
 
-from app.inputs.scanning.targets import OnGlass
+from app.inputs.switch_access.window.targets import OnGlass
 from app.intents.intents import Heard
 from app.screens.inputs.study.form_view import FormView
 from app.screens.shell.key_help import HelpCard, toggle_help
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo, TaskStatus
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
-from tests.app.inputs.scanning.probing import bound, box, taken
+from tests.app.inputs.switch_access.window.probing import bound, box, taken
 from tests.app.screens.drive.test_dive import AQUA
 from tests.app.test_profiles import BOAT, DRONE, SCOUT, TRUCK
 from widgets.tasks.place_list import SOME

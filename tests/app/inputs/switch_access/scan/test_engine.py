@@ -8,11 +8,11 @@ from typing import Literal
 
 import pytest
 
-from app.inputs.scanning import Mark, Target
-from app.inputs.scanning.engine import Engine, Selection
-from app.inputs.scanning.plan import Planner
-from app.inputs.scanning.presses import Timing
-from app.inputs.scanning.scan import Pace
+from app.inputs.switch_access.scan.engine import Engine, Selection
+from app.inputs.switch_access.scan.plan import Planner
+from app.inputs.switch_access.scan.presses import Timing
+from app.inputs.switch_access.scan.scan import Pace
+from app.inputs.switch_access.scan.target import Mark, Target
 
 TICK = 0.03
 

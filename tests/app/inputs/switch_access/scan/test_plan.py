@@ -8,8 +8,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from app.inputs.scanning import Target
-from app.inputs.scanning.plan import MOST, Group, Planner, cost, leaves, plan
+from app.inputs.switch_access.scan.plan import MOST, Group, Planner, cost, leaves, plan
+from app.inputs.switch_access.scan.target import Target
 
 FALLING = {f"t{number}": 1000 * 0.8**number for number in range(16)}
 

@@ -7,8 +7,8 @@ from typing import Any
 
 from kivy.uix.floatlayout import FloatLayout
 
-from app.inputs.scanning import Mark, Target
-from app.inputs.scanning.targets import OnGlass
+from app.inputs.switch_access.scan.target import Mark, Target
+from app.inputs.switch_access.window.targets import OnGlass
 from tests.headless import Stage
 from widgets.parts.cards import ActionToast
 

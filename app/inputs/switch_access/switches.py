@@ -19,12 +19,12 @@ from app.core.notifications import tell
 from app.device import vibrate
 from app.inputs.base.button_presses import Press
 from app.inputs.inputs import typing
-from app.inputs.scanning import Mark
-from app.inputs.scanning.engine import Engine, Selection
-from app.inputs.scanning.plan import Planner
-from app.inputs.scanning.settings import Key, read
-from app.inputs.scanning.tones import Tones
-from app.inputs.scanning.usage import Usage
+from app.inputs.switch_access.scan.engine import Engine, Selection
+from app.inputs.switch_access.scan.plan import Planner
+from app.inputs.switch_access.scan.settings import Key, read
+from app.inputs.switch_access.scan.target import Mark
+from app.inputs.switch_access.tones import Tones
+from app.inputs.switch_access.usage import Usage
 from app.intents.intents import Heard
 
 __all__ = ["Switches"]
@@ -183,7 +183,7 @@ class Switches:
     def engine(self) -> Engine:
         """What turns presses into selections, made when it is first asked for."""
         if self._engine is None:
-            from app.inputs.scanning.targets import OnGlass
+            from app.inputs.switch_access.window.targets import OnGlass
 
             self._glass = OnGlass(self._app)
             planner = Planner(self._usage.frozen)

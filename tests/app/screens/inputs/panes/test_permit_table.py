@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from app.intents.method_permits import Permits
-from app.screens.inputs.permit_table import TablePane
+from app.screens.inputs.panes.permit_table import TablePane
 from tests.app.inputs.pushing import Settings
 
 

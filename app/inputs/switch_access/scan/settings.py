@@ -7,8 +7,8 @@ from dataclasses import asdict, dataclass, fields, replace
 from typing import Any
 
 from app.core.checked_settings import number, shown
-from app.inputs.scanning.presses import Timing
-from app.inputs.scanning.scan import Pace
+from app.inputs.switch_access.scan.presses import Timing
+from app.inputs.switch_access.scan.scan import Pace
 
 __all__ = ["RANGES", "Key", "Options", "read"]
 

@@ -10,12 +10,13 @@ from typing import Any
 from kivy.uix.label import Label
 from kivy.uix.scrollview import ScrollView
 
-from app.inputs.scanning import Mark, Target, finger
-from app.inputs.scanning.finding import Box, Found, find, in_window
-from app.inputs.scanning.kinds import kind_of
-from app.inputs.scanning.naming import beside, intent_of, slug, words_of
-from app.inputs.scanning.openings import Openings
-from app.inputs.scanning.ring import Ring
+from app.inputs.switch_access.scan.target import Mark, Target
+from app.inputs.switch_access.window import finger
+from app.inputs.switch_access.window.finding import Box, Found, find, in_window
+from app.inputs.switch_access.window.kinds import kind_of
+from app.inputs.switch_access.window.naming import beside, intent_of, slug, words_of
+from app.inputs.switch_access.window.openings import Openings
+from app.inputs.switch_access.window.ring import Ring
 from app.screens.parts.dialogs import Question
 from bridge.discovery.beacon import broadcast_addresses
 from bridge.msgs.pilothouse_msgs import PlaceArray

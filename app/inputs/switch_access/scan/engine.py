@@ -11,10 +11,10 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
-from app.inputs.scanning import Glass, Mark, Target
-from app.inputs.scanning.plan import Planner
-from app.inputs.scanning.presses import Contacts, Event, Timing
-from app.inputs.scanning.scan import Pace, Scan
+from app.inputs.switch_access.scan.plan import Planner
+from app.inputs.switch_access.scan.presses import Contacts, Event, Timing
+from app.inputs.switch_access.scan.scan import Pace, Scan
+from app.inputs.switch_access.scan.target import Glass, Mark, Target
 
 __all__ = ["Desk", "Engine", "Selection"]
 

@@ -12,7 +12,7 @@ import random
 import statistics
 from typing import Literal
 
-from app.inputs.scanning.settings import RANGES
+from app.inputs.switch_access.scan.settings import RANGES
 
 __all__ = ["SHARE", "Reaction"]
 

@@ -10,7 +10,7 @@ from kivy.core.window import Window
 from kivy.uix.scrollview import ScrollView
 from kivy.uix.widget import Widget
 
-from app.inputs.scanning.kinds import kind_of
+from app.inputs.switch_access.window.kinds import kind_of
 
 __all__ = ["Box", "Found", "find", "in_window"]
 
@@ -75,7 +75,7 @@ class Found:
 
     widget: Any
     kind: str
-    """As in `app.inputs.scanning.kinds`."""
+    """As in `app.inputs.switch_access.window.kinds`."""
     box: Box
     """Where it is; of what must be scrolled to, where it would be."""
     group: tuple[str, ...]

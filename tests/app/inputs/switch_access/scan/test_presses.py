@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.inputs.scanning.presses import Contacts, Event, Timing
+from app.inputs.switch_access.scan.presses import Contacts, Event, Timing
 
 
 class Box:

@@ -9,8 +9,8 @@ import pytest
 from kivy.graphics import Line, Mesh, RoundedRectangle
 from kivy.uix.floatlayout import FloatLayout
 
-from app.inputs.scanning.placing import beside
-from app.inputs.scanning.ring import CASING, THICK, Ring
+from app.inputs.switch_access.window.placing import beside
+from app.inputs.switch_access.window.ring import CASING, THICK, Ring
 from tests.headless import Stage
 
 STOP = (222.0, 10.0, 402.0, 130.0)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from app.inputs.scanning import Target
-from app.inputs.scanning.plan import Group
-from app.inputs.scanning.scan import Pace, Scan, _words
+from app.inputs.switch_access.scan.plan import Group
+from app.inputs.switch_access.scan.scan import Pace, Scan, _words
+from app.inputs.switch_access.scan.target import Target
 
 
 def target(name: str, *, repeatable: bool = False) -> Target:

@@ -12,10 +12,10 @@ from typing import Any
 from kivy.clock import Clock
 from kivy.uix.widget import Widget
 
-from app.inputs.scanning import finger
-from app.inputs.scanning.area import Area
-from app.inputs.scanning.finding import Box, in_window
-from app.inputs.scanning.placing import beside
+from app.inputs.switch_access.window import finger
+from app.inputs.switch_access.window.area import Area
+from app.inputs.switch_access.window.finding import Box, in_window
+from app.inputs.switch_access.window.placing import beside
 from widgets.controls.stop.stop_button import LONG_HOLD
 from widgets.core.hold_progress import HOLD
 from widgets.inputs.scan_keyboard import ScanKeyboard
@@ -43,7 +43,7 @@ class Openings:
         self._app, self._words = app, words
         self.pad: ScanPad | None = None
         self.kind = ""
-        """Of what it belongs to, as in `app.inputs.scanning.kinds`."""
+        """Of what it belongs to, as in `app.inputs.switch_access.window.kinds`."""
         self._of: Widget | None = None
         self._area: Area | None = None
         self._slow = True
@@ -51,7 +51,7 @@ class Openings:
         self._lift: Callable[[], None] | None = None
 
     def open(self, kind: str, widget: Any, words: str) -> None:
-        """Open what belongs to a widget of that kind, as in `app.inputs.scanning.kinds`; `words` name it."""
+        """Open what belongs to a widget of that kind, as in `app.inputs.switch_access.window.kinds`; `words` name it."""
         self.close()
         self._of, self.kind = widget, kind
         if kind == "field":

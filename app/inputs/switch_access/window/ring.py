@@ -12,7 +12,7 @@ from typing import Any
 from kivy.graphics import Color, InstructionGroup, Line, Mesh, Rectangle, RoundedRectangle
 from kivy.metrics import dp, sp
 
-from app.inputs.scanning.finding import Box
+from app.inputs.switch_access.window.finding import Box
 from widgets.core.base import text_texture
 from widgets.core.theme import theme
 

@@ -14,8 +14,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from app.inputs.scanning import Mark, Target
-from app.inputs.scanning.plan import Group, leaves
+from app.inputs.switch_access.scan.plan import Group, leaves
+from app.inputs.switch_access.scan.target import Mark, Target
 
 __all__ = ["Pace", "Scan"]
 

@@ -12,10 +12,10 @@ from typing import Any
 
 import pytest
 
-from app.inputs.scanning.reaction import Reaction
-from app.inputs.scanning.settings import DEFAULTS, Key, read
-from app.inputs.scanning.tones import TONES, write
-from app.inputs.scanning.usage import Usage
+from app.inputs.switch_access.scan.reaction import Reaction
+from app.inputs.switch_access.scan.settings import DEFAULTS, Key, read
+from app.inputs.switch_access.tones import TONES, write
+from app.inputs.switch_access.usage import Usage
 
 
 def test_what_was_chosen_comes_back_from_the_file() -> None:

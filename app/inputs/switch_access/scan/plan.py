@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
 
-from app.inputs.scanning import Target
+from app.inputs.switch_access.scan.target import Target
 
 __all__ = ["MOST", "PRIOR", "Group", "Planner", "cost", "leaves", "plan"]
 

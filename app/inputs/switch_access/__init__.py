@@ -1,0 +1,1 @@
+"""Switch access: one or two switches reach everything on the window by a mark that steps over it."""

@@ -1,0 +1,1 @@
+"""Interfaces of voice: what any recogniser or speaker offers, and the events that it sends."""

@@ -1,0 +1,1 @@
+"""Rows and lists that several panes of the inputs screen share."""
