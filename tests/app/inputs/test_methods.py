@@ -98,7 +98,7 @@ def make(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
 
     def make(**made: type) -> App:
         app = App(made, monkeypatch)
-        app.inputs.methods.open()
+        app.methods.open()
         opened.append(app.methods)
         return app
 
@@ -109,27 +109,27 @@ def make(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
 
 def test_one_that_cannot_be_made_or_begun_is_said_and_the_others_go_on(make: Any) -> None:
     app = make(log=Unmakeable, shake=Unstartable, voice=Made)
-    assert app.inputs.methods.get("voice").life == ["start"]
-    assert (app.inputs.methods.get("log"), app.inputs.methods.get("shake")) == (None, None)
+    assert app.methods.get("voice").life == ["start"]
+    assert (app.methods.get("log"), app.methods.get("shake")) == (None, None)
     assert Unstartable.ends == ["close"]
     assert app.said == [
         "Log cannot be used: no plan can be read from 3. Shake cannot be used: no such device."
     ]
-    assert set(app.inputs.methods.faults) == {"log", "shake"}
-    app.inputs.methods.look(100.0)
-    app.inputs.methods.turn("log", on=True)
+    assert set(app.methods.faults) == {"log", "shake"}
+    app.methods.look(100.0)
+    app.methods.turn("log", on=True)
 
 
 def test_while_the_glass_is_away_nothing_listens_and_no_question_waits(make: Any) -> None:
     app = make(voice=Made)
     assert app.intents.take(Heard("patrol", "voice")).what == "asks"
-    app.inputs.methods.pause()
-    assert app.inputs.methods.get("voice").life == ["start", "stop"]
+    app.methods.pause()
+    assert app.methods.get("voice").life == ["start", "stop"]
     assert app.intents.pending is None
-    app.inputs.methods.resume()
+    app.methods.resume()
     app.intents.answer(yes=True, method="voice")
     assert app.acts.done == []
-    assert app.inputs.methods.get("voice").life == ["start", "stop", "start"]
+    assert app.methods.get("voice").life == ["start", "stop", "start"]
 
 
 class Speaks(Made):
@@ -138,7 +138,7 @@ class Speaks(Made):
 
 def test_what_came_of_a_question_is_said_where_the_question_was(make: Any) -> None:
     app = make(voice=Speaks, shake=Speaks)
-    voice, shake = app.inputs.methods.get("voice"), app.inputs.methods.get("shake")
+    voice, shake = app.methods.get("voice"), app.methods.get("shake")
     voice.said = app.intents.take(Heard("go_home", "voice")).sentence
     assert voice.said == "go_home?"
     app.time += CONFIRM_FOR + 1.0
@@ -150,7 +150,7 @@ def test_what_came_of_a_question_is_said_where_the_question_was(make: Any) -> No
 def test_a_finger_that_was_on_the_glass_when_it_was_taken_away_does_nothing_later(make: Any) -> None:
     app = make(voice=Made)
     origins.touched(99.0)
-    app.inputs.methods.pause()
+    app.methods.pause()
     assert origins.current() is NOBODY
 
 
@@ -158,9 +158,9 @@ def test_what_was_touched_is_forgotten_by_the_heartbeat(make: Any) -> None:
     app = make(voice=Made)
     origins.touched(99.0)
     origins.lifted(99.1)
-    app.inputs.methods.look(99.5)
+    app.methods.look(99.5)
     assert origins.current().method == "button"
-    app.inputs.methods.look(105.0)
+    app.methods.look(105.0)
     assert origins.current() is NOBODY
 
 
@@ -170,7 +170,7 @@ class Deaf(Made):
 
 def test_what_is_on_and_does_not_work_is_said_with_the_next_heartbeat(make: Any) -> None:
     app = make(voice=Deaf)
-    app.inputs.methods.look(100.0)
+    app.methods.look(100.0)
     assert app.said == ["Voice: There is no microphone."]
 
 
@@ -180,8 +180,8 @@ class Unplugged(Made):
 
 def test_a_command_could_come_from_what_is_on_and_well_and_has_something_to_work_with(make: Any) -> None:
     app = make(voice=Made, shake=Deaf, gamepad=Unplugged)
-    assert app.inputs.methods.armed == ["voice", "shake", "gamepad"]
-    assert app.inputs.methods.hearing == ["voice"]
+    assert app.methods.armed == ["voice", "shake", "gamepad"]
+    assert app.methods.hearing == ["voice"]
 
 
 def test_settings_that_mean_nothing_are_said_of_each_that_reads_them(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -189,19 +189,19 @@ def test_settings_that_mean_nothing_are_said_of_each_that_reads_them(monkeypatch
         mistaken = "In the settings of talking rate is from 0.5 to 2, not 9: as usual again."
 
     app = App({"Mistaken": Mistaken, "Made": Made}, monkeypatch)
-    app.inputs.methods.open()
+    app.methods.open()
     assert app.said == [Mistaken.mistaken]
-    app.inputs.methods.close()
+    app.methods.close()
 
 
 def test_what_still_ends_beside_the_glass_has_ended_when_they_are_closed(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     app = App({"Made": Made}, monkeypatch)
-    app.inputs.methods.open()
+    app.methods.open()
     gone = threading.Event()
     reader = threading.Thread(target=gone.wait, args=(0.2,), name="slow")
     reader.start()
     end_aside(None, reader)
-    app.inputs.methods.close()
+    app.methods.close()
     assert not reader.is_alive()
