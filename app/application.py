@@ -8,6 +8,7 @@ import sys
 import time
 import uuid
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +41,7 @@ from app.screens.connect.simulator_card import Simulating
 from app.screens.inputs.page import InputsPage
 from app.screens.parts.dialogs import AddressDialog, Question
 from app.screens.parts.themes import THEMES
+from app.screens.shell.key_help import toggle_help
 from app.screens.shell.stop_corner import StopCorner
 from app.session.logbook import marks
 from app.session.mission_editor import MissionEditor
@@ -151,6 +153,7 @@ class PilothouseApp(App):
         self.client_name = str(self.settings.get("client_name") or device_name())
         self.robots = Robots(self._now, self.settings.get("robots") or ())
         self.acting = Acting(self)
+        self.acting.on_help = partial(toggle_help, self)
         self.intents = Intents(self.acting, Permits(self.settings), self._now)
         self.methods = Methods(self)
         self.inputs_page = InputsPage(app=self)

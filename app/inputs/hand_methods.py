@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 __all__ = ["GamepadMethod", "KeyboardMethod"]
@@ -70,9 +69,8 @@ class KeyboardMethod:
     name = "keyboard"
 
     def __init__(self, app: Any) -> None:
-        """`app` is asked for its `inputs`; its `acting` is told how help is shown."""
+        """`app` is asked for its `inputs`."""
         self._inputs = app.inputs
-        app.acting.on_help = partial(_help, app)
 
     @property
     def on(self) -> bool:
@@ -105,9 +103,3 @@ class KeyboardMethod:
 
     def close(self) -> None:
         """The inputs own what there is."""
-
-
-def _help(app: Any) -> None:
-    from app.screens.shell.key_help import toggle_help
-
-    toggle_help(app)

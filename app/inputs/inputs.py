@@ -12,11 +12,11 @@ from collections.abc import Callable
 from typing import Any
 
 from kivy.core.window import Keyboard, Window
-from kivy.uix.behaviors import FocusBehavior
 
 from app.core.command_origin import origins
 from app.device import input_devices, rotation, sdl_library
 from app.inputs.base.button_presses import Press, Presses
+from app.inputs.base.text_focus import is_typing
 from app.inputs.binding_actions import Meanings
 from app.inputs.bindings import Mapped
 from app.inputs.gamepad.gamepad import Gamepads, News, Told
@@ -27,7 +27,7 @@ from app.inputs.shortcuts import Shortcuts
 from app.inputs.stick_arbiter import Pushing
 from app.intents.intents import Heard
 
-__all__ = ["BACK", "Inputs", "typing"]
+__all__ = ["BACK", "Inputs"]
 
 log = logging.getLogger(__name__)
 
@@ -40,12 +40,6 @@ ESCAPE = 41
 SHIFTS = ("shift", "rshift")
 KEYS = {code: name for name, code in Keyboard.keycodes.items()}
 """Names of Kivy's key codes."""
-
-
-def typing() -> bool:
-    """A field on the glass takes what is typed."""
-    everything = (widget for root in Window.children for widget in root.walk())
-    return any(isinstance(widget, FocusBehavior) and widget.focus for widget in everything)
 
 
 class Inputs:
@@ -74,14 +68,18 @@ class Inputs:
             profile=self.mapped.profile,
         )
         self.keys = KeyDrive(now, lambda: self.mapped.keys, is_down=self._source.key, on_lost=self._say)
-        self.keys.wanted = lambda: bool(self.sticks) and not typing()
+        self.keys.wanted = lambda: bool(self.sticks) and not is_typing()
         self.meanings = Meanings(
             app, now, is_down=self._source.key, silent=self.gamepads.silent, on_lost=self._lost
         )
         self.presses = Presses(self._is_stop, self._stop_by)
         """Every key and every button of a gamepad; whoever wants them before all others puts himself first in `takers`."""
         shortcuts = Shortcuts(
-            self.meanings, lambda: self.mapped.keys, self.mapped.profile, typing, lambda: self.mapped.pads_on
+            self.meanings,
+            lambda: self.mapped.keys,
+            self.mapped.profile,
+            is_typing,
+            lambda: self.mapped.pads_on,
         )
         self.presses.takers.extend((self.keys, shortcuts))
         self.is_switch: Callable[[Press], bool] = lambda _: False
@@ -203,7 +201,7 @@ class Inputs:
             return False
         if press.code == BACK:
             return press.scancode == ESCAPE
-        if press.name != "spacebar" or not self.mapped.keys.space_stops or typing():
+        if press.name != "spacebar" or not self.mapped.keys.space_stops or is_typing():
             return False
         return not self.is_switch(press)
 

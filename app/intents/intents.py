@@ -27,6 +27,7 @@ __all__ = [
     "CANCEL_FOR",
     "CONFIRM_FOR",
     "INTENTS",
+    "LOCAL_INTENTS",
     "METHODS",
     "PRESSED",
     "Acts",
@@ -95,6 +96,8 @@ INTENTS: dict[str, Intent] = {
     "back": Intent("Back", "arrow_back", "at_once"),
 }
 """Everything that can be wanted, by its name. `yes` and `no` mean something only while a question is open."""
+LOCAL_INTENTS = ("faster", "slower", "record", "snapshot", "camera", "theme", "help", "back", "yes", "no")
+"""Intents that the handheld carries out itself: their effect is there at once."""
 
 
 @dataclass(frozen=True, slots=True)

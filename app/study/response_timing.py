@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from app.core.command_origin import ITSELF, Origin
-from app.intents.intents import INTENTS, Heard, Verdict
+from app.intents.intents import INTENTS, LOCAL_INTENTS, Heard, Verdict
 from app.link.commands import Outcome
 from app.study.response_log import Response
 
@@ -46,8 +46,6 @@ UNDOES = {
     **dict.fromkeys(("start", "patrol", "go_home", "hold", "surface"), ("end_task", "stop")),
 }
 """Intent to those that take it back."""
-LOCAL = ("faster", "slower", "record", "snapshot", "camera", "theme", "help", "back", "yes", "no")
-"""Intents that are done on the handheld: their effect is there at once."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,7 +151,7 @@ class Tracks:
             self._close(key)
         elif verdict.what == "acted":
             track.since = self._now()
-            if heard.intent in LOCAL or heard.intent.startswith("screen."):
+            if heard.intent in LOCAL_INTENTS or heard.intent.startswith("screen."):
                 track.response.t_effect = self._at(track.since)
                 track.effect = True
         return track.response

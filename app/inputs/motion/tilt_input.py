@@ -14,8 +14,8 @@ from app.core.notifications import tell
 from app.device import rotation
 from app.device.motion import Axes, SimulatedMotion, motion_source
 from app.inputs.base.button_presses import Press
+from app.inputs.base.text_focus import is_typing
 from app.inputs.base.toggleable_method import Switched
-from app.inputs.inputs import typing
 from app.inputs.motion.tilt import Level, Tilt, TiltSettings, turned
 from widgets.controls.tilt_circle import TiltCircle
 
@@ -199,7 +199,7 @@ class Tilting(Switched):
     def pressed(self, press: Press) -> bool:
         """A key went down: an arrow leans a simulated tablet while the clutch is held."""
         leans = press.source == "key" and press.name in LEANS and self.simulated and self.tilt.pressed
-        if not leans or typing():
+        if not leans or is_typing():
             return False
         self._keys.add(press.name)
         self._lean_by_keys()

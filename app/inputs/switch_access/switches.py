@@ -18,7 +18,7 @@ from kivy.core.window import Window
 from app.core.notifications import tell
 from app.device import vibrate
 from app.inputs.base.button_presses import Press
-from app.inputs.inputs import typing
+from app.inputs.base.text_focus import is_typing
 from app.inputs.switch_access.scan.engine import Engine, Selection
 from app.inputs.switch_access.scan.plan import Planner
 from app.inputs.switch_access.scan.settings import Key, read
@@ -160,7 +160,7 @@ class Switches:
         self._lift(now)
         awake = engine.awake
         engine.look(now)
-        if awake and not engine.awake and typing():
+        if awake and not engine.awake and is_typing():
             engine.wake(now)  # a field with the focus waits for an answer: there the mark goes round on
 
     # how it is set up
@@ -209,13 +209,13 @@ class Switches:
             return True
         which = self._which(press)
         if which is None:
-            if press.source == "key" and press.name not in SHIFTS and typing():
+            if press.source == "key" and press.name not in SHIFTS and is_typing():
                 self._types()
             return False
         if press.modifiers & OTHERS:
             return False
         self._lift(press.at)
-        types = press.source == "key" and not self.awake and press.at - self._typed < TYPES and typing()
+        types = press.source == "key" and not self.awake and press.at - self._typed < TYPES and is_typing()
         if types:
             self._typed_with.add(press.same)
         self.engine.press(which, press.same, press.at, only_stop=types)
@@ -253,7 +253,7 @@ class Switches:
     def _wrote(self, _: object, text: str) -> None:
         """Letters came, which a keyboard on the glass tells without keys; those of a switch are no typing."""
         down = self._app.inputs.presses.down
-        if text.strip() and not any(self._which(press) for press in down) and typing():
+        if text.strip() and not any(self._which(press) for press in down) and is_typing():
             self._types()
 
     def _which(self, press: Press) -> Literal["A", "B"] | None:

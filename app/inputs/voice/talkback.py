@@ -23,11 +23,10 @@ from app.core.notifications import tell
 from app.device import is_android
 from app.inputs.base.toggleable_method import Switched
 from app.inputs.voice.speech.tts import VOICES, Mouth, mouth_of
-from app.intents.intents import Heard, Verdict
+from app.intents.intents import LOCAL_INTENTS, Heard, Verdict
 from app.link.commands import Outcome
 from app.link.feeds import Post
 from app.link.link import EVENT, OUTCOME
-from app.study.response_timing import LOCAL
 
 __all__ = ["RATES", "Talking", "aloud"]
 
@@ -308,6 +307,6 @@ class Talking(Switched):
     def _taken(self, heard: Heard, verdict: Verdict) -> None:
         if heard.method not in EYES_OFF or not verdict.sentence or verdict.what == "cancelled":
             return
-        if verdict.what == "acted" and heard.intent not in LOCAL:
+        if verdict.what == "acted" and heard.intent not in LOCAL_INTENTS:
             return  # told when the robot has confirmed it
         self.say(verdict.sentence, "answer")

@@ -14,8 +14,8 @@ from app.layout import arrange
 from app.layout.arrange import Body, Rect
 from app.link.camera_decoder import Picture
 from app.link.feeds import Post
-from app.screens.inputs import panes
 from app.screens.inputs.method_row import MethodRow
+from app.screens.inputs.pane_table import panes
 from app.screens.parts.pane_head import PaneHead
 from app.screens.parts.placing import Area, put  # noqa: F401 - a rule names the area
 from widgets.parts.kit import Column, Remark, Roll
@@ -82,8 +82,8 @@ class InputsScreen(FloatLayout):
 
     def _fill(self) -> None:
         listed, column = self.ids.listed, Column(spacing="6dp")
-        for name, (icon, title, _) in self.panes.items():
-            row = self.rows[name] = MethodRow(icon=icon, title=title)
+        for name, pane in self.panes.items():
+            row = self.rows[name] = MethodRow(icon=pane.icon, title=pane.title)
             row.bind(
                 on_release=lambda _, name=name: self.open(name),
                 on_turn=lambda _, on, name=name: self._turn(name, on),
@@ -166,7 +166,7 @@ class InputsScreen(FloatLayout):
         if name not in self._made and self._fault(name):
             self._made[name] = FaultPane(self._fault(name))
         elif name not in self._made:
-            module, _, made = self.panes[name][2].partition(":")
+            module, _, made = self.panes[name].where.partition(":")
             self._made[name] = getattr(import_module(module), made)(app=self.app)
         return self._made[name]
 
@@ -198,7 +198,7 @@ class InputsScreen(FloatLayout):
                 (self.add_widget if area in here else self.remove_widget)(area)
         self._show(self.pane(shown) if shown else None)
         if shown:
-            self._place_pane(self.pane(shown), self.panes[shown][1], tall=tall)
+            self._place_pane(self.pane(shown), self.panes[shown].title, tall=tall)
 
     def _place_pane(self, pane: Widget, title: str, *, tall: bool) -> None:
         detail = self.ids.detail

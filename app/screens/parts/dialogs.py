@@ -12,6 +12,7 @@ from kivy.properties import ListProperty, StringProperty
 from kivy.uix.floatlayout import FloatLayout
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
+from app.inputs.base.modal import Modal
 from app.layout.rects import Rect
 from widgets import StopAll, StopButton
 
@@ -104,7 +105,7 @@ def free_room(
     return max(parts, key=worth)
 
 
-class Question(FloatLayout):
+class Question(Modal, FloatLayout):
     """Lies over everything else until it is answered or cancelled; its rule has a `card`.
 
     STOP is not among what it lies over: it is seen through the shade, the card leaves it free, and it takes its finger.

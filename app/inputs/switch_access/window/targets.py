@@ -10,6 +10,7 @@ from typing import Any
 from kivy.uix.label import Label
 from kivy.uix.scrollview import ScrollView
 
+from app.inputs.base.modal import Modal
 from app.inputs.switch_access.scan.target import Mark, Target
 from app.inputs.switch_access.window import finger
 from app.inputs.switch_access.window.finding import Box, Found, find, in_window
@@ -17,7 +18,6 @@ from app.inputs.switch_access.window.kinds import kind_of
 from app.inputs.switch_access.window.naming import beside, intent_of, slug, words_of
 from app.inputs.switch_access.window.openings import Openings
 from app.inputs.switch_access.window.ring import Ring
-from app.screens.parts.dialogs import Question
 from bridge.discovery.beacon import broadcast_addresses
 from bridge.msgs.pilothouse_msgs import PlaceArray
 from widgets.inputs.scan_pad import PadButton, ScanPad
@@ -103,7 +103,7 @@ class OnGlass:
 
     def _dialog(self) -> Any:
         """The question that is over everything; None without one."""
-        return next((one for one in self._app.root.children if isinstance(one, Question)), None)
+        return next((one for one in self._app.root.children if isinstance(one, Modal)), None)
 
     def _likely_words(self, kind: str) -> Iterable[str]:
         """Names that the app knows; for `url` addresses, and what those of the local networks begin with."""

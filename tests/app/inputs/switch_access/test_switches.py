@@ -48,7 +48,7 @@ class Hand:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.now, self.said, self.did, self.typing = 100.0, [], [], False
-        monkeypatch.setattr(switching, "typing", lambda: self.typing)
+        monkeypatch.setattr(switching, "is_typing", lambda: self.typing)
         monkeypatch.setattr(Switches, "stepped", lambda *_: None)
         stops: list[Press] = []
         shell = SimpleNamespace(say=lambda text, level, about: self.said.append(text))

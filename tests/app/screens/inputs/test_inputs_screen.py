@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.intents.intents import CANCEL_FOR, Heard
-from app.screens.inputs import PANES, panes
+from app.screens.inputs.pane_table import PANES, panes
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 
