@@ -39,7 +39,7 @@ from bridge.server.flow.quality_levels import Levels, Shrink
 from bridge.server.flow.round_trip import PERIOD
 from bridge.server.flow.send_queue import Round
 from bridge.server.flow.sockets import end
-from bridge.server.rosapi.node_graph import Who
+from bridge.server.node_graph import Who
 from bridge.server.rosapi.parameters import Params
 from bridge.server.rosapi.services import RosApi
 from bridge.server.rosbridge_session import Client, Offer
