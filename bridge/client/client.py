@@ -352,12 +352,12 @@ class BridgeClient(Asking, Reconnecting):
         if isinstance(found, (Publish, BinaryPublish)):
             self._hear(found, heart)
         elif isinstance(found, ServiceResponse):
-            if self._session.answered(found):
+            if self._session.on_response(found):
                 heart.life.answered()
         elif isinstance(found, ActionFeedback):
-            self._session.fed_back(found)
+            self._session.on_feedback(found)
         elif isinstance(found, ActionResult):
-            self._session.finished(found)
+            self._session.on_result(found)
         elif isinstance(found, Status):
             log.warning("%s says: %s", self.url, found.msg)
         elif isinstance(found, (CallService, SendActionGoal)):

@@ -35,7 +35,7 @@ Call = Callable[[Any], Msg | Awaitable[Msg]]
 Run = Callable[[Any, Callable[[Msg], None]], Awaitable[Msg]]
 """Takes the goal and what tells how far it is, and gives the result. It is cancelled when the goal is taken back."""
 
-MOST_CALLS = 100
+MAX_CALLS = 100
 """So many calls are answered at a time."""
 
 
@@ -78,9 +78,9 @@ class Providing:
             self._send(self._aborted(op, str(error)))
 
     def _called(self, op: CallService, request: type[Msg], call: Call) -> None:
-        if len(self._calls) >= MOST_CALLS:
+        if len(self._calls) >= MAX_CALLS:
             raise ProtocolError(
-                f"{op.service} cannot be called: {MOST_CALLS} calls are being answered already."
+                f"{op.service} cannot be called: {MAX_CALLS} calls are being answered already."
             )
         task = asyncio.create_task(self._respond(op, request, call))
         self._calls.add(task)

@@ -15,7 +15,7 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidSta
 from websockets.protocol import State
 
 from bridge.core.address import LinkLost, cause, host_and_port, look_up
-from bridge.protocol import LARGEST_TOLD
+from bridge.protocol import MAX_CLIENT_FRAME
 
 __all__ = ["Connection", "dial"]
 
@@ -156,7 +156,7 @@ async def dial(url: str, open_timeout: float, *, ping_interval: float | None = N
             ping_interval=ping_interval,
             ping_timeout=ping_interval and ping_interval * 2,
             close_timeout=0.2,
-            max_size=LARGEST_TOLD,
+            max_size=MAX_CLIENT_FRAME,
             user_agent_header=None,
             logger=_quiet_log(),
         )

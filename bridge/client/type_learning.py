@@ -21,13 +21,13 @@ from bridge.msgs.builtin_interfaces import Duration, Time
 
 __all__ = ["learn"]
 
-MOST_TYPES = 500
+MAX_TYPES = 500
 """How many definitions one answer may hold."""
-MOST_FIELDS = 1000
+MAX_FIELDS = 1000
 """How many fields one type may have."""
-MOST_DEEP = 50
+MAX_DEPTH = 50
 """How deep types may lie in each other."""
-MOST_ELEMENTS = 1_000_000
+MAX_ELEMENTS = 1_000_000
 """How many values the fixed arrays of an empty message may hold together."""
 
 _SCALARS: dict[str, Any] = {
@@ -100,8 +100,8 @@ def _learned(answer: bytes) -> type[Msg]:
         raise ProtocolError(f"This tells no message type: {error}.") from error
     if not told:
         raise ProtocolError("The robot tells nothing about this type.")
-    if len(told) > MOST_TYPES:
-        raise ProtocolError(f"{told[0].type} is made of {len(told)} types; at most {MOST_TYPES} are taken.")
+    if len(told) > MAX_TYPES:
+        raise ProtocolError(f"{told[0].type} is made of {len(told)} types; at most {MAX_TYPES} are taken.")
     known = {_named(each.type): each for each in told}
     return _made(_named(told[0].type), known, dict(_BUILT_IN), ())
 
@@ -112,7 +112,7 @@ def _made(
     """The class of `name`; `made` are those made for this answer, `way` the types that it is needed for."""
     if name in made:
         return made[name]
-    if name in way or len(way) > MOST_DEEP:
+    if name in way or len(way) > MAX_DEPTH:
         raise ProtocolError(f"{way[0]} holds {name}, which holds itself or lies too deep.")
     definition = told.get(name)
     if definition is None:
@@ -135,8 +135,8 @@ def _kinds(name: str, told: _Typedef) -> dict[str, tuple[str, int]]:
             f"{name} is told with {len(told.fieldnames)} fields, {len(told.fieldtypes)} types and "
             f"{len(told.fieldarraylen)} lengths; they must be as many."
         )
-    if len(told.fieldnames) > MOST_FIELDS:
-        raise ProtocolError(f"{name} has {len(told.fieldnames)} fields; at most {MOST_FIELDS} are taken.")
+    if len(told.fieldnames) > MAX_FIELDS:
+        raise ProtocolError(f"{name} has {len(told.fieldnames)} fields; at most {MAX_FIELDS} are taken.")
     kinds: dict[str, tuple[str, int]] = {}
     for field, kind, length in zip(told.fieldnames, told.fieldtypes, told.fieldarraylen, strict=True):
         if not _NAME.fullmatch(field) or field in kinds:
@@ -153,7 +153,7 @@ def _kind(told: str, length: int, where: str) -> tuple[str, int]:
     if sequence:
         told, length = sequence["inner"], 0
     found = _BOUND.fullmatch(told)
-    if found is None or not -1 <= length <= MOST_ELEMENTS:
+    if found is None or not -1 <= length <= MAX_ELEMENTS:
         raise ProtocolError(f"{where} is told as {told!r:.60} with array length {length}, which is no type.")
     if found["length"] is not None and length < 0:
         length = int(found["length"]) if found["length"] and not found["bound"] else 0
@@ -203,8 +203,8 @@ def _class(
     known = TYPES.get(name)
     if known is not None and _same(known, fields, rostypes):
         return known
-    if sum(_elements(length, inner) for _, (_, length), inner in fields) > MOST_ELEMENTS:
-        raise ProtocolError(f"{name} holds more than {MOST_ELEMENTS} values when it is empty.")
+    if sum(_elements(length, inner) for _, (_, length), inner in fields) > MAX_ELEMENTS:
+        raise ProtocolError(f"{name} holds more than {MAX_ELEMENTS} values when it is empty.")
     namespace = dict(constants) | {
         "MSGTYPE": name,
         "ROSTYPES": rostypes,

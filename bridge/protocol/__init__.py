@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 from bridge.protocol.arrivals import Arrival, Arrivals
-from bridge.protocol.client_session import LARGEST_TOLD, ClientSession, Given, Provided, Served, Subscription
+from bridge.protocol.client_session import (
+    MAX_CLIENT_FRAME,
+    ClientSession,
+    Given,
+    Provided,
+    Served,
+    Subscription,
+)
 from bridge.protocol.fragments import Fragments, split
 from bridge.protocol.merging import Subscribed
 from bridge.protocol.names import absolute, ros2_name, service_and_id, spells_ros2
@@ -38,10 +45,10 @@ from bridge.protocol.ops import (
     Unsubscribe,
 )
 from bridge.protocol.pending import Calls, Goals
-from bridge.protocol.png import MOST_FILTERED, pixels, to_png
-from bridge.protocol.server_session import LARGEST_HEARD, MOST_CALLS, ServerSession
+from bridge.protocol.png import MAX_FILTERED_BYTES, pixels, to_png
+from bridge.protocol.server_session import MAX_CALLS, MAX_SERVER_FRAME, ServerSession
 from bridge.protocol.wire import (
-    LARGEST_ARGUMENTS,
+    MAX_ARGUMENT_BYTES,
     arguments,
     complaint,
     dump,
@@ -73,13 +80,13 @@ __all__ = [
     "Given",
     "Goals",
     "Id",
-    "LARGEST_ARGUMENTS",
-    "LARGEST_HEARD",
-    "LARGEST_TOLD",
+    "MAX_ARGUMENT_BYTES",
+    "MAX_SERVER_FRAME",
+    "MAX_CLIENT_FRAME",
     "LEVELS",
     "MISSING",
-    "MOST_CALLS",
-    "MOST_FILTERED",
+    "MAX_CALLS",
+    "MAX_FILTERED_BYTES",
     "OPS",
     "Op",
     "Png",

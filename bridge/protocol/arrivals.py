@@ -6,7 +6,7 @@ from bridge.core.errors import ProtocolError
 from bridge.protocol.fragments import Fragments
 from bridge.protocol.names import wrong
 from bridge.protocol.ops import BinaryPublish, Fragment, Op, Png
-from bridge.protocol.png import MOST_FILTERED, pixels
+from bridge.protocol.png import MAX_FILTERED_BYTES, pixels
 from bridge.protocol.wire import parse, parse_binary, parse_each
 
 __all__ = ["Arrival", "Arrivals"]
@@ -25,7 +25,7 @@ class Arrivals:
         *,
         most: int = 4,
         lifetime: float = 10.0,
-        filtered: int = MOST_FILTERED,
+        filtered: int = MAX_FILTERED_BYTES,
         most_values: int | None = None,
     ) -> None:
         """`most` texts may be unfinished at a time, each for `lifetime` [s] after its last fragment.

@@ -36,18 +36,18 @@ from bridge.protocol.ops import (
 )
 from bridge.protocol.pending import Answer, Calls, Feedback, Goals, Result
 
-__all__ = ["LARGEST_TOLD", "ClientSession", "Given", "Provided", "Served", "Subscription"]
+__all__ = ["MAX_CLIENT_FRAME", "ClientSession", "Given", "Provided", "Served", "Subscription"]
 
 AnyOp = TypeVar("AnyOp", bound=Op)
-LARGEST_TOLD = 33_554_432
+MAX_CLIENT_FRAME = 33_554_432
 """The largest frame that a client takes, a big map is one, and the most that may wait in fragments [byte]."""
-_FILTERED = 1_048_576
+_MAX_FILTERED_BYTES = 1_048_576
 """Bytes in filtered rows of pictures that a client reads of a frame: it gets what it asked for."""
-_MOST_VALUES = 250_000
+_MAX_VALUES = 250_000
 """Values in one binary frame that a client reads, a number array counted as one: a path of some thousand poses."""
-MOST_CALLS = 1000
+MAX_CALLS = 1000
 """So many calls may wait for their answer."""
-MOST_GOALS = 1000
+MAX_GOALS = 1000
 """So many goals may be under way, and as many be given to us."""
 
 
@@ -95,7 +95,7 @@ class ClientSession:
     Its subscriptions and what it advertises for ever, its calls and goals until answered or until the connection is lost.
     """
 
-    def __init__(self, *, limit_bytes: int = LARGEST_TOLD) -> None:
+    def __init__(self, *, limit_bytes: int = MAX_CLIENT_FRAME) -> None:
         """`limit_bytes` bounds a frame, what waits in fragments, and what is unpacked of one frame [byte]."""
         self.subscriptions: dict[str, dict[Id, Subscription]] = {}
         """By topic and id."""
@@ -111,9 +111,9 @@ class ClientSession:
         """Which remarks the server is asked for on a new connection; None for not asking."""
         self.ros2 = False
         """The server's types are spelled `pkg/msg/Type`; what is given out to be sent is spelled so then."""
-        self.calls = Calls("call", MOST_CALLS)
+        self.calls = Calls("call", MAX_CALLS)
         """Calls until answered."""
-        self.goals = Goals("goal", MOST_GOALS)
+        self.goals = Goals("goal", MAX_GOALS)
         """Goals of ours until the server says what became of them."""
         self._limit = limit_bytes
         self._arrivals = self._nothing_yet()
@@ -165,9 +165,9 @@ class ClientSession:
         """
         return self.calls.ask(CallService(service=service, args=Raw(args), timeout=timeout), answer)
 
-    def answered(self, op: ServiceResponse) -> bool:
+    def on_response(self, op: ServiceResponse) -> bool:
         """Pass an answer to whoever waits for it; False when nobody does."""
-        return self.calls.answered(op)
+        return self.calls.on_response(op)
 
     def serve(self, service: str, type: str, call: Callable[[CallService], object]) -> AdvertiseService:
         """Remember that this client answers calls of `service`, of ROS type `type`; gives what to send now."""
@@ -202,13 +202,13 @@ class ClientSession:
         """What to send to take a goal back; its result is still to come. None when it is not under way."""
         return self.goals.cancel(id)
 
-    def fed_back(self, op: ActionFeedback) -> bool:
+    def on_feedback(self, op: ActionFeedback) -> bool:
         """Pass on how far a goal is; False when nobody wants to know."""
-        return self.goals.fed_back(op)
+        return self.goals.on_feedback(op)
 
-    def finished(self, op: ActionResult) -> bool:
+    def on_result(self, op: ActionResult) -> bool:
         """Pass on what became of a goal; False when nobody waits for it."""
-        return self.goals.finished(op)
+        return self.goals.on_result(op)
 
     def provide(
         self,
@@ -238,8 +238,8 @@ class ClientSession:
         id = checked_id(op)
         if id in self.given:
             raise wrong(op, f"A goal with the id {shown(None if id is UNSET else id)} is under way already.")
-        if len(self.given) >= MOST_GOALS:
-            raise wrong(op, f"At most {MOST_GOALS} goals may be under way.")
+        if len(self.given) >= MAX_GOALS:
+            raise wrong(op, f"At most {MAX_GOALS} goals may be under way.")
         self.given[id] = Given(op, provided)
         provided.start(op)
 
@@ -279,7 +279,7 @@ class ClientSession:
                 yield self._spelled(subscription.op)
 
     def _nothing_yet(self) -> Arrivals:
-        return Arrivals(self._limit, filtered=_FILTERED, most_values=_MOST_VALUES)
+        return Arrivals(self._limit, filtered=_MAX_FILTERED_BYTES, most_values=_MAX_VALUES)
 
     def _spelled(self, op: AnyOp) -> AnyOp:
         """The operation with its type as the server spells types."""

@@ -15,9 +15,9 @@ from bridge.core.errors import ProtocolError
 from bridge.protocol.names import checked_id, plain_id, wrong
 from bridge.protocol.ops import Fragment, Id
 
-__all__ = ["MOST_SLICES", "Fragments", "split"]
+__all__ = ["MAX_SLICES", "Fragments", "split"]
 
-MOST_SLICES = 10_000
+MAX_SLICES = 10_000
 """A text is not cut into more slices than this: they become longer instead."""
 SLICE_COST = 64
 """What a slice that waits costs beside its text [byte]."""
@@ -41,7 +41,7 @@ def split(text: bytes, size: int, id: str) -> list[bytes]:
         whole = text.decode()
     except UnicodeDecodeError as error:
         raise ProtocolError(f"{len(text)} bytes that are not UTF-8 cannot be sliced.") from error
-    slices = _slices(whole, max(size, math.ceil(len(whole) / MOST_SLICES)))
+    slices = _slices(whole, max(size, math.ceil(len(whole) / MAX_SLICES)))
     if len(slices) == 1:
         return [text]
     return [

@@ -10,12 +10,12 @@ from msgspec import UNSET
 
 from bridge.codec import shown
 from bridge.core.compat import Compat
-from bridge.protocol.names import LONGEST_NAME, spells_ros2, wrong
+from bridge.protocol.names import MAX_NAME_LENGTH, spells_ros2, wrong
 from bridge.protocol.ops import COMPRESSIONS, Op, Reduction, Subscribe
 
 __all__ = ["Subscribed", "checked_size", "merged", "wish"]
 
-MOST_FIELDS = 100
+MAX_FIELDS = 100
 """So many paths may stand in `Reduction.fields`."""
 
 
@@ -123,8 +123,8 @@ def _check_reduction(op: Subscribe, wanted: Reduction) -> None:
     fields = wanted.fields
     if fields is None:
         return
-    if len(fields) > MOST_FIELDS:
-        raise wrong(op, f"reduce.fields may name at most {MOST_FIELDS} fields, not {len(fields)}.")
+    if len(fields) > MAX_FIELDS:
+        raise wrong(op, f"reduce.fields may name at most {MAX_FIELDS} fields, not {len(fields)}.")
     for path in fields:
-        if not 0 < len(path) <= LONGEST_NAME:
-            raise wrong(op, f"reduce.fields: a path has 1 to {LONGEST_NAME} characters, not {len(path)}.")
+        if not 0 < len(path) <= MAX_NAME_LENGTH:
+            raise wrong(op, f"reduce.fields: a path has 1 to {MAX_NAME_LENGTH} characters, not {len(path)}.")

@@ -10,8 +10,8 @@ from bridge.core.errors import ProtocolError
 from bridge.protocol.ops import CallService, Id, Op
 
 __all__ = [
-    "LONGEST_ID",
-    "LONGEST_NAME",
+    "MAX_ID_LENGTH",
+    "MAX_NAME_LENGTH",
     "absolute",
     "checked_id",
     "checked_name",
@@ -22,9 +22,9 @@ __all__ = [
     "wrong",
 ]
 
-LONGEST_NAME = 256
+MAX_NAME_LENGTH = 256
 """[characters]"""
-LONGEST_ID = 1024
+MAX_ID_LENGTH = 1024
 """[characters]"""
 _ROS2 = re.compile(r"^[^/]+/(?:msg|srv|action)/[^/]+$")
 
@@ -36,21 +36,21 @@ def absolute(name: str) -> str:
 
 def checked_name(name: str, op: Op, field: str) -> str:
     """`name` made absolute; ProtocolError when it is empty or too long to be remembered."""
-    if 0 < len(name) <= LONGEST_NAME:
+    if 0 < len(name) <= MAX_NAME_LENGTH:
         return absolute(name)
-    raise wrong(op, f"{field} must have 1 to {LONGEST_NAME} characters, not {len(name)}.")
+    raise wrong(op, f"{field} must have 1 to {MAX_NAME_LENGTH} characters, not {len(name)}.")
 
 
 def checked_id(op: Op) -> Id:
     """The operation's id; ProtocolError when it is too long to be remembered."""
-    if not isinstance(op.id, str) or len(op.id) <= LONGEST_ID:
+    if not isinstance(op.id, str) or len(op.id) <= MAX_ID_LENGTH:
         return op.id
-    raise wrong(op, f"id must have at most {LONGEST_ID} characters, not {len(op.id)}.")
+    raise wrong(op, f"id must have at most {MAX_ID_LENGTH} characters, not {len(op.id)}.")
 
 
 def plain_id(id: Id) -> str | float | None:
     """The id as an error carries it: None where there is none, or one too long to repeat."""
-    if id is UNSET or (isinstance(id, str) and len(id) > LONGEST_ID):
+    if id is UNSET or (isinstance(id, str) and len(id) > MAX_ID_LENGTH):
         return None
     return id
 

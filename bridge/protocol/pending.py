@@ -67,7 +67,7 @@ class Calls:
         self._waiting[named.id] = _Call(absolute(op.service), answer)
         return named
 
-    def answered(self, op: ServiceResponse) -> bool:
+    def on_response(self, op: ServiceResponse) -> bool:
         """Pass an answer to whoever waits for it; False when nobody does."""
         call = self._waiting.pop(op.id, None)
         if call is not None:
@@ -117,7 +117,7 @@ class Goals:
         goal = self._waiting.get(id)
         return None if goal is None else CancelActionGoal(id=id, action=goal.op.action)
 
-    def fed_back(self, op: ActionFeedback) -> bool:
+    def on_feedback(self, op: ActionFeedback) -> bool:
         """Pass on how far a goal is; False when nobody wants to know."""
         goal = self._waiting.get(op.id)
         if goal is None or goal.feedback is None:
@@ -125,7 +125,7 @@ class Goals:
         goal.feedback(op)
         return True
 
-    def finished(self, op: ActionResult) -> bool:
+    def on_result(self, op: ActionResult) -> bool:
         """Pass on what became of a goal; False when nobody waits for it."""
         goal = self._waiting.pop(op.id, None)
         if goal is not None:

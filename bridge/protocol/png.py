@@ -16,15 +16,15 @@ from bridge.core.errors import ProtocolError
 from bridge.protocol.names import wrong
 from bridge.protocol.ops import Png
 
-__all__ = ["MOST_FILTERED", "pixels", "to_png"]
+__all__ = ["MAX_FILTERED_BYTES", "pixels", "to_png"]
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _HEADER = struct.Struct(">IIBBBBB")
 _LENGTH_AND_NAME = struct.Struct(">I4s")
 _CHANNELS = {2: 3, 6: 4}
 """Bytes of a pixel by colour type: RGB and, as a browser's canvas writes it, RGBA."""
-_LONGEST_SIDE = 1 << 20
-MOST_FILTERED = 32_768
+_MAX_SIDE = 1 << 20
+MAX_FILTERED_BYTES = 32_768
 """So many bytes of rows may be filtered: each takes a step of Python to restore, those of other rows nothing [byte]."""
 
 
@@ -45,7 +45,7 @@ def to_png(text: bytes) -> Png:
     return Png(data=binascii.b2a_base64(picture, newline=False).decode())
 
 
-def pixels(op: Png, limit: int, filtered: int = MOST_FILTERED) -> tuple[bytes, int]:
+def pixels(op: Png, limit: int, filtered: int = MAX_FILTERED_BYTES) -> tuple[bytes, int]:
     """The text in a picture of 8-bit RGB or RGBA with the line breaks that fill it up, and what was filtered [byte].
 
     `limit` is how large the text may be [byte], `filtered` how much of the pixels; nothing larger is ever unpacked.
@@ -98,8 +98,8 @@ def _shape(op: Png, header: bytes, limit: int) -> tuple[int, int, int]:
     channels = _CHANNELS.get(colour)
     if depth != 8 or channels is None or packing or filtering or interlace:
         raise _wrong(op, "the picture must be RGB or RGBA with 8 bits each and not interlaced")
-    if not 0 < width <= _LONGEST_SIDE or not 0 < height <= _LONGEST_SIDE:
-        raise _wrong(op, f"the picture must have 1 to {_LONGEST_SIDE} pixels a side, not {width} x {height}")
+    if not 0 < width <= _MAX_SIDE or not 0 < height <= _MAX_SIDE:
+        raise _wrong(op, f"the picture must have 1 to {_MAX_SIDE} pixels a side, not {width} x {height}")
     if 3 * width * height > limit:
         raise _wrong(op, f"the picture must hold at most {limit} bytes, not {3 * width * height}")
     return width, height, channels

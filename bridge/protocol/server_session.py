@@ -13,7 +13,7 @@ from bridge.core.compat import Compat
 from bridge.core.errors import ProtocolError
 from bridge.protocol.arrivals import Arrival, Arrivals
 from bridge.protocol.merging import Subscribed, checked_size, merged, wish
-from bridge.protocol.names import LONGEST_NAME, absolute, checked_id, checked_name, spells_ros2, wrong
+from bridge.protocol.names import MAX_NAME_LENGTH, absolute, checked_id, checked_name, spells_ros2, wrong
 from bridge.protocol.ops import (
     LEVELS,
     MISSING,
@@ -39,34 +39,34 @@ from bridge.protocol.ops import (
 from bridge.protocol.pending import Answer, Calls, Feedback, Goals, Result
 
 __all__ = [
-    "LARGEST_HEARD",
-    "MOST_ADVERTISED",
-    "MOST_CALLS",
-    "MOST_GOALS",
-    "MOST_SUBSCRIPTIONS",
+    "MAX_SERVER_FRAME",
+    "MAX_ADVERTISED",
+    "MAX_CALLS",
+    "MAX_GOALS",
+    "MAX_SUBSCRIPTIONS",
     "ServerSession",
 ]
 
 NAMELESS = (None, UNSET)
 _TYPED = (Subscribe, Advertise, AdvertiseService, AdvertiseAction)
-LARGEST_HEARD = 16_777_216
+MAX_SERVER_FRAME = 16_777_216
 """The largest frame that a server takes, and the most that may wait in fragments [byte]."""
-MOST_VALUES = 50_000
+MAX_VALUES = 50_000
 """Values in one binary frame, a number array counted as one."""
-MOST_SUBSCRIPTIONS = 1000
+MAX_SUBSCRIPTIONS = 1000
 """Subscriptions of one client, each id counted."""
-MOST_ADVERTISED = 1000
+MAX_ADVERTISED = 1000
 """Topics, services and actions that one client may advertise together, each id of a topic counted."""
-MOST_CALLS = 1000
+MAX_CALLS = 1000
 """Calls that one client may have before it unanswered."""
-MOST_GOALS = 100
+MAX_GOALS = 100
 """Goals that one client may have under way, and as many before it to carry out."""
 
 
 class ServerSession:
     """What a server remembers about one client: what it wants, what it offers, what is asked of it."""
 
-    def __init__(self, compat: Compat | None = None, *, limit_bytes: int = LARGEST_HEARD) -> None:
+    def __init__(self, compat: Compat | None = None, *, limit_bytes: int = MAX_SERVER_FRAME) -> None:
         """`limit_bytes` bounds a frame, what waits in fragments, and what is unpacked of one frame [byte]."""
         self.compat = compat or Compat()
         self.advertised: dict[str, dict[Id, Advertise]] = {}
@@ -84,14 +84,14 @@ class ServerSession:
         self.ros2 = False
         """It has spelled a type as `pkg/msg/Type`, so it wants times as `sec` and `nanosec` where it names no type."""
         self._limit = limit_bytes
-        self._arrivals = Arrivals(limit_bytes, most_values=MOST_VALUES)
+        self._arrivals = Arrivals(limit_bytes, most_values=MAX_VALUES)
         self._asked: dict[str, dict[Id, Subscribed]] = {}
         self._wanted: dict[str, Subscribed] = {}
         self._stale: dict[str, None] = {}
         self._altered: dict[str, None] = {}
         self._subscriptions = 0
-        self._calls = Calls("service_request", MOST_CALLS)
-        self._goals = Goals("action_goal", MOST_GOALS)
+        self._calls = Calls("service_request", MAX_CALLS)
+        self._goals = Goals("action_goal", MAX_GOALS)
 
     def receive(self, frame: str | bytes, now: float) -> list[Arrival]:
         """The operations in a frame that came at `now` [s], any clock that only goes forward; never raises.
@@ -118,8 +118,8 @@ class ServerSession:
             self._note_type(op, op.type)
 
     def _note_type(self, op: Op, type: str | None) -> None:
-        if type is not None and len(type) > LONGEST_NAME:
-            raise wrong(op, f"A type's name has at most {LONGEST_NAME} characters, not {len(type)}.")
+        if type is not None and len(type) > MAX_NAME_LENGTH:
+            raise wrong(op, f"A type's name has at most {MAX_NAME_LENGTH} characters, not {len(type)}.")
         self.ros2 = self.ros2 or spells_ros2(type)
 
     def answer_size(self, op: Op) -> int | None:
@@ -134,8 +134,8 @@ class ServerSession:
         topic = checked_name(op.topic, op, "topic")
         id = checked_id(op)
         asked = self._asked.get(topic, {})
-        if id not in asked and self._subscriptions >= MOST_SUBSCRIPTIONS:
-            raise wrong(op, f"A client may have at most {MOST_SUBSCRIPTIONS} subscriptions.")
+        if id not in asked and self._subscriptions >= MAX_SUBSCRIPTIONS:
+            raise wrong(op, f"A client may have at most {MAX_SUBSCRIPTIONS} subscriptions.")
         wanted = wish(op, self.compat, self.ros2)
         again = id in asked
         self._asked.setdefault(topic, {})[id] = wanted
@@ -233,14 +233,14 @@ class ServerSession:
         service = absolute(op.service)
         return self._calls.ask(CallService(service=service, args=op.args), answer)
 
-    def answered(self, op: ServiceResponse) -> bool:
+    def on_response(self, op: ServiceResponse) -> bool:
         """The client's answer, passed on to whoever asked; False when nobody waits for it any more."""
         if op.values is MISSING and not (op.result and self.compat.missing_values_as_defaults):
             reason = f"{absolute(op.service)} {'answered' if op.result else 'refused'} without saying more."
             op = msgspec.structs.replace(op, values=Raw(msgspec.json.encode(reason)), result=False)
         elif not op.result and self.compat.refusal_as_success and bytes(op.values).lstrip().startswith(b"{"):
             op = msgspec.structs.replace(op, result=True)
-        return self._calls.answered(op)
+        return self._calls.on_response(op)
 
     def forget_call(self, id: Id) -> bool:
         """Whoever made the call with this id, as `ask` gave it, waits no longer; False when nobody did."""
@@ -274,13 +274,13 @@ class ServerSession:
         """What to send the client to take a goal back, by the id that `hand_goal` gave; None when it is over."""
         return self._goals.cancel(id)
 
-    def fed_back(self, op: ActionFeedback) -> bool:
+    def on_feedback(self, op: ActionFeedback) -> bool:
         """The client says how far it is, passed on to who asked; False when nobody wants to know."""
-        return self._goals.fed_back(op)
+        return self._goals.on_feedback(op)
 
-    def finished(self, op: ActionResult) -> bool:
+    def on_result(self, op: ActionResult) -> bool:
         """The client says what became of a goal, passed on to whose it was; False when nobody waits for it."""
-        return self._goals.finished(op)
+        return self._goals.on_result(op)
 
     def begin_goal(self, op: SendActionGoal) -> None:
         """The client has a goal under way. ProtocolError when it has one of that id already, or too many."""
@@ -288,8 +288,8 @@ class ServerSession:
         checked_name(op.action, op, "action")
         if id in self.goals:
             raise wrong(op, f"A goal with the id {shown(None if id is UNSET else id)} is under way already.")
-        if len(self.goals) >= MOST_GOALS:
-            raise wrong(op, f"A client may have at most {MOST_GOALS} goals under way.")
+        if len(self.goals) >= MAX_GOALS:
+            raise wrong(op, f"A client may have at most {MAX_GOALS} goals under way.")
         self.goals[id] = msgspec.structs.replace(op, args=MISSING)
 
     def goal_to_cancel(self, op: CancelActionGoal) -> SendActionGoal:
@@ -328,7 +328,7 @@ class ServerSession:
         ):
             forgotten.clear()
         self._subscriptions = 0
-        self._arrivals = Arrivals(self._limit, most_values=MOST_VALUES)  # with what was unfinished
+        self._arrivals = Arrivals(self._limit, most_values=MAX_VALUES)  # with what was unfinished
         try:
             self._calls.lose()
         finally:
@@ -347,8 +347,8 @@ class ServerSession:
 
     def _check_room(self, op: Op) -> None:
         topics = sum(len(ids) for ids in self.advertised.values())
-        if topics + len(self.services) + len(self.actions) >= MOST_ADVERTISED:
-            raise wrong(op, f"A client may advertise at most {MOST_ADVERTISED} topics, services and actions.")
+        if topics + len(self.services) + len(self.actions) >= MAX_ADVERTISED:
+            raise wrong(op, f"A client may advertise at most {MAX_ADVERTISED} topics, services and actions.")
 
     def _cut(self, wanted: Subscribed) -> Subscribed:
         if not self.compat.sticky_fragment_size:

@@ -12,12 +12,12 @@ from msgspec import UNSET, Raw, UnsetType
 from bridge.codec import check_cbor, from_cbor, from_json, shown
 from bridge.core.errors import ProtocolError
 from bridge.msgs import Msg
-from bridge.protocol.names import LONGEST_ID
+from bridge.protocol.names import MAX_ID_LENGTH
 from bridge.protocol.ops import LEVELS, OPS, ActionResult, BinaryPublish, Op, Status
 
 __all__ = [
-    "LARGEST_ARGUMENTS",
-    "MOST_OPERATIONS",
+    "MAX_ARGUMENT_BYTES",
+    "MAX_OPERATIONS",
     "arguments",
     "complaint",
     "dump",
@@ -29,17 +29,17 @@ __all__ = [
     "too_deep",
 ]
 
-MOST_OPERATIONS = 1000
+MAX_OPERATIONS = 1000
 """So many operations may stand in one frame."""
-LARGEST_SHARED = 1_048_576
+MAX_SHARED_BYTES = 1_048_576
 """The largest frame that is looked through for several operations [byte]."""
-LARGEST_ARGUMENTS = 1_048_576
+MAX_ARGUMENT_BYTES = 1_048_576
 """The longest text of a request or a goal that is read [byte]."""
 _DEEPEST = 100
-_MOST_GAPS = 100_000
+_MAX_GAPS = 100_000
 """Bare NaNs are looked for in so many places between the texts of a frame."""
-_LONGEST_SCALAR = 8 * LONGEST_ID
-_LONGEST_REDUCTION = 65_536
+_MAX_SCALAR_LENGTH = 8 * MAX_ID_LENGTH
+_MAX_REDUCTION_LENGTH = 65_536
 _NAMES = tuple(str(op.__struct_config__.tag) for op in OPS)
 _FAULTS = (msgspec.MsgspecError, UnicodeError, RecursionError, OverflowError, ValueError)
 """What msgspec and json raise for texts that are no JSON, or no JSON of this shape."""
@@ -110,17 +110,17 @@ def parse_each(text: str | bytes, alone: ProtocolError | None = None) -> list[Op
             return [parse(text)]
         except ProtocolError as error:
             alone = error
-    pieces = _pieces(text) if len(text) <= LARGEST_SHARED else []
+    pieces = _pieces(text) if len(text) <= MAX_SHARED_BYTES else []
     if len(pieces) < 2:
         return [alone]
     found: list[Op | ProtocolError] = []
-    for piece in pieces[:MOST_OPERATIONS]:
+    for piece in pieces[:MAX_OPERATIONS]:
         try:
             found.append(parse(piece))
         except ProtocolError as error:
             found.append(error)
-    if len(pieces) > MOST_OPERATIONS:
-        found.append(ProtocolError(f"A frame may hold at most {MOST_OPERATIONS} operations."))
+    if len(pieces) > MAX_OPERATIONS:
+        found.append(ProtocolError(f"A frame may hold at most {MAX_OPERATIONS} operations."))
     return found
 
 
@@ -171,12 +171,12 @@ def complaint(error: ProtocolError, level: str = "error") -> Status:
 def arguments(raw: Raw, type: type[Msg]) -> Msg:
     """A request or a goal in `args`: an object, a list of the fields in their order, or null.
 
-    ProtocolError when it is none of them, or over `LARGEST_ARGUMENTS`.
+    ProtocolError when it is none of them, or over `MAX_ARGUMENT_BYTES`.
     """
     text = bytes(raw).lstrip()
-    if len(text) > LARGEST_ARGUMENTS:
+    if len(text) > MAX_ARGUMENT_BYTES:
         raise ProtocolError(
-            f"args of {type.MSGTYPE} may have at most {LARGEST_ARGUMENTS} bytes, not {len(text)}."
+            f"args of {type.MSGTYPE} may have at most {MAX_ARGUMENT_BYTES} bytes, not {len(text)}."
         )
     if text.startswith(b"{"):
         return from_json(raw, type)
@@ -242,7 +242,7 @@ def _without_nan(raw: bytes) -> bytes:
     def nulled(found: re.Match[bytes]) -> bytes:
         nonlocal gaps
         gaps += 1
-        if gaps > _MOST_GAPS:
+        if gaps > _MAX_GAPS:
             raise ValueError("there are too many texts among bare NaNs")
         gap = found[2]
         for word in (b"-NaN", b"NaN", b"-Infinity", b"Infinity"):
@@ -258,7 +258,7 @@ def _without_nulls(raw: bytes) -> bytes:
     for name, value in msgspec.structs.asdict(_FIELDS.decode(raw)).items():
         if value is UNSET or (bytes(value) == b"null" and name not in _NULLABLE):
             continue
-        whole = name in ("status", "reduce") and len(value) <= _LONGEST_REDUCTION
+        whole = name in ("status", "reduce") and len(value) <= _MAX_REDUCTION_LENGTH
         kept[name] = _whole_numbers(msgspec.json.decode(value)) if whole else value
     return _ENCODER.encode(kept)
 
@@ -277,7 +277,7 @@ def _pieces(text: str | bytes) -> list[str]:
     except UnicodeDecodeError:
         return pieces
     place = _after_space(whole, 0)
-    while place < len(whole) and len(pieces) <= MOST_OPERATIONS:
+    while place < len(whole) and len(pieces) <= MAX_OPERATIONS:
         try:
             _, end = _SCANNER.raw_decode(whole, place)
         except (ValueError, RecursionError):
@@ -326,11 +326,11 @@ def _sentence(op: str, fault: str) -> str:
 
 def _scalar(raw: Raw | UnsetType) -> str | float | None:
     """A short text or a number; None for anything else."""
-    if raw is UNSET or len(raw) > _LONGEST_SCALAR:
+    if raw is UNSET or len(raw) > _MAX_SCALAR_LENGTH:
         return None
     try:
         value = msgspec.json.decode(raw)
     except _FAULTS:
         return None
     usable = isinstance(value, (str, int, float)) and not isinstance(value, bool)
-    return value if usable and len(str(value)) <= LONGEST_ID else None
+    return value if usable and len(str(value)) <= MAX_ID_LENGTH else None

@@ -27,41 +27,41 @@ from bridge.protocol import (
     goal_status,
     too_deep,
 )
-from bridge.server.client_services import Exchange, Party
-from bridge.server.flow.outgoing_messages import Outgoing, said
+from bridge.server.client_services import ClientServices, Peer
+from bridge.server.flow.outgoing_messages import OutgoingMessage, op_frames
 from bridge.server.flow.priority_lanes import Lane, Stream
-from bridge.server.flow.send_queue import Outlet
-from bridge.server.flow.sockets import end
+from bridge.server.flow.send_queue import SendQueue
+from bridge.server.flow.sockets import cancel_all
 
-__all__ = ["Errands"]
+__all__ = ["ActionGoals"]
 
 log = logging.getLogger(__name__)
 
 
-class Errands:
+class ActionGoals:
     """What one client set going and is to hear the end of."""
 
     def __init__(
         self,
-        client: Party,
+        client: Peer,
         session: Session,
-        outlet: Outlet,
+        queue: SendQueue,
         actions: Mapping[str, Action],
-        exchange: Exchange,
+        client_services: ClientServices,
     ) -> None:
         """`actions` are the robot's own, by name."""
         self._client = client
         self._session = session
-        self._outlet = outlet
+        self._queue = queue
         self._actions = actions
-        self._exchange = exchange
+        self._client_services = client_services
         self._cancel: dict[Id, Callable[[], object]] = {}
         self._news: dict[Id, Stream] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
     def begin(self, op: SendActionGoal) -> None:
         """Set a goal going; what is wrong with it is told as its result. ProtocolError for an id that is taken."""
-        self._client.remembered.begin_goal(op)
+        self._client.protocol.begin_goal(op)
         self._news[op.id] = Stream(f"{op.action} {op.id}", Lane.TELEMETRY, Subscribed(op.action))
         try:
             self._cancel[op.id] = self._start(op)
@@ -70,23 +70,23 @@ class Errands:
 
     def cancel(self, op: CancelActionGoal) -> None:
         """Take a goal back; its result is still to come. ProtocolError when it is not under way."""
-        goal = self._client.remembered.goal_to_cancel(op)
+        goal = self._client.protocol.goal_to_cancel(op)
         self._cancel[goal.id]()
 
     async def close(self) -> None:
         """The client is gone: take all its goals back."""
         for cancel in list(self._cancel.values()):
             cancel()
-        await end(self._tasks)
+        await cancel_all(self._tasks)
 
     def _start(self, op: SendActionGoal) -> Callable[[], object]:
         name = absolute(op.action)
         action = self._actions.get(name)
         told = msgspec.structs.replace(op, args=MISSING)  # which would keep all of its frame until it is over
         if action is None:
-            if name not in self._exchange.actions:
+            if name not in self._client_services.actions:
                 raise Refused(f"This robot has no action {shown(name)}.")
-            return self._exchange.hand_goal(
+            return self._client_services.hand_goal(
                 self._client,
                 name,
                 op,
@@ -123,7 +123,7 @@ class Errands:
     def _tell(self, op: SendActionGoal, values: Raw) -> None:
         news = self._news.get(op.id)
         if news is not None and not too_deep(bytes(values)):
-            self._outlet.offer(news, _News(op, values, self._client.remembered.answer_size(op)))
+            self._queue.offer(news, _News(op, values, self._client.protocol.answer_size(op)))
 
     def _over(self, op: SendActionGoal, told: ActionResult | None) -> None:
         """What another client says became of a goal."""
@@ -135,15 +135,15 @@ class Errands:
             self._end(op, msgspec.structs.replace(told, id=op.id, action=op.action, status=goal_status(told)))
 
     def _end(self, op: SendActionGoal, result: ActionResult) -> None:
-        self._client.remembered.end_goal(op.id)
+        self._client.protocol.end_goal(op.id)
         self._cancel.pop(op.id, None)
         news = self._news.pop(op.id, None)
         if news is not None:
-            self._outlet.forget(news)
-            self._client.send(result, size=self._client.remembered.answer_size(op))
+            self._queue.remove(news)
+            self._client.send(result, size=self._client.protocol.answer_size(op))
 
 
-class _News(Outgoing):
+class _News(OutgoingMessage):
     """How far a goal is; sent as any message of a topic, so that a newer one replaces it while it waits."""
 
     __slots__ = ("_op", "_size", "_values")
@@ -156,7 +156,9 @@ class _News(Outgoing):
 
     def frame(self, form: object) -> bytes:
         """The operation in WebSocket frames."""
-        return said(ActionFeedback(id=self._op.id, action=self._op.action, values=self._values), self._size)
+        return op_frames(
+            ActionFeedback(id=self._op.id, action=self._op.action, values=self._values), self._size
+        )
 
 
 def _done(op: SendActionGoal, values: bytes, status: int) -> ActionResult:

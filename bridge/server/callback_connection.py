@@ -20,49 +20,49 @@ from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode, Frame, Opcode
 from websockets.protocol import Event, State
 
-from bridge.server.flow.send_queue import Round
-from bridge.server.flow.sockets import TURN
+from bridge.server.flow.send_queue import WriteBatch
+from bridge.server.flow.sockets import TURN_TIME
 
-__all__ = ["Ears", "HeardConnection"]
+__all__ = ["MessageHandler", "CallbackConnection"]
 
 log = logging.getLogger(__name__)
 
-MOST = 128
+MAX_CONNECTIONS = 128
 """Connections open at a time; for one more the oldest that has not shaken hands is closed, else that one."""
-MOST_PIECES = 1000
+MAX_PIECES = 1000
 """Frames that one message may come in."""
-PIECE = 32_768
+PIECE_BYTES = 32_768
 """So much of what came is looked at before the clock is [byte]."""
 _DATA = (Opcode.TEXT, Opcode.BINARY, Opcode.CONT)
 
 
-class Ears(Protocol):
+class MessageHandler(Protocol):
     """Hears a connection."""
 
-    def hear(self, message: str | bytes) -> bool:
+    def on_message(self, message: str | bytes) -> bool:
         """A message came; bytes hold the UTF-8 of a text or a binary message. False when it asks for more than a turn."""
 
-    def go_on(self) -> bool:
+    def resume(self) -> bool:
         """Do more of what was heard; False when there is still more."""
 
-    def answered(self, content: bytes) -> None:
+    def on_pong(self, content: bytes) -> None:
         """A pong came."""
 
-    def pump(self) -> None:
+    def on_drained(self) -> None:
         """Everything written so far left this process."""
 
 
-class HeardConnection(ServerConnection):
+class CallbackConnection(ServerConnection):
     """One WebSocket; works as any other until it is heard."""
 
     clock = staticmethod(time.monotonic)
-    round: Round | None = None
+    batch: WriteBatch | None = None
     """Where what is written in one step of the loop is gathered; set by the server."""
-    crowd: dict[HeardConnection, None] | None = None
+    connections: dict[CallbackConnection, None] | None = None
     """All of one server, the oldest first; set by the server."""
-    _ears: Ears | None = None
+    _handler: MessageHandler | None = None
     _direct = False
-    _deaf = False
+    _closed = False
     _kind = Opcode.TEXT
     _pieces: list[bytes]
     _behind = False
@@ -70,34 +70,34 @@ class HeardConnection(ServerConnection):
 
     def __init__(self, *args: Any, **options: Any) -> None:
         super().__init__(*args, **options)
-        self._rest = bytearray()
-        self._unheard: deque[str | bytes] = deque()
+        self._unread = bytearray()
+        self._undelivered: deque[str | bytes] = deque()
         self._until = math.inf
         self._idle = asyncio.Event()
         self._idle.set()
 
     @property
-    def open(self) -> bool:
+    def is_open(self) -> bool:
         """Whether frames may still be written."""
-        return not self._deaf and self.protocol.state is State.OPEN
+        return not self._closed and self.protocol.state is State.OPEN
 
     def write(self, frames: bytes) -> None:
         """Write whole frames of this side; returns at once."""
         self.transport.write(frames)
 
-    def cut(self) -> None:
+    def abort(self) -> None:
         """Break the connection at once; nothing that came is heard any more, but for what came before a goodbye."""
-        self._deaf = self._deaf or self.protocol.state is State.OPEN
+        self._closed = self._closed or self.protocol.state is State.OPEN
         self.transport.abort()
 
-    async def heard_by(self, ears: Ears) -> None:
-        """Have `ears` hear everything until the connection ends; ConnectionClosed when it ends badly."""
+    async def serve(self, handler: MessageHandler) -> None:
+        """Have `handler` hear everything until the connection ends; ConnectionClosed when it ends badly."""
         self.transport.set_write_buffer_limits(high=0)
-        self._ears = ears
+        self._handler = handler
         try:
-            while not self._take_over():
+            while not self._is_direct():
                 message = await self.recv()
-                self._tell(ears, message)
+                self._deliver(handler, message)
                 if self._behind and not self._waits:  # the next one may be long in coming
                     self._wait()
         except ConnectionClosed:
@@ -106,70 +106,70 @@ class HeardConnection(ServerConnection):
             await self.wait_closed()
             await self._idle.wait()  # what came before a goodbye counts, a rest above all
         finally:
-            self._forget()
+            self._release()
         if self.close_code not in (CloseCode.NORMAL_CLOSURE, CloseCode.GOING_AWAY):
             raise self.close_exc
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Let it in if there is room or somebody has not shaken hands."""
         super().connection_made(transport)
-        if self.crowd is None:
+        if self.connections is None:
             return
-        self.crowd[self] = None
-        if len(self.crowd) > MOST:
-            strangers = (other for other in self.crowd if other.protocol.state is State.CONNECTING)
+        self.connections[self] = None
+        if len(self.connections) > MAX_CONNECTIONS:
+            strangers = (other for other in self.connections if other.protocol.state is State.CONNECTING)
             oldest = next(strangers, self)
-            del self.crowd[oldest]
+            del self.connections[oldest]
             oldest.transport.abort()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """It is gone."""
-        if self.crowd is not None:
-            self.crowd.pop(self, None)
+        if self.connections is not None:
+            self.connections.pop(self, None)
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
         """Take what came from the network, in pieces with a turn for others between when it is much."""
         if self._waits:
-            self._rest += data
-        elif self._direct and len(data) > PIECE:
-            self._rest += data
-            self._go_on()
+            self._unread += data
+        elif self._direct and len(data) > PIECE_BYTES:
+            self._unread += data
+            self._take_turn()
         else:
-            self._until = self.clock() + TURN
-            self._together(super().data_received, data)
+            self._until = self.clock() + TURN_TIME
+            self._batched(super().data_received, data)
             if self._behind:
                 self._wait()
 
-    def _go_on(self) -> None:
+    def _take_turn(self) -> None:
         """Have a turn: what was heard first, then what came after it."""
         take = super().data_received
         self._waits = False
-        if self._deaf or self._ears is None:
+        if self._closed or self._handler is None:
             self._idle.set()
             return
-        self._until = self.clock() + TURN
+        self._until = self.clock() + TURN_TIME
         if self._behind:
-            self._together(self._catch_up, self._ears)
+            self._batched(self._catch_up, self._handler)
         if self.protocol.state is State.CLOSED:
-            self._rest.clear()  # nothing is read of a connection that is lost
-        while self._rest and not self._behind and not self._deaf:
-            piece = self._rest[:PIECE]
-            del self._rest[:PIECE]
-            self._together(take, piece)
+            self._unread.clear()  # nothing is read of a connection that is lost
+        while self._unread and not self._behind and not self._closed:
+            piece = self._unread[:PIECE_BYTES]
+            del self._unread[:PIECE_BYTES]
+            self._batched(take, piece)
             if self.clock() >= self._until:
                 break
-        if self._rest or self._behind:
+        if self._unread or self._behind:
             self._wait()
         else:
             self._idle.set()
             self.transport.resume_reading()
 
-    def _forget(self) -> None:
+    def _release(self) -> None:
         """It is over: keep nothing of what came, for as long as anybody still holds this connection."""
-        self._ears = None
-        self._rest.clear()
-        self._unheard.clear()
+        self._handler = None
+        self._unread.clear()
+        self._undelivered.clear()
         self._pieces = []
         self.protocol.reader.buffer.clear()  # a frame of which only a part came; the library keeps it
 
@@ -177,92 +177,92 @@ class HeardConnection(ServerConnection):
         self._waits = True
         self._idle.clear()
         self.transport.pause_reading()
-        self.loop.call_soon(self._go_on)
+        self.loop.call_soon(self._take_turn)
 
-    def _catch_up(self, ears: Ears) -> None:
+    def _catch_up(self, handler: MessageHandler) -> None:
         """What was heard and not done first, then what came in the same piece."""
         self._behind = False
         try:
-            self._behind = not ears.go_on()
+            self._behind = not handler.resume()
         except Exception:
             log.exception("A message was not understood")
-        while self._unheard and not self._behind:
-            self._tell(ears, self._unheard.popleft())
-        self._behind = self._behind or bool(self._unheard)
+        while self._undelivered and not self._behind:
+            self._deliver(handler, self._undelivered.popleft())
+        self._behind = self._behind or bool(self._undelivered)
 
-    def _together(self, work: Callable[[Any], None], about: Any) -> None:
+    def _batched(self, work: Callable[[Any], None], about: Any) -> None:
         """Let what `work` causes leave together."""
-        round = self.round
-        if round is None or round.held:
+        batch = self.batch
+        if batch is None or batch.held:
             work(about)
             return
-        round.held = True
+        batch.held = True
         try:
             work(about)
         finally:
-            round.held = False
-            round.flush()
+            batch.held = False
+            batch.flush()
 
     def resume_writing(self) -> None:
         """Everything written so far left this process."""
         super().resume_writing()
-        if self._ears is not None:
-            self._ears.pump()
+        if self._handler is not None:
+            self._handler.on_drained()
 
     def process_event(self, event: Event) -> None:
         """Take one frame."""
-        ears = self._ears
-        if ears is None or not isinstance(event, Frame):
+        handler = self._handler
+        if handler is None or not isinstance(event, Frame):
             super().process_event(event)
         elif event.opcode is Opcode.PONG:
-            ears.answered(bytes(event.data))
+            handler.on_pong(bytes(event.data))
         elif not self._direct or event.opcode not in _DATA:
             super().process_event(event)
         elif event.opcode is not Opcode.CONT and event.fin:
-            self._complete(ears, event.opcode, bytes(event.data))
+            self._complete(handler, event.opcode, bytes(event.data))
         else:
-            self._piece(ears, event)
+            self._piece(handler, event)
 
-    def _take_over(self) -> bool:
+    def _is_direct(self) -> bool:
         """Whether from now on messages are heard as they come: nothing waits in the library's queue."""
         # a message in several frames of which some went there ends there
         self._direct = not self.recv_messages.frames and self.protocol.current_size is None
         return self._direct
 
-    def _piece(self, ears: Ears, frame: Frame) -> None:
+    def _piece(self, handler: MessageHandler, frame: Frame) -> None:
         """One frame of a message in several; the library bounds them all together."""
         if frame.opcode is not Opcode.CONT:
             self._kind, self._pieces = frame.opcode, []
         self._pieces.append(bytes(frame.data))
-        if len(self._pieces) > MOST_PIECES:
-            self._give_up(CloseCode.POLICY_VIOLATION, f"a message in over {MOST_PIECES} frames")
+        if len(self._pieces) > MAX_PIECES:
+            self._fail(CloseCode.POLICY_VIOLATION, f"a message in over {MAX_PIECES} frames")
         elif frame.fin:
             pieces, self._pieces = self._pieces, []
-            self._complete(ears, self._kind, b"".join(pieces))
+            self._complete(handler, self._kind, b"".join(pieces))
 
-    def _complete(self, ears: Ears, kind: Opcode, data: bytes) -> None:
+    def _complete(self, handler: MessageHandler, kind: Opcode, data: bytes) -> None:
         if kind is Opcode.TEXT and not data.isascii():
             try:
                 data.decode()
             except UnicodeDecodeError as error:
-                self._give_up(CloseCode.INVALID_DATA, f"{error.reason} at position {error.start}")
+                self._fail(CloseCode.INVALID_DATA, f"{error.reason} at position {error.start}")
                 return
-        self._tell(ears, data)
+        self._deliver(handler, data)
 
-    def _tell(self, ears: Ears, message: str | bytes) -> None:
+    def _deliver(self, handler: MessageHandler, message: str | bytes) -> None:
         # a goodbye that came in the same breath as this message has closed the protocol already; it was still sent before
-        if self._deaf:
+        if self._closed:
             return
         if self._behind:
-            self._unheard.append(message)  # of one piece, so they are few or small
+            self._undelivered.append(message)  # of one piece, so they are few or small
             return
         try:
-            self._behind = not ears.hear(message) or self.clock() >= self._until
+            self._behind = not handler.on_message(message) or self.clock() >= self._until
         except Exception:
             log.exception("A message of %d bytes was not understood", len(message))
 
-    def _give_up(self, code: CloseCode, reason: str) -> None:
-        self._deaf = True
+    def _fail(self, code: CloseCode, reason: str) -> None:
+        self._closed = True
         if self.protocol.state is State.OPEN:
             self.protocol.fail(code, reason)
             self.send_data()

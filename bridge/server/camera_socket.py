@@ -5,9 +5,9 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable
 
-from bridge.server.flow.picture_quality import COARSEST, Quality
+from bridge.server.flow.picture_quality import COARSEST, PictureQuality
 from bridge.server.flow.quality_levels import Picture
-from bridge.server.flow.sockets import Socket, end, wait
+from bridge.server.flow.sockets import Socket, cancel_all, wait
 
 __all__ = ["CameraSocket"]
 
@@ -18,11 +18,11 @@ class CameraSocket:
     def __init__(
         self, socket: Socket, clock: Callable[[], float] | None = None, *, coarsest: int = COARSEST
     ) -> None:
-        """`clock` tells the time that acknowledgements take [s], None is the loop's; `coarsest` as in Quality."""
+        """`clock` tells the time that acknowledgements take [s], None is the loop's; `coarsest` as in PictureQuality."""
         self._socket = socket
         self._newest: Picture | None = None
         self._clock = clock or asyncio.get_running_loop().time
-        self.quality = Quality(coarsest)
+        self.quality = PictureQuality(coarsest)
         """What may be sent when."""
         self._wake = asyncio.Event()
 
@@ -33,7 +33,7 @@ class CameraSocket:
             async for text in self._socket:
                 self._acknowledge(text)
         finally:
-            await end({writer})
+            await cancel_all({writer})
 
     def offer(self, picture: Picture) -> None:
         """Have a picture sent as soon as there is room for it; a newer one replaces one that still waits."""
@@ -43,7 +43,7 @@ class CameraSocket:
     def _acknowledge(self, text: str | bytes) -> None:
         word, _, number = str(text).partition(" ")
         if word == "ack" and number.isdecimal() and len(number) < 11:
-            self.quality.acknowledged(int(number), self._clock())
+            self.quality.on_ack(int(number), self._clock())
             self._wake.set()
 
     async def _write(self) -> None:
@@ -58,7 +58,7 @@ class CameraSocket:
             frame = await picture.at(level)
             if level and frame is picture.frame and self._newest is not None:
                 continue  # it could not be made smaller in time, and a newer one can
-            self.quality.sent(picture.seq, len(frame), level, self._clock())
+            self.quality.on_sent(picture.seq, len(frame), level, self._clock())
             await self._socket.send(frame)
 
     def _take(self) -> Picture | None:

@@ -8,17 +8,17 @@ from collections import Counter
 
 from bridge.core.errors import ProtocolError
 
-__all__ = ["Complaints"]
+__all__ = ["ClientFaults"]
 
 log = logging.getLogger(__name__)
 
-_KINDS = 50
+_MAX_KINDS = 50
 """So many kinds are told apart for one client."""
 _VARIES = re.compile(r"\"[^\"]*\"?|'[^']*'?|[\d.]+|/[\w/.~-]+")
 """What differs among complaints of one kind: quoted texts, numbers, names."""
 
 
-class Complaints:
+class ClientFaults:
     """Counts what one client does wrong."""
 
     def __init__(self, client: str) -> None:
@@ -29,7 +29,7 @@ class Complaints:
     def note(self, error: ProtocolError) -> None:
         """Log it, unless one of its kind was before."""
         kind = f"{error.op} {_VARIES.sub('', str(error))}"[:200]
-        if kind not in self._seen and len(self._seen) >= _KINDS:
+        if kind not in self._seen and len(self._seen) >= _MAX_KINDS:
             kind = "anything else"
         self._seen[kind] += 1
         if self._seen[kind] == 1:

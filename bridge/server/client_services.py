@@ -13,8 +13,8 @@ from bridge.codec import shown, to_json
 from bridge.core.errors import ProtocolError
 from bridge.msgs import TYPES, ros1_name
 from bridge.protocol import (
+    MAX_CALLS,
     MISSING,
-    MOST_CALLS,
     ActionFeedback,
     ActionResult,
     AdvertiseAction,
@@ -33,81 +33,81 @@ from bridge.protocol import (
 )
 from bridge.server.flow.priority_lanes import Lane
 
-__all__ = ["PATIENCE", "Exchange", "Party"]
+__all__ = ["ANSWER_TIMEOUT", "ClientServices", "Peer"]
 
-PATIENCE = 60.0
+ANSWER_TIMEOUT = 60.0
 """How long a client may take to answer a call when the caller does not say [s]."""
 
 
-class Party(Protocol):
+class Peer(Protocol):
     """A client, as others deal with it."""
 
-    remembered: ServerSession
+    protocol: ServerSession
 
     def send(self, op: Op, lane: Lane = Lane.REPLY, size: int | None = None) -> None:
         """Send it an operation; returns at once."""
 
 
-class Exchange:
+class ClientServices:
     """Who of the clients offers which service and action, and what is under way between them."""
 
     def __init__(self, services: Collection[str], actions: Collection[str]) -> None:
         """`services` and `actions` are the robot's own: no client may offer those."""
-        self.services: dict[str, Party] = {}
+        self.services: dict[str, Peer] = {}
         """By absolute name."""
-        self.actions: dict[str, Party] = {}
+        self.actions: dict[str, Peer] = {}
         """By absolute name."""
         self._own_services = services
         self._own_actions = actions
-        self._asked: dict[Party, dict[object, Callable[[], None]]] = {}
+        self._asked: dict[Peer, dict[object, Callable[[], None]]] = {}
 
-    def advertise_service(self, party: Party, op: AdvertiseService) -> None:
-        """`party` answers a service from now on, in the place of whoever did before; ProtocolError for the robot's own."""
+    def advertise_service(self, peer: Peer, op: AdvertiseService) -> None:
+        """`peer` answers a service from now on, in the place of whoever did before; ProtocolError for the robot's own."""
         name = absolute(op.service)
         if name in self._own_services or name.startswith("/rosapi/"):
             raise ProtocolError(f"{shown(name)} is this robot's own service.")
-        party.remembered.advertise_service(op)
+        peer.protocol.advertise_service(op)
         before = self.services.get(name)
-        self.services[name] = party
-        if before is not None and before is not party:
-            before.remembered.unadvertise_service(UnadvertiseService(service=name))
+        self.services[name] = peer
+        if before is not None and before is not peer:
+            before.protocol.unadvertise_service(UnadvertiseService(service=name))
 
-    def unadvertise_service(self, party: Party, op: UnadvertiseService) -> None:
-        """`party` answers it no longer; who waits for an answer is told."""
-        name = party.remembered.unadvertise_service(op)
-        if self.services.get(name) is party:
+    def unadvertise_service(self, peer: Peer, op: UnadvertiseService) -> None:
+        """`peer` answers it no longer; who waits for an answer is told."""
+        name = peer.protocol.unadvertise_service(op)
+        if self.services.get(name) is peer:
             del self.services[name]
 
-    def advertise_action(self, party: Party, op: AdvertiseAction) -> None:
-        """`party` carries goals out from now on, in the place of whoever did before; ProtocolError for the robot's own."""
+    def advertise_action(self, peer: Peer, op: AdvertiseAction) -> None:
+        """`peer` carries goals out from now on, in the place of whoever did before; ProtocolError for the robot's own."""
         name = absolute(op.action)
         if name in self._own_actions:
             raise ProtocolError(f"{shown(name)} is this robot's own action.")
-        party.remembered.advertise_action(op)
+        peer.protocol.advertise_action(op)
         before = self.actions.get(name)
-        self.actions[name] = party
-        if before is not None and before is not party:
-            before.remembered.unadvertise_action(UnadvertiseAction(action=name))
+        self.actions[name] = peer
+        if before is not None and before is not peer:
+            before.protocol.unadvertise_action(UnadvertiseAction(action=name))
 
-    def unadvertise_action(self, party: Party, op: UnadvertiseAction) -> None:
-        """`party` takes no more goals; whose goal is under way is told."""
-        name = party.remembered.unadvertise_action(op)
-        if self.actions.get(name) is party:
+    def unadvertise_action(self, peer: Peer, op: UnadvertiseAction) -> None:
+        """`peer` takes no more goals; whose goal is under way is told."""
+        name = peer.protocol.unadvertise_action(op)
+        if self.actions.get(name) is peer:
             del self.actions[name]
 
-    def call(self, caller: Party, name: str, id: Id, op: CallService) -> None:
+    def call(self, caller: Peer, name: str, id: Id, op: CallService) -> None:
         """Hand a call on to who answers the service `name`, which somebody does; the answer comes later.
 
         ProtocolError when it cannot be handed on.
         """
         provider = self.services[name]
-        size = caller.remembered.answer_size(op)
+        size = caller.protocol.answer_size(op)
         request = _request(provider, name, op)
         op = msgspec.structs.replace(
             op, args=MISSING
         )  # which would keep all of its frame until it is answered
-        if len(self._asked.get(caller, ())) >= MOST_CALLS:
-            raise ProtocolError(f"{MOST_CALLS} calls of this client wait for their answer already.")
+        if len(self._asked.get(caller, ())) >= MAX_CALLS:
+            raise ProtocolError(f"{MAX_CALLS} calls of this client wait for their answer already.")
         key = object()
 
         def answer(response: ServiceResponse | None) -> None:
@@ -119,11 +119,11 @@ class Exchange:
             told = msgspec.structs.replace(response, id=id, service=op.service)
             caller.send(told, size=size)
 
-        asked = provider.remembered.ask(request, answer)
-        patience = op.timeout if op.timeout and op.timeout > 0 else PATIENCE
+        asked = provider.protocol.ask(request, answer)
+        patience = op.timeout if op.timeout and op.timeout > 0 else ANSWER_TIMEOUT
 
         def give_up() -> None:
-            if provider.remembered.forget_call(asked.id):
+            if provider.protocol.forget_call(asked.id):
                 self._settled(caller, key)
                 reason = f"{name} gave no answer within {patience:g} s."
                 caller.send(msgspec.structs.replace(_failed(reason), id=id, service=op.service), size=size)
@@ -132,14 +132,14 @@ class Exchange:
 
         def forget() -> None:
             timer.cancel()
-            provider.remembered.forget_call(asked.id)
+            provider.protocol.forget_call(asked.id)
 
         self._asked.setdefault(caller, {})[key] = forget
         provider.send(asked)
 
     def hand_goal(
         self,
-        party: Party,
+        peer: Peer,
         name: str,
         op: SendActionGoal,
         feedback: Callable[[ActionFeedback], None],
@@ -153,25 +153,25 @@ class Exchange:
         provider = self.actions[name]
         if too_deep(bytes(op.args)):
             raise ProtocolError("The goal is nested too deeply.")
-        handed = provider.remembered.hand_goal(op, feedback if op.feedback else None, result)
+        handed = provider.protocol.hand_goal(op, feedback if op.feedback else None, result)
         provider.send(handed)
 
         def cancel() -> None:
-            back = provider.remembered.cancel_handed(handed.id)
+            back = provider.protocol.cancel_handed(handed.id)
             if back is not None:
                 provider.send(back, Lane.CONTROL)
 
         return cancel
 
-    def leave(self, party: Party) -> None:
-        """`party` is gone: what it offered, and what it waits for."""
+    def leave(self, peer: Peer) -> None:
+        """`peer` is gone: what it offered, and what it waits for."""
         for offered in (self.services, self.actions):
-            for name in [name for name, provider in offered.items() if provider is party]:
+            for name in [name for name, provider in offered.items() if provider is peer]:
                 del offered[name]
-        for forget in self._asked.pop(party, {}).values():
+        for forget in self._asked.pop(peer, {}).values():
             forget()
 
-    def _settled(self, caller: Party, key: object) -> None:
+    def _settled(self, caller: Peer, key: object) -> None:
         waiting = self._asked.get(caller, {})
         forget = waiting.pop(key, None)
         if not waiting:
@@ -180,13 +180,13 @@ class Exchange:
             forget()
 
 
-def _request(provider: Party, name: str, op: CallService) -> CallService:
+def _request(provider: Peer, name: str, op: CallService) -> CallService:
     """The call as the provider gets it: a list of arguments by their names, where the type is known."""
     args = bytes(op.args).strip()
     if too_deep(args):
         raise ProtocolError("args are nested too deeply.")
     if not args.startswith(b"{"):
-        kind = TYPES.get(f"{ros1_name(provider.remembered.services[name].type)}Request")
+        kind = TYPES.get(f"{ros1_name(provider.protocol.services[name].type)}Request")
         if kind is not None:
             args = to_json(arguments(op.args, kind))
     return CallService(service=name, args=Raw(args))

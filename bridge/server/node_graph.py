@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from bridge.core.robot_catalogue import Action, Service, Session
-from bridge.server.client_services import Exchange, Party
+from bridge.server.client_services import ClientServices, Peer
 from bridge.server.rosapi.services import NODE, Graph, Node
 from bridge.server.switchboard import Switchboard
 
-__all__ = ["Who"]
+__all__ = ["NodeGraph"]
 
 
-class Who:
+class NodeGraph:
     """Looks at what a server has at the moment."""
 
     def __init__(
@@ -20,15 +20,15 @@ class Who:
         switchboard: Switchboard,
         services: Mapping[str, Service],
         actions: Mapping[str, Action],
-        exchange: Exchange,
-        clients: Mapping[Session, Party],
+        client_services: ClientServices,
+        clients: Mapping[Session, Peer],
         offers: Callable[[str], bool],
     ) -> None:
         """All are looked at again for every answer; of the table's topics only those are told that the robot `offers`."""
         self._switchboard = switchboard
         self._services = services
         self._actions = actions
-        self._exchange = exchange
+        self._client_services = client_services
         self._clients = clients
         self._offers = offers
 
@@ -45,13 +45,13 @@ class Who:
 
     def _service_types(self) -> dict[str, str]:
         own = {name: service.type for name, service in self._services.items()}
-        offered = self._exchange.services.items()
-        return own | {name: party.remembered.services[name].type for name, party in offered}
+        offered = self._client_services.services.items()
+        return own | {name: peer.protocol.services[name].type for name, peer in offered}
 
     def _action_types(self) -> dict[str, str]:
         own = {name: action.type for name, action in self._actions.items()}
-        offered = self._exchange.actions.items()
-        return own | {name: party.remembered.actions[name].type for name, party in offered}
+        offered = self._client_services.actions.items()
+        return own | {name: peer.protocol.actions[name].type for name, peer in offered}
 
     def _nodes(self) -> dict[str, Node]:
         topics = [topic for topic in self._switchboard.topics.values() if self._offers(topic.name)]
@@ -63,10 +63,10 @@ class Who:
         )
         return {NODE: robot} | {
             f"/client_{session.id}": Node(
-                list(party.remembered.advertised),
-                list(party.remembered.subscriptions),
-                list(party.remembered.services),
-                list(party.remembered.actions),
+                list(peer.protocol.advertised),
+                list(peer.protocol.subscriptions),
+                list(peer.protocol.services),
+                list(peer.protocol.actions),
             )
-            for session, party in self._clients.items()
+            for session, peer in self._clients.items()
         }

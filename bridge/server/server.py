@@ -29,20 +29,21 @@ from bridge.core.errors import BridgeError
 from bridge.core.robot_catalogue import Action, Service, Session
 from bridge.core.topics import TOPICS, Topic
 from bridge.msgs import Msg
-from bridge.protocol import LARGEST_HEARD
-from bridge.server.callback_connection import HeardConnection
+from bridge.protocol import MAX_SERVER_FRAME
+from bridge.server.callback_connection import CallbackConnection
 from bridge.server.camera_socket import CameraSocket
-from bridge.server.client_services import Exchange
-from bridge.server.flow.message_reducing import Reducing
+from bridge.server.client_services import ClientServices
+from bridge.server.flow.message_reducing import MessageReducer
 from bridge.server.flow.outgoing_messages import Reduce
-from bridge.server.flow.quality_levels import Levels, Shrink
-from bridge.server.flow.round_trip import PERIOD
-from bridge.server.flow.send_queue import Round
-from bridge.server.flow.sockets import end
-from bridge.server.node_graph import Who
-from bridge.server.rosapi.parameters import Params
+from bridge.server.flow.quality_levels import QualityLevels, Shrink
+from bridge.server.flow.round_trip import PING_PERIOD
+from bridge.server.flow.send_queue import WriteBatch
+from bridge.server.flow.sockets import cancel_all
+from bridge.server.node_graph import NodeGraph
+from bridge.server.rosapi.parameters import Parameters
 from bridge.server.rosapi.services import RosApi
-from bridge.server.rosbridge_session import Client, Offer
+from bridge.server.rosbridge_session import RosbridgeSession
+from bridge.server.server_context import ServerContext
 from bridge.server.switchboard import Switchboard
 
 __all__ = ["Action", "BridgeServer", "Service", "Session"]
@@ -108,34 +109,34 @@ class BridgeServer:
         self._switchboard = Switchboard(topics, on_demand, reduce=reduce, now=now, cameras=cameras or ())
         by_name = {service.name: service for service in services}
         acts = {action.name: action for action in actions}
-        exchange = Exchange(by_name, acts)
-        self._clients: dict[Session, Client] = {}
-        who = Who(self._switchboard, by_name, acts, exchange, self._clients, offers)
-        self._reducing = Reducing()
-        self._offer = Offer(
+        client_services = ClientServices(by_name, acts)
+        self._clients: dict[Session, RosbridgeSession] = {}
+        nodes = NodeGraph(self._switchboard, by_name, acts, client_services, self._clients, offers)
+        self._reducer = MessageReducer()
+        self._context = ServerContext(
             switchboard=self._switchboard,
             services=by_name,
             actions=acts,
-            exchange=exchange,
-            rosapi=RosApi(who.graph(), Params(params), now),
-            reducing=self._reducing,
+            client_services=client_services,
+            rosapi=RosApi(nodes.graph(), Parameters(params), now),
+            reducer=self._reducer,
             compat=compat or Compat(),
             now=now,
             on_message=on_message,
         )
         self._on_gone = on_gone
         self._cameras = None if cameras is None else frozenset(cameras)
-        self._levels = Levels(shrink)
+        self._levels = QualityLevels(shrink)
         self._numbers = itertools.count(1)
         self._open: set[ServerConnection] = set()
-        self._crowd: dict[HeardConnection, None] = {}
+        self._connections: dict[CallbackConnection, None] = {}
         self._server: Server | None = None
-        self._round: Round | None = None
+        self._batch: WriteBatch | None = None
         self._tasks: set[asyncio.Task[None]] = set()
 
     async def start(self, host: str = "127.0.0.1", port: int = 9090) -> None:
         """Begin to listen; port 0 takes a free one. BridgeError when that is not possible."""
-        self._round = Round(asyncio.get_running_loop().call_soon)
+        self._batch = WriteBatch(asyncio.get_running_loop().call_soon)
         try:
             self._server = await serve(
                 self._serve,
@@ -148,7 +149,7 @@ class BridgeServer:
                 ping_interval=5,
                 ping_timeout=10,
                 close_timeout=_FAREWELL,
-                max_size=LARGEST_HEARD,
+                max_size=MAX_SERVER_FRAME,
                 write_limit=_UNSENT,
                 server_header="Pilothouse",
                 logger=_quiet_log(),
@@ -161,8 +162,8 @@ class BridgeServer:
     async def close(self) -> None:
         """Close all connections and stop listening; nothing is left running. Takes a second at most."""
         await self._levels.close()
-        await self._reducing.close()
-        await end(self._tasks)
+        await self._reducer.close()
+        await cancel_all(self._tasks)
         server, self._server = self._server, None
         if server is None:
             return
@@ -187,15 +188,15 @@ class BridgeServer:
         """Send a packed camera frame to whoever watches `camera`; it replaces one that still waits."""
         self._switchboard.publish_frame(camera, self._levels.picture(frame))
 
-    def _connection(self, *args: Any, **options: Any) -> HeardConnection:
-        connection = HeardConnection(*args, **options)
-        connection.crowd = self._crowd
+    def _connection(self, *args: Any, **options: Any) -> CallbackConnection:
+        connection = CallbackConnection(*args, **options)
+        connection.connections = self._connections
         return connection
 
     def _admit(self, connection: ServerConnection, request: Request) -> Response | None:
         camera = _CAMERA_PATH.match(request.path)
         if camera is None:
-            connection.ping_interval = None  # a client's outlet asks for signs of life itself
+            connection.ping_interval = None  # a client's queue asks for signs of life itself
         if camera is None or self._cameras is None or camera[1] in self._cameras:
             return None
         names = ", ".join(sorted(self._cameras)) or "none"
@@ -208,8 +209,8 @@ class BridgeServer:
         try:
             if camera:
                 await self._serve_camera(ws, camera[1])
-            elif isinstance(ws, HeardConnection) and self._round is not None:
-                await self._serve_client(ws, self._round)
+            elif isinstance(ws, CallbackConnection) and self._batch is not None:
+                await self._serve_client(ws, self._batch)
         except ConnectionClosed:
             log.info("%s was cut off", _address(ws))
         except Exception:
@@ -217,15 +218,15 @@ class BridgeServer:
         finally:
             self._open.discard(ws)
 
-    async def _serve_client(self, ws: HeardConnection, round: Round) -> None:
-        session = Session(str(next(self._numbers)), _address(ws), self._offer.now())
-        client = Client(ws, round, session, self._offer)
-        ws.round = round
+    async def _serve_client(self, ws: CallbackConnection, batch: WriteBatch) -> None:
+        session = Session(str(next(self._numbers)), _address(ws), self._context.now())
+        client = RosbridgeSession(ws, batch, session, self._context)
+        ws.batch = batch
         self.sessions.add(session)
         self._clients[session] = client
-        client.measure()
+        client.measure_round_trip()
         try:
-            await ws.heard_by(client)
+            await ws.serve(client)
         finally:
             self.sessions.discard(session)
             del self._clients[session]
@@ -239,14 +240,14 @@ class BridgeServer:
         while True:
             await asyncio.sleep(_BEAT)
             for client in list(self._clients.values()):
-                client.beat()
+                client.check_alive()
 
     async def _measure(self) -> None:
         """Measure the ways to the clients."""
         while True:
-            await asyncio.sleep(PERIOD)
+            await asyncio.sleep(PING_PERIOD)
             for client in list(self._clients.values()):
-                client.measure()
+                client.measure_round_trip()
 
     async def _serve_camera(self, ws: ServerConnection, camera: str) -> None:
         watcher = CameraSocket(ws, coarsest=self._levels.coarsest)

@@ -13,18 +13,18 @@ from bridge.core.topics import CAMERA as CAMERA_TOPIC
 from bridge.core.topics import Topic, camera_topics
 from bridge.msgs import TYPES, Msg, ros1_name
 from bridge.protocol import Subscribed
-from bridge.protocol.merging import MOST_FIELDS
-from bridge.server.flow.outgoing_messages import Outgoing, Reduce
+from bridge.protocol.merging import MAX_FIELDS
+from bridge.server.flow.outgoing_messages import OutgoingMessage, Reduce
 from bridge.server.flow.priority_lanes import Lane, Stream
 from bridge.server.flow.quality_levels import Picture
 
-__all__ = ["CAMERA_TOPIC", "MOST_TOPICS", "Channel", "Listener", "Switchboard", "Watcher"]
+__all__ = ["CAMERA_TOPIC", "MAX_TOPICS", "Channel", "Listener", "Switchboard", "Watcher"]
 
-MOST_TOPICS = 2000
+MAX_TOPICS = 2000
 """So many topics of clients may there be at a time."""
-MOST_LATCHED = 67_108_864
+MAX_LATCHED_BYTES = 67_108_864
 """What one client may have kept for later subscribers [byte]."""
-MOST_LATCHED_IN_ALL = 268_435_456
+MAX_LATCHED_BYTES_IN_ALL = 268_435_456
 """What all of them may [byte]."""
 LARGE = frozenset(
     {
@@ -46,7 +46,7 @@ MsgClass = type[Msg]
 class Listener(Protocol):
     """Takes the messages of the topics it subscribed to."""
 
-    def deliver(self, stream: Stream, message: Outgoing) -> None:
+    def deliver(self, stream: Stream, message: OutgoingMessage) -> None:
         """Take one message; returns at once."""
 
 
@@ -65,14 +65,14 @@ class Channel:
         self.type = type
         """ROS 1 name."""
         self.entry = entry
-        """Its line in the robot's table; None for a topic of clients."""
+        """Its writer in the robot's table; None for a topic of clients."""
         self.cls: MsgClass | None = entry.type if entry else TYPES.get(type)
         """None when the type is not known here: its messages are passed on as they are."""
         self.streams: dict[Listener, Stream] = {}
         """Who wants it, and in what form."""
         self.publishers: set[object] = set()
         """Clients that said they publish on it."""
-        self.last: dict[object, Outgoing] = {}
+        self.last: dict[object, OutgoingMessage] = {}
         """The last message of each publisher who latches; the robot itself is None."""
         self.lane, self.keep = _manner(self)
 
@@ -137,7 +137,7 @@ class Switchboard:
         """
         if not channel.streams and not latch:
             return
-        message = Outgoing(channel.name, msg, self._reduce, self._now)
+        message = OutgoingMessage(channel.name, msg, self._reduce, self._now)
         if latch:
             self._latch(channel, message, publisher)
         for listener, stream in channel.streams.items():
@@ -203,7 +203,7 @@ class Switchboard:
         More than a subscription may name are not looked at.
         """
         entry = self.topics.get(topic)
-        if entry is not None and paths is not None and len(paths) <= MOST_FIELDS:
+        if entry is not None and paths is not None and len(paths) <= MAX_FIELDS:
             check_paths(entry.type, paths)
 
     def watch(self, watcher: Watcher, camera: str) -> None:
@@ -234,7 +234,7 @@ class Switchboard:
         subscribed = channel is not None and bool(channel.streams)
         return subscribed or any(self._topic_of(camera) == topic for camera in self._watchers)
 
-    def _latch(self, channel: Channel, message: Outgoing, publisher: object) -> None:
+    def _latch(self, channel: Channel, message: OutgoingMessage, publisher: object) -> None:
         """Keep a message for later subscribers in the place of the publisher's last one; the robot's own are not counted."""
         if publisher is not None:
             before = channel.last.get(publisher)
@@ -242,8 +242,8 @@ class Switchboard:
             own = self._latched.get(publisher, 0) - freed
             others = sum(self._latched.values()) - freed
             for held, most, whose in (
-                (own, MOST_LATCHED, "one client"),
-                (others, MOST_LATCHED_IN_ALL, "all clients"),
+                (own, MAX_LATCHED_BYTES, "one client"),
+                (others, MAX_LATCHED_BYTES_IN_ALL, "all clients"),
             ):
                 if held + message.size > most:
                     raise ProtocolError(
@@ -266,9 +266,9 @@ class Switchboard:
             raise ProtocolError(
                 f"There is no topic {topic[:100]} here, and to make one its type must be told."
             )
-        if len(self.channels) - len(self.topics) >= MOST_TOPICS:
+        if len(self.channels) - len(self.topics) >= MAX_TOPICS:
             raise ProtocolError(
-                f"There are {MOST_TOPICS} topics of clients already; {topic[:100]} is one too many."
+                f"There are {MAX_TOPICS} topics of clients already; {topic[:100]} is one too many."
             )
         channel = self.channels[topic] = Channel(topic, name)
         return channel

@@ -8,12 +8,12 @@ from concurrent.futures import ThreadPoolExecutor
 
 from bridge.core.errors import BridgeError
 from bridge.protocol import Reduction
-from bridge.server.flow.outgoing_messages import Outgoing
+from bridge.server.flow.outgoing_messages import OutgoingMessage
 from bridge.server.flow.priority_lanes import Stream
-from bridge.server.flow.send_queue import Outlet
-from bridge.server.flow.sockets import end
+from bridge.server.flow.send_queue import SendQueue
+from bridge.server.flow.sockets import cancel_all
 
-__all__ = ["Reducing"]
+__all__ = ["MessageReducer"]
 
 log = logging.getLogger(__name__)
 
@@ -22,11 +22,11 @@ class _Work:
     """What is to be made of the messages of one topic in one way; the newest message wins."""
 
     def __init__(self) -> None:
-        self.message: Outgoing | None = None
-        self.streams: dict[Stream, Outlet] = {}
+        self.message: OutgoingMessage | None = None
+        self.streams: dict[Stream, SendQueue] = {}
 
 
-class Reducing:
+class MessageReducer:
     """Makes each message smaller once for all who want it the same way, one at a time for each topic and way."""
 
     def __init__(self) -> None:
@@ -34,11 +34,11 @@ class Reducing:
         self._tasks: set[asyncio.Task[None]] = set()
         self._worker: ThreadPoolExecutor | None = None
 
-    def offer(self, outlet: Outlet, stream: Stream, message: Outgoing) -> None:
-        """Have `message` sent by `outlet` once it is made smaller; a newer one replaces one that still waits."""
+    def offer(self, queue: SendQueue, stream: Stream, message: OutgoingMessage) -> None:
+        """Have `message` sent by `queue` once it is made smaller; a newer one replaces one that still waits."""
         reduction = stream.form.reduction
         if reduction is None:
-            outlet.offer(stream, message)
+            queue.offer(stream, message)
             return
         key = (stream.topic, reduction)
         work = self._works.get(key)
@@ -48,11 +48,11 @@ class Reducing:
             self._tasks.add(task)
             task.add_done_callback(self._tasks.discard)
         work.message = message
-        work.streams[stream] = outlet
+        work.streams[stream] = queue
 
     async def close(self) -> None:
         """Give up what is still to be made."""
-        await end(self._tasks)
+        await cancel_all(self._tasks)
         worker, self._worker = self._worker, None
         if worker is not None:
             worker.shutdown(wait=False, cancel_futures=True)
@@ -67,15 +67,15 @@ class Reducing:
                 except BridgeError as error:
                     log.warning("%s is not sent: %s", key[0], error)
                     continue
-                for stream, outlet in streams.items():
+                for stream, queue in streams.items():
                     if not stream.gone:
-                        outlet.offer(stream, message)
+                        queue.offer(stream, message)
         except Exception:
             log.exception("%s could not be made smaller", key[0])
         finally:
             del self._works[key]
 
-    async def _in_thread(self, message: Outgoing, reduction: Reduction) -> None:
+    async def _in_thread(self, message: OutgoingMessage, reduction: Reduction) -> None:
         if self._worker is None:
             self._worker = ThreadPoolExecutor(1, "bridge-reducing")
-        await asyncio.get_running_loop().run_in_executor(self._worker, message.lesser, reduction)
+        await asyncio.get_running_loop().run_in_executor(self._worker, message.reduced, reduction)

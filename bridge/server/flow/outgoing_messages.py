@@ -18,18 +18,18 @@ from bridge.msgs.std_msgs import Time
 from bridge.protocol import Op, Reduction, Subscribed, encode, split, to_png
 from bridge.rosbytes import serialize
 
-__all__ = ["Form", "Outgoing", "Reduce", "ping_frame", "said", "text_frame"]
+__all__ = ["Form", "OutgoingMessage", "Reduce", "ping_frame", "op_frames", "text_frame"]
 
 K = TypeVar("K")
 V = TypeVar("V")
 Reduce = Callable[[Msg, Reduction], Msg]
 """Makes less of a message; itself where nothing can be made less. Does not look at `Reduction.fields`."""
 
-MOST_FORMS = 16
+MAX_FORMS = 16
 """In so many forms a message is kept; what is latched lives long, and a client may ask for any number one after the other."""
-MOST_LARGE = 2
-"""In so many forms a message is kept that is `LARGE` in them."""
-LARGE = 1_048_576
+MAX_LARGE_FORMS = 2
+"""In so many forms a message is kept that is `LARGE_BYTES` in them."""
+LARGE_BYTES = 1_048_576
 """[byte]"""
 _TEXT, _BINARY, _PING = 0x81, 0x82, 0x89
 _HEAD_16, _HEAD_64 = struct.Struct(">BBH").pack, struct.Struct(">BBQ").pack
@@ -68,15 +68,15 @@ def ping_frame(content: bytes) -> bytes:
     return _head(_PING, len(content)) + content
 
 
-def said(op: Op, size: int | None = None) -> bytes:
+def op_frames(op: Op, size: int | None = None) -> bytes:
     """An operation as frames of at most `size` characters of it each; ProtocolError when it cannot be encoded."""
     return _cut(encode(op), size)
 
 
-class Outgoing:
+class OutgoingMessage:
     """One published message; encoded when first needed and once per form, however many clients want it."""
 
-    __slots__ = ("_bodies", "_frames", "_lesser", "_msg", "_now", "_reduce", "_weight", "number", "topic")
+    __slots__ = ("_bodies", "_frames", "_msg", "_now", "_reduce", "_reduced", "_weight", "number", "topic")
 
     def __init__(
         self,
@@ -101,7 +101,7 @@ class Outgoing:
         self._bodies: dict[tuple[Reduction | None, bool], bytes] = {}
         if type(msg) is Unread:
             self._bodies[None, False] = msg.text
-        self._lesser: dict[Reduction, Msg | Raw] = {}
+        self._reduced: dict[Reduction, Msg | Raw] = {}
 
     def frame(self, form: Form) -> bytes:
         """The message in WebSocket frames; ProtocolError when it cannot be encoded."""
@@ -126,23 +126,23 @@ class Outgoing:
             self._msg = self._msg.read()
         return self._msg
 
-    def lesser(self, reduction: Reduction | None) -> Msg | Raw:
+    def reduced(self, reduction: Reduction | None) -> Msg | Raw:
         """As much of the message as is wanted; ProtocolError when it has no such fields."""
         msg = self.msg
         if reduction is None or isinstance(msg, Raw):
             return msg
-        found = self._lesser.get(reduction)
+        found = self._reduced.get(reduction)
         if found is None:
             found = msg if self._reduce is None else self._reduce(msg, reduction)
             if reduction.fields is not None:
                 found = select(found, reduction.fields)
-            _keep(self._lesser, reduction, found, 0)
+            _keep(self._reduced, reduction, found, 0)
         return found
 
     def _encode(self, form: Form) -> bytes:
         name, compression, size, reduction, ros2 = form
         if compression == "cbor":
-            return self._cbor(form, _plain(self.lesser(reduction)))
+            return self._cbor(form, _plain(self.reduced(reduction)))
         if compression == "cbor-raw":
             return self._cbor(form, self._bytes_of_ros(form))
         beginning, body = _beginning(name), self._body(reduction, ros2)
@@ -154,7 +154,7 @@ class Outgoing:
     def _body(self, reduction: Reduction | None, ros2: bool) -> bytes:
         body = self._bodies.get((reduction, ros2))
         if body is None:
-            msg = self.msg if reduction is None else self.lesser(reduction)
+            msg = self.msg if reduction is None else self.reduced(reduction)
             body = bytes(msg) if isinstance(msg, Raw) else to_json(msg, ros2)
             _keep(self._bodies, (reduction, ros2), body, len(body))
         return body
@@ -164,7 +164,7 @@ class Outgoing:
         return b"".join((_head(_BINARY, len(beginning) + len(body)), beginning, body))
 
     def _bytes_of_ros(self, form: Form) -> dict[str, Any]:
-        msg = self.lesser(form.reduction)
+        msg = self.reduced(form.reduction)
         if isinstance(msg, Raw):
             raise ProtocolError(
                 f"The type of {form.name} is not known here, so it cannot be sent as cbor-raw."
@@ -175,7 +175,7 @@ class Outgoing:
 
 def _keep(forms: dict[K, V], key: K, form: V, size: int) -> None:
     """Keep a form of `size` [byte] in the place of the oldest when there are many."""
-    most = MOST_LARGE if size > LARGE else MOST_FORMS
+    most = MAX_LARGE_FORMS if size > LARGE_BYTES else MAX_FORMS
     while len(forms) >= most:
         forms.pop(next(iter(list(forms))), None)  # a copy: a worker thread may be at it as well
     forms[key] = form

@@ -18,29 +18,29 @@ from collections import deque
 from statistics import median
 from typing import NamedTuple
 
-__all__ = ["COARSEST", "LEVELS", "Quality"]
+__all__ = ["COARSEST", "LEVELS", "PictureQuality"]
 
 LEVELS = 4
 """Level 0 is the picture as it was taken; each next one is a fraction of the size of the one before."""
 COARSEST = LEVELS - 1
 
-SLOW = 0.12
+SLOW_LATENCY = 0.12
 """Pictures that take longer than this beyond the way there and back are too large for the link [s]."""
-FAR_TOO_SLOW = 0.3
+VERY_SLOW_LATENCY = 0.3
 """One that takes this long is enough to know [s]."""
-OF_LATE = 5
+RECENT_COUNT = 5
 """Pictures of a level by which it is judged; the one in the middle counts."""
-FITS = 0.07
+FAST_LATENCY = 0.07
 """The finer picture is tried when it would take less than this [s]."""
-LONGEST_PAUSE = 0.5
+MAX_PAUSE = 0.5
 """Between two pictures on the slowest link [s]: two a second."""
-BUSY = 0.8
+MAX_LOAD = 0.8
 """Part of the link's time that pictures may take."""
-PATIENCE = (2.0, 60.0)
+GOOD_TIME = (2.0, 60.0)
 """How long all has to go well before a finer level is tried: at first, and at most after failures [s]."""
-UNDER_WAY = (2, 8)
+MAX_UNACKNOWLEDGED = (2, 8)
 """Pictures that may be unacknowledged at a time: on a short way, and on the longest."""
-PERIOD = 1 / 15
+FRAME_PERIOD = 1 / 15
 """Between two pictures of a camera, about [s]: how many are under way on a long way follows from it."""
 
 
@@ -51,7 +51,7 @@ class _Sent(NamedTuple):
     at: float
 
 
-class Quality:
+class PictureQuality:
     """The judge for one watcher; starts with the best pictures."""
 
     def __init__(self, coarsest: int = COARSEST) -> None:
@@ -67,24 +67,24 @@ class Quality:
         self._sizes = [math.nan] * LEVELS
         self._last = -math.inf
         self._bases: deque[float] = deque(maxlen=64)
-        self._excesses: deque[float] = deque(maxlen=OF_LATE)
+        self._excesses: deque[float] = deque(maxlen=RECENT_COUNT)
         self._good_since = math.inf
-        self._patience = PATIENCE[0]
+        self._good_time = GOOD_TIME[0]
         self._climbed = -math.inf
 
     def delay(self, now: float) -> float | None:
         """How long to wait before the next picture [s]; 0 at once, None until one is acknowledged."""
-        if len(self._under_way) >= self._most(now):
+        if len(self._under_way) >= self._max_unacknowledged(now):
             return None
         return max(0.0, self._last + self.pause - now)
 
-    def sent(self, seq: int, size: int, level: int, now: float) -> None:
+    def on_sent(self, seq: int, size: int, level: int, now: float) -> None:
         """Picture number `seq` of `size` bytes was handed to the socket at `level`."""
         self._under_way.append(_Sent(seq, size, level, now))
         self._sizes[level] = size
         self._last = now
 
-    def acknowledged(self, seq: int, now: float) -> bool:
+    def on_ack(self, seq: int, now: float) -> bool:
         """The watcher has picture `seq` and all before it; False, and nothing changes, when it is not under way."""
         if all(sent.seq != seq for sent in self._under_way):
             return False
@@ -95,11 +95,11 @@ class Quality:
         self._judge(sent, now - sent.at, now)
         return True
 
-    def _most(self, now: float) -> int:
-        fewest, most = UNDER_WAY
-        if self._under_way and now - self._under_way[0].at > self.base + SLOW:
+    def _max_unacknowledged(self, now: float) -> int:
+        fewest, most = MAX_UNACKNOWLEDGED
+        if self._under_way and now - self._under_way[0].at > self.base + SLOW_LATENCY:
             return fewest
-        return max(fewest, min(most, 1 + math.ceil(self.base / PERIOD)))
+        return max(fewest, min(most, 1 + math.ceil(self.base / FRAME_PERIOD)))
 
     def _judge(self, sent: _Sent, latency: float, now: float) -> None:
         if sent.level == COARSEST:
@@ -108,15 +108,15 @@ class Quality:
         else:
             self.base = min(self.base, latency)
         excess = latency - self.base
-        wanted = min(LONGEST_PAUSE, excess / BUSY)
+        wanted = min(MAX_PAUSE, excess / MAX_LOAD)
         self.pause = wanted if wanted > self.pause else (self.pause + wanted) / 2
         if sent.level != self.level:
             return  # says nothing about the level that is sent now
         self._excesses.append(excess)
-        usual = median([*self._excesses, *[0.0] * (OF_LATE - len(self._excesses))])
-        if usual > SLOW or excess > FAR_TOO_SLOW:
+        usual = median([*self._excesses, *[0.0] * (RECENT_COUNT - len(self._excesses))])
+        if usual > SLOW_LATENCY or excess > VERY_SLOW_LATENCY:
             self._coarser(now)
-        elif self._finer_would_take(usual) < FITS:
+        elif self._finer_would_take(usual) < FAST_LATENCY:
             self._finer(now)
         else:
             self._good_since = math.inf
@@ -131,15 +131,15 @@ class Quality:
         if self.level == self._coarsest:
             return
         self._excesses.clear()
-        if now - self._climbed < 2.0 * self._patience:
-            self._patience = min(PATIENCE[1], 2.0 * self._patience)
+        if now - self._climbed < 2.0 * self._good_time:
+            self._good_time = min(GOOD_TIME[1], 2.0 * self._good_time)
         else:
-            self._patience = PATIENCE[0]
+            self._good_time = GOOD_TIME[0]
         self.level += 1
 
     def _finer(self, now: float) -> None:
         self._good_since = min(self._good_since, now)
-        if self.level and now - self._good_since >= self._patience:
+        if self.level and now - self._good_since >= self._good_time:
             self.level -= 1
             self._excesses.clear()
             self._climbed, self._good_since = now, math.inf

@@ -9,25 +9,25 @@ from collections.abc import Callable
 from enum import IntEnum
 
 from bridge.protocol import Subscribed
-from bridge.server.flow.outgoing_messages import Form, Outgoing
+from bridge.server.flow.outgoing_messages import Form, OutgoingMessage
 
-__all__ = ["MOST_BYTES", "MOST_FRAMES", "Lane", "Lanes", "Stream"]
+__all__ = ["MAX_BYTES", "MAX_FRAMES", "Lane", "PriorityLanes", "Stream"]
 
-MOST_FRAMES = 256
+MAX_FRAMES = 256
 """Frames that may wait in order in one lane; a client for whom more wait does not read."""
-MOST_REPLIES = 4096
+MAX_REPLIES = 4096
 """Frames that may wait in the lane of replies: all that one may have asked for is answered in one step when who answers is gone."""
-MOST_BYTES = 8_388_608
+MAX_BYTES = 8_388_608
 """Bytes that may wait in order in one lane."""
-LONGEST = {2: 100, 3: 100, 4: 4}
+MAX_QUEUE_LENGTH = {2: 100, 3: 100, 4: 4}
 """How many messages of one topic may wait at most, whatever its `queue_length`, by lane."""
-MOST_WAITING = 25_165_824
+MAX_WAITING_BYTES = 25_165_824
 """Bytes of messages of topics that may wait, one that is larger alone; else the oldest are forgotten, samples first."""
-MOST_UNCOUNTED = 8_388_608
-"""After so many bytes that came to wait all that waits is counted anew; so much more than `MOST_WAITING` may it be before."""
+MAX_UNCOUNTED_BYTES = 8_388_608
+"""After so many bytes that came to wait all that waits is counted anew; so much more than `MAX_WAITING_BYTES` may it be before."""
 MESSAGE_COST = 512
 """What a message takes beside what it holds [byte]."""
-MOST_SAMPLES = 8
+MAX_SAMPLES = 8
 """After so many samples one message of the bulk lane goes out before the next."""
 
 
@@ -64,7 +64,7 @@ class Stream:
         """When the next message may go out [s], the loop's clock."""
         self.gone = False
         """Nothing more is to be sent."""
-        self.waiting: deque[Outgoing] = deque()
+        self.waiting: deque[OutgoingMessage] = deque()
         self.want(wanted, keep)
 
     def want(self, wanted: Subscribed, keep: int = 1) -> None:
@@ -77,11 +77,11 @@ class Stream:
         reduction = wanted.reduction
         self.heavy = reduction is not None and self.lane is Lane.BULK
         """Making less of a message takes long."""
-        length = min(wanted.queue or max(1, keep), LONGEST[self.lane])
+        length = min(wanted.queue or max(1, keep), MAX_QUEUE_LENGTH[self.lane])
         self.waiting = deque(self.waiting, maxlen=length)
 
 
-class Lanes:
+class PriorityLanes:
     """Queues for what must arrive in order, and for each topic a few places, where the newest wins."""
 
     def __init__(self) -> None:
@@ -95,25 +95,25 @@ class Lanes:
         self.holding = Lane.CONTROL
         """The lane of the message that is held, or was last."""
 
-    def put(self, lane: Lane, frame: bytes) -> bool:
+    def push(self, lane: Lane, frame: bytes) -> bool:
         """Queue a frame that must not be lost; False when too many wait in this lane already."""
         frames = self._frames[lane]
-        most = MOST_REPLIES if lane is Lane.REPLY else MOST_FRAMES
-        if len(frames) >= most or (frames and self._bytes[lane] + len(frame) > MOST_BYTES):
+        most = MAX_REPLIES if lane is Lane.REPLY else MAX_FRAMES
+        if len(frames) >= most or (frames and self._bytes[lane] + len(frame) > MAX_BYTES):
             return False
         frames.append(frame)
         self._bytes[lane] += len(frame)
         return True
 
-    def offer(self, stream: Stream, message: Outgoing) -> None:
+    def offer(self, stream: Stream, message: OutgoingMessage) -> None:
         """Have a message wait; when its topic or all of them have no place left, the oldest is forgotten."""
         stream.waiting.append(message)
         self._streams[stream.lane][stream] = None
         self._uncounted += _cost(message)
-        if self._uncounted > MOST_UNCOUNTED:
+        if self._uncounted > MAX_UNCOUNTED_BYTES:
             self._lighten(message)
 
-    def forget(self, stream: Stream) -> None:
+    def remove(self, stream: Stream) -> None:
         """Nothing of this topic is wanted any more."""
         stream.gone = True
         stream.waiting.clear()
@@ -131,11 +131,11 @@ class Lanes:
                 stream.waiting.clear()
             streams.clear()
 
-    def blocked(self, lane: Lane) -> bool:
+    def is_blocked(self, lane: Lane) -> bool:
         """Whether frames wait in this lane, behind which others must stand."""
         return bool(self._frames[lane])
 
-    def take(self, now: float, fits: Callable[[int], bool] = lambda _: True) -> bytes | None:
+    def pop(self, now: float, fits: Callable[[int], bool] = lambda _: True) -> bytes | None:
         """The next frame to send at `now` [s]; None when nothing is due, or the next is `held`.
 
         `fits` tells whether there is room for so many bytes. ProtocolError when the next cannot be encoded.
@@ -149,7 +149,7 @@ class Lanes:
                     return None
                 self._bytes[lane] -= len(frames[0])
                 return frames.popleft()
-        order = _USUAL if self._passed < MOST_SAMPLES else _BULK_FIRST
+        order = _USUAL if self._passed < MAX_SAMPLES else _BULK_FIRST
         for lane in order:
             for stream in self._streams[lane]:
                 if stream.due <= now:
@@ -172,19 +172,19 @@ class Lanes:
                 self._sent(stream, now)
         return None if self.held else frame
 
-    def _lighten(self, newest: Outgoing) -> None:
+    def _lighten(self, newest: OutgoingMessage) -> None:
         """Count what waits, and forget the oldest of it, but never `newest`, until the rest is within bounds."""
         self._uncounted = 0
         held = sum(
             _cost(message) for streams in self._streams for each in streams for message in each.waiting
         )
         for lane in (Lane.TELEMETRY, Lane.BULK, Lane.EVENT):
-            if held <= MOST_WAITING:
+            if held <= MAX_WAITING_BYTES:
                 return
             streams = self._streams[lane]
             oldest = [(each.waiting[0].number, place, each) for place, each in enumerate(streams)]
             heapq.heapify(oldest)
-            while held > MOST_WAITING and oldest:
+            while held > MAX_WAITING_BYTES and oldest:
                 _, place, stream = oldest[0]
                 if stream.waiting[0] is newest:
                     heapq.heappop(oldest)
@@ -207,5 +207,5 @@ class Lanes:
         self._passed = self._passed + 1 if passed else 0
 
 
-def _cost(message: Outgoing) -> int:
+def _cost(message: OutgoingMessage) -> int:
     return message.size + MESSAGE_COST

@@ -9,13 +9,13 @@ from bridge.core.camera_frames import pack, unpack
 from bridge.core.errors import BridgeError
 from bridge.server.flow.picture_quality import COARSEST
 
-__all__ = ["Levels", "Picture", "Shrink"]
+__all__ = ["QualityLevels", "Picture", "Shrink"]
 
 Shrink = Callable[[bytes, int], Awaitable[bytes]]
 """Makes a JPEG file smaller, to a level from 1 to `bridge.server.flow.picture_quality.COARSEST`; BridgeError when it cannot or will not."""
 
 
-class Levels:
+class QualityLevels:
     """Makes the levels of all pictures and ends what is still being made."""
 
     def __init__(self, shrink: Shrink | None) -> None:
@@ -56,7 +56,7 @@ class Picture:
 
     __slots__ = ("_frame", "_levels", "_made", "_making", "frame")
 
-    def __init__(self, frame: bytes, levels: Levels) -> None:
+    def __init__(self, frame: bytes, levels: QualityLevels) -> None:
         self.frame = frame
         """As it was taken, packed."""
         self._frame = unpack(frame)

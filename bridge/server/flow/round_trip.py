@@ -10,19 +10,19 @@ import math
 import struct
 from collections import deque
 
-__all__ = ["PERIOD", "Pulse"]
+__all__ = ["PING_PERIOD", "RoundTrip"]
 
-PERIOD = 0.2
+PING_PERIOD = 0.2
 """Between two pings [s]."""
 
-_MOST = 64
+_MAX_PINGS = 64
 """How many may be unanswered at a time; more are not sent."""
 
 _MARK = b"rtt"
 _NUMBER = struct.Struct("!3sQ")
 
 
-class Pulse:
+class RoundTrip:
     """The pings of one connection; times are [s] of one clock that only goes forward."""
 
     def __init__(self, opened: float) -> None:
@@ -36,14 +36,14 @@ class Pulse:
 
     def ping(self, now: float) -> bytes | None:
         """The content of one that is sent at `now` [s]; None when too many wait for their answer."""
-        self._look(now)
-        if len(self._waiting) >= _MOST:
+        self._update(now)
+        if len(self._waiting) >= _MAX_PINGS:
             return None
         self._count += 1
         self._waiting.append((self._count, now))
         return _NUMBER.pack(_MARK, self._count)
 
-    def pong(self, content: bytes, now: float) -> bool:
+    def on_pong(self, content: bytes, now: float) -> bool:
         """Take in an answer that came at `now` [s] and answers all before it as well; False when it is none of these."""
         if len(content) != _NUMBER.size:
             return False
@@ -54,12 +54,12 @@ class Pulse:
         while self._waiting and self._waiting[0][0] <= number:
             sent = self._waiting.popleft()[1]
         self.answered, self._took = sent, now - sent
-        self._look(now)
+        self._update(now)
         return True
 
-    def _look(self, now: float) -> None:
+    def _update(self, now: float) -> None:
         waited = now - self._waiting[0][1] if self._waiting else 0.0
-        if waited > PERIOD and not waited <= self._took:  # NaN too
+        if waited > PING_PERIOD and not waited <= self._took:  # NaN too
             self.rtt = waited
         else:
             self.rtt = self._took

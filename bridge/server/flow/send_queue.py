@@ -9,36 +9,36 @@ from collections.abc import Callable
 from typing import Protocol
 
 from bridge.core.errors import ProtocolError
-from bridge.server.flow.outgoing_messages import Outgoing, ping_frame
-from bridge.server.flow.priority_lanes import Lane, Lanes, Stream
-from bridge.server.flow.send_window import Window
+from bridge.server.flow.outgoing_messages import OutgoingMessage, ping_frame
+from bridge.server.flow.priority_lanes import Lane, PriorityLanes, Stream
+from bridge.server.flow.send_window import SendWindow
 
-__all__ = ["Line", "Outlet", "Round"]
+__all__ = ["FrameWriter", "SendQueue", "WriteBatch"]
 
 log = logging.getLogger(__name__)
 
-_MOST_REFUSED = 100
+_MAX_REFUSED_TOPICS = 100
 """So many topics are logged of one client that cannot be sent."""
 
 
-class Line(Protocol):
+class FrameWriter(Protocol):
     """What frames are written to."""
 
     paused: bool
     """Not everything written so far has left this process."""
 
     @property
-    def open(self) -> bool:
+    def is_open(self) -> bool:
         """Whether frames may still be written."""
 
     def write(self, frames: bytes) -> None:
         """Write whole WebSocket frames; returns at once."""
 
-    def cut(self) -> None:
+    def abort(self) -> None:
         """Break the connection at once."""
 
 
-class Round:
+class WriteBatch:
     """Gathers what clients get in one step of the loop, so that it leaves in one write for each."""
 
     def __init__(self, call_soon: Callable[[Callable[[], None]], object]) -> None:
@@ -46,21 +46,21 @@ class Round:
         self.held = False
         """Whoever set it calls `flush` itself."""
         self._call_soon = call_soon
-        self._waiting: list[Outlet] = []
+        self._waiting: list[SendQueue] = []
         self._frames: list[bytes] = []
         self._piece = b""
 
-    def add(self, outlet: Outlet) -> None:
-        """Have an outlet flushed at the end of this step."""
+    def add(self, queue: SendQueue) -> None:
+        """Have a queue flushed at the end of this step."""
         if not self._waiting and not self.held:
             self._call_soon(self.flush)
-        self._waiting.append(outlet)
+        self._waiting.append(queue)
 
     def flush(self) -> None:
         """Have everything leave that was gathered."""
         waiting, self._waiting = self._waiting, []
-        for outlet in waiting:
-            outlet.flush()
+        for queue in waiting:
+            queue.flush()
         self._frames, self._piece = [], b""
 
     def joined(self, frames: list[bytes]) -> bytes:
@@ -72,41 +72,41 @@ class Round:
         return self._piece
 
 
-class Outlet:
+class SendQueue:
     """The way out to one client. What cannot leave soon waits in lanes, bounded by a window of unanswered pings."""
 
     def __init__(
-        self, line: Line, round: Round, name: str, clock: Callable[[], float] = time.monotonic
+        self, writer: FrameWriter, batch: WriteBatch, name: str, clock: Callable[[], float] = time.monotonic
     ) -> None:
         """`name` is the client's, for the log; `clock` [s] only goes forward."""
-        self._line = line
-        self._round = round
+        self._writer = writer
+        self._batch = batch
         self._name = name
         self._loop = asyncio.get_running_loop()
         self._clock = clock
-        self._lanes = Lanes()
+        self._lanes = PriorityLanes()
         self._urgent: list[bytes] = []
-        self._batch: list[bytes] = []
+        self._frames: list[bytes] = []
         self._timer: asyncio.TimerHandle | None = None
         self._closing = False
         self._refused: set[str] = set()
-        self.window = Window(self._clock())
+        self.window = SendWindow(self._clock())
         """What is under way."""
 
     def send(self, lane: Lane, frame: bytes) -> None:
         """Send what must not be lost. A client for whom too much waits is cut off."""
-        line = self._line
-        if lane is Lane.CONTROL and not line.paused:
+        writer = self._writer
+        if lane is Lane.CONTROL and not writer.paused:
             self._gather(self._urgent, frame)
-        elif self._room() and not self._lanes.blocked(lane) and self.window.fits(len(frame)):
-            self._gather(self._batch, frame)
-        elif self._lanes.put(lane, frame):
-            self.pump()
-        elif line.open:
+        elif self._has_room() and not self._lanes.is_blocked(lane) and self.window.fits(len(frame)):
+            self._gather(self._frames, frame)
+        elif self._lanes.push(lane, frame):
+            self.send_waiting()
+        elif writer.is_open:
             log.warning("%s does not read what it asked for and is disconnected", self._name)
-            line.cut()
+            writer.abort()
 
-    def offer(self, stream: Stream, message: Outgoing) -> None:
+    def offer(self, stream: Stream, message: OutgoingMessage) -> None:
         """Send a message of a topic as soon as its interval and the link allow, unless a newer one comes before."""
         if stream.ordered:
             self._send_in_order(stream, message)
@@ -115,7 +115,7 @@ class Outlet:
         room = window.limit - window.sent + window.acknowledged
         if (
             stream.waiting
-            or self._line.paused
+            or self._writer.paused
             or room <= 0
             or now >= window.late
             or (lanes.held and stream.lane >= lanes.holding)
@@ -136,89 +136,89 @@ class Outlet:
             return
         if stream.period:
             stream.due = now + stream.period
-        batch = self._batch
-        if not batch and not self._urgent:
-            self._round.add(self)
-        batch.append(frame)
+        frames = self._frames
+        if not frames and not self._urgent:
+            self._batch.add(self)
+        frames.append(frame)
         window.sent += size
 
-    def forget(self, stream: Stream) -> None:
+    def remove(self, stream: Stream) -> None:
         """Nothing of this topic is wanted any more."""
-        self._lanes.forget(stream)
+        self._lanes.remove(stream)
 
     def flush(self) -> None:
         """Write what was gathered, with a ping behind it when one is due."""
-        frames, self._batch = self._batch, []
+        frames, self._frames = self._frames, []
         if self._urgent:
             frames = self._urgent + frames
             self._urgent.clear()
-        if not self._line.open:
+        if not self._writer.is_open:
             return
-        data, now = self._round.joined(frames), self._clock()
-        if self.window.ping_due(now, self._lanes.held):
+        data, now = self._batch.joined(frames), self._clock()
+        if self.window.needs_ping(now, self._lanes.held):
             data += ping_frame(self.window.ping(now))
         if data:
-            self._line.write(data)
+            self._writer.write(data)
 
     def ping(self, content: bytes) -> None:
         """Send a ping at once, before all that waits; not while the connection takes nothing."""
-        if self._line.open and not self._line.paused:
-            self._line.write(ping_frame(content))
+        if self._writer.is_open and not self._writer.paused:
+            self._writer.write(ping_frame(content))
 
-    def answered(self, content: bytes) -> None:
+    def on_pong(self, content: bytes) -> None:
         """A pong came."""
-        if self.window.pong(content, self._clock()):
-            self.pump()
-            if not self._batch and not self._urgent:
-                self._round.add(self)  # for a ping: the window may have fallen below what is under way
+        if self.window.on_pong(content, self._clock()):
+            self.send_waiting()
+            if not self._frames and not self._urgent:
+                self._batch.add(self)  # for a ping: the window may have fallen below what is under way
 
-    def pump(self) -> None:
+    def send_waiting(self) -> None:
         """Send of what waits as much as there is room for."""
         now = self._clock()
-        while not self._line.paused and self._lanes.blocked(Lane.CONTROL):
-            self._gather(self._urgent, self._lanes.take(now) or b"")
-        while not self._line.paused and self.window.room(now):
+        while not self._writer.paused and self._lanes.is_blocked(Lane.CONTROL):
+            self._gather(self._urgent, self._lanes.pop(now) or b"")
+        while not self._writer.paused and self.window.has_room(now):
             try:
-                frame = self._lanes.take(now, self.window.fits)
+                frame = self._lanes.pop(now, self.window.fits)
             except ProtocolError as error:
                 log.warning("A message is not sent: %s", error)
                 continue
             if frame is None:
                 break
-            self._gather(self._batch, frame)
-        if self._lanes.held and not self._batch and not self._urgent:
-            self._round.add(self)  # for a ping: what is under way must be known to have arrived
+            self._gather(self._frames, frame)
+        if self._lanes.held and not self._frames and not self._urgent:
+            self._batch.add(self)  # for a ping: what is under way must be known to have arrived
         self._arm(now)
 
-    def beat(self) -> None:
+    def check_alive(self) -> None:
         """Ask for a sign of life when it is time, and cut off who gives none; to be called every second or so."""
-        if not self._line.open:
+        if not self._writer.is_open:
             if self._closing:
-                self._line.cut()
+                self._writer.abort()
             self._closing = True
-        elif self.window.dead(self._clock()):
+        elif self.window.is_dead(self._clock()):
             log.info("%s gave no sign of life and is disconnected", self._name)
-            self._line.cut()
+            self._writer.abort()
         else:
             self.flush()
 
     def close(self) -> None:
         """Send nothing more, and keep nothing: what others still hold of this client must not hold what waited for it."""
         self._lanes.clear()
-        self._batch.clear()
+        self._frames.clear()
         self._urgent.clear()
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None
 
-    def _wait(self, stream: Stream, message: Outgoing) -> None:
+    def _wait(self, stream: Stream, message: OutgoingMessage) -> None:
         self._lanes.offer(stream, message)
-        self.pump()
+        self.send_waiting()
 
-    def _room(self) -> bool:
-        return not self._line.paused and self.window.room(self._clock())
+    def _has_room(self) -> bool:
+        return not self._writer.paused and self.window.has_room(self._clock())
 
-    def _send_in_order(self, stream: Stream, message: Outgoing) -> None:
+    def _send_in_order(self, stream: Stream, message: OutgoingMessage) -> None:
         try:
             self.send(stream.lane, message.frame(stream.form))
         except ProtocolError as error:
@@ -226,19 +226,19 @@ class Outlet:
 
     def _refuse(self, topic: str, error: ProtocolError) -> None:
         """Log once of each topic that it cannot be sent: the next message cannot either."""
-        if topic not in self._refused and len(self._refused) < _MOST_REFUSED:
+        if topic not in self._refused and len(self._refused) < _MAX_REFUSED_TOPICS:
             self._refused.add(topic)
             log.warning("%s is not sent to %s: %s", topic, self._name, error)
 
     def _gather(self, frames: list[bytes], frame: bytes) -> None:
-        if not self._urgent and not self._batch:
-            self._round.add(self)
+        if not self._urgent and not self._frames:
+            self._batch.add(self)
         frames.append(frame)
         self.window.sent += len(frame)
 
     def _arm(self, now: float) -> None:
         """Come back when a throttled message is due; whatever waits for room comes with the room."""
-        if self._lanes.held or not self._room() or not self._line.open:
+        if self._lanes.held or not self._has_room() or not self._writer.is_open:
             return
         delay = self._lanes.delay(now)
         if delay is None:
@@ -247,8 +247,8 @@ class Outlet:
             if self._timer.when() <= now + delay:
                 return
             self._timer.cancel()
-        self._timer = self._loop.call_later(delay, self._wake)
+        self._timer = self._loop.call_later(delay, self._on_timer)
 
-    def _wake(self) -> None:
+    def _on_timer(self) -> None:
         self._timer = None
-        self.pump()
+        self.send_waiting()

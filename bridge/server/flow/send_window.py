@@ -14,7 +14,7 @@ import struct
 from collections import deque
 from typing import NamedTuple
 
-__all__ = ["CEILING", "DEAD", "FLOOR", "START", "Window"]
+__all__ = ["CEILING", "DEAD", "FLOOR", "START", "SendWindow"]
 
 START = 16_384
 """The window before anything is known [byte]."""
@@ -36,7 +36,7 @@ MEMORY = 30.0
 """For how long the shortest way seen is believed in [s]; the way may have changed."""
 GENTLY = 0.125
 """What of the bytes that arrive is added to the window once its end was met; before, all of them."""
-MOST_PINGS = 64
+MAX_PINGS = 64
 """How many may be unanswered at a time."""
 
 _NUMBER = struct.Struct("!Q")
@@ -49,7 +49,7 @@ class _Ping(NamedTuple):
     at: float
 
 
-class Window:
+class SendWindow:
     """What one client was sent, what of it arrived, and how much more may follow."""
 
     def __init__(self, now: float) -> None:
@@ -77,7 +77,7 @@ class Window:
         """What may still wait on its way [byte]."""
         return self.sent - self.acknowledged
 
-    def room(self, now: float) -> bool:
+    def has_room(self, now: float) -> bool:
         """Whether anything may be sent."""
         return self.sent - self.acknowledged < self.limit and now < self.late
 
@@ -86,13 +86,13 @@ class Window:
         under_way = self.sent - self.acknowledged
         return under_way + size <= self.limit or under_way <= self.limit >> 3
 
-    def ping_due(self, now: float, waiting: bool = False) -> bool:
+    def needs_ping(self, now: float, waiting: bool = False) -> bool:
         """Whether a ping must follow what was sent, or is due for its own sake; `waiting` is for what does not fit."""
         fresh = self.sent - self._marked
         if waiting and fresh > 0:
-            return len(self._pings) < MOST_PINGS
+            return len(self._pings) < MAX_PINGS
         if fresh >= FLOOR and fresh >= self.limit >> 2:
-            return len(self._pings) < MOST_PINGS
+            return len(self._pings) < MAX_PINGS
         if self._pings:
             return False
         return now - self._last >= (PAUSE if fresh > 0 else BEAT)
@@ -107,7 +107,7 @@ class Window:
         self._last = now
         return _NUMBER.pack(self._numbers)
 
-    def pong(self, content: bytes, now: float) -> bool:
+    def on_pong(self, content: bytes, now: float) -> bool:
         """Take the answer to a ping in, which answers all before it as well; False when it is none of ours."""
         number = _NUMBER.unpack(content)[0] if len(content) == _NUMBER.size else 0
         if not self._pings or not self._pings[0].number <= number <= self._pings[-1].number:
@@ -121,15 +121,15 @@ class Window:
         took = max(now - ping.at, 1e-6)
         self._usual += (took - self._usual) / 8 if self._usual else took
         self.late = self._pings[0].at + SILENCE + 4 * self._usual if self._pings else math.inf
-        self._believe(took, now)
+        self._update_minimum(took, now)
         self._adjust(ping, took, fresh if full else 0)
         return True
 
-    def dead(self, now: float) -> bool:
+    def is_dead(self, now: float) -> bool:
         """Whether a ping went unanswered for too long."""
         return bool(self._pings) and now - self._pings[0].at >= DEAD
 
-    def _believe(self, took: float, now: float) -> None:
+    def _update_minimum(self, took: float, now: float) -> None:
         """Keep the shortest time that a ping ever took; after a while drain the way and look anew."""
         if took <= self._way:
             self._way, self._way_seen = took, now

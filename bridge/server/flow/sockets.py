@@ -6,9 +6,9 @@ import asyncio
 from collections.abc import AsyncIterator
 from typing import Protocol
 
-__all__ = ["TURN", "Socket", "end", "wait"]
+__all__ = ["TURN_TIME", "Socket", "cancel_all", "wait"]
 
-TURN = 0.005
+TURN_TIME = 0.005
 """After so long with one client the others have their turn [s]; what it sent in one frame may hold a thousand operations."""
 
 
@@ -37,7 +37,7 @@ async def wait(wake: asyncio.Event, seconds: float | None) -> None:
             timer.cancel()
 
 
-async def end(tasks: set[asyncio.Task[None]]) -> None:
+async def cancel_all(tasks: set[asyncio.Task[None]]) -> None:
     """Cancel `tasks` and wait until they are over."""
     left = list(tasks)
     for task in left:

@@ -9,15 +9,15 @@ import msgspec
 
 from bridge.core.errors import ProtocolError
 
-__all__ = ["Params"]
+__all__ = ["Parameters"]
 
-MOST = 1000
+MAX_PARAMETERS = 1000
 """So many parameters may there be."""
-MOST_BYTES = 1_048_576
+MAX_BYTES = 1_048_576
 """Bytes of all names and values together."""
 
 
-class Params:
+class Parameters:
     """Values by name, as JSON texts."""
 
     def __init__(self, first: Mapping[str, Any] | None = None) -> None:
@@ -48,9 +48,9 @@ class Params:
             raise ProtocolError(f"The value of a parameter must be JSON, not {value[:60]!r}.") from error
         name = _resolved(name)
         grown = self._bytes - _size(name, self._values.get(name)) + _size(name, value)
-        if grown > MOST_BYTES or (name not in self._values and len(self._values) >= MOST):
+        if grown > MAX_BYTES or (name not in self._values and len(self._values) >= MAX_PARAMETERS):
             raise ProtocolError(
-                f"There is room for {MOST} parameters with {MOST_BYTES} bytes; {name[:60]} is too much."
+                f"There is room for {MAX_PARAMETERS} parameters with {MAX_BYTES} bytes; {name[:60]} is too much."
             )
         self._values[name] = value
         self._bytes = grown

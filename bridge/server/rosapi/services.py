@@ -12,8 +12,8 @@ from bridge.codec import shown
 from bridge.core.errors import ProtocolError
 from bridge.msgs import ros1_name
 from bridge.msgs.std_msgs import Time
-from bridge.protocol import LARGEST_ARGUMENTS, absolute
-from bridge.server.rosapi.parameters import Params
+from bridge.protocol import MAX_ARGUMENT_BYTES, absolute
+from bridge.server.rosapi.parameters import Parameters
 from bridge.server.rosapi.ros_text import full_text
 from bridge.server.rosapi.type_descriptions import typedefs
 
@@ -51,7 +51,7 @@ Answer = Callable[[dict[str, str]], dict[str, Any]]
 class RosApi:
     """Answers questions about topics, services, actions, types, nodes, parameters, and the time on the robot."""
 
-    def __init__(self, graph: Graph, params: Params, now: Callable[[], float]) -> None:
+    def __init__(self, graph: Graph, params: Parameters, now: Callable[[], float]) -> None:
         """`now` is the operators' clock [s]."""
         self._graph = graph
         self._params = params
@@ -205,8 +205,8 @@ def _details(type: str, half: str) -> dict[str, Any]:
 
 def _given(args: Raw, fields: tuple[str, ...]) -> dict[str, str]:
     """The texts among the arguments by name, an empty one for what is missing."""
-    if len(args) > LARGEST_ARGUMENTS:
-        raise ProtocolError(f"args may have at most {LARGEST_ARGUMENTS} bytes, not {len(args)}.")
+    if len(args) > MAX_ARGUMENT_BYTES:
+        raise ProtocolError(f"args may have at most {MAX_ARGUMENT_BYTES} bytes, not {len(args)}.")
     values = msgspec.json.decode(args)
     if isinstance(values, list):
         values = dict(zip(fields, values, strict=False))

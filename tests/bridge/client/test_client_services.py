@@ -6,7 +6,7 @@ import asyncio
 
 import pytest
 
-from bridge.client.client_services import MOST_CALLS, Providing
+from bridge.client.client_services import MAX_CALLS, Providing
 from bridge.core.errors import ProtocolError
 from bridge.msgs.std_srvs import TriggerRequest, TriggerResponse
 from bridge.protocol import CallService, ClientSession
@@ -22,14 +22,14 @@ async def test_so_many_calls_are_answered_at_a_time_and_one_more_is_refused():
 
     providing = Providing(session, sent, lambda: False)
     providing.serve("/work", "std_srvs/Trigger", TriggerRequest, answer)
-    for number in range(MOST_CALLS):
+    for number in range(MAX_CALLS):
         session.called(CallService(service="/work", id=number))
-    with pytest.raises(ProtocolError, match=f"/work cannot be called: {MOST_CALLS} calls are being answered"):
+    with pytest.raises(ProtocolError, match=f"/work cannot be called: {MAX_CALLS} calls are being answered"):
         session.called(CallService(service="/work", id="one too many"))
     go.set()
-    await sent.reach(MOST_CALLS)
-    assert {each.id for each in sent} == set(range(MOST_CALLS))
+    await sent.reach(MAX_CALLS)
+    assert {each.id for each in sent} == set(range(MAX_CALLS))
     await asyncio.sleep(0)
     session.called(CallService(service="/work", id="again"))
-    await sent.reach(MOST_CALLS + 1)
+    await sent.reach(MAX_CALLS + 1)
     await providing.lose()

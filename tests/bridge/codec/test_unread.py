@@ -12,7 +12,7 @@ from msgspec import Raw
 from bridge.codec import from_json, to_json, unread
 from bridge.core.errors import ProtocolError
 from bridge.msgs import TYPES, nav_msgs, sensor_msgs, std_msgs
-from bridge.server.flow.outgoing_messages import Form, Outgoing
+from bridge.server.flow.outgoing_messages import Form, OutgoingMessage
 from tests.bridge.strategies import messages
 
 
@@ -95,7 +95,7 @@ def test_a_fixed_array_of_another_length_is_not_passed_on():
 
 def test_a_form_that_the_text_does_not_have_is_made_of_what_it_says():
     raw = text_of(std_msgs.Header(stamp=std_msgs.Time(1, 2), frame_id="map"))
-    message = Outgoing("/h", unread(raw, std_msgs.Header))
+    message = OutgoingMessage("/h", unread(raw, std_msgs.Header))
     assert bytes(raw) in message.frame(Form("/h"))
     assert b'"sec":1,"nanosec":2' in message.frame(Form("/h", ros2=True))
     assert message.msg == std_msgs.Header(stamp=std_msgs.Time(1, 2), frame_id="map")

@@ -114,8 +114,8 @@ def test_an_answer_reaches_the_call_that_it_belongs_to_once():
     session.call("/stop", b"{}", lambda op: answers.append(("second", op)))
     assert (first.timeout, bytes(first.args)) == (3.0, b"[]")
     answer = ServiceResponse(id=first.id, values=Raw(b"{}"), result=True)
-    assert session.answered(answer)
-    assert not session.answered(answer)
+    assert session.on_response(answer)
+    assert not session.on_response(answer)
     session.lose()
     assert answers == [("first", True), ("second", None)]
 
@@ -135,10 +135,10 @@ def test_a_goal_is_followed_until_the_server_says_what_became_of_it():
     session, fed, ended = ClientSession(), [], []
     op = session.goal("/dock", "dock_msgs/Dock", b'{"x":1}', fed.append, ended.append)
     assert (op.feedback, bytes(op.args)) == (True, b'{"x":1}')
-    assert session.fed_back(ActionFeedback(id=op.id, action="/dock"))
+    assert session.on_feedback(ActionFeedback(id=op.id, action="/dock"))
     assert session.cancel(op.id) == CancelActionGoal(id=op.id, action="/dock")
-    assert session.finished(ActionResult(id=op.id, action="/dock", status=5))
-    assert not session.finished(ActionResult(id=op.id, action="/dock"))
+    assert session.on_result(ActionResult(id=op.id, action="/dock", status=5))
+    assert not session.on_result(ActionResult(id=op.id, action="/dock"))
     assert session.cancel(op.id) is None
     assert (len(fed), len(ended)) == (1, 1)
 
@@ -165,7 +165,7 @@ def test_a_goal_of_the_server_reaches_who_carries_it_out():
 
 
 def test_a_goal_that_cannot_be_taken_is_refused(monkeypatch):
-    monkeypatch.setattr(module, "MOST_GOALS", 2)
+    monkeypatch.setattr(module, "MAX_GOALS", 2)
     session, started, _ = with_action()
     session.goal_given(GOAL)
     with pytest.raises(ProtocolError, match="A goal with the id .*dock:1.* is under way already"):

@@ -11,17 +11,17 @@ import pytest
 
 from bridge.core.compat import Compat
 from bridge.protocol import (
-    LARGEST_ARGUMENTS,
-    LARGEST_HEARD,
-    LARGEST_TOLD,
-    MOST_FILTERED,
+    MAX_ARGUMENT_BYTES,
+    MAX_CLIENT_FRAME,
+    MAX_FILTERED_BYTES,
+    MAX_SERVER_FRAME,
     OPS,
     Op,
     Reduction,
 )
 from bridge.server import callback_connection as server_connection
 from bridge.server import rosbridge_session as serving
-from bridge.server.rosapi.parameters import Params
+from bridge.server.rosapi.parameters import Parameters
 from bridge.server.rosapi.services import Graph, RosApi
 
 TEXT = (Path(__file__).parents[3] / "docs" / "bridge.md").read_text()
@@ -59,7 +59,7 @@ def test_every_switch_and_every_reduction_has_its_row(name):
 
 
 def test_every_service_of_rosapi_is_told_of():
-    rosapi = RosApi(Graph(dict, dict, dict, dict), Params(), float)
+    rosapi = RosApi(Graph(dict, dict, dict, dict), Parameters(), float)
     (row,) = re.findall(r"^\| `/rosapi/…` \| rosapi \| (.*) \|$", TEXT, re.MULTILINE)
     assert {f"/rosapi/{name}" for name in re.findall(r"`(\w+)`", row)} == set(rosapi.types)
 
@@ -67,12 +67,12 @@ def test_every_service_of_rosapi_is_told_of():
 @pytest.mark.parametrize(
     ("words", "bound"),
     [
-        ("frames and unfinished fragments of {} MiB", LARGEST_HEARD >> 20),
-        ("a frame to a client may have {}", LARGEST_TOLD >> 20),
-        ("{} kB of filtered rows", MOST_FILTERED >> 10),
-        ("{} MiB of arguments", LARGEST_ARGUMENTS >> 20),
-        ("takes longer than {} ms", int(server_connection.TURN * 1000)),
-        ("takes longer than {} ms", int(serving.TURN * 1000)),
+        ("frames and unfinished fragments of {} MiB", MAX_SERVER_FRAME >> 20),
+        ("a frame to a client may have {}", MAX_CLIENT_FRAME >> 20),
+        ("{} kB of filtered rows", MAX_FILTERED_BYTES >> 10),
+        ("{} MiB of arguments", MAX_ARGUMENT_BYTES >> 20),
+        ("takes longer than {} ms", int(server_connection.TURN_TIME * 1000)),
+        ("takes longer than {} ms", int(serving.TURN_TIME * 1000)),
     ],
 )
 def test_bounds_are_those_of_the_code(words, bound):

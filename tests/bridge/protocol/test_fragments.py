@@ -14,7 +14,7 @@ from msgspec import UNSET
 
 from bridge.core.errors import ProtocolError
 from bridge.protocol import Fragment, Fragments, split
-from bridge.protocol.fragments import MOST_SLICES, SLICE_COST
+from bridge.protocol.fragments import MAX_SLICES, SLICE_COST
 
 LIMIT = 1_000_000
 TEXT = b'{"op":"publish","topic":"/a","msg":{"data":"hello"}}'
@@ -51,7 +51,7 @@ def test_what_is_no_text_is_not_cut():
 
 
 def test_a_size_that_makes_too_many_slices_is_not_kept():
-    text = b"x" * (MOST_SLICES * 3 + 1)
+    text = b"x" * (MAX_SLICES * 3 + 1)
     assert {len(each.data) for each in slices(text, 1)[:-1]} == {4}
 
 

@@ -115,7 +115,7 @@ def use_at_server(session, op):
     elif isinstance(op, ActionResult):
         goal_status(op)
         session.end_goal(op.id)
-        session.finished(op)
+        session.on_result(op)
     else:
         hear = {
             Subscribe: session.subscribe,
@@ -126,8 +126,8 @@ def use_at_server(session, op):
             UnadvertiseService: session.unadvertise_service,
             AdvertiseAction: session.advertise_action,
             UnadvertiseAction: session.unadvertise_action,
-            ServiceResponse: session.answered,
-            ActionFeedback: session.fed_back,
+            ServiceResponse: session.on_response,
+            ActionFeedback: session.on_feedback,
             SetLevel: session.set_level,
         }.get(type(op), lambda _: None)
         hear(op)
@@ -141,9 +141,9 @@ def use_at_client(session, op):
         CallService: session.called,
         SendActionGoal: session.goal_given,
         CancelActionGoal: session.goal_cancelled,
-        ServiceResponse: session.answered,
-        ActionFeedback: session.fed_back,
-        ActionResult: session.finished,
+        ServiceResponse: session.on_response,
+        ActionFeedback: session.on_feedback,
+        ActionResult: session.on_result,
     }.get(type(op), lambda _: None)
     hear(op)
 
@@ -197,9 +197,9 @@ def test_nothing_but_a_protocol_error_comes_of_damaged_frames(side, seed):
 
 
 def test_what_is_remembered_stays_bounded_whatever_comes(monkeypatch):
-    for name in ("MOST_SUBSCRIPTIONS", "MOST_ADVERTISED", "MOST_CALLS", "MOST_GOALS"):
+    for name in ("MAX_SUBSCRIPTIONS", "MAX_ADVERTISED", "MAX_CALLS", "MAX_GOALS"):
         monkeypatch.setattr(server_session, name, 5)
-    monkeypatch.setattr(client_session, "MOST_GOALS", 5)
+    monkeypatch.setattr(client_session, "MAX_GOALS", 5)
     session, rng = ServerSession(limit_bytes=2000), random.Random(3)
     for number in range(1500):
         kept = (session.goals, session.services, session.actions)

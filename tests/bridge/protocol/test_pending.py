@@ -38,8 +38,8 @@ def test_an_answer_reaches_who_asked_once():
     first = asked.ask(CallService(service="/add"), lambda op: heard.append(("first", op)))
     asked.ask(CallService(service="/add"), lambda op: heard.append(("second", op)))
     answer = ServiceResponse(id=first.id, service="/add")
-    assert asked.answered(answer)
-    assert not asked.answered(answer)
+    assert asked.on_response(answer)
+    assert not asked.on_response(answer)
     assert heard == [("first", answer)]
     assert len(asked) == 1
 
@@ -48,7 +48,7 @@ def test_an_answer_reaches_who_asked_once():
 def test_an_answer_that_nobody_waits_for_is_told_so(id):
     asked = calls()
     asked.ask(CallService(service="/add"), print)
-    assert not asked.answered(ServiceResponse(id=id))
+    assert not asked.on_response(ServiceResponse(id=id))
 
 
 def test_who_waits_no_longer_is_not_called():
@@ -114,11 +114,11 @@ def test_feedback_reaches_who_wants_it_until_the_goal_is_over():
         ActionFeedback(id=op.id, action="/dock"),
         ActionResult(id=op.id, action="/dock", status=4),
     )
-    assert under_way.fed_back(feedback)
-    assert not under_way.fed_back(ActionFeedback(id=quiet.id, action="/dock"))
-    assert under_way.finished(result)
-    assert not under_way.finished(result)
-    assert not under_way.fed_back(feedback)
+    assert under_way.on_feedback(feedback)
+    assert not under_way.on_feedback(ActionFeedback(id=quiet.id, action="/dock"))
+    assert under_way.on_result(result)
+    assert not under_way.on_result(result)
+    assert not under_way.on_feedback(feedback)
     assert (fed, ended) == ([feedback], [result])
 
 
@@ -126,7 +126,7 @@ def test_a_goal_that_is_taken_back_still_has_a_result():
     under_way, ended = goals(), []
     op = under_way.send(SendActionGoal(action="/dock"), None, ended.append)
     assert under_way.cancel(op.id) == CancelActionGoal(id=op.id, action="/dock")
-    assert under_way.finished(ActionResult(id=op.id, action="/dock", status=5))
+    assert under_way.on_result(ActionResult(id=op.id, action="/dock", status=5))
     assert [each.status for each in ended] == [5]
     assert under_way.cancel(op.id) is None
 

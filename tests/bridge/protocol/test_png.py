@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from PIL import Image
 
 from bridge.core.errors import ProtocolError
-from bridge.protocol import MOST_FILTERED, Png, dump, parse, pixels, to_png
+from bridge.protocol import MAX_FILTERED_BYTES, Png, dump, parse, pixels, to_png
 
 LIMIT = 1_000_000
 
@@ -176,10 +176,10 @@ def test_the_limit_counts_what_fills_the_picture_up():
 
 @pytest.mark.parametrize("kind", [1, 2, 3, 4])
 def test_pixels_whose_restoring_takes_long_are_refused_before_it_begins(kind):
-    width = MOST_FILTERED // 3 // 64
+    width = MAX_FILTERED_BYTES // 3 // 64
     large = op(header(width, 65), rows(kind, [bytes(3 * width)] * 65), END)
     with pytest.raises(
-        ProtocolError, match=f"at most {MOST_FILTERED} bytes of it may stand in filtered rows"
+        ProtocolError, match=f"at most {MAX_FILTERED_BYTES} bytes of it may stand in filtered rows"
     ):
         pixels(large, LIMIT)
     small = op(header(width, 64), rows(kind, [bytes(3 * width)] * 64), END)

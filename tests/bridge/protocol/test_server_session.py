@@ -271,8 +271,8 @@ def test_a_client_is_asked_under_an_id_of_the_servers_own():
 def test_its_answer_reaches_who_asked_once():
     session, op, answers = with_service()
     answer = ServiceResponse(service="/lamp", id=op.id, values=Raw(b'{"success":true}'))
-    assert session.answered(answer)
-    assert not session.answered(answer)
+    assert session.on_response(answer)
+    assert not session.on_response(answer)
     assert answers == [answer]
 
 
@@ -300,7 +300,7 @@ def test_a_refusal_and_an_answer_without_values_reach_the_caller_as_compat_has_i
     compat, answer, result, values
 ):
     session, _, answers = with_service(compat)
-    session.answered(parse(answer))
+    session.on_response(parse(answer))
     assert [(each.result, msgspec.json.decode(each.values)) for each in answers] == [(result, values)]
 
 
@@ -314,13 +314,13 @@ def test_who_waits_for_a_service_that_is_gone_is_told():
 def test_who_waits_no_longer_is_not_called():
     session, op, answers = with_service()
     assert session.forget_call(op.id)
-    assert not session.answered(ServiceResponse(id=op.id))
+    assert not session.on_response(ServiceResponse(id=op.id))
     assert answers == []
 
 
 def test_a_client_is_not_asked_without_end(monkeypatch):
     session, _, _ = with_service()
-    for _ in range(module.MOST_CALLS - 1):
+    for _ in range(module.MAX_CALLS - 1):
         session.ask(CallService(service="/lamp"), print)
     with pytest.raises(ProtocolError, match="/lamp cannot be called: 1000 calls wait"):
         session.ask(CallService(service="/lamp"), print)
@@ -341,9 +341,9 @@ def test_a_goal_is_handed_to_a_client_under_an_id_of_the_servers_own():
         b"[1]",
         True,
     )
-    assert session.fed_back(ActionFeedback(id=op.id, action="/dock"))
+    assert session.on_feedback(ActionFeedback(id=op.id, action="/dock"))
     assert session.cancel_handed(op.id) == CancelActionGoal(id=op.id, action="/dock")
-    assert session.finished(ActionResult(id=op.id, action="/dock", status=5))
+    assert session.on_result(ActionResult(id=op.id, action="/dock", status=5))
     assert session.cancel_handed(op.id) is None
     assert (len(fed), [each.status for each in ended]) == (1, [5])
 
@@ -352,7 +352,7 @@ def test_whose_goal_is_with_an_action_that_is_gone_is_told():
     session, op, _, ended = with_action()
     assert session.unadvertise_action(UnadvertiseAction(action="dock")) == "/dock"
     assert (ended, session.actions) == ([None], {})
-    assert not session.finished(ActionResult(id=op.id, action="/dock"))
+    assert not session.on_result(ActionResult(id=op.id, action="/dock"))
     session.unadvertise_action(UnadvertiseAction(action="/never"))
 
 
@@ -383,7 +383,7 @@ def test_two_goals_of_one_id_and_too_many_are_refused():
     for op, id in ((SendActionGoal(action="/fly", id="g"), '"g"'), (SendActionGoal(action="/fly"), "null")):
         with pytest.raises(ProtocolError, match=f"A goal with the id {id} is under way already"):
             session.begin_goal(op)
-    for number in range(module.MOST_GOALS - 2):
+    for number in range(module.MAX_GOALS - 2):
         session.begin_goal(SendActionGoal(action="/dock", id=number))
     with pytest.raises(ProtocolError, match="A client may have at most 100 goals under way"):
         session.begin_goal(SendActionGoal(action="/dock", id="more"))
@@ -438,7 +438,7 @@ def test_a_vanished_client_leaves_nothing_but_its_goals():
 
 def test_a_client_has_a_hundred_goals_under_way_at_most_and_each_id_once():
     session = ServerSession()
-    for number in range(module.MOST_GOALS):
+    for number in range(module.MAX_GOALS):
         session.begin_goal(SendActionGoal(action="/dock", id=number))
     with pytest.raises(ProtocolError, match="A goal with the id 7 is under way already"):
         session.begin_goal(SendActionGoal(action="/fly", id=7))

@@ -220,12 +220,12 @@ class Errands(RuleBasedStateMachine):
 
     @rule(id=consumes(calls) | st.just("service_request:/s:999"))
     def answer(self, id):
-        assert self.session.answered(ServiceResponse(id=id, service="/s")) == (id in self.open)
+        assert self.session.on_response(ServiceResponse(id=id, service="/s")) == (id in self.open)
         self.open.discard(id)
 
     @rule(id=goals)
     def feed_back(self, id):
-        if self.session.fed_back(ActionFeedback(id=id, action="/a")):
+        if self.session.on_feedback(ActionFeedback(id=id, action="/a")):
             assert id in self.open
 
     @rule(id=goals)
@@ -234,7 +234,7 @@ class Errands(RuleBasedStateMachine):
 
     @rule(id=goals)
     def finish(self, id):
-        assert self.session.finished(ActionResult(id=id, action="/a")) == (id in self.open)
+        assert self.session.on_result(ActionResult(id=id, action="/a")) == (id in self.open)
         self.open.discard(id)
 
     @rule(id=calls)
@@ -258,8 +258,8 @@ class Errands(RuleBasedStateMachine):
 
 @pytest.fixture(autouse=True)
 def _little_room(monkeypatch):
-    monkeypatch.setattr(module, "MOST_SUBSCRIPTIONS", ROOM)
-    monkeypatch.setattr(module, "MOST_ADVERTISED", ROOM)
+    monkeypatch.setattr(module, "MAX_SUBSCRIPTIONS", ROOM)
+    monkeypatch.setattr(module, "MAX_ADVERTISED", ROOM)
 
 
 FEW = settings(max_examples=60, stateful_step_count=30, deadline=None)

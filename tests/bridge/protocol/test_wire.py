@@ -31,7 +31,7 @@ from bridge.protocol import (
     parse_each,
     too_deep,
 )
-from bridge.protocol.wire import LARGEST_ARGUMENTS, LARGEST_SHARED, MOST_OPERATIONS
+from bridge.protocol.wire import MAX_ARGUMENT_BYTES, MAX_OPERATIONS, MAX_SHARED_BYTES
 
 DEEP = 100_000
 
@@ -179,10 +179,10 @@ def test_of_several_operations_the_good_ones_count():
 
 
 def test_one_frame_holds_a_thousand_operations_at_most():
-    found = parse_each('{"op":"unsubscribe","topic":"/a"}' * (MOST_OPERATIONS + 5))
-    assert len(found) == MOST_OPERATIONS + 1
+    found = parse_each('{"op":"unsubscribe","topic":"/a"}' * (MAX_OPERATIONS + 5))
+    assert len(found) == MAX_OPERATIONS + 1
     assert str(found[-1]) == "A frame may hold at most 1000 operations."
-    assert len(parse_each('{"op":"unsubscribe","topic":"/a"}' * MOST_OPERATIONS)) == MOST_OPERATIONS
+    assert len(parse_each('{"op":"unsubscribe","topic":"/a"}' * MAX_OPERATIONS)) == MAX_OPERATIONS
 
 
 @pytest.mark.parametrize(
@@ -347,15 +347,15 @@ def test_bare_nans_are_not_looked_for_in_too_many_places():
 
 def test_a_large_frame_is_not_looked_through_for_several_operations():
     one = b'{"op":"unsubscribe","topic":"/a"}'
-    assert len(parse_each(one * 2 + b" " * (LARGEST_SHARED - 2 * len(one)))) == 2
-    assert len(parse_each(one * 2 + b" " * (LARGEST_SHARED - 2 * len(one) + 1))) == 1
+    assert len(parse_each(one * 2 + b" " * (MAX_SHARED_BYTES - 2 * len(one)))) == 2
+    assert len(parse_each(one * 2 + b" " * (MAX_SHARED_BYTES - 2 * len(one) + 1))) == 1
 
 
 def test_arguments_are_bounded_and_a_list_may_be_longer_than_the_fields():
     fields = msgspec.structs.astuple(CommandRequest(command_id="7"))
     assert arguments(Raw(msgspec.json.encode([*fields, [], {}])), CommandRequest).command_id == "7"
-    text = b'["%s"]' % (b"x" * LARGEST_ARGUMENTS)
-    with pytest.raises(ProtocolError, match=f"may have at most {LARGEST_ARGUMENTS} bytes, not {len(text)}"):
+    text = b'["%s"]' % (b"x" * MAX_ARGUMENT_BYTES)
+    with pytest.raises(ProtocolError, match=f"may have at most {MAX_ARGUMENT_BYTES} bytes, not {len(text)}"):
         arguments(Raw(text), CommandRequest)
     with pytest.raises(ProtocolError, match="may have at most"):
         arguments(Raw(b'{"a":%s}' % text), CommandRequest)

@@ -122,14 +122,14 @@ async def test_what_was_said_in_the_same_breath_as_goodbye_is_still_heard():
 
 @pytest.mark.parametrize("end", ["cut", "abort"])
 async def test_many_operations_in_the_same_breath_as_goodbye_are_all_done_however_it_ends(end, monkeypatch):
-    monkeypatch.setattr(serving, "TURN", 0.0)
+    monkeypatch.setattr(serving, "TURN_TIME", 0.0)
     heard, gone = Record(), Record()
 
     def on_message(session, topic, msg, stamp):
         heard(msg.linear.x)
         if len(heard) == 2:  # the goodbye is read then
             connection = next(iter(robot._open))
-            connection.cut() if end == "cut" else connection.transport.abort()
+            connection.abort() if end == "cut" else connection.transport.abort()
 
     async with server(on_message=on_message, on_gone=gone) as robot, peer(robot) as foreign:
         await foreign.settled()
@@ -154,7 +154,7 @@ async def test_a_connection_that_is_over_keeps_nothing_of_what_came():
         foreign.ws.transport.abort()
         await gone.reach(1)
         assert connection._pieces == []
-        assert connection._ears is None
+        assert connection._handler is None
         assert connection.protocol.reader.buffer == b""
 
 
@@ -172,7 +172,7 @@ async def test_a_vanished_clients_session_is_over_before_what_it_left_is_tidied_
 
 
 async def test_who_does_not_shake_hands_makes_room_for_others(monkeypatch):
-    monkeypatch.setattr(server_connection, "MOST", 3)
+    monkeypatch.setattr(server_connection, "MAX_CONNECTIONS", 3)
     async with server() as robot, peer(robot) as first, bare(robot) as oldest, bare(robot) as other:
         for _, writer in (oldest, other):
             writer.write(b"GET / HTTP/1.1\r\nHost: x\r\nUpgr")
@@ -186,7 +186,7 @@ async def test_who_does_not_shake_hands_makes_room_for_others(monkeypatch):
 
 
 async def test_one_client_too_many_is_cut_off_and_room_is_made_again(monkeypatch):
-    monkeypatch.setattr(server_connection, "MOST", 2)
+    monkeypatch.setattr(server_connection, "MAX_CONNECTIONS", 2)
     async with server() as robot, peer(robot) as first:
         async with peer(robot) as second:
             with pytest.raises((OSError, InvalidMessage)):
@@ -200,7 +200,7 @@ async def test_one_client_too_many_is_cut_off_and_room_is_made_again(monkeypatch
 
 async def test_a_fault_in_the_server_costs_nobody_the_connection(caplog, monkeypatch):
     async with server() as robot, peer(robot) as foreign:
-        monkeypatch.setattr("bridge.server.rosbridge_session.Client._do", lambda *_: 1 / 0)
+        monkeypatch.setattr("bridge.server.rosbridge_session.RosbridgeSession._handle", lambda *_: 1 / 0)
         await foreign.say(op="subscribe", topic="/scan")
         async with asyncio.timeout(PATIENCE):
             await (await foreign.ws.ping())
@@ -214,7 +214,7 @@ async def test_nothing_is_heard_of_a_client_that_was_cut_off():
 
     def cut(session, topic, msg, stamp):
         heard(msg.linear.x)
-        next(iter(robot._open)).cut()
+        next(iter(robot._open)).abort()
 
     async with server(on_message=cut, on_gone=gone) as robot, peer(robot) as foreign:
         await foreign.settled()
@@ -245,7 +245,7 @@ async def turns():
 
 def slowly(monkeypatch):
     """Every look at the clock finds that a turn is over."""
-    monkeypatch.setattr(server_connection.HeardConnection, "clock", itertools.count().__next__)
+    monkeypatch.setattr(server_connection.CallbackConnection, "clock", itertools.count().__next__)
 
 
 async def test_of_much_that_comes_at_once_each_turn_takes_a_piece(monkeypatch):
@@ -264,7 +264,7 @@ async def test_of_much_that_comes_at_once_each_turn_takes_a_piece(monkeypatch):
 
 
 async def test_operations_of_one_frame_are_done_in_turns_and_what_follows_waits_for_them(monkeypatch):
-    monkeypatch.setattr(serving, "TURN", 0.0)
+    monkeypatch.setattr(serving, "TURN_TIME", 0.0)
     heard = Record()
     async with turns() as now:
         on_message = lambda session, topic, msg, stamp: heard((now[0], msg.linear.x))  # noqa: E731
@@ -278,7 +278,7 @@ async def test_operations_of_one_frame_are_done_in_turns_and_what_follows_waits_
 
 
 async def test_a_long_frame_that_comes_with_the_handshake_is_done_to_its_end(monkeypatch):
-    monkeypatch.setattr(serving, "TURN", 0.0)
+    monkeypatch.setattr(serving, "TURN_TIME", 0.0)
     heard = Record()
     async with server(on_message=heard) as robot, bare(robot) as (_, writer):
         text = "".join(speed(float(x)) for x in range(10)).encode()

@@ -9,7 +9,7 @@ from contextlib import asynccontextmanager
 from bridge.core import camera_frames as frames
 from bridge.server.camera_socket import CameraSocket
 from bridge.server.flow.picture_quality import COARSEST
-from bridge.server.flow.quality_levels import Levels
+from bridge.server.flow.quality_levels import QualityLevels
 from tests.bridge.peers import peer
 from tests.bridge.wires import Clock, Record, Wire, server, wire
 
@@ -35,7 +35,7 @@ async def shrink(jpeg, level):
 
 @asynccontextmanager
 async def watching(clock):
-    cable, levels = Cable(), Levels(shrink)
+    cable, levels = Cable(), QualityLevels(shrink)
     watcher = CameraSocket(cable, clock, coarsest=levels.coarsest)
     running = asyncio.create_task(watcher.run())
     try:

@@ -11,7 +11,7 @@ from bridge.core.compat import Compat
 from bridge.core.errors import Refused
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from bridge.msgs.std_msgs import String
-from bridge.server import client_services as exchange
+from bridge.server import client_services
 from bridge.server.server import Action
 from tests.bridge.peers import peer
 from tests.bridge.wires import Record, server
@@ -309,7 +309,7 @@ async def test_what_is_nested_too_deeply_is_not_passed_on_to_others():
 
 
 async def test_who_reads_gets_all_its_refusals_when_who_should_answer_is_gone(monkeypatch):
-    monkeypatch.setattr(exchange, "MOST_CALLS", 600)
+    monkeypatch.setattr(client_services, "MAX_CALLS", 600)
     async with pair() as (provider, caller):
         for number in range(601):
             await caller.say(op="call_service", service="/add", id=number)

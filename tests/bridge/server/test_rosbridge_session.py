@@ -1,4 +1,4 @@
-"""What one client may ask for, and for how long at a time: the clock is the test's, the line a double."""
+"""What one client may ask for, and for how long at a time: the clock is the test's, the writer a double."""
 
 from __future__ import annotations
 
@@ -13,15 +13,18 @@ from bridge.core.topics import TOPICS
 from bridge.msgs.nav_msgs import Odometry
 from bridge.protocol import ServerSession, split
 from bridge.protocol.merging import merged
-from bridge.server import rosbridge_session as serving
-from bridge.server.client_services import Exchange
-from bridge.server.flow.message_reducing import Reducing
-from bridge.server.flow.send_queue import Round
-from bridge.server.rosapi.parameters import Params
+from bridge.server.client_services import ClientServices
+from bridge.server.flow.message_reducing import MessageReducer
+from bridge.server.flow.send_queue import WriteBatch
+from bridge.server.flow.sockets import TURN_TIME
+from bridge.server.rosapi.parameters import Parameters
 from bridge.server.rosapi.services import Graph, RosApi
-from bridge.server.rosbridge_session import MOST_CALLS, TURN, Client, Offer
+from bridge.server.rosbridge_session import RosbridgeSession
+from bridge.server.server_context import ServerContext
+from bridge.server.service_operations import MAX_CALLS, PRIORITY_SERVICES
 from bridge.server.switchboard import Switchboard
-from tests.bridge.server.flow.test_send_queue import Line
+from bridge.server.topic_operations import MAX_READ_BYTES
+from tests.bridge.server.flow.test_send_queue import FrameWriter
 from tests.bridge.wires import Clock, Record, service
 
 
@@ -35,26 +38,26 @@ class House:
     def __init__(self, *services):
         self.clock, self.soon, self.heard = Clock(), [], Record()
         by_name = {each.name: each for each in services or (service("/stop"), service("/slow", never))}
-        exchange = Exchange(by_name, {})
+        client_services = ClientServices(by_name, {})
         self.switchboard = Switchboard(TOPICS, lambda *_: None)
-        self.offer = Offer(
+        self.context = ServerContext(
             switchboard=self.switchboard,
             services=by_name,
             actions={},
-            exchange=exchange,
-            rosapi=RosApi(Graph(dict, dict, dict, dict), Params(), self.clock),
-            reducing=Reducing(),
+            client_services=client_services,
+            rosapi=RosApi(Graph(dict, dict, dict, dict), Parameters(), self.clock),
+            reducer=MessageReducer(),
             compat=Compat(),
             now=self.clock,
             on_message=self.heard,
         )
 
     def join(self):
-        line = Line()
-        round = Round(lambda call: self.soon.append(call))  # noqa: PLW0108 -- `soon` is another list after each step
-        client = Client(line, round, Session("1", "somebody", 0.0), self.offer)
+        writer = FrameWriter()
+        batch = WriteBatch(lambda call: self.soon.append(call))  # noqa: PLW0108 -- `soon` is another list after each step
+        client = RosbridgeSession(writer, batch, Session("1", "somebody", 0.0), self.context)
         client._clock = self.clock
-        return client, line
+        return client, writer
 
     def step(self):
         soon, self.soon = self.soon, []
@@ -73,21 +76,21 @@ def called(name, id):
 async def test_a_frame_that_takes_longer_than_its_turn_waits_for_the_next_one():
     house = House()
     client, _ = house.join()
-    on_message, order = house.offer.on_message, []
+    on_message, order = house.context.on_message, []
 
     def slow(session, topic, msg, stamp):
         order.append(msg.linear.x)
-        house.clock.time += 1.1 * TURN
+        house.clock.time += 1.1 * TURN_TIME
         on_message(session, topic, msg, stamp)
 
-    object.__setattr__(house.offer, "on_message", slow)
+    object.__setattr__(house.context, "on_message", slow)
     frame = [{"op": "publish", "topic": "/cmd_vel", "msg": {"linear": {"x": float(x)}}} for x in range(5)]
-    assert not client.hear(said(*frame))
+    assert not client.on_message(said(*frame))
     assert order == [0.0]
-    assert not client.hear(said(frame[0] | {"msg": {"linear": {"x": 9.0}}}))
-    assert [client.go_on() for _ in range(5)] == [False] * 4 + [True]
+    assert not client.on_message(said(frame[0] | {"msg": {"linear": {"x": 9.0}}}))
+    assert [client.resume() for _ in range(5)] == [False] * 4 + [True]
     assert order == [0.0, 1.0, 2.0, 3.0, 4.0, 9.0]
-    assert client.hear(said(frame[0]))
+    assert client.on_message(said(frame[0]))
     await client.close()
 
 
@@ -95,12 +98,12 @@ async def test_what_a_client_left_undone_is_not_done_when_it_is_gone():
     house = House()
     client, _ = house.join()
     object.__setattr__(
-        house.offer, "on_message", lambda *_: setattr(house.clock, "time", house.clock.time + TURN)
+        house.context, "on_message", lambda *_: setattr(house.clock, "time", house.clock.time + TURN_TIME)
     )
     frame = [{"op": "publish", "topic": "/cmd_vel"}, {"op": "subscribe", "topic": "/odom"}]
-    assert not client.hear(said(*frame))
+    assert not client.on_message(said(*frame))
     await client.close()
-    assert client.go_on()
+    assert client.resume()
     assert not house.switchboard.wanted("/odom")
 
 
@@ -116,42 +119,44 @@ async def test_subscriptions_are_put_together_once_for_all_operations_of_a_frame
     house = House()
     client, _ = house.join()
     for number in range(100):
-        client.hear(said({"op": "subscribe", "topic": "/odom", "id": str(number), "throttle_rate": 1000}))
+        client.on_message(
+            said({"op": "subscribe", "topic": "/odom", "id": str(number), "throttle_rate": 1000})
+        )
     times = Record()
     monkeypatch.setattr("bridge.protocol.server_session.merged", lambda *all: (times(1), merged(*all))[1])
-    client.hear(said(*more))
+    client.on_message(said(*more))
     assert len(times) == 1
     (stream,) = house.switchboard.channels["/odom"].streams.values()
-    assert stream.form.fragment_size == client.remembered.subscriptions["/odom"].fragment_size
-    assert stream.period == client.remembered.subscriptions["/odom"].period
+    assert stream.form.fragment_size == client.protocol.subscriptions["/odom"].fragment_size
+    assert stream.period == client.protocol.subscriptions["/odom"].period
     await client.close()
 
 
 async def test_who_asks_again_gets_what_is_latched_once_and_as_it_asked_last():
     house = House()
-    client, line = house.join()
-    client.hear(said({"op": "subscribe", "topic": "/robot/info", "id": "1"}))
+    client, writer = house.join()
+    client.on_message(said({"op": "subscribe", "topic": "/robot/info", "id": "1"}))
     house.switchboard.publish("/robot/info", house.switchboard.channels["/robot/info"].cls())
     house.step()
-    line.writes.clear()
+    writer.writes.clear()
     again = {"op": "subscribe", "topic": "/robot/info", "id": "1"}
-    client.hear(said(again, again | {"fragment_size": 50}))
+    client.on_message(said(again, again | {"fragment_size": 50}))
     house.step()
-    assert {json.loads(text)["op"] for text in line.heard} == {"fragment"}
-    assert sum(json.loads(text)["num"] == 0 for text in line.heard) == 1
+    assert {json.loads(text)["op"] for text in writer.heard} == {"fragment"}
+    assert sum(json.loads(text)["num"] == 0 for text in writer.heard) == 1
     await client.close()
 
 
 async def test_a_client_may_have_so_many_calls_at_work_but_stop_is_always_heard():
     house = House()
-    client, line = house.join()
-    for number in range(MOST_CALLS):
-        client.hear(said(called("/slow", number)))
+    client, writer = house.join()
+    for number in range(MAX_CALLS):
+        client.on_message(said(called("/slow", number)))
         await asyncio.sleep(0)
-    client.hear(said(called("/slow", "one too many")))
-    client.hear(said(called("/stop", "stop")))
+    client.on_message(said(called("/slow", "one too many")))
+    client.on_message(said(called("/stop", "stop")))
     house.step()
-    told = {each["id"]: each for each in map(json.loads, line.heard)}
+    told = {each["id"]: each for each in map(json.loads, writer.heard)}
     assert told["one too many"]["values"] == "256 calls of this client wait for their answer already."
     assert told["stop"]["values"]["success"] is True
     await client.close()
@@ -159,40 +164,40 @@ async def test_a_client_may_have_so_many_calls_at_work_but_stop_is_always_heard(
 
 async def test_while_a_slow_stop_is_at_work_another_is_still_heard():
     house = House(service("/stop", never))
-    client, line = house.join()
-    for number in range(MOST_CALLS + 1):
-        client.hear(said(called("/stop", number)))
+    client, writer = house.join()
+    for number in range(MAX_CALLS + 1):
+        client.on_message(said(called("/stop", number)))
         await asyncio.sleep(0)
     house.step()
-    assert line.heard == []
+    assert writer.heard == []
     await client.close()
 
 
-@pytest.mark.parametrize("name", sorted(serving.FIRST))
+@pytest.mark.parametrize("name", sorted(PRIORITY_SERVICES))
 async def test_answers_about_stop_and_control_go_before_others_that_wait(name):
     house = House(service(name), service("/other"))
-    client, line = house.join()
-    client.outlet.window.sent += 1_000_000
-    client.hear(said(called("/other", "other"), called(name, "first")))
+    client, writer = house.join()
+    client.queue.window.sent += 1_000_000
+    client.on_message(said(called("/other", "other"), called(name, "first")))
     house.step()
-    assert [json.loads(text)["id"] for text in line.heard] == ["first"]
+    assert [json.loads(text)["id"] for text in writer.heard] == ["first"]
     await client.close()
 
 
 async def test_the_rest_of_fragments_that_does_not_come_is_waited_for_ten_seconds():
     house = House()
-    client, line = house.join()
-    client.hear(said({"op": "set_level", "level": "error"}))
+    client, writer = house.join()
+    client.on_message(said({"op": "set_level", "level": "error"}))
     first, *_ = split(said({"op": "unsubscribe", "topic": "/a" * 20}).encode(), 20, "f")
-    client.hear(first)
+    client.on_message(first)
     house.clock.time += 9.9
-    client.beat()
+    client.check_alive()
     house.step()
-    assert line.heard == []
+    assert writer.heard == []
     house.clock.time += 0.2
-    client.beat()
+    client.check_alive()
     house.step()
-    (told,) = (json.loads(text) for text in line.heard)
+    (told,) = (json.loads(text) for text in writer.heard)
     assert (told["op"], told["id"]) == ("status", "f")
     assert "nothing more came within 10 s" in told["msg"]
     await client.close()
@@ -202,14 +207,14 @@ async def test_what_was_latched_by_who_never_advertised_does_not_stay():
     house = House()
     owner, _ = house.join()
     guest, _ = house.join()
-    owner.hear(said({"op": "advertise", "topic": "/chat", "type": "std_msgs/String"}))
-    guest.hear(said({"op": "publish", "topic": "/chat", "msg": {"data": "x"}, "latch": True}))
+    owner.on_message(said({"op": "advertise", "topic": "/chat", "type": "std_msgs/String"}))
+    guest.on_message(said({"op": "publish", "topic": "/chat", "msg": {"data": "x"}, "latch": True}))
     assert house.switchboard.channels["/chat"].last == {}
-    owner.hear(said({"op": "publish", "topic": "/chat", "msg": {"data": "x"}, "latch": True}))
+    owner.on_message(said({"op": "publish", "topic": "/chat", "msg": {"data": "x"}, "latch": True}))
     assert list(house.switchboard.channels["/chat"].last) == [owner]
-    guest.hear(said({"op": "subscribe", "topic": "/chat"}))
+    guest.on_message(said({"op": "subscribe", "topic": "/chat"}))
     await owner.close()
-    guest.hear(said({"op": "publish", "topic": "/chat", "msg": {"data": "x"}, "latch": True}))
+    guest.on_message(said({"op": "publish", "topic": "/chat", "msg": {"data": "x"}, "latch": True}))
     assert house.switchboard.channels["/chat"].last == {}
     await guest.close()
 
@@ -217,7 +222,7 @@ async def test_what_was_latched_by_who_never_advertised_does_not_stay():
 async def test_nothing_is_sent_any_more_to_who_left_while_something_was_made_ready():
     house = House()
     client, _ = house.join()
-    client.hear(said({"op": "subscribe", "topic": "/odom"}))
+    client.on_message(said({"op": "subscribe", "topic": "/odom"}))
     (stream,) = house.switchboard.channels["/odom"].streams.values()
     await client.close()
     assert stream.gone
@@ -226,33 +231,33 @@ async def test_nothing_is_sent_any_more_to_who_left_while_something_was_made_rea
 async def test_a_subscription_that_is_refused_is_not_remembered():
     house = House()
     client, _ = house.join()
-    client.hear(said({"op": "subscribe", "topic": "/no/such", "id": "1"}))
-    assert client.remembered.subscriptions == {}
+    client.on_message(said({"op": "subscribe", "topic": "/no/such", "id": "1"}))
+    assert client.protocol.subscriptions == {}
     assert "/no/such" not in house.switchboard.channels
     await client.close()
 
 
 async def test_a_large_message_is_passed_on_when_it_is_whole_and_not_mended_when_it_is_not():
     house = House()
-    client, line = house.join()
-    client.hear(said({"op": "set_level", "level": "error"}))
-    client.hear(said({"op": "advertise", "topic": "/chat", "type": "std_msgs/String"}))
-    long = "x" * (serving.LARGEST_READ + 1)
+    client, writer = house.join()
+    client.on_message(said({"op": "set_level", "level": "error"}))
+    client.on_message(said({"op": "advertise", "topic": "/chat", "type": "std_msgs/String"}))
+    long = "x" * (MAX_READ_BYTES + 1)
     for msg in ({"data": long}, {"data": long, "more": 1}):
-        client.hear(said({"op": "publish", "topic": "/chat", "msg": msg}))
+        client.on_message(said({"op": "publish", "topic": "/chat", "msg": msg}))
     house.step()
-    (told,) = (json.loads(text) for text in line.heard)
+    (told,) = (json.loads(text) for text in writer.heard)
     assert "over 1048576 bytes must have all fields of std_msgs/String and no other" in told["msg"]
     await client.close()
 
 
 async def test_what_is_wanted_otherwise_counts_from_the_next_message():
     house = House()
-    client, line = house.join()
-    client.hear(said({"op": "subscribe", "topic": "/odom"}, {"op": "set_level", "fragment_size": 200}))
+    client, writer = house.join()
+    client.on_message(said({"op": "subscribe", "topic": "/odom"}, {"op": "set_level", "fragment_size": 200}))
     house.switchboard.publish("/odom", Odometry())
     house.step()
-    assert {json.loads(text)["op"] for text in line.heard} == {"fragment"}
+    assert {json.loads(text)["op"] for text in writer.heard} == {"fragment"}
     await client.close()
 
 

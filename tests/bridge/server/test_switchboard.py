@@ -13,7 +13,7 @@ from bridge.msgs.std_msgs import String
 from bridge.protocol import Subscribed
 from bridge.server import switchboard
 from bridge.server.flow.priority_lanes import Lane
-from bridge.server.switchboard import CAMERA_TOPIC, MOST_TOPICS, Switchboard
+from bridge.server.switchboard import CAMERA_TOPIC, MAX_TOPICS, Switchboard
 
 
 class Ear:
@@ -156,7 +156,7 @@ def test_a_topic_has_one_type(board):
 
 
 def test_there_is_an_end_to_the_topics_of_clients(board):
-    for number in range(MOST_TOPICS):
+    for number in range(MAX_TOPICS):
         board.advertise("a", f"/n{number}", "std_msgs/String")
     with pytest.raises(ProtocolError, match="/more is one too many"):
         board.advertise("a", "/more", "std_msgs/String")
@@ -188,7 +188,7 @@ def latch(board, talker, topic, bytes):
 
 
 def test_what_a_client_latches_is_bounded_and_what_is_too_much_is_refused(board, monkeypatch):
-    monkeypatch.setattr(switchboard, "MOST_LATCHED", 1000)
+    monkeypatch.setattr(switchboard, "MAX_LATCHED_BYTES", 1000)
     latch(board, "a", "/one", 600)
     ear = Ear()
     want(board, ear, "/two", "std_msgs/String")
@@ -206,7 +206,7 @@ def test_what_a_client_latches_is_bounded_and_what_is_too_much_is_refused(board,
 
 
 def test_what_all_clients_latch_is_bounded_too_and_freed_when_they_leave(board, monkeypatch):
-    monkeypatch.setattr(switchboard, "MOST_LATCHED_IN_ALL", 1000)
+    monkeypatch.setattr(switchboard, "MAX_LATCHED_BYTES_IN_ALL", 1000)
     for talker in "ab":
         latch(board, talker, f"/{talker}", 450)
     with pytest.raises(ProtocolError, match="what all clients latched may have at most 1000 bytes, and 900"):
@@ -219,8 +219,8 @@ def test_what_all_clients_latch_is_bounded_too_and_freed_when_they_leave(board, 
 
 
 def test_what_the_robot_latches_is_not_bounded(board, monkeypatch):
-    monkeypatch.setattr(switchboard, "MOST_LATCHED", 0)
-    monkeypatch.setattr(switchboard, "MOST_LATCHED_IN_ALL", 0)
+    monkeypatch.setattr(switchboard, "MAX_LATCHED_BYTES", 0)
+    monkeypatch.setattr(switchboard, "MAX_LATCHED_BYTES_IN_ALL", 0)
     board.publish("/robot/info", RobotInfo(name="new"))
     late = Ear()
     want(board, late, "/robot/info")

@@ -9,8 +9,8 @@ from bridge.core.errors import ProtocolError
 from bridge.msgs.arrays import Float32Array
 from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
 from bridge.protocol import Reduction, Subscribed
-from bridge.server.flow.message_reducing import Reducing
-from bridge.server.flow.outgoing_messages import Outgoing
+from bridge.server.flow.message_reducing import MessageReducer
+from bridge.server.flow.outgoing_messages import OutgoingMessage
 from bridge.server.flow.priority_lanes import Lane, Stream
 from tests.bridge.peers import peer
 from tests.bridge.wires import Record, server
@@ -125,7 +125,7 @@ async def test_a_picture_that_cannot_be_made_smaller_is_logged_and_the_next_one_
         assert (await foreign.hear())["msg"]["data"] == b"good"
 
 
-class Outlet:
+class SendQueue:
     """Keeps what it is to send."""
 
     def __init__(self):
@@ -142,15 +142,15 @@ async def test_who_unsubscribed_gets_no_picture_that_was_still_being_made():
         let_go.acquire(timeout=5)
         return msg
 
-    reducing, outlet = Reducing(), Outlet()
-    message = Outgoing(PICTURES, CompressedImage(data=b"0"), slowly)
+    reducing, queue = MessageReducer(), SendQueue()
+    message = OutgoingMessage(PICTURES, CompressedImage(data=b"0"), slowly)
     wanted = Subscribed(PICTURES, reduction=Reduction(width=2))
     left, stays = (Stream(PICTURES, Lane.BULK, wanted) for _ in range(2))
     for stream in (left, stays):
-        reducing.offer(outlet, stream, message)
+        reducing.offer(queue, stream, message)
     await asyncio.sleep(0)
     left.gone = True
     let_go.release()
-    await outlet.offered.reach(1)
+    await queue.offered.reach(1)
     await reducing.close()
-    assert outlet.offered == [stays]
+    assert queue.offered == [stays]

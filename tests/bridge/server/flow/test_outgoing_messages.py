@@ -18,7 +18,7 @@ from bridge.msgs.std_msgs import Float64, Header, String, Time
 from bridge.protocol import Png, Reduction, Status, pixels
 from bridge.rosbytes import serialize
 from bridge.server.flow import outgoing_messages as module
-from bridge.server.flow.outgoing_messages import MOST_FORMS, Form, Outgoing, ping_frame, said
+from bridge.server.flow.outgoing_messages import MAX_FORMS, Form, OutgoingMessage, op_frames, ping_frame
 from tests.bridge.ws_frames import frames
 
 
@@ -33,7 +33,7 @@ def received(data):
 def test_a_message_is_encoded_once_per_form_and_only_when_wanted(monkeypatch):
     encoded = []
     monkeypatch.setattr(module, "to_json", lambda *args: encoded.append(args) or to_json(*args))
-    message = Outgoing("/odom", Float64(1))
+    message = OutgoingMessage("/odom", Float64(1))
     assert encoded == []
     frames = {id(message.frame(Form("/odom"))) for _ in range(10)}
     assert (len(encoded), len(frames)) == (1, 1)
@@ -41,29 +41,29 @@ def test_a_message_is_encoded_once_per_form_and_only_when_wanted(monkeypatch):
 
 @pytest.mark.parametrize("length", [1, 100, 70_000])
 def test_a_message_is_a_text_frame_of_any_length(length):
-    frame = Outgoing("/names", String("ä" * length)).frame(Form("names"))
+    frame = OutgoingMessage("/names", String("ä" * length)).frame(Form("names"))
     assert received(frame) == [{"op": "publish", "topic": "names", "msg": {"data": "ä" * length}}]
 
 
 def test_in_cbor_it_is_a_binary_frame():
-    frame = Outgoing("/odom", Float64(1.5)).frame(Form("odom", "cbor"))
+    frame = OutgoingMessage("/odom", Float64(1.5)).frame(Form("odom", "cbor"))
     assert received(frame) == [{"op": "publish", "topic": "odom", "msg": {"data": 1.5}}]
 
 
 def test_in_cbor_raw_it_holds_the_bytes_of_ros_and_the_time():
     msg = Float64(1.5)
-    (heard,) = received(Outgoing("/n", msg, now=lambda: 12.5).frame(Form("/n", "cbor-raw")))
+    (heard,) = received(OutgoingMessage("/n", msg, now=lambda: 12.5).frame(Form("/n", "cbor-raw")))
     assert heard["msg"] == {"secs": 12, "nsecs": 500_000_000, "bytes": serialize(msg)}
 
 
 def test_as_a_picture_it_holds_the_same_text():
-    (heard,) = received(Outgoing("/n", Float64(1.5)).frame(Form("/n", "png")))
+    (heard,) = received(OutgoingMessage("/n", Float64(1.5)).frame(Form("/n", "png")))
     assert json.loads(pixels(Png(data=heard["data"]), 1000)[0])["msg"] == {"data": 1.5}
 
 
 @pytest.mark.parametrize("compression", ["none", "png"])
 def test_it_comes_in_fragments_that_make_the_whole(compression):
-    pieces = received(Outgoing("/n", String("x" * 500)).frame(Form("/n", compression, 100)))
+    pieces = received(OutgoingMessage("/n", String("x" * 500)).frame(Form("/n", compression, 100)))
     assert len(pieces) > 1
     assert {piece["op"] for piece in pieces} == {"fragment"}
     assert len({piece["id"] for piece in pieces}) == 1
@@ -73,14 +73,16 @@ def test_it_comes_in_fragments_that_make_the_whole(compression):
 
 
 def test_ros_2_names_its_times_otherwise():
-    stamped = Outgoing("/odom", Odometry(header=Header(stamp=Time(5, 7))))
+    stamped = OutgoingMessage("/odom", Odometry(header=Header(stamp=Time(5, 7))))
     (heard,) = received(stamped.frame(Form("/odom", ros2=True)))
     assert heard["msg"]["header"]["stamp"] == {"sec": 5, "nanosec": 7}
 
 
 def test_only_the_fields_that_were_asked_for_travel():
     (heard,) = received(
-        Outgoing("/odom", Odometry()).frame(Form("/odom", reduction=Reduction(fields=("child_frame_id",))))
+        OutgoingMessage("/odom", Odometry()).frame(
+            Form("/odom", reduction=Reduction(fields=("child_frame_id",)))
+        )
     )
     assert heard["msg"] == {"child_frame_id": ""}
 
@@ -92,7 +94,7 @@ def test_less_is_made_once_for_all_who_want_it():
         made.append(wanted)
         return LaserScan(ranges=msg.ranges[: wanted.beams])
 
-    message = Outgoing("/scan", LaserScan(ranges=Float32Array([1, 2, 3])), reduce)
+    message = OutgoingMessage("/scan", LaserScan(ranges=Float32Array([1, 2, 3])), reduce)
     for name in ("/scan", "scan"):
         (heard,) = received(message.frame(Form(name, reduction=Reduction(beams=2))))
         assert heard["msg"]["ranges"] == [1, 2]
@@ -100,7 +102,7 @@ def test_less_is_made_once_for_all_who_want_it():
 
 
 def test_a_message_of_an_unknown_type_is_passed_on_as_it_is():
-    message = Outgoing("/own", Raw(b'{"a":[1,2]}'))
+    message = OutgoingMessage("/own", Raw(b'{"a":[1,2]}'))
     assert received(message.frame(Form("/own")))[0]["msg"] == {"a": [1, 2]}
     assert received(message.frame(Form("/own", "cbor")))[0]["msg"] == {"a": [1, 2]}
     with pytest.raises(ProtocolError, match="type of /own is not known here"):
@@ -108,8 +110,8 @@ def test_a_message_of_an_unknown_type_is_passed_on_as_it_is():
 
 
 def test_operations_are_cut_as_messages_are():
-    assert received(said(Status(msg="x")))[0]["msg"] == "x"
-    assert len(received(said(Status(msg="x" * 100), 30))) > 3
+    assert received(op_frames(Status(msg="x")))[0]["msg"] == "x"
+    assert len(received(op_frames(Status(msg="x" * 100), 30))) > 3
 
 
 def test_a_ping_is_one_for_the_library():
@@ -118,29 +120,32 @@ def test_a_ping_is_one_for_the_library():
 
 
 def test_a_message_is_kept_in_so_many_forms_and_no_more():
-    message = Outgoing("/a", Float64(1.5))
-    for size in range(100, 100 + 2 * MOST_FORMS):
+    message = OutgoingMessage("/a", Float64(1.5))
+    for size in range(100, 100 + 2 * MAX_FORMS):
         message.frame(Form("/a", fragment_size=size))
-    assert len(message._frames) == MOST_FORMS
-    last = Form("/a", fragment_size=99 + 2 * MOST_FORMS)
+    assert len(message._frames) == MAX_FORMS
+    last = Form("/a", fragment_size=99 + 2 * MAX_FORMS)
     assert message.frame(last) is message.frame(last)
 
 
 def test_of_a_large_message_few_forms_are_kept_and_few_ways_to_make_less_of_it(monkeypatch):
     encoded = []
     monkeypatch.setattr(module, "to_cbor", lambda *args: encoded.append(1) or to_cbor(*args))
-    large = Outgoing("/n", String("x" * module.LARGE))
+    large = OutgoingMessage("/n", String("x" * module.LARGE_BYTES))
     names = [f"/n{number}" for number in range(3)]
     for name in names * 2:
         large.frame(Form(name, "cbor"))
-    assert len(large._frames) == module.MOST_LARGE
-    for beams in range(2 * MOST_FORMS):
+    assert len(large._frames) == module.MAX_LARGE_FORMS
+    for beams in range(2 * MAX_FORMS):
         large.frame(Form("/n", reduction=Reduction(beams=beams + 1)))
-    assert len(large._lesser) == MOST_FORMS
-    assert len(large._bodies) == module.MOST_LARGE
+    assert len(large._reduced) == MAX_FORMS
+    assert len(large._bodies) == module.MAX_LARGE_FORMS
 
 
 def test_a_message_knows_what_it_takes_and_which_is_older():
-    first, second = Outgoing("/n", Raw(b"{}" + b" " * 98)), Outgoing("/n", Unread(b"x" * 200, String))
+    first, second = (
+        OutgoingMessage("/n", Raw(b"{}" + b" " * 98)),
+        OutgoingMessage("/n", Unread(b"x" * 200, String)),
+    )
     assert (first.size, second.size, first.number < second.number) == (100, 200, True)
-    assert 1000 < Outgoing("/n", String("x" * 1000)).size < 1100
+    assert 1000 < OutgoingMessage("/n", String("x" * 1000)).size < 1100

@@ -8,17 +8,17 @@ from statistics import quantiles
 
 import pytest
 
-from bridge.server.flow.picture_quality import COARSEST, LONGEST_PAUSE, Quality
+from bridge.server.flow.picture_quality import COARSEST, MAX_PAUSE, PictureQuality
 
 SIZES = (25_000, 13_500, 6_200, 2_600)
-PERIOD = 1 / 15
+FRAME_PERIOD = 1 / 15
 
 
 class Link:
     """A link of `rate` [byte/s] and `way` [s] there and back, fed by a camera through the judge or without one."""
 
-    def __init__(self, rate: float, way: float = 0.02, judge: Quality | None = None) -> None:
-        self.rate, self.way, self.judge = rate, way, judge or Quality()
+    def __init__(self, rate: float, way: float = 0.02, judge: PictureQuality | None = None) -> None:
+        self.rate, self.way, self.judge = rate, way, judge or PictureQuality()
         self.now = 0.0
         self.stalled_until = 0.0
         self.busy = 0.0
@@ -35,7 +35,7 @@ class Link:
         while self.now < end:
             self._seq += 1
             self._newest = self._seq, self.now
-            self._until(self.now + PERIOD)
+            self._until(self.now + FRAME_PERIOD)
         return self
 
     def _until(self, end: float) -> None:
@@ -49,7 +49,7 @@ class Link:
             while self._acks and self._acks[0][0] <= self.now:
                 _, seq, taken = heapq.heappop(self._acks)
                 self.ages.append((self.now, self.now - taken - self.way / 2))
-                assert self.judge.acknowledged(seq, self.now)
+                assert self.judge.on_ack(seq, self.now)
             if self.now >= end:
                 return
 
@@ -59,7 +59,7 @@ class Link:
         (seq, taken), self._newest = self._newest, None
         level = self.judge.level
         self.levels.append(level)
-        self.judge.sent(seq, SIZES[level], level, self.now)
+        self.judge.on_sent(seq, SIZES[level], level, self.now)
         self.free = max(self.now, self.free, self.stalled_until) + SIZES[level] / self.rate
         heard = self.free + self.way
         distracted = max(0.0, self.busy - heard % 1.0)
@@ -110,7 +110,7 @@ def test_one_picture_that_takes_far_too_long_is_enough():
 
 
 def test_without_a_judge_the_same_link_shows_old_pictures():
-    class Blind(Quality):
+    class Blind(PictureQuality):
         def _judge(self, *_):
             pass
 
@@ -127,7 +127,7 @@ def test_a_link_too_slow_for_anything_shows_the_coarsest_pictures_seldom_and_non
     link = Link(64e3 / 8).run(120)
     assert set(link.levels[60:]) <= {COARSEST - 1, COARSEST}
     assert link.p95(60) < 1.5
-    assert link.judge.pause <= LONGEST_PAUSE
+    assert link.judge.pause <= MAX_PAUSE
 
 
 def test_a_long_way_is_no_slow_link():
@@ -138,15 +138,15 @@ def test_a_long_way_is_no_slow_link():
 
 
 def test_while_nothing_is_acknowledged_two_pictures_are_under_way_and_then_none():
-    judge = Quality()
-    judge.sent(1, 25_000, 0, 0.0)
+    judge = PictureQuality()
+    judge.on_sent(1, 25_000, 0, 0.0)
     assert judge.delay(0.0) == 0.0
-    judge.sent(2, 25_000, 0, 0.0)
+    judge.on_sent(2, 25_000, 0, 0.0)
     assert judge.delay(1000.0) is None
-    assert judge.acknowledged(2, 1000.0)
+    assert judge.on_ack(2, 1000.0)
     assert judge.delay(1000.0) == 0.0
-    judge.sent(3, 25_000, 1, 1000.0)
-    assert judge.delay(1000.0) == LONGEST_PAUSE
+    judge.on_sent(3, 25_000, 1, 1000.0)
+    assert judge.delay(1000.0) == MAX_PAUSE
 
 
 def test_after_a_stall_the_newest_picture_comes_first_and_soon_all_is_as_before():
@@ -180,7 +180,7 @@ def test_each_failure_of_a_finer_level_doubles_the_patience_before_the_next():
 
 @pytest.mark.parametrize("seq", [7, -1])
 def test_what_is_not_under_way_is_not_acknowledged(seq):
-    judge = Quality()
-    judge.sent(1, 10, 0, 0.0)
-    assert not judge.acknowledged(seq, 9.0)
+    judge = PictureQuality()
+    judge.on_sent(1, 10, 0, 0.0)
+    assert not judge.on_ack(seq, 9.0)
     assert (judge.level, judge.delay(0.0)) == (0, 0.0)

@@ -9,15 +9,15 @@ import pytest
 from bridge.core.errors import ProtocolError
 from bridge.msgs.std_msgs import Float64, String
 from bridge.protocol import Subscribed
-from bridge.server.flow.outgoing_messages import Outgoing
+from bridge.server.flow.outgoing_messages import OutgoingMessage
 from bridge.server.flow.priority_lanes import (
+    MAX_BYTES,
+    MAX_FRAMES,
+    MAX_UNCOUNTED_BYTES,
+    MAX_WAITING_BYTES,
     MESSAGE_COST,
-    MOST_BYTES,
-    MOST_FRAMES,
-    MOST_UNCOUNTED,
-    MOST_WAITING,
     Lane,
-    Lanes,
+    PriorityLanes,
     Stream,
 )
 
@@ -27,7 +27,7 @@ def stream(topic="/odom", lane=Lane.TELEMETRY, keep=1, **wishes):
 
 
 def number(value):
-    return Outgoing("/any", Float64(value))
+    return OutgoingMessage("/any", Float64(value))
 
 
 def text(frame):
@@ -36,19 +36,19 @@ def text(frame):
 
 
 def taken(lanes, now=0.0):
-    frame = lanes.take(now)
+    frame = lanes.pop(now)
     return None if frame is None else text(frame)["msg"]["data"]
 
 
 def test_of_a_topic_only_the_newest_message_waits():
-    lanes, odom = Lanes(), stream()
+    lanes, odom = PriorityLanes(), stream()
     for value in range(5):
         lanes.offer(odom, number(value))
     assert (taken(lanes), taken(lanes)) == (4.0, None)
 
 
 def test_a_queue_length_keeps_as_many_of_the_newest_in_order():
-    lanes, odom = Lanes(), stream(queue=3)
+    lanes, odom = PriorityLanes(), stream(queue=3)
     for value in range(5):
         lanes.offer(odom, number(value))
     assert [taken(lanes) for _ in range(4)] == [2.0, 3.0, 4.0, None]
@@ -56,32 +56,32 @@ def test_a_queue_length_keeps_as_many_of_the_newest_in_order():
 
 @pytest.mark.parametrize(("lane", "most"), [(Lane.TELEMETRY, 100), (Lane.BULK, 4)])
 def test_no_queue_length_is_too_long(lane, most):
-    lanes, odom = Lanes(), stream(lane=lane, queue=10**9)
+    lanes, odom = PriorityLanes(), stream(lane=lane, queue=10**9)
     for value in range(200):
         lanes.offer(odom, number(value))
     assert [taken(lanes) for _ in range(most + 1)][-2:] == [199.0, None]
 
 
 def test_topics_of_a_lane_take_turns():
-    lanes, odom, scan = Lanes(), stream(queue=2), stream("/scan")
+    lanes, odom, scan = PriorityLanes(), stream(queue=2), stream("/scan")
     for each, value in ((odom, 1), (odom, 2), (scan, 3)):
         lanes.offer(each, number(value))
     assert [taken(lanes) for _ in range(3)] == [1.0, 3.0, 2.0]
 
 
 def test_the_lanes_go_in_their_order():
-    lanes = Lanes()
+    lanes = PriorityLanes()
     lanes.offer(stream(lane=Lane.BULK), number(5))
     lanes.offer(stream(), number(4))
-    lanes.put(Lane.EVENT, b"event")
-    lanes.put(Lane.REPLY, b"reply")
-    lanes.put(Lane.CONTROL, b"stop")
-    assert [lanes.take(0.0) for _ in range(3)] == [b"stop", b"reply", b"event"]
+    lanes.push(Lane.EVENT, b"event")
+    lanes.push(Lane.REPLY, b"reply")
+    lanes.push(Lane.CONTROL, b"stop")
+    assert [lanes.pop(0.0) for _ in range(3)] == [b"stop", b"reply", b"event"]
     assert [taken(lanes), taken(lanes)] == [4.0, 5.0]
 
 
 def test_samples_without_end_do_not_keep_a_map_away_for_ever():
-    lanes, odom, grid = Lanes(), stream(), stream("/map", Lane.BULK)
+    lanes, odom, grid = PriorityLanes(), stream(), stream("/map", Lane.BULK)
     lanes.offer(grid, number(-1))
     went = []
     while -1.0 not in went:
@@ -92,22 +92,22 @@ def test_samples_without_end_do_not_keep_a_map_away_for_ever():
 
 
 def test_there_is_an_end_to_what_can_wait_in_order():
-    lanes = Lanes()
-    assert all(lanes.put(Lane.EVENT, b"x") for _ in range(MOST_FRAMES))
-    assert not lanes.put(Lane.EVENT, b"x")
-    assert lanes.put(Lane.CONTROL, b"stop")
+    lanes = PriorityLanes()
+    assert all(lanes.push(Lane.EVENT, b"x") for _ in range(MAX_FRAMES))
+    assert not lanes.push(Lane.EVENT, b"x")
+    assert lanes.push(Lane.CONTROL, b"stop")
 
 
 def test_there_is_an_end_to_the_bytes_that_can_wait_in_order():
-    lanes, large = Lanes(), bytes(MOST_BYTES)
-    assert lanes.put(Lane.EVENT, large + b"even larger")
-    assert not lanes.put(Lane.EVENT, b"x")
-    lanes.take(0.0)
-    assert lanes.put(Lane.EVENT, large)
+    lanes, large = PriorityLanes(), bytes(MAX_BYTES)
+    assert lanes.push(Lane.EVENT, large + b"even larger")
+    assert not lanes.push(Lane.EVENT, b"x")
+    lanes.pop(0.0)
+    assert lanes.push(Lane.EVENT, large)
 
 
 def test_a_throttled_topic_waits_for_its_turn_and_then_sends_the_newest():
-    lanes, odom = Lanes(), stream(period=0.1)
+    lanes, odom = PriorityLanes(), stream(period=0.1)
     lanes.offer(odom, number(1))
     assert taken(lanes, now=5.0) == 1.0
     lanes.offer(odom, number(2))
@@ -119,7 +119,7 @@ def test_a_throttled_topic_waits_for_its_turn_and_then_sends_the_newest():
 
 
 def test_a_throttled_topic_does_not_keep_the_others_waiting():
-    lanes, odom, scan = Lanes(), stream(period=10.0), stream("/scan")
+    lanes, odom, scan = PriorityLanes(), stream(period=10.0), stream("/scan")
     for value in (1, 2):
         lanes.offer(odom, number(value))
         taken(lanes)
@@ -128,25 +128,25 @@ def test_a_throttled_topic_does_not_keep_the_others_waiting():
 
 
 def test_what_waits_for_a_topic_is_forgotten_with_its_subscription():
-    lanes, odom = Lanes(), stream()
+    lanes, odom = PriorityLanes(), stream()
     lanes.offer(odom, number(1))
-    lanes.forget(odom)
+    lanes.remove(odom)
     assert lanes.delay(0.0) is None
     assert taken(lanes) is None
 
 
 def test_what_cannot_be_encoded_is_dropped_and_does_not_block_the_rest():
-    lanes = Lanes()
-    lanes.offer(stream(), Outgoing("/odom", String("\ud800")))
+    lanes = PriorityLanes()
+    lanes.offer(stream(), OutgoingMessage("/odom", String("\ud800")))
     lanes.offer(stream("/scan"), number(2))
     with pytest.raises(ProtocolError):
-        lanes.take(0.0)
+        lanes.pop(0.0)
     assert taken(lanes) == 2.0
 
 
 def large(data, topic="/any"):
     """A message of a third of what may wait."""
-    return Outgoing(topic, String(str(data) + "x" * (MOST_WAITING // 3)))
+    return OutgoingMessage(topic, String(str(data) + "x" * (MAX_WAITING_BYTES // 3)))
 
 
 def waits(*streams):
@@ -154,7 +154,7 @@ def waits(*streams):
 
 
 def test_of_too_many_bytes_the_oldest_samples_are_forgotten_first_and_then_the_oldest_of_bulk():
-    lanes = Lanes()
+    lanes = PriorityLanes()
     grid, odom, scan = stream("/map", Lane.BULK, queue=4), stream(queue=9), stream("/scan", queue=9)
     for each, data in ((grid, 1), (scan, 2), (odom, 3)):
         lanes.offer(each, large(data))
@@ -163,27 +163,27 @@ def test_of_too_many_bytes_the_oldest_samples_are_forgotten_first_and_then_the_o
     assert waits(grid, scan, odom) == [["1", "4"], [], []]
     lanes.offer(grid, large(5))
     assert waits(grid) == [["4", "5"]]
-    assert [len(lanes.take(0.0)) > 1000 for _ in range(2)] == [True, True]
-    assert lanes.take(0.0) is None
+    assert [len(lanes.pop(0.0)) > 1000 for _ in range(2)] == [True, True]
+    assert lanes.pop(0.0) is None
 
 
 def test_one_message_may_be_larger_than_all_that_may_wait():
-    lanes, odom = Lanes(), stream(queue=9)
+    lanes, odom = PriorityLanes(), stream(queue=9)
     lanes.offer(odom, number(1))
-    lanes.offer(odom, Outgoing("/any", String("x" * (MOST_WAITING + 1))))
+    lanes.offer(odom, OutgoingMessage("/any", String("x" * (MAX_WAITING_BYTES + 1))))
     assert len(odom.waiting) == 1
     lanes.offer(odom, large(2))
     assert waits(odom) == [["2"]]
 
 
 def test_many_small_messages_are_bounded_together_and_the_newest_of_each_topic_stays():
-    lanes, streams = Lanes(), [stream(f"/t{number}", queue=100) for number in range(50)]
+    lanes, streams = PriorityLanes(), [stream(f"/t{number}", queue=100) for number in range(50)]
     for value in range(100):
         for each in streams:
-            lanes.offer(each, Outgoing("/any", String(f"{value:02}" + "x" * 9500)))
+            lanes.offer(each, OutgoingMessage("/any", String(f"{value:02}" + "x" * 9500)))
             waiting = sum(len(each.waiting) for each in streams) * (9500 + MESSAGE_COST)
-            assert waiting <= MOST_WAITING + MOST_UNCOUNTED
-    assert waiting > MOST_WAITING // 2
+            assert waiting <= MAX_WAITING_BYTES + MAX_UNCOUNTED_BYTES
+    assert waiting > MAX_WAITING_BYTES // 2
     left = [[message.msg.data[:2] for message in each.waiting] for each in streams]
     assert all(of[-1] == "99" and of == sorted(of) for of in left)
     assert max(map(len, left)) - min(map(len, left)) <= 1
@@ -191,24 +191,24 @@ def test_many_small_messages_are_bounded_together_and_the_newest_of_each_topic_s
 
 def test_what_waits_is_counted_seldom(monkeypatch):
     counted = []
-    lighten = Lanes._lighten
-    monkeypatch.setattr(Lanes, "_lighten", lambda *told: (counted.append(0), lighten(*told)))
-    lanes, odom = Lanes(), stream(queue=9)
+    lighten = PriorityLanes._lighten
+    monkeypatch.setattr(PriorityLanes, "_lighten", lambda *told: (counted.append(0), lighten(*told)))
+    lanes, odom = PriorityLanes(), stream(queue=9)
     for _ in range(100):
-        lanes.offer(odom, Outgoing("/any", String("x" * (MOST_UNCOUNTED // 10))))
+        lanes.offer(odom, OutgoingMessage("/any", String("x" * (MAX_UNCOUNTED_BYTES // 10))))
     assert counted == [0] * 10
 
 
 @pytest.mark.parametrize("end", ["sent", "forgotten", "replaced", "shortened"])
 def test_what_waits_no_longer_makes_room(end):
-    lanes, odom, scan = Lanes(), stream(queue=2), stream("/scan", queue=9)
+    lanes, odom, scan = PriorityLanes(), stream(queue=2), stream("/scan", queue=9)
     for data in range(2):
         lanes.offer(odom, large(data))
     if end == "sent":
-        lanes.take(0.0)
-        lanes.take(0.0)
+        lanes.pop(0.0)
+        lanes.pop(0.0)
     elif end == "forgotten":
-        lanes.forget(odom)
+        lanes.remove(odom)
     elif end == "replaced":
         for value in range(2):
             lanes.offer(odom, number(value))

@@ -8,7 +8,7 @@ import pytest
 
 from bridge.core import camera_frames as frames
 from bridge.core.errors import BridgeError, ProtocolError
-from bridge.server.flow.quality_levels import Levels
+from bridge.server.flow.quality_levels import QualityLevels
 
 FRAME = frames.pack(7, 1.5, b"a large picture", 640, 480)
 
@@ -29,7 +29,7 @@ class Bench:
 async def test_a_level_is_made_once_and_keeps_stamp_number_and_size_of_the_original():
     bench = Bench()
     bench.done.set()
-    picture = Levels(bench).picture(FRAME)
+    picture = QualityLevels(bench).picture(FRAME)
     both = await asyncio.gather(picture.at(2), picture.at(2))
     assert [frames.unpack(raw) for raw in both] == [frames.Frame(7, 1.5, 640, 480, b"small")] * 2
     assert await picture.at(2) is await picture.at(2)
@@ -38,8 +38,8 @@ async def test_a_level_is_made_once_and_keeps_stamp_number_and_size_of_the_origi
 
 async def test_the_original_is_given_as_it_is():
     bench = Bench()
-    assert await Levels(bench).picture(FRAME).at(0) is FRAME
-    assert await Levels(None).picture(FRAME).at(3) is FRAME
+    assert await QualityLevels(bench).picture(FRAME).at(0) is FRAME
+    assert await QualityLevels(None).picture(FRAME).at(3) is FRAME
     assert bench.asked == []
 
 
@@ -47,12 +47,12 @@ async def test_a_level_that_cannot_be_made_is_the_original():
     async def fail(jpeg, level):
         raise BridgeError("no JPEG")
 
-    assert await Levels(fail).picture(FRAME).at(1) is FRAME
+    assert await QualityLevels(fail).picture(FRAME).at(1) is FRAME
 
 
 async def test_who_leaves_does_not_take_the_picture_from_the_others():
     bench = Bench()
-    picture = Levels(bench).picture(FRAME)
+    picture = QualityLevels(bench).picture(FRAME)
     first, second = asyncio.create_task(picture.at(1)), asyncio.create_task(picture.at(1))
     await asyncio.sleep(0)
     first.cancel()
@@ -62,7 +62,7 @@ async def test_who_leaves_does_not_take_the_picture_from_the_others():
 
 
 async def test_what_is_still_being_made_ends_with_its_owner():
-    levels = Levels(Bench())
+    levels = QualityLevels(Bench())
     waiting = asyncio.create_task(levels.picture(FRAME).at(1))
     await asyncio.sleep(0)
     await levels.close()
@@ -72,4 +72,4 @@ async def test_what_is_still_being_made_ends_with_its_owner():
 
 async def test_what_is_no_frame_has_no_levels():
     with pytest.raises(ProtocolError, match="must begin with b'PHF1'"):
-        Levels(None).picture(b"JPEG")
+        QualityLevels(None).picture(b"JPEG")

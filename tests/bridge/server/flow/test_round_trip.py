@@ -4,69 +4,69 @@ from __future__ import annotations
 
 import math
 
-from bridge.server.flow.round_trip import PERIOD, Pulse
+from bridge.server.flow.round_trip import PING_PERIOD, RoundTrip
 
 
 def test_before_the_first_answer_nothing_is_known_and_the_opening_is_the_bound() -> None:
-    pulse = Pulse(10.0)
-    assert pulse.ping(10.0) is not None
-    assert math.isnan(pulse.rtt)
-    assert pulse.answered == 10.0
+    round_trip = RoundTrip(10.0)
+    assert round_trip.ping(10.0) is not None
+    assert math.isnan(round_trip.rtt)
+    assert round_trip.answered == 10.0
 
 
 def test_an_answer_tells_how_long_the_way_takes_and_when_its_ping_was_sent() -> None:
-    pulse = Pulse(10.0)
-    content = pulse.ping(10.2)
+    round_trip = RoundTrip(10.0)
+    content = round_trip.ping(10.2)
     assert content is not None
-    assert pulse.pong(content, 10.25)
-    assert round(pulse.rtt, 6) == 0.05
-    assert pulse.answered == 10.2
+    assert round_trip.on_pong(content, 10.25)
+    assert round(round_trip.rtt, 6) == 0.05
+    assert round_trip.answered == 10.2
 
 
 def test_what_is_overdue_makes_the_way_longer_until_an_answer_comes() -> None:
-    pulse = Pulse(10.0)
-    first, second = pulse.ping(10.0), pulse.ping(10.0 + PERIOD)
+    round_trip = RoundTrip(10.0)
+    first, second = round_trip.ping(10.0), round_trip.ping(10.0 + PING_PERIOD)
     assert first is not None
     assert second is not None
-    assert pulse.pong(first, 10.05)
-    pulse.ping(11.0)
-    assert round(pulse.rtt, 6) == 1.0 - PERIOD
-    assert pulse.pong(second, 11.2)
-    assert round(pulse.rtt, 6) == 1.0
-    assert pulse.answered == 10.0 + PERIOD
+    assert round_trip.on_pong(first, 10.05)
+    round_trip.ping(11.0)
+    assert round(round_trip.rtt, 6) == 1.0 - PING_PERIOD
+    assert round_trip.on_pong(second, 11.2)
+    assert round(round_trip.rtt, 6) == 1.0
+    assert round_trip.answered == 10.0 + PING_PERIOD
 
 
 def test_a_first_ping_that_is_not_answered_counts_as_a_long_way() -> None:
-    pulse = Pulse(10.0)
-    pulse.ping(10.0)
-    pulse.ping(10.5)
-    assert pulse.rtt == 0.5
+    round_trip = RoundTrip(10.0)
+    round_trip.ping(10.0)
+    round_trip.ping(10.5)
+    assert round_trip.rtt == 0.5
 
 
 def test_the_answer_to_a_later_ping_answers_those_before() -> None:
-    pulse = Pulse(10.0)
-    pulse.ping(10.0)
-    later = pulse.ping(10.2)
+    round_trip = RoundTrip(10.0)
+    round_trip.ping(10.0)
+    later = round_trip.ping(10.2)
     assert later is not None
-    assert pulse.pong(later, 10.3)
-    pulse.ping(10.4)
-    assert round(pulse.rtt, 6) == 0.1
+    assert round_trip.on_pong(later, 10.3)
+    round_trip.ping(10.4)
+    assert round(round_trip.rtt, 6) == 0.1
 
 
 def test_strange_answers_change_nothing() -> None:
-    pulse = Pulse(10.0)
-    mine = pulse.ping(10.0)
+    round_trip = RoundTrip(10.0)
+    mine = round_trip.ping(10.0)
     assert mine is not None
-    assert not pulse.pong(b"", 10.1)
-    assert not pulse.pong(bytes(8), 10.1)
-    assert not pulse.pong(bytes(11), 10.1)
-    assert not pulse.pong(mine[:-1] + b"\xff", 10.1)
-    assert pulse.answered == 10.0
-    assert pulse.pong(mine, 10.1)
-    assert not pulse.pong(mine, 10.2)
+    assert not round_trip.on_pong(b"", 10.1)
+    assert not round_trip.on_pong(bytes(8), 10.1)
+    assert not round_trip.on_pong(bytes(11), 10.1)
+    assert not round_trip.on_pong(mine[:-1] + b"\xff", 10.1)
+    assert round_trip.answered == 10.0
+    assert round_trip.on_pong(mine, 10.1)
+    assert not round_trip.on_pong(mine, 10.2)
 
 
 def test_a_client_that_never_answers_is_not_asked_for_ever() -> None:
-    pulse = Pulse(0.0)
-    asked = sum(pulse.ping(number * PERIOD) is not None for number in range(1000))
+    round_trip = RoundTrip(0.0)
+    asked = sum(round_trip.ping(number * PING_PERIOD) is not None for number in range(1000))
     assert asked == 64

@@ -9,20 +9,20 @@ import pytest
 
 from bridge.msgs.std_msgs import Float64, String
 from bridge.protocol import Subscribed
-from bridge.server.flow.outgoing_messages import Outgoing
-from bridge.server.flow.priority_lanes import MOST_FRAMES, Lane, Stream
-from bridge.server.flow.send_queue import Outlet, Round
+from bridge.server.flow.outgoing_messages import OutgoingMessage
+from bridge.server.flow.priority_lanes import MAX_FRAMES, Lane, Stream
+from bridge.server.flow.send_queue import SendQueue, WriteBatch
 from bridge.server.flow.send_window import DEAD, PAUSE, START
 from tests.bridge.wires import Clock
 from tests.bridge.ws_frames import frames
 
 
-class Line:
+class FrameWriter:
     """Keeps what is written; a client that answers pings unless told to be silent."""
 
     def __init__(self):
         self.paused = False
-        self.open = True
+        self.is_open = True
         self.silent = False
         self.writes = []
         self.unanswered = []
@@ -31,8 +31,8 @@ class Line:
         self.writes.append(data)
         self.unanswered += [bytes(frame.data) for frame in frames(data) if frame.opcode == 9]
 
-    def cut(self):
-        self.open = False
+    def abort(self):
+        self.is_open = False
 
     @property
     def heard(self):
@@ -50,14 +50,14 @@ class Line:
 
 
 class Bench:
-    """An outlet whose client answers when the test lets it."""
+    """A queue whose client answers when the test lets it."""
 
     def __init__(self):
         self.clock = Clock()
-        self.line = Line()
+        self.writer = FrameWriter()
         self.soon = []
-        self.round = Round(self.soon.append)
-        self.outlet = Outlet(self.line, self.round, "somebody", self.clock)
+        self.batch = WriteBatch(self.soon.append)
+        self.queue = SendQueue(self.writer, self.batch, "somebody", self.clock)
 
     def step(self):
         """The end of a step of the loop."""
@@ -67,15 +67,15 @@ class Bench:
 
     def answer(self):
         """The client answers all pings, and what that lets go leaves."""
-        while self.line.unanswered:
-            self.outlet.answered(self.line.unanswered.pop(0))
+        while self.writer.unanswered:
+            self.queue.on_pong(self.writer.unanswered.pop(0))
             self.step()
 
     def fill(self):
         """Send until there is no room any more."""
-        self.outlet.send(Lane.REPLY, text_of(self.outlet.window.limit))
+        self.queue.send(Lane.REPLY, text_of(self.queue.window.limit))
         self.step()
-        self.line.writes.clear()
+        self.writer.writes.clear()
 
 
 def text_of(length):
@@ -87,143 +87,143 @@ def stream(topic="/odom", lane=Lane.TELEMETRY, keep=1, **wishes):
 
 
 def number(value):
-    return Outgoing("/any", Float64(value))
+    return OutgoingMessage("/any", Float64(value))
 
 
 @pytest.fixture
 async def bench():
     made = Bench()
     yield made
-    made.outlet.close()
+    made.queue.close()
 
 
 async def test_what_comes_in_one_step_leaves_in_one_write_with_the_urgent_first(bench):
     odom = stream(queue=5)
     for value in (1, 2):
-        bench.outlet.offer(odom, number(value))
-    bench.outlet.send(Lane.CONTROL, text_of(1000))
-    assert bench.line.writes == []
+        bench.queue.offer(odom, number(value))
+    bench.queue.send(Lane.CONTROL, text_of(1000))
+    assert bench.writer.writes == []
     bench.step()
-    assert len(bench.line.writes) == 1
-    assert bench.line.heard[0] == b"x" * 1000
-    assert len(bench.line.heard) == 3
+    assert len(bench.writer.writes) == 1
+    assert bench.writer.heard[0] == b"x" * 1000
+    assert len(bench.writer.heard) == 3
 
 
 async def test_a_step_in_which_the_connection_is_heard_ends_with_its_own_write(bench):
-    bench.round.held = True
-    bench.outlet.offer(stream(), number(1))
+    bench.batch.held = True
+    bench.queue.offer(stream(), number(1))
     assert bench.soon == []
-    bench.round.flush()
-    assert bench.line.numbers == [1.0]
+    bench.batch.flush()
+    assert bench.writer.numbers == [1.0]
 
 
 async def test_without_room_the_newest_waits_and_goes_when_the_client_answers(bench):
     bench.fill()
     odom = stream()
     for value in (1, 2, 3):
-        bench.outlet.offer(odom, number(value))
+        bench.queue.offer(odom, number(value))
     bench.step()
-    assert bench.line.writes == []
+    assert bench.writer.writes == []
     bench.answer()
-    assert bench.line.numbers == [3.0]
+    assert bench.writer.numbers == [3.0]
 
 
 async def test_stop_is_answered_even_without_room(bench):
     bench.fill()
-    bench.outlet.send(Lane.REPLY, text_of(200))
-    bench.outlet.send(Lane.CONTROL, text_of(300))
+    bench.queue.send(Lane.REPLY, text_of(200))
+    bench.queue.send(Lane.CONTROL, text_of(300))
     bench.step()
-    assert bench.line.heard == [b"x" * 300]
+    assert bench.writer.heard == [b"x" * 300]
 
 
 async def test_while_the_kernel_takes_nothing_nothing_is_written(bench):
-    bench.line.paused = True
-    bench.outlet.send(Lane.CONTROL, text_of(300))
-    bench.outlet.send(Lane.EVENT, text_of(400))
-    bench.outlet.offer(stream(), number(1))
+    bench.writer.paused = True
+    bench.queue.send(Lane.CONTROL, text_of(300))
+    bench.queue.send(Lane.EVENT, text_of(400))
+    bench.queue.offer(stream(), number(1))
     bench.step()
-    assert bench.line.heard == []
-    bench.line.paused = False
-    bench.outlet.pump()
+    assert bench.writer.heard == []
+    bench.writer.paused = False
+    bench.queue.send_waiting()
     bench.step()
-    assert [len(text) for text in bench.line.heard[:2]] == [300, 400]
-    assert len(bench.line.heard) == 3
+    assert [len(text) for text in bench.writer.heard[:2]] == [300, 400]
+    assert len(bench.writer.heard) == 3
 
 
 def beside(bench):
     """Another client of the same server."""
-    line = Line()
-    return line, Outlet(line, bench.round, "somebody else", bench.clock)
+    writer = FrameWriter()
+    return writer, SendQueue(writer, bench.batch, "somebody else", bench.clock)
 
 
 async def test_clients_that_get_the_same_in_one_step_share_the_bytes(bench):
-    other, outlet = beside(bench)
+    other, queue = beside(bench)
     mine, theirs = stream(queue=9), stream(queue=9)
     for value in range(4):
         message = number(value)
-        bench.outlet.offer(mine, message)
-        outlet.offer(theirs, message)
+        bench.queue.offer(mine, message)
+        queue.offer(theirs, message)
         if value % 2:
             bench.step()
-    assert bench.line.numbers == [0.0, 1.0, 2.0, 3.0]
-    assert other.writes[1] is bench.line.writes[1]  # behind the first there is a ping, each client's own
+    assert bench.writer.numbers == [0.0, 1.0, 2.0, 3.0]
+    assert other.writes[1] is bench.writer.writes[1]  # behind the first there is a ping, each client's own
 
 
 async def test_clients_that_get_different_messages_in_one_step_get_each_their_own(bench):
-    other, outlet = beside(bench)
+    other, queue = beside(bench)
     mine, theirs = stream(queue=9), stream(queue=9)
     for value in range(3):
-        bench.outlet.offer(mine, number(value))
-        outlet.offer(theirs, number(10 + value))
+        bench.queue.offer(mine, number(value))
+        queue.offer(theirs, number(10 + value))
     bench.step()
     found = [json.loads(text)["msg"]["data"] for text in other.heard]
-    assert (bench.line.numbers, found) == ([0.0, 1.0, 2.0], [10.0, 11.0, 12.0])
+    assert (bench.writer.numbers, found) == ([0.0, 1.0, 2.0], [10.0, 11.0, 12.0])
 
 
 async def test_events_keep_their_order_when_they_had_to_wait(bench):
     bench.fill()
     events = stream("/events", Lane.EVENT, 0)
     for value in range(5):
-        bench.outlet.offer(events, number(value))
+        bench.queue.offer(events, number(value))
     bench.answer()
-    bench.outlet.offer(events, number(5))
+    bench.queue.offer(events, number(5))
     bench.step()
-    assert bench.line.numbers == [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]
+    assert bench.writer.numbers == [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]
 
 
 async def test_a_client_for_whom_too_much_waits_in_order_is_cut_off(bench, caplog):
     bench.fill()
-    for _ in range(MOST_FRAMES):
-        bench.outlet.send(Lane.EVENT, text_of(200))
-    assert bench.line.open
-    bench.outlet.send(Lane.EVENT, text_of(200))
-    assert not bench.line.open
+    for _ in range(MAX_FRAMES):
+        bench.queue.send(Lane.EVENT, text_of(200))
+    assert bench.writer.is_open
+    bench.queue.send(Lane.EVENT, text_of(200))
+    assert not bench.writer.is_open
     assert "does not read what it asked for" in caplog.text
 
 
 async def test_all_answers_that_a_client_waits_for_may_come_in_one_step(bench):
     bench.fill()
-    for _ in range(4 * MOST_FRAMES):
-        bench.outlet.send(Lane.REPLY, text_of(200))
-    assert bench.line.open
+    for _ in range(4 * MAX_FRAMES):
+        bench.queue.send(Lane.REPLY, text_of(200))
+    assert bench.writer.is_open
 
 
 async def test_an_outlet_that_is_closed_keeps_nothing(bench):
-    bench.outlet.send(Lane.REPLY, text_of(1000))
-    bench.outlet.send(Lane.CONTROL, text_of(1000))
+    bench.queue.send(Lane.REPLY, text_of(1000))
+    bench.queue.send(Lane.CONTROL, text_of(1000))
     bench.step()
-    bench.line.paused = True
+    bench.writer.paused = True
     odom = stream(queue=9)
     for value in range(3):
-        bench.outlet.offer(odom, number(value))
-        bench.outlet.send(Lane.EVENT, text_of(200))
-    bench.outlet.close()
+        bench.queue.offer(odom, number(value))
+        bench.queue.send(Lane.EVENT, text_of(200))
+    bench.queue.close()
     assert (list(odom.waiting), odom.gone) == ([], True)
-    bench.line.paused = False
-    bench.line.writes.clear()
-    bench.outlet.pump()
+    bench.writer.paused = False
+    bench.writer.writes.clear()
+    bench.queue.send_waiting()
     bench.step()
-    assert bench.line.heard == []
+    assert bench.writer.heard == []
 
 
 async def test_samples_never_cut_anybody_off(bench):
@@ -231,146 +231,146 @@ async def test_samples_never_cut_anybody_off(bench):
     for topic in range(20):
         odom = stream(f"/odom{topic}", queue=1000)
         for value in range(200):
-            bench.outlet.offer(odom, number(value))
-    assert bench.line.open
+            bench.queue.offer(odom, number(value))
+    assert bench.writer.is_open
 
 
 async def test_what_is_under_way_stays_within_the_window(bench):
     odom = stream(queue=100)
     for value in range(2000):
-        bench.outlet.offer(odom, number(value))
+        bench.queue.offer(odom, number(value))
         bench.step()
-    assert bench.outlet.window.under_way < START + 200
+    assert bench.queue.window.under_way < START + 200
 
 
 async def test_a_throttled_topic_comes_with_its_newest_message_by_itself(bench):
     odom = stream(period=0.01)
     for value in (1, 2, 3):
-        bench.outlet.offer(odom, number(value))
+        bench.queue.offer(odom, number(value))
     bench.step()
-    assert bench.line.numbers == [1.0]
+    assert bench.writer.numbers == [1.0]
     bench.clock.time += 0.011
     async with asyncio.timeout(5):
-        while len(bench.line.numbers) < 2:
+        while len(bench.writer.numbers) < 2:
             await asyncio.sleep(0.001)
             bench.step()
-    assert bench.line.numbers == [1.0, 3.0]
+    assert bench.writer.numbers == [1.0, 3.0]
 
 
 async def test_what_cannot_be_encoded_is_logged_and_the_rest_goes(bench, caplog):
     for value in ("\ud800", "fine"):
-        bench.outlet.offer(stream(queue=5), Outgoing("/names", String(value)))
+        bench.queue.offer(stream(queue=5), OutgoingMessage("/names", String(value)))
     bench.fill()
     names = stream(queue=5)
     for value in ("\ud800", "later"):
-        bench.outlet.offer(names, Outgoing("/names", String(value)))
+        bench.queue.offer(names, OutgoingMessage("/names", String(value)))
     bench.answer()
-    assert bench.line.numbers == ["later"]
+    assert bench.writer.numbers == ["later"]
     assert caplog.text.count("not sent") == 2
 
 
 async def test_what_is_forgotten_is_not_sent(bench):
     bench.fill()
     odom = stream()
-    bench.outlet.offer(odom, number(1))
-    bench.outlet.forget(odom)
+    bench.queue.offer(odom, number(1))
+    bench.queue.remove(odom)
     bench.answer()
-    assert bench.line.heard == []
+    assert bench.writer.heard == []
     assert odom.gone
 
 
 async def test_who_gives_no_sign_of_life_is_cut_off(bench):
-    bench.outlet.beat()
-    assert len(bench.line.unanswered) == 1
+    bench.queue.check_alive()
+    assert len(bench.writer.unanswered) == 1
     bench.clock.time += DEAD - 1
-    bench.outlet.beat()
-    assert bench.line.open
+    bench.queue.check_alive()
+    assert bench.writer.is_open
     bench.clock.time += 2
-    bench.outlet.beat()
-    assert not bench.line.open
+    bench.queue.check_alive()
+    assert not bench.writer.is_open
 
 
 async def test_who_answers_is_asked_again_later(bench):
     for _ in range(10):
-        bench.outlet.beat()
+        bench.queue.check_alive()
         bench.answer()
         bench.clock.time += 6
-    assert bench.line.open
-    assert len(bench.line.writes) == 10
+    assert bench.writer.is_open
+    assert len(bench.writer.writes) == 10
 
 
 async def test_a_connection_that_is_closing_and_does_not_end_is_cut(bench):
     cuts = []
-    bench.line.cut = lambda: cuts.append(1)
-    bench.line.open = False
-    bench.outlet.beat()
+    bench.writer.abort = lambda: cuts.append(1)
+    bench.writer.is_open = False
+    bench.queue.check_alive()
     assert cuts == []
-    bench.outlet.beat()
+    bench.queue.check_alive()
     assert cuts == [1]
 
 
 async def test_what_no_longer_fits_when_the_window_falls_is_pinged_for(bench):
-    bench.outlet.send(Lane.REPLY, text_of(100))
+    bench.queue.send(Lane.REPLY, text_of(100))
     bench.step()
     bench.clock.time += 0.001
     bench.answer()  # a quick way
-    bench.outlet.window.limit = 40_000
+    bench.queue.window.limit = 40_000
     bench.clock.time += PAUSE
     for length in (6000, 7000):
-        bench.outlet.send(Lane.REPLY, text_of(length))
+        bench.queue.send(Lane.REPLY, text_of(length))
         bench.step()
     bench.clock.time += 0.2
-    assert len(bench.line.unanswered) == 1
-    bench.outlet.answered(bench.line.unanswered.pop())
-    assert bench.outlet.window.limit < 7000 == bench.outlet.window.under_way - 4
-    bench.outlet.offer(stream(), number(1))
+    assert len(bench.writer.unanswered) == 1
+    bench.queue.on_pong(bench.writer.unanswered.pop())
+    assert bench.queue.window.limit < 7000 == bench.queue.window.under_way - 4
+    bench.queue.offer(stream(), number(1))
     bench.step()
-    assert bench.line.unanswered
-    bench.line.writes.clear()
+    assert bench.writer.unanswered
+    bench.writer.writes.clear()
     bench.answer()
-    assert bench.line.numbers == [1.0]
+    assert bench.writer.numbers == [1.0]
 
 
 async def test_what_does_not_fit_waits_until_the_way_is_nearly_empty_and_is_pinged_for(bench):
     for _ in range(3):
-        bench.outlet.send(Lane.REPLY, text_of(1000))
+        bench.queue.send(Lane.REPLY, text_of(1000))
     grid, odom = stream("/map", Lane.BULK), stream(queue=9)
-    bench.outlet.offer(grid, Outgoing("/map", String("x" * 2 * START)))
+    bench.queue.offer(grid, OutgoingMessage("/map", String("x" * 2 * START)))
     bench.step()
-    assert len(bench.line.heard) == 3
-    bench.outlet.send(Lane.REPLY, text_of(300))
+    assert len(bench.writer.heard) == 3
+    bench.queue.send(Lane.REPLY, text_of(300))
     bench.step()
-    assert len(bench.line.heard) == 4
-    assert bench.line.unanswered
+    assert len(bench.writer.heard) == 4
+    assert bench.writer.unanswered
     bench.answer()
-    assert len(bench.line.heard) == 5
-    bench.outlet.offer(odom, number(1))
+    assert len(bench.writer.heard) == 5
+    bench.queue.offer(odom, number(1))
     bench.step()
-    assert len(bench.line.heard) == 6
+    assert len(bench.writer.heard) == 6
 
 
 async def test_a_sample_passes_a_map_that_waits_for_room_and_other_maps_do_not(bench):
     for length in (2000, 2000):
-        bench.outlet.send(Lane.REPLY, text_of(length))
+        bench.queue.send(Lane.REPLY, text_of(length))
     first, second = stream("/map", Lane.BULK), stream("/costs", Lane.BULK)
-    bench.outlet.offer(first, Outgoing("/map", String("x" * 2 * START)))
-    bench.outlet.offer(second, number(1))
-    bench.outlet.offer(stream(), number(2))
+    bench.queue.offer(first, OutgoingMessage("/map", String("x" * 2 * START)))
+    bench.queue.offer(second, number(1))
+    bench.queue.offer(stream(), number(2))
     bench.step()
-    assert bench.line.short() == [2.0]
+    assert bench.writer.short() == [2.0]
     bench.answer()
-    assert bench.line.short() == [2.0, 1.0]
+    assert bench.writer.short() == [2.0, 1.0]
 
 
 async def test_a_map_gets_its_turn_among_samples_without_end(bench):
     grid, odom = stream("/map", Lane.BULK), stream()
-    bench.outlet.offer(odom, number(0))
-    bench.outlet.send(Lane.REPLY, text_of(4000))
-    bench.outlet.offer(grid, Outgoing("/map", String("x" * 2 * START)))
+    bench.queue.offer(odom, number(0))
+    bench.queue.send(Lane.REPLY, text_of(4000))
+    bench.queue.offer(grid, OutgoingMessage("/map", String("x" * 2 * START)))
     for value in range(40):
-        bench.outlet.offer(odom, number(value))
+        bench.queue.offer(odom, number(value))
         bench.step()
-        if bench.line.unanswered:
-            bench.outlet.answered(bench.line.unanswered.pop(0))
+        if bench.writer.unanswered:
+            bench.queue.on_pong(bench.writer.unanswered.pop(0))
             bench.step()
-    assert max(map(len, bench.line.heard)) > START
+    assert max(map(len, bench.writer.heard)) > START

@@ -6,7 +6,7 @@ from collections import deque
 
 import pytest
 
-from bridge.server.flow.send_window import CEILING, DEAD, FLOOR, MEMORY, START, Window
+from bridge.server.flow.send_window import CEILING, DEAD, FLOOR, MEMORY, START, SendWindow
 
 
 class Link:
@@ -14,7 +14,7 @@ class Link:
 
     def __init__(self, rate, way=0.002):
         self.rate, self.way, self.now, self.free = rate, way, 0.0, 0.0
-        self.window = Window(0.0)
+        self.window = SendWindow(0.0)
         self.pongs = deque()
         self.worst = 0.0
 
@@ -25,7 +25,7 @@ class Link:
         self.beat()
 
     def beat(self):
-        if self.window.ping_due(self.now):
+        if self.window.needs_ping(self.now):
             self.pongs.append((max(self.free, self.now) + self.way, self.window.ping(self.now)))
 
     def flood(self, seconds, size=900):
@@ -33,49 +33,49 @@ class Link:
         began, end = self.window.acknowledged, self.now + seconds
         self.beat()
         while self.now < end:
-            while self.window.room(self.now):
+            while self.window.has_room(self.now):
                 self.send(size)
             self.now, content = self.pongs.popleft()
-            self.window.pong(content, self.now)
+            self.window.on_pong(content, self.now)
             self.beat()
         return self.window.acknowledged - began
 
 
 def test_what_was_sent_counts_until_a_pong_to_a_later_ping():
-    window = Window(0.0)
+    window = SendWindow(0.0)
     window.sent += 100
     first = window.ping(0.0)
     window.sent += 50
-    window.pong(first, 0.01)
+    window.on_pong(first, 0.01)
     assert window.under_way == 50
 
 
 def test_a_pong_answers_the_pings_before_it():
-    window = Window(0.0)
+    window = SendWindow(0.0)
     window.sent += 100
     window.ping(0.0)
     window.sent += 100
-    window.pong(window.ping(0.0), 0.01)
+    window.on_pong(window.ping(0.0), 0.01)
     assert window.under_way == 0
-    assert not window.dead(100.0)
+    assert not window.is_dead(100.0)
 
 
 @pytest.mark.parametrize("content", [b"", b"hello", b"\0" * 8, b"\xff" * 8])
 def test_a_pong_that_nobody_asked_for_changes_nothing(content):
-    window = Window(0.0)
+    window = SendWindow(0.0)
     window.sent += 100
     window.ping(0.0)
-    assert not window.pong(content, 0.01)
+    assert not window.on_pong(content, 0.01)
     assert window.under_way == 100
 
 
 def test_there_is_no_room_once_the_window_is_full_and_again_when_it_is_acknowledged():
-    window = Window(0.0)
+    window = SendWindow(0.0)
     window.sent += START
-    assert not window.room(0.0)
-    assert window.ping_due(0.0)
-    window.pong(window.ping(0.0), 0.001)
-    assert window.room(0.001)
+    assert not window.has_room(0.0)
+    assert window.needs_ping(0.0)
+    window.on_pong(window.ping(0.0), 0.001)
+    assert window.has_room(0.001)
 
 
 @pytest.mark.parametrize("rate", [1e6, 1e7])
@@ -109,7 +109,7 @@ def test_a_window_that_is_not_full_does_not_grow():
         link.send(500)
         while link.pongs:
             link.now, content = link.pongs.popleft()
-            link.window.pong(content, link.now)
+            link.window.on_pong(content, link.now)
         link.now += 0.3
     assert link.window.limit == START
 
@@ -123,52 +123,52 @@ def test_a_link_that_became_longer_for_good_is_used_again():
 
 
 def test_who_does_not_answer_gets_nothing_more_until_it_does():
-    window = Window(0.0)
-    window.pong(window.ping(0.0), 0.01)
+    window = SendWindow(0.0)
+    window.on_pong(window.ping(0.0), 0.01)
     window.sent += 10
     late = window.ping(1.0)
-    assert window.room(1.2)
-    assert not window.room(1.3)
-    window.pong(late, 3.0)
-    assert window.room(3.0)
+    assert window.has_room(1.2)
+    assert not window.has_room(1.3)
+    window.on_pong(late, 3.0)
+    assert window.has_room(3.0)
 
 
 def test_pings_are_few_when_little_is_sent_and_one_comes_even_when_nothing_is():
-    window = Window(0.0)
-    assert window.ping_due(0.0)
-    window.pong(window.ping(0.0), 0.01)
-    assert not window.ping_due(1.0)
-    assert window.ping_due(5.0)
+    window = SendWindow(0.0)
+    assert window.needs_ping(0.0)
+    window.on_pong(window.ping(0.0), 0.01)
+    assert not window.needs_ping(1.0)
+    assert window.needs_ping(5.0)
     window.sent += 10
-    assert not window.ping_due(0.2)
-    assert window.ping_due(0.3)
+    assert not window.needs_ping(0.2)
+    assert window.needs_ping(0.3)
     window.ping(0.3)
     window.sent += 10
-    assert not window.ping_due(10.0)
+    assert not window.needs_ping(10.0)
 
 
 def test_who_leaves_a_ping_unanswered_for_long_is_dead():
-    window = Window(0.0)
-    assert not window.dead(100.0)
+    window = SendWindow(0.0)
+    assert not window.is_dead(100.0)
     window.ping(100.0)
-    assert not window.dead(100.0 + DEAD - 0.1)
-    assert window.dead(100.0 + DEAD)
+    assert not window.is_dead(100.0 + DEAD - 0.1)
+    assert window.is_dead(100.0 + DEAD)
 
 
 def test_a_message_beyond_the_limit_goes_only_when_hardly_anything_is_before_it():
-    window = Window(0.0)
+    window = SendWindow(0.0)
     assert window.fits(10 * START)
     window.sent += START // 4
     assert window.fits(START // 2)
     assert not window.fits(START)
-    assert not window.ping_due(0.0) or window.ping(0.0)
+    assert not window.needs_ping(0.0) or window.ping(0.0)
     window.sent += 10
-    assert window.ping_due(0.0, waiting=True)
+    assert window.needs_ping(0.0, waiting=True)
 
 
 def test_after_a_while_of_longer_ways_the_way_is_drained_and_looked_at_anew():
-    window, now = Window(0.0), 0.0
-    window.pong(window.ping(now), now + 0.01)
+    window, now = SendWindow(0.0), 0.0
+    window.on_pong(window.ping(now), now + 0.01)
 
     def fill():
         nonlocal now
@@ -176,7 +176,7 @@ def test_after_a_while_of_longer_ways_the_way_is_drained_and_looked_at_anew():
         window.sent += full
         content = window.ping(now)
         now += 0.05
-        window.pong(content, now)
+        window.on_pong(content, now)
         return full
 
     while now < MEMORY:

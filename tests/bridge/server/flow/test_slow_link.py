@@ -70,18 +70,18 @@ async def test_pictures_for_who_stands_still_are_not_piled_up():
 
 
 STALLS = {
-    "the connection takes no more": lambda line: setattr(line, "paused", True),
-    "nobody answers": lambda line: None,
+    "the connection takes no more": lambda writer: setattr(writer, "paused", True),
+    "nobody answers": lambda writer: None,
 }
 
 
 @pytest.mark.parametrize("stall", STALLS)
 async def test_a_client_that_stands_still_costs_no_more_memory_however_long(stall):
     house = House()
-    client, line = house.join()
+    client, writer = house.join()
     for topic in ("/odom", "/scan", "/imu/data", "/map", PICTURES):
-        client.hear(said({"op": "subscribe", "topic": topic, "queue_length": 100}))
-    STALLS[stall](line)
+        client.on_message(said({"op": "subscribe", "topic": topic, "queue_length": 100}))
+    STALLS[stall](writer)
 
     def publish(count):
         for number in range(count):
@@ -92,7 +92,7 @@ async def test_a_client_that_stands_still_costs_no_more_memory_however_long(stal
             house.step()
 
     publish(300)
-    written = len(line.writes)
+    written = len(writer.writes)
     tracemalloc.start()
     try:
         publish(100)
@@ -102,17 +102,17 @@ async def test_a_client_that_stands_still_costs_no_more_memory_however_long(stal
     finally:
         tracemalloc.stop()
     assert grown < 20_000
-    assert len(line.writes) == written
+    assert len(writer.writes) == written
     await client.close()
 
 
 @pytest.mark.parametrize("stall", STALLS)
 async def test_who_catches_up_gets_no_sample_that_is_older_than_two_periods(stall):
     house = House()
-    client, line = house.join()
-    client.outlet._clock = house.clock
-    client.hear(said({"op": "subscribe", "topic": "/odom"}))
-    client.outlet.flush()
+    client, writer = house.join()
+    client.queue._clock = house.clock
+    client.on_message(said({"op": "subscribe", "topic": "/odom"}))
+    client.queue.flush()
 
     def pass_on(seconds):
         for _ in range(round(20 * seconds)):
@@ -120,15 +120,15 @@ async def test_who_catches_up_gets_no_sample_that_is_older_than_two_periods(stal
             house.switchboard.publish("/odom", Odometry(header=Header(frame_id=str(house.clock.time))))
             house.step()
 
-    STALLS[stall](line)
+    STALLS[stall](writer)
     pass_on(60.0)
-    line.writes.clear()
-    line.paused = False
-    client.pump()
-    for content in line.unanswered:
-        client.answered(content)
+    writer.writes.clear()
+    writer.paused = False
+    client.on_drained()
+    for content in writer.unanswered:
+        client.on_pong(content)
     house.step()
-    found = [house.clock.time - float(json.loads(text)["msg"]["header"]["frame_id"]) for text in line.heard]
+    found = [house.clock.time - float(json.loads(text)["msg"]["header"]["frame_id"]) for text in writer.heard]
     assert found
     assert max(found) <= 0.1
     await client.close()

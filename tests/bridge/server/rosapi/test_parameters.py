@@ -6,11 +6,11 @@ import pytest
 
 from bridge.core.errors import ProtocolError
 from bridge.server.rosapi import parameters as module
-from bridge.server.rosapi.parameters import Params
+from bridge.server.rosapi.parameters import Parameters
 
 
 def test_a_value_is_kept_as_json_until_it_is_deleted():
-    params = Params({"/speed": 0.5})
+    params = Parameters({"/speed": 0.5})
     params.set("speed", "[1, 2]")
     assert (params.get("/speed"), params.has("speed"), params.names) == ("[1, 2]", True, ["/speed"])
     assert params.delete("/speed")
@@ -20,15 +20,15 @@ def test_a_value_is_kept_as_json_until_it_is_deleted():
 
 @pytest.mark.parametrize("value", ["", "{", "nan", "[" * 100_000])
 def test_what_is_no_json_is_refused(value):
-    params = Params()
+    params = Parameters()
     with pytest.raises(ProtocolError, match="must be JSON"):
         params.set("/x", value)
     assert params.names == []
 
 
 def test_there_is_an_end_to_their_number_and_an_old_one_may_still_change(monkeypatch):
-    monkeypatch.setattr(module, "MOST", 2)
-    params = Params({"a": 1, "b": 2})
+    monkeypatch.setattr(module, "MAX_PARAMETERS", 2)
+    params = Parameters({"a": 1, "b": 2})
     with pytest.raises(ProtocolError, match="room for 2 parameters"):
         params.set("c", "3")
     params.set("b", "4")
@@ -38,8 +38,8 @@ def test_there_is_an_end_to_their_number_and_an_old_one_may_still_change(monkeyp
 
 
 def test_there_is_an_end_to_their_bytes(monkeypatch):
-    monkeypatch.setattr(module, "MOST_BYTES", 20)
-    params = Params({"a": "x" * 10})
+    monkeypatch.setattr(module, "MAX_BYTES", 20)
+    params = Parameters({"a": "x" * 10})
     with pytest.raises(ProtocolError, match="is too much"):
         params.set("b", '"xxxxxxxx"')
     params.set("a", "1")

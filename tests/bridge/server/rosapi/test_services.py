@@ -9,8 +9,8 @@ from msgspec import Raw
 
 from bridge.core.errors import ProtocolError
 from bridge.core.topics import TOPICS
-from bridge.protocol import LARGEST_ARGUMENTS
-from bridge.server.rosapi.parameters import Params
+from bridge.protocol import MAX_ARGUMENT_BYTES
+from bridge.server.rosapi.parameters import Parameters
 from bridge.server.rosapi.services import NODE, Graph, Node, RosApi
 
 NODES = {
@@ -23,7 +23,7 @@ GRAPH = Graph(
     actions=lambda: {"/task/run": "pilothouse_msgs/RunTask"},
     nodes=lambda: NODES,
 )
-API = RosApi(GRAPH, Params({"/robot": "Patrol-1"}), lambda: 12.25)
+API = RosApi(GRAPH, Parameters({"/robot": "Patrol-1"}), lambda: 12.25)
 
 
 def ask(service, args=b"{}"):
@@ -107,7 +107,7 @@ def test_a_parameter_that_is_not_there_has_the_default_of_whoever_asks(args, val
 
 
 def test_parameters_come_and_go():
-    api = RosApi(GRAPH, Params(), float)
+    api = RosApi(GRAPH, Parameters(), float)
     for service, args in (("set_param", b'{"name":"/a","value":"[1]"}'), ("delete_param", b'{"name":"/a"}')):
         assert json.loads(api.answer(f"/rosapi/{service}", Raw(args)))["successful"] is True
     assert json.loads(api.answer("/rosapi/has_param", Raw(b'{"name":"/a"}'))) == {"exists": False}
@@ -135,5 +135,5 @@ def test_a_name_that_is_no_text_is_refused():
 
 
 def test_arguments_are_bounded():
-    with pytest.raises(ProtocolError, match=f"args may have at most {LARGEST_ARGUMENTS} bytes"):
-        ask("/rosapi/set_param", b'{"name":"/a","value":"%s"}' % (b"1" * LARGEST_ARGUMENTS))
+    with pytest.raises(ProtocolError, match=f"args may have at most {MAX_ARGUMENT_BYTES} bytes"):
+        ask("/rosapi/set_param", b'{"name":"/a","value":"%s"}' % (b"1" * MAX_ARGUMENT_BYTES))

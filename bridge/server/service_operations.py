@@ -1,0 +1,111 @@
+"""Service calls of one client: answered by rosapi, by the robot or by another client."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Awaitable, Coroutine
+from typing import Any
+
+import msgspec
+from msgspec import Raw
+
+from bridge.codec import shown, to_json
+from bridge.core.errors import BridgeError, Refused
+from bridge.core.robot_catalogue import Session
+from bridge.msgs import Msg
+from bridge.protocol import MISSING, CallService, Id, ServiceResponse, arguments, service_and_id
+from bridge.server.client_services import Peer
+from bridge.server.flow.priority_lanes import Lane
+from bridge.server.flow.sockets import cancel_all
+from bridge.server.server_context import ServerContext
+
+__all__ = ["MAX_CALLS", "PRIORITY_SERVICES", "ServiceOperations"]
+
+log = logging.getLogger(__name__)
+
+PRIORITY_SERVICES = frozenset(
+    {"/stop", "/stop/release"}
+    | {f"/control/{what}" for what in ("acquire", "release", "request", "grant", "object")}
+)
+"""Services whose responses are sent before everything else."""
+
+TIME_SERVICE = "/rosapi/get_time"
+"""A client that has called it knows the offset of its clock from the operators' clock."""
+
+MAX_CALLS = 256
+"""Calls of the robot's services that may wait for their response for one client; `PRIORITY_SERVICES` are exempt."""
+
+
+class ServiceOperations:
+    """The calls that one client has made."""
+
+    def __init__(self, client: Peer, session: Session, context: ServerContext) -> None:
+        """Responses are sent by `client.send`."""
+        self._client = client
+        self._session = session
+        self._context = context
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    def call(self, op: CallService) -> None:
+        """Have a call answered, now or later; what fails is sent as the response."""
+        name, id = service_and_id(op)
+        try:
+            known = self._context.rosapi.answer(name, op.args)
+            if known is not None:
+                self._session.asked_time = self._session.asked_time or name == TIME_SERVICE
+                self._respond(op, name, id, known)
+                return
+            service = self._context.services.get(name)
+            if service is None:
+                self._call_client(op, name, id)
+                return
+            if len(self._tasks) >= MAX_CALLS and name not in PRIORITY_SERVICES:
+                raise Refused(f"{MAX_CALLS} calls of this client wait for their answer already.")
+            outcome = service.call(self._session, arguments(op.args, service.request))
+            # the arguments would keep the whole frame in memory while the call is under way
+            op = msgspec.structs.replace(op, args=MISSING)
+            if isinstance(outcome, Msg):
+                self._respond(op, name, id, to_json(outcome))
+            else:
+                self._begin(self._await_outcome(op, name, id, outcome))
+        except Exception as error:  # noqa: BLE001 -- a service may fail in any way; caller and log get the reason
+            self._refuse(op, name, id, error)
+
+    async def close(self) -> None:
+        """Cancel all calls that are under way."""
+        await cancel_all(self._tasks)
+
+    def _call_client(self, op: CallService, name: str, id: Id) -> None:
+        if name not in self._context.client_services.services:
+            raise Refused(f"This robot has no service {shown(name)}.")
+        self._context.client_services.call(self._client, name, id, op)
+
+    async def _await_outcome(self, op: CallService, name: str, id: Id, outcome: Awaitable[Msg]) -> None:
+        limit = asyncio.timeout(op.timeout if op.timeout and op.timeout > 0 else None)
+        try:
+            async with limit:
+                answer = to_json(await outcome)
+        except Exception as error:  # noqa: BLE001 -- a service may fail in any way; caller and log get the reason
+            late = Refused(f"{name} gave no answer within {op.timeout or 0:g} s.")
+            self._refuse(op, name, id, late if limit.expired() else error)
+        else:
+            self._respond(op, name, id, answer)
+
+    def _refuse(self, op: CallService, name: str, id: Id, error: Exception) -> None:
+        if isinstance(error, BridgeError):
+            reason = str(error)
+        else:
+            log.error("%s from %s failed", op.service, self._session.address, exc_info=error)
+            reason = f"The robot failed at {op.service}; its log says why."
+        self._respond(op, name, id, msgspec.json.encode(reason), result=False)
+
+    def _respond(self, op: CallService, name: str, id: Id, values: bytes, *, result: bool = True) -> None:
+        response = ServiceResponse(id=id, service=op.service, values=Raw(values), result=result)
+        lane = Lane.CONTROL if name in PRIORITY_SERVICES else Lane.REPLY
+        self._client.send(response, lane, self._client.protocol.answer_size(op))
+
+    def _begin(self, work: Coroutine[Any, Any, None]) -> None:
+        task = asyncio.create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
