@@ -1,25 +1,22 @@
-"""The physics engine: the only file that knows pybullet.
+"""One world of the physics engine pybullet, and what can be measured in it.
 
-Everything else talks to `Bullet` in shapes, numbers and tuples, so that another engine can take its place.
+Everything outside this room talks to `Bullet` in shapes, numbers and tuples, so that another engine can take its place.
 """
 
 from __future__ import annotations
 
 import contextlib
-import ctypes
-import os
-import sys
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.constants import GRAVITY, STEPS_PER_SECOND
 from sim.core.shapes import Quat, Shape, Vec3, place
-from sim.core.zero_pages import given_back
 from sim.physics.bodies import Contact, Floating, Joint, State, WheeledBody
+from sim.physics.bullet_bodies import BodyMaker
+from sim.physics.quiet_pybullet import p, quiet
+from sim.physics.zero_pages import given_back
 
 __all__ = ["Bullet", "Contact", "Joint", "State", "WheeledBody"]
 
@@ -35,39 +32,8 @@ _FIRST_GROUP, _GROUPS = 64, 24
 """Collision groups of vehicles, one each, so that a vehicle's own rays look through it; the 25th shares the first's."""
 _WINDOW_AWAY = 7.0
 """From which the window looks at the robots at first [m]."""
-_MOST_SOLIDS = 16
-"""Of a thing; pybullet leaves out what is more, without a word."""
 _GOOD_ENOUGH = 1e-6
 """What may be left of the contacts' error, squared; pybullet's own 1e-7 costs a tenth more and moves nobody elsewhere."""
-_PLAIN = 1
-"""What nothing moves has no joints; pybullet would take it for a robot without any and reckon with it in every step."""
-_KNUCKLE = 0.5
-"""Mass of what a steered wheel hangs on [kg], and its moments of inertia [kg m2]."""
-
-
-@contextlib.contextmanager
-def _quiet() -> Iterator[None]:
-    """Silence the C code's prints, which go to the file descriptors and not through Python."""
-    for stream in (sys.stdout, sys.stderr):
-        if stream is not None:
-            stream.flush()
-    saved = [(fd, os.dup(fd)) for fd in (1, 2)]
-    sink = os.open(os.devnull, os.O_WRONLY)
-    try:
-        for fd, _ in saved:
-            os.dup2(sink, fd)
-        yield
-    finally:
-        # What C has buffered would otherwise come out after all, once the descriptors are back.
-        ctypes.CDLL(None).fflush(None)
-        for fd, copy in saved:
-            os.dup2(copy, fd)
-            os.close(copy)
-        os.close(sink)
-
-
-with _quiet():
-    import pybullet as p
 
 
 class Bullet:
@@ -76,7 +42,7 @@ class Bullet:
     def __init__(self, *, gui: bool = False) -> None:
         """An empty world; `gui` opens pybullet's own window, which needs a display."""
         self._gui = gui
-        with _quiet(), contextlib.nullcontext() if gui else given_back():
+        with quiet(), contextlib.nullcontext() if gui else given_back():
             self._client: int = p.connect(p.GUI if gui else p.DIRECT)
         if self._client < 0:
             raise RuntimeError("The physics engine could not open its window; is there a display?")
@@ -91,6 +57,7 @@ class Bullet:
             # each thing that is made waits for a picture while pictures are made
             for off in (p.COV_ENABLE_GUI, p.COV_ENABLE_SHADOWS, p.COV_ENABLE_RENDERING):
                 p.configureDebugVisualizer(off, 0, physicsClientId=self._client)
+        self._make = BodyMaker(self._client, visible=gui)
         self._below: dict[int, Vec3] = {}
         self._groups: dict[int, int] = {}
         self.ground = -1
@@ -98,21 +65,7 @@ class Bullet:
 
     def add_ground(self, height: float = 0.0) -> int:
         """The level ground at z = `height` [m]; its number."""
-        shape = p.createCollisionShape(p.GEOM_PLANE, physicsClientId=self._client)
-        looks = -1
-        if not self._gui:  # Bullet would else keep 10 MB of a chequered plane that nobody sees
-            speck = (0.001, 0.001, 0.001)
-            looks = p.createVisualShape(p.GEOM_BOX, halfExtents=speck, physicsClientId=self._client)
-        self.ground = int(
-            p.createMultiBody(
-                0,
-                shape,
-                looks,
-                basePosition=(0, 0, height),
-                useMaximalCoordinates=_PLAIN,
-                physicsClientId=self._client,
-            )
-        )
+        self.ground = self._make.ground(height)
         return self.ground
 
     def add_static(self, shapes: Sequence[Shape]) -> int:
@@ -120,38 +73,15 @@ class Bullet:
 
         A step costs time for each thing, not for each solid: what belongs together is added together.
         """
-        if len(shapes) > _MOST_SOLIDS:
-            first = self.add_static(shapes[:_MOST_SOLIDS])
-            self.add_static(shapes[_MOST_SOLIDS:])
-            return first
-        if len(shapes) == 1:
-            shape = shapes[0]
-            number, place_ = self._collision(shape), (shape.position, shape.rotation)
-        else:
-            number, place_ = self._compound(shapes), ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
-        body = int(
-            p.createMultiBody(
-                0, number, -1, *place_, useMaximalCoordinates=_PLAIN, physicsClientId=self._client
-            )
-        )
-        if self._gui:
-            for shape in shapes:
-                self.add_looks(shape)
-        return body
+        return self._make.static(shapes)
+
+    def add_looks(self, shape: Shape) -> int:
+        """A visual shape for `picture`, which collides with nothing; its number."""
+        return self._make.looks(shape)
 
     def add_body(self, shape: Shape, mass: float) -> int:
         """A free rigid body of one `shape` and `mass` [kg]; its number."""
-        body = int(
-            p.createMultiBody(
-                mass,
-                self._collision(shape),
-                self._visual(shape),
-                shape.position,
-                shape.rotation,
-                physicsClientId=self._client,
-            )
-        )
-        self._undamp(body)
+        body = self._make.single(shape, mass)
         self._below[body] = (0.0, 0.0, 0.0)
         return body
 
@@ -161,61 +91,16 @@ class Bullet:
         Its joints are the driven wheels in the order of `spec.wheels`, then of each steered wheel the knuckle and the
         wheel itself.
         """
-        com = spec.centre_of_mass
-        wheel = self._collision(Shape("sphere", (2 * spec.wheel_radius,) * 3))
-        links = [_Link(_less(centre, com), spec.wheel_mass, wheel) for centre in spec.wheels]
-        for centre in spec.steered:
-            links.append(_Link(_less(centre, com), _KNUCKLE, axis=(0, 0, 1)))
-            links.append(_Link((0.0, 0.0, 0.0), spec.wheel_mass, wheel, parent=len(links)))
-        if spec.casters:
-            caster = self._collision(Shape("sphere", (2 * spec.caster_radius,) * 3))
-            links += [
-                _Link(_less(centre, com), spec.caster_mass, caster, kind=p.JOINT_FIXED)
-                for centre in spec.casters
-            ]
-        body = self._add_moving(spec, links, position, rotation)
-        self._set_wheels(body, spec)
-        return body
+        return self._enter(self._make.wheeled(spec, position, rotation), spec.centre_of_mass)
 
     def add_floating(self, spec: Floating, position: Vec3, rotation: Quat) -> int:
         """A single free body; its number."""
-        return self._add_moving(spec, [], position, rotation)
+        return self._enter(self._make.floating(spec, position, rotation), spec.centre_of_mass)
 
-    def _add_moving(
-        self, spec: WheeledBody | Floating, links: list[_Link], position: Vec3, rotation: Quat
-    ) -> int:
-        com = spec.centre_of_mass
-        offset = _less(spec.shell.position, com)
-        body = int(
-            p.createMultiBody(
-                baseMass=spec.mass,
-                baseCollisionShapeIndex=self._collision(spec.shell, offset),
-                baseVisualShapeIndex=self._visual(spec.shell, offset),
-                basePosition=place(com, position, rotation),
-                baseOrientation=rotation,
-                linkMasses=[link.mass for link in links],
-                linkCollisionShapeIndices=[link.collision for link in links],
-                linkVisualShapeIndices=[-1] * len(links),
-                linkPositions=[link.position for link in links],
-                linkOrientations=[(0, 0, 0, 1)] * len(links),
-                linkInertialFramePositions=[(0, 0, 0)] * len(links),
-                linkInertialFrameOrientations=[(0, 0, 0, 1)] * len(links),
-                linkParentIndices=[link.parent for link in links],
-                linkJointTypes=[link.kind for link in links],
-                linkJointAxis=[link.axis for link in links],
-                physicsClientId=self._client,
-            )
-        )
-        self._undamp(body)
-        p.changeDynamics(
-            body,
-            -1,
-            lateralFriction=spec.friction,
-            localInertiaDiagonal=spec.inertia,
-            physicsClientId=self._client,
-        )
+    def _enter(self, body: int, com: Vec3) -> int:
+        """Put a vehicle into a collision group of its own, and keep where its centre of mass is."""
         self._groups[body] = group = _FIRST_GROUP << (len(self._groups) % _GROUPS)
-        for link in range(-1, len(links)):
+        for link in range(-1, p.getNumJoints(body, physicsClientId=self._client)):
             p.setCollisionFilterGroupMask(body, link, group, _EVERYTHING, physicsClientId=self._client)
         self._below[body] = (-com[0], -com[1], -com[2])
         return body
@@ -345,133 +230,6 @@ class Bullet:
     def close(self) -> None:
         """Free the world; closing twice does nothing."""
         if self._client >= 0:
-            with _quiet():
+            with quiet():
                 p.disconnect(self._client)
             self._client = -1
-
-    def add_looks(self, shape: Shape) -> int:
-        """Something to see that nothing bumps into, for `picture`; its number."""
-        visual = self._visual(shape, wanted=True)
-        number = p.createMultiBody(
-            0, -1, visual, shape.position, shape.rotation, physicsClientId=self._client
-        )
-        return int(number)
-
-    def _collision(self, shape: Shape, offset: Vec3 = (0.0, 0.0, 0.0)) -> int:
-        geometry = _geometry(shape)
-        if "radius" in geometry and "length" in geometry:
-            geometry["height"] = geometry.pop("length")
-        number = p.createCollisionShape(
-            **geometry, collisionFramePosition=offset, physicsClientId=self._client
-        )
-        return int(number)
-
-    def _compound(self, shapes: Sequence[Shape]) -> int:
-        """One collision shape made of boxes, straight cylinders and spheres, placed in the world's frame."""
-        return int(
-            p.createCollisionShapeArray(
-                shapeTypes=[_geometry(shape)["shapeType"] for shape in shapes],
-                radii=[shape.size[0] / 2 for shape in shapes],
-                halfExtents=[[extent / 2 for extent in shape.size] for shape in shapes],
-                lengths=[shape.size[2] for shape in shapes],
-                collisionFramePositions=[shape.position for shape in shapes],
-                collisionFrameOrientations=[shape.rotation for shape in shapes],
-                physicsClientId=self._client,
-            )
-        )
-
-    def _visual(self, shape: Shape, offset: Vec3 = (0.0, 0.0, 0.0), *, wanted: bool = False) -> int:
-        if not (self._gui or wanted):
-            return -1
-        geometry = _geometry(shape)
-        if "vertices" in geometry:
-            geometry |= _surface(geometry["vertices"])
-        colour = (*shape.colour, 1.0)
-        number = p.createVisualShape(
-            **geometry, rgbaColor=colour, visualFramePosition=offset, physicsClientId=self._client
-        )
-        return int(number)
-
-    def _undamp(self, body: int) -> None:
-        """Bullet's default damping is a drag that no robot has."""
-        for link in range(-1, p.getNumJoints(body, physicsClientId=self._client)):
-            p.changeDynamics(
-                body,
-                link,
-                linearDamping=0,
-                angularDamping=0,
-                activationState=p.ACTIVATION_STATE_DISABLE_SLEEPING,
-                physicsClientId=self._client,
-            )
-
-    def _set_wheels(self, body: int, spec: WheeledBody) -> None:
-        wheels, steered = len(spec.wheels), len(spec.steered)
-        knuckles = range(wheels, wheels + 2 * steered, 2)
-        rolling = [*range(wheels), *(link + 1 for link in knuckles)]
-        for link in rolling:
-            p.changeDynamics(
-                body, link, lateralFriction=spec.wheel_friction, jointDamping=0, physicsClientId=self._client
-            )
-        for link in knuckles:
-            p.changeDynamics(
-                body, link, localInertiaDiagonal=(_KNUCKLE,) * 3, jointDamping=0, physicsClientId=self._client
-            )
-        for link in rolling[wheels:]:
-            p.setJointMotorControl2(body, link, p.VELOCITY_CONTROL, force=0, physicsClientId=self._client)
-        for link in range(wheels + 2 * steered, p.getNumJoints(body, physicsClientId=self._client)):
-            p.changeDynamics(body, link, lateralFriction=0, physicsClientId=self._client)
-
-
-@dataclass(frozen=True, slots=True)
-class _Link:
-    """A part that hangs on a body by a joint."""
-
-    position: Vec3
-    """Relative to the parent's centre of mass [m]."""
-    mass: float
-    collision: int = -1
-    kind: int = p.JOINT_REVOLUTE
-    axis: tuple[int, int, int] = (0, 1, 0)
-    parent: int = 0
-    """0 the body itself, then the links from 1 on."""
-
-
-def _less(a: Vec3, b: Vec3) -> Vec3:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def _geometry(shape: Shape) -> dict[str, Any]:
-    """The arguments that make `shape` in its own frame."""
-    if shape.kind == "sphere":
-        return {"shapeType": p.GEOM_SPHERE, "radius": shape.size[0] / 2}
-    if shape.taper != (1.0, 1.0):
-        plain = Shape(shape.kind, shape.size, taper=shape.taper)
-        return {"shapeType": p.GEOM_MESH, "vertices": plain.corners()}
-    if shape.kind == "cylinder":
-        return {"shapeType": p.GEOM_CYLINDER, "radius": shape.size[0] / 2, "length": shape.size[2]}
-    return {"shapeType": p.GEOM_BOX, "halfExtents": [extent / 2 for extent in shape.size]}
-
-
-def _surface(points: Sequence[Vec3]) -> dict[str, Any]:
-    """Triangles of the hull that `Shape.corners` spans, with a normal a corner, for drawing."""
-    ring = len(points) // 2
-    corners: list[Vec3] = []
-    normals: list[Vec3] = []
-    for i in range(ring):
-        j = (i + 1) % ring
-        side = (points[i], points[j], points[ring + j], points[ring + i])
-        middle = ((side[0][0] + side[1][0]) / 2, (side[0][1] + side[1][1]) / 2, 0.0)
-        _quad(side, middle, corners, normals)
-    for base, up in ((0, -1.0), (ring, 1.0)):
-        for i in range(1, ring - 1):
-            corners += [points[base], points[base + i], points[base + i + 1]]
-            normals += [(0.0, 0.0, up)] * 3
-    return {"vertices": corners, "normals": normals, "indices": list(range(len(corners)))}
-
-
-def _quad(side: Sequence[Vec3], outward: Vec3, corners: list[Vec3], normals: list[Vec3]) -> None:
-    a, b, c, d = side
-    length = max((outward[0] ** 2 + outward[1] ** 2) ** 0.5, 1e-9)
-    normal = (outward[0] / length, outward[1] / length, 0.0)
-    corners += [a, b, c, a, c, d]
-    normals += [normal] * 6

@@ -89,7 +89,7 @@ def test_rays_turn_with_the_body_they_come_from(backend):
 
 def test_the_engine_prints_nothing_and_leaves_standard_output_working():
     program = (
-        "import os; os.write(1, b'before '); from sim.backend_bullet import Bullet; "
+        "import os; os.write(1, b'before '); from sim.physics.backend_bullet import Bullet; "
         "b = Bullet(); b.add_ground(); b.step(); b.close(); print('after')"
     )
     done = subprocess.run(

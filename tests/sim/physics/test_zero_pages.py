@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from sim.core.zero_pages import given_back
+from sim.physics.zero_pages import given_back
 
 SIZE = 64 << 20
 
