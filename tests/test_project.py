@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from bridge.generate.modules import MARK
 from scripts.topic_table import DOCUMENTS, with_table
 from tests.test_architecture import imports
 
@@ -129,7 +130,8 @@ def test_the_javascript_library_and_all_that_it_needs_are_pinned_and_name_no_reg
 
 
 def test_no_file_is_over_500_lines_and_no_function_over_40():
-    files = [path.name for path in SOURCES if len(path.read_text().splitlines()) > 500]
+    lines = {path: path.read_text().splitlines() for path in SOURCES}
+    files = [path.name for path, found in lines.items() if len(found) > 500 and MARK not in found[0]]
     functions = [
         f"{path.name}:{node.lineno} {node.name}"
         for path in SOURCES

@@ -9,7 +9,7 @@ from typing import Any
 
 import msgspec
 
-from bridge.msgs.pilothouse_msgs import LONGEST_DWELL, MOST_LAPS, MOTIONS, REACTIONS, Mission, Waypoint
+from bridge.msgs.pilothouse_msgs import MAX_DWELL, MAX_LAPS, MOTIONS, REACTIONS, Mission, Waypoint
 
 __all__ = ["Draft", "MissionEditor"]
 
@@ -186,8 +186,8 @@ class MissionEditor:
             if value is not None and value not in known:
                 raise ValueError(f"The {what} is one of {', '.join(known)}, not {value!r}.")
         changes: dict[str, Any] = {"motion": motion, "on_intruder": on_intruder}
-        changes["dwell"] = None if dwell is None else min(max(dwell, 0.0), LONGEST_DWELL)
-        changes["laps"] = None if laps is None else min(max(laps, 0), MOST_LAPS)
+        changes["dwell"] = None if dwell is None else min(max(dwell, 0.0), MAX_DWELL)
+        changes["laps"] = None if laps is None else min(max(laps, 0), MAX_LAPS)
         changes = {name: value for name, value in changes.items() if value is not None}
         self._edit(replace(self.draft, **changes), merge=",".join(changes))
 

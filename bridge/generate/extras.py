@@ -54,9 +54,9 @@ ALSO: dict[str, dict[str, tuple[str, ...]]] = {
     "geometry_msgs": {"bridge.msgs.additions": ("zeros36",)},
     "pilothouse_msgs": {
         "bridge.msgs.additions": (
-            "LONGEST_DWELL",
+            "MAX_DWELL",
             "MANOEUVRES",
-            "MOST_LAPS",
+            "MAX_LAPS",
             "MOTIONS",
             "PLACE_KINDS",
             "REACTIONS",

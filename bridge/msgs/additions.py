@@ -8,15 +8,14 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Self
 
+import msgspec
+
 from bridge.msgs.base import Msg
 
-if TYPE_CHECKING:
-    from bridge.msgs.geometry_msgs import Vector3
-
 __all__ = [
-    "LONGEST_DWELL",
+    "MAX_DWELL",
     "MANOEUVRES",
-    "MOST_LAPS",
+    "MAX_LAPS",
     "MOTIONS",
     "PLACE_KINDS",
     "REACTIONS",
@@ -28,11 +27,12 @@ __all__ = [
 
 MOTIONS = ("loop", "random", "intermittent")
 """In what order and with which pauses a mission's points are visited."""
-LONGEST_DWELL = 600.0
+MAX_DWELL = 600.0
 """Longest stay at a point in intermittent motion [s]."""
 MANOEUVRES = ("twist", "steer", "course", "tilt", "hover", "take_off", "land", "surface", "rest")
 """How a robot may be told to move."""
-MOST_LAPS = 999
+MAX_LAPS = 999
+"""Most rounds of a mission that may be asked for."""
 PLACE_KINDS = ("place", "office", "home", "dock", "reception", "lab", "hall")
 """What a named place may be."""
 REACTIONS = ("stop", "report", "circle")
@@ -107,12 +107,11 @@ class Twist(Msg, frozen=True, gc=False):
     """A twist of a ground robot."""
 
     if TYPE_CHECKING:
-        linear: Vector3
-        angular: Vector3
+        linear: Msg = Msg()
+        angular: Msg = Msg()
 
     @classmethod
     def planar(cls, forward: float, turn: float) -> Self:
         """A ground robot's twist: `forward` [m/s] along x and `turn` [rad/s] about z."""
-        from bridge.msgs.geometry_msgs import Vector3
-
-        return cls(Vector3(forward), Vector3(0.0, 0.0, turn))
+        rest, replace = cls(), msgspec.structs.replace
+        return cls(replace(rest.linear, x=forward), replace(rest.angular, z=turn))

@@ -11,8 +11,8 @@ import msgspec
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseStamped
 from bridge.msgs.pilothouse_msgs import (
-    LONGEST_DWELL,
-    MOST_LAPS,
+    MAX_DWELL,
+    MAX_LAPS,
     MOTIONS,
     REACTIONS,
     CommandRequest,
@@ -184,9 +184,9 @@ def _check_words(mission: Mission) -> None:
     if mission.on_intruder not in ("", *REACTIONS):
         said = f"There is no reaction {mission.on_intruder!r} to an intruder"
         raise Refusal(f"{said}; there are {', '.join(REACTIONS)}.")
-    if not (math.isfinite(mission.dwell) and 0 <= mission.dwell <= LONGEST_DWELL):
-        raise Refusal(f"The dwell must be 0 to {LONGEST_DWELL:.0f} s, not {mission.dwell} s.")
-    if not 0 <= mission.laps <= MOST_LAPS:
-        raise Refusal(f"The laps must be 0 to {MOST_LAPS}, not {mission.laps}.")
+    if not (math.isfinite(mission.dwell) and 0 <= mission.dwell <= MAX_DWELL):
+        raise Refusal(f"The dwell must be 0 to {MAX_DWELL:.0f} s, not {mission.dwell} s.")
+    if not 0 <= mission.laps <= MAX_LAPS:
+        raise Refusal(f"The laps must be 0 to {MAX_LAPS}, not {mission.laps}.")
     if len(mission.waypoints) > MOST_POINTS:
         raise Refusal(f"A mission has at most {MOST_POINTS} points, not {len(mission.waypoints)}.")

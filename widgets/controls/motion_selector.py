@@ -16,7 +16,7 @@ from kivy.uix.widget import Widget
 
 import widgets.parts.choices
 import widgets.parts.stepper  # noqa: F401 - same
-from bridge.msgs.pilothouse_msgs import LONGEST_DWELL, MOST_LAPS, MOTIONS, REACTIONS, Mission
+from bridge.msgs.pilothouse_msgs import MAX_DWELL, MAX_LAPS, MOTIONS, REACTIONS, Mission
 from widgets.core.base import Control
 from widgets.parts.column import Column
 
@@ -82,7 +82,7 @@ class MotionSelector(Control, Column):
 
     motions = [(motion, motion.capitalize()) for motion in MOTIONS]
     """Each motion and its word."""
-    longest_dwell, most_laps = LONGEST_DWELL, MOST_LAPS
+    longest_dwell, most_laps = MAX_DWELL, MAX_LAPS
     motion_name = OptionProperty("loop", options=list(MOTIONS))
     """A property called `motion` would be given Kivy's touches by its `on_motion`."""
     dwell = NumericProperty(5.0)

@@ -1,0 +1,1560 @@
+"""pilothouse_msgs: made by `python -m bridge.generate`; change the ROS text, not this file."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, ClassVar, TypeAlias
+
+from msgspec import Meta, field
+
+from bridge.msgs.additions import MANOEUVRES, MAX_DWELL, MAX_LAPS, MOTIONS, PLACE_KINDS, REACTIONS, TASKS
+from bridge.msgs.arrays import Float32Array, Float64Array, Int32Array
+from bridge.msgs.base import Msg, int32
+from bridge.msgs.builtin_interfaces import Time
+from bridge.msgs.diagnostic_msgs import KeyValue
+from bridge.msgs.geometry_msgs import Point, Polygon, Twist
+from bridge.msgs.std_msgs import Header
+
+__all__ = [
+    "AckermannState",
+    "AcknowledgeEventsRequest",
+    "AcknowledgeEventsResponse",
+    "ArmOrder",
+    "ArmState",
+    "Bumper",
+    "Check",
+    "Checklist",
+    "CommandRequest",
+    "CommandResponse",
+    "Compass",
+    "ControlStatus",
+    "DeletePlaceRequest",
+    "DeletePlaceResponse",
+    "DeleteScheduleRequest",
+    "DeleteScheduleResponse",
+    "Event",
+    "FlightState",
+    "Following",
+    "GetEventsRequest",
+    "GetEventsResponse",
+    "GetHistoryRequest",
+    "GetHistoryResponse",
+    "GetMissionRequest",
+    "GetMissionResponse",
+    "GetMissionsRequest",
+    "GetMissionsResponse",
+    "Intruder",
+    "IntruderArray",
+    "KeptMission",
+    "LightState",
+    "Limits",
+    "LineSensor",
+    "MANOEUVRES",
+    "MAX_DWELL",
+    "MAX_LAPS",
+    "MOTIONS",
+    "Manoeuvre",
+    "Mission",
+    "MotorArray",
+    "MoveArmRequest",
+    "MoveArmResponse",
+    "PLACE_KINDS",
+    "Place",
+    "PlaceArray",
+    "REACTIONS",
+    "RecallMissionRequest",
+    "RecallMissionResponse",
+    "RobotInfo",
+    "RudderState",
+    "RunTaskFeedback",
+    "RunTaskGoal",
+    "RunTaskResult",
+    "Schedule",
+    "ScheduledTask",
+    "SetLightsRequest",
+    "SetLightsResponse",
+    "SetMissionRequest",
+    "SetMissionResponse",
+    "SetModeRequest",
+    "SetModeResponse",
+    "SetOptionRequest",
+    "SetOptionResponse",
+    "SetPlaceRequest",
+    "SetPlaceResponse",
+    "SetQueueRequest",
+    "SetQueueResponse",
+    "SetScheduleRequest",
+    "SetScheduleResponse",
+    "SonarRing",
+    "StartTaskRequest",
+    "StartTaskResponse",
+    "TASKS",
+    "TagRead",
+    "TaskOrder",
+    "TaskProgress",
+    "TaskQueue",
+    "TaskRun",
+    "TaskStatus",
+    "Waypoint",
+]
+
+_Boolx7: TypeAlias = Annotated[list[bool], Meta(min_length=7, max_length=7)]
+
+
+class AckermannState(Msg, frozen=True, gc=False):
+    """How a vehicle with steered front wheels drives, as its encoders tell."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/AckermannState"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "std_msgs/Header",
+        "float64",
+        "float64",
+        "float64",
+        "string[]",
+        "float64[]",
+        "float64[]",
+    )
+    UNITS: ClassVar[dict[str, str]] = {
+        "speed": "m/s",
+        "steering": "rad",
+        "turning_radius": "m",
+        "wheel_angles": "rad",
+        "wheel_speeds": "m/s",
+    }
+    header: Header = Header()
+    """Frame base_link, the middle of the rear axle."""
+    speed: float = 0.0
+    """Of the middle of the rear axle, ahead [m/s]."""
+    steering: float = 0.0
+    """Of a wheel in the middle of the front axle [rad], positive to the left."""
+    turning_radius: float = math.inf
+    """Of the middle of the rear axle [m], positive to the left; +inf straight ahead."""
+    wheels: list[str] = []
+    """Names of the wheels."""
+    wheel_angles: Float64Array = field(default_factory=Float64Array)
+    """How far each is steered [rad], positive to the left."""
+    wheel_speeds: Float64Array = field(default_factory=Float64Array)
+    """At the rim of each [m/s]."""
+
+
+class CommandRequest(Msg, frozen=True, gc=False):
+    """A one-shot command. An empty request, as of std_srvs/Trigger, is one without identity or expiry."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/CommandRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    command_id: str = ""
+    """Unique per command; the same id sent again gets the first answer and is not executed twice."""
+    stamp: float = math.nan
+    """When the operator gave it [s], operators' clock; NaN when the sender does not know it."""
+    valid_for: float = 5.0
+    """Refused when older than this on arrival [s]."""
+    client_id: str = ""
+    """Who asks; stays the same over reconnects."""
+    client_name: str = ""
+    """What to call who asks, as in tablet-B."""
+
+
+class AcknowledgeEventsRequest(CommandRequest, frozen=True, gc=False):
+    """Say that somebody has seen to events; the first who does so is remembered."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/AcknowledgeEventsRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "int32[]")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    ids: Int32Array = field(default_factory=Int32Array)
+    """Their numbers."""
+
+
+class CommandResponse(Msg, frozen=True, gc=False):
+    """What `Command` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/CommandResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+    success: bool = False
+    """It was accepted."""
+    message: str = ""
+    """One sentence: what was accepted, or why not and what is allowed."""
+    code: str = ""
+    """Why not, in one word of docs/bridge.md, as in stop_is_pressed; empty where it was accepted."""
+    actor_id: str = ""
+    """The client_id of whom the reason is about, as of who has control; empty when nobody, or it is not
+    known.
+    """
+    parameters: list[KeyValue] = []
+    """What the reason names, by the keys that the code has."""
+
+
+class AcknowledgeEventsResponse(CommandResponse, frozen=True, gc=False):
+    """What `AcknowledgeEvents` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/AcknowledgeEventsResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
+class ArmOrder(Msg, frozen=True, gc=False):
+    """Where an arm is to go; the first of these that says something counts."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/ArmOrder"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "geometry_msgs/Point", "float64", "float64[]", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"point": "m", "pitch": "rad", "angles": "rad", "gripper": "m"}
+    pose: str = ""
+    """Name of a pose; empty for none."""
+    point: Point = Point(math.nan, math.nan, math.nan)
+    """For the tip, in base_link [m]; x is NaN for none."""
+    pitch: float = math.nan
+    """Of the hand at that point [rad], positive pointing down; NaN any."""
+    angles: Float64Array = field(default_factory=Float64Array)
+    """Of the joints from the foot on [rad]; empty for none."""
+    gripper: float = math.nan
+    """Opening between the fingers [m]; NaN leaves it as it is."""
+
+
+class ArmState(Msg, frozen=True, gc=False):
+    """An arm with four joints and a gripper."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/ArmState"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "std_msgs/Header",
+        "string[]",
+        "float64[]",
+        "float64[]",
+        "float64",
+        "string",
+        "string[]",
+        "geometry_msgs/Point",
+        "float64",
+        "bool",
+    )
+    UNITS: ClassVar[dict[str, str]] = {
+        "angles": "rad",
+        "wanted": "rad",
+        "gripper": "m",
+        "tip": "m",
+        "pitch": "rad",
+    }
+    header: Header = Header()
+    """Frame base_link."""
+    joints: list[str] = []
+    """Names of the joints, from the foot on."""
+    angles: Float64Array = field(default_factory=Float64Array)
+    """Of each [rad]."""
+    wanted: Float64Array = field(default_factory=Float64Array)
+    """Where each is going [rad]."""
+    gripper: float = 0.0
+    """Opening between the fingers [m]."""
+    pose: str = ""
+    """The named pose that it is in; empty for any other."""
+    poses: list[str] = []
+    """The poses that have names."""
+    tip: Point = Point()
+    """Between the fingertips, in base_link [m]."""
+    pitch: float = 0.0
+    """Of the hand [rad], positive pointing down."""
+    touching: bool = False
+    """The hand touches something."""
+
+
+class Bumper(Msg, frozen=True, gc=False):
+    """The bumper ring."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Bumper"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "bool", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"bearing": "rad"}
+    header: Header = Header()
+    """Frame base_link."""
+    pressed: bool = False
+    """Something touches it."""
+    bearing: float = math.nan
+    """Direction of the contact in base_link [rad], 0 ahead, positive to the left; NaN when there is none."""
+
+
+class Check(Msg, frozen=True, gc=False):
+    """One line of the list that is looked through before the first motion."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Check"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "string", "string")
+    name: str = ""
+    """battery, sensors, position, stop or clock."""
+    state: str = "unknown"
+    """ok, bad or unknown."""
+    text: str = ""
+    """One sentence: what was found, and what to do about it when it is not good."""
+
+
+class Checklist(Msg, frozen=True, gc=False):
+    """What is looked through before the first motion; latched on /checklist, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Checklist"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "pilothouse_msgs/Check[]")
+    stamp: Time = Time()
+    """When it changed, operators' clock."""
+    checks: list[Check] = []
+    """Always the same ones in the same order."""
+
+
+class Compass(Msg, frozen=True, gc=False):
+    """A compass that a tilt does not disturb: the magnetic field turned level by the accelerometer."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Compass"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"heading": "deg", "roll": "rad", "pitch": "rad"}
+    header: Header = Header()
+    """Frame base_link."""
+    heading: float = math.nan
+    """Of the bow [deg], 0 north, clockwise, 0 to 360; NaN while the unit falls freely."""
+    roll: float = 0.0
+    """As the accelerometer has it [rad]."""
+    pitch: float = 0.0
+    """[rad], positive nose down."""
+
+
+class ControlStatus(Msg, frozen=True, gc=False):
+    """Who steers and whether it may move; latched on /control/status, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/ControlStatus"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "time",
+        "string",
+        "string",
+        "string",
+        "bool",
+        "string",
+        "string",
+        "bool",
+        "string",
+        "string",
+        "time",
+        "float64",
+        "bool",
+        "time",
+        "bool",
+    )
+    stamp: Time = Time()
+    """When it changed."""
+    mode: str = "MANUAL"
+    """MANUAL, AUTO, PAUSED or STOPPED."""
+    driver: str = ""
+    """Name of who has control; empty when it is free."""
+    driver_id: str = ""
+    """The client_id that acquired it."""
+    stopped: bool = False
+    """STOP is latched: nothing moves until it is released."""
+    stopped_by: str = ""
+    """Who pressed STOP."""
+    stopped_by_id: str = ""
+    """The client_id of who pressed it; empty when it gave none, or before the robot's last start."""
+    at_rest: bool = True
+    """The wheels stand still, as measured."""
+    requested_by: str = ""
+    """Name of who asks the driver for control; empty when nobody does."""
+    requested_by_id: str = ""
+    """The client_id of who asks for it."""
+    handover: Time = Time()
+    """When control goes over unless the driver objects, operators' clock; 0 when nobody asks."""
+    speed_cap: float = 1.0
+    """Share of the full speed that the driver's link allows, 0 to 1."""
+    follows_link: bool = True
+    """The speed falls with the driver's link; /settings/set switches it."""
+    stop_tested: Time = Time()
+    """When STOP was last pressed and brought it to rest, operators' clock; 0 when never since it started."""
+    lost_link_stops_task: bool = False
+    """A task is paused when the link to the driver is lost; /settings/set switches it."""
+
+
+class DeletePlaceRequest(CommandRequest, frozen=True, gc=False):
+    """Forget a place."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/DeletePlaceRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "int32")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    id: int32 = 0
+    """Of the place."""
+
+
+class DeletePlaceResponse(CommandResponse, frozen=True, gc=False):
+    """What `DeletePlace` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/DeletePlaceResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
+class DeleteScheduleRequest(CommandRequest, frozen=True, gc=False):
+    """Forget a scheduled task."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/DeleteScheduleRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "int32")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    id: int32 = 0
+    """Of the scheduled task."""
+
+
+class DeleteScheduleResponse(CommandResponse, frozen=True, gc=False):
+    """What `DeleteSchedule` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/DeleteScheduleResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
+class Event(Msg, frozen=True, gc=False):
+    """Something that happened; /events, each once. /events/get tells what was missed."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Event"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "int32",
+        "string",
+        "time",
+        "string",
+        "string",
+        "string",
+        "geometry_msgs/Point",
+        "string",
+        "time",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"position": "m"}
+    id: int32 = 0
+    """Counts from 1, over restarts of the robot side."""
+    boot: str = ""
+    """Identity of the log; a new one, of a log that was started fresh, starts the numbers anew."""
+    stamp: Time = Time()
+    """When it happened."""
+    level: str = "info"
+    """info, ok, warn or alarm."""
+    kind: str = ""
+    """waypoint, intruder, task, command, mission, contact, battery, control, stop or localisation."""
+    text: str = ""
+    """One sentence for the operator."""
+    position: Point = Point(math.nan, math.nan, math.nan)
+    """Where in map [m]; NaN when it has no place."""
+    acknowledged_by: str = ""
+    """Who has seen to it; empty while nobody has."""
+    acknowledged: Time = Time()
+    """When, operators' clock; 0 while nobody has."""
+    code: str = ""
+    """What happened, in one word of docs/bridge.md, as in stop_pressed; empty where it has none."""
+    actor_id: str = ""
+    """The client_id of who caused it; empty when nobody did, or it is not known."""
+    parameters: list[KeyValue] = []
+    """What the sentence names, by the keys that the code has."""
+
+
+class FlightState(Msg, frozen=True, gc=False):
+    """Whether something that flies is in the air."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/FlightState"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "string", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"height": "m", "climb": "m/s"}
+    header: Header = Header()
+    """Frame map."""
+    phase: str = ""
+    """landed, taking_off, flying, landing; turned_over: it lies on its back, rotors off."""
+    height: float = math.nan
+    """Above the ground right under it, as its ultrasound has it [m]; NaN when that is out of reach."""
+    climb: float = 0.0
+    """Upward speed [m/s]."""
+
+
+class Following(Msg, frozen=True, gc=False):
+    """Whether the person who is led comes along; /following."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Following"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "bool", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"distance": "m"}
+    header: Header = Header()
+    """When it was measured, robot's clock; frame base_link."""
+    present: bool = False
+    """Somebody follows."""
+    distance: float = math.nan
+    """To who follows [m]; NaN when it is not known."""
+
+
+class GetEventsRequest(Msg, frozen=True, gc=False):
+    """Ask for the events after since."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetEventsRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string", "int32[]", "int32")
+    since: int32 = 0
+    """Number of the last event that is known."""
+    boot: str = ""
+    """The boot that since belongs to; of another one all are given, for an empty one the newest 500."""
+    open: Int32Array = field(default_factory=Int32Array)
+    """Earlier events that nobody has seen to, as far as is known; those that somebody has are given too."""
+    most: int32 = 0
+    """At most so many later events in one answer, the first of them; 0 for all, or the newest 500 of
+    another boot.
+    """
+
+
+class GetEventsResponse(Msg, frozen=True, gc=False):
+    """What `GetEvents` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetEventsResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("pilothouse_msgs/Event[]", "bool", "int32")
+    events: list[Event] = []
+    """Oldest first."""
+    more: bool = False
+    """There are later ones: ask again, since the last of these."""
+    oldest: int32 = 0
+    """Number of the oldest event that is kept; 0 when there is none, or it is not known."""
+
+
+class GetHistoryRequest(CommandRequest, frozen=True, gc=False):
+    """Ask for the tasks that were done."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetHistoryRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "int32",
+        "int32",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    before: int32 = 0
+    """Only runs with a smaller number; 0 begins with the newest."""
+    limit: int32 = 50
+    """At most so many."""
+
+
+class Waypoint(Msg, frozen=True, gc=False):
+    """A place to pass, in the map frame."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Waypoint"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("float64", "float64", "float64", "string")
+    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "yaw": "rad"}
+    x: float = 0.0
+    """East of the map's origin [m]."""
+    y: float = 0.0
+    """North of the map's origin [m]."""
+    yaw: float = math.nan
+    """Direction to stand in [rad], 0 east, anticlockwise; NaN when any will do."""
+    name: str = ""
+    """What people call it; empty when it has no name."""
+
+
+class TaskOrder(Msg, frozen=True, gc=False):
+    """What an operator wants done: a task and all that it needs. Used to start one, to queue it and to
+    schedule it.
+    """
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskOrder"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "int32",
+        "string",
+        "string[]",
+        "pilothouse_msgs/Waypoint[]",
+        "string",
+        "string",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"heading": "rad", "speed": "m/s", "height": "m", "duration": "s"}
+    id: int32 = 0
+    """Given by the robot; 0 for a new one."""
+    task: str = ""
+    """patrol, deliver, guide, go_to, go_home, hold, follow_heading, dock, take_off, land or surface; which
+    ones a robot knows is in its RobotInfo.
+    """
+    places: list[str] = []
+    """Names. Patrol: none takes the stored mission. Deliver: from, to and, if it shall go on to one then,
+    a third. Guide: in this order. Go_to and dock: one.
+    """
+    goals: list[Waypoint] = []
+    """Instead of places, for go_to: points in the map frame."""
+    message: str = ""
+    """What to tell the person who picks it up or is led; empty when there is nothing to tell."""
+    recipient_tag: str = ""
+    """What the robot's reader reads of the addressee's card, in place of the place's own; empty for that."""
+    heading: float = math.nan
+    """Where follow_heading goes [rad], 0 east, anticlockwise; NaN for where it points."""
+    speed: float = math.nan
+    """How fast [m/s]; NaN for the robot's cruising speed, or what the throttle says."""
+    throttle: float = math.nan
+    """For follow_heading in place of a speed: share of the full power, -1 to 1; NaN where the speed says
+    it.
+    """
+    height: float = math.nan
+    """For take_off, hold and follow_heading: to hold above the map's origin [m], below water negative; NaN
+    the usual or the present one.
+    """
+    duration: float = math.nan
+    """How long to hold or to follow the heading [s]; NaN until stopped."""
+
+
+class TaskRun(Msg, frozen=True, gc=False):
+    """A task that was done or is under way, as the robot's history has it."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskRun"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "int32",
+        "pilothouse_msgs/TaskOrder",
+        "time",
+        "time",
+        "string",
+        "string",
+        "float64",
+        "int32",
+        "string",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"distance": "m"}
+    id: int32 = 0
+    """Number of this run, as in TaskStatus."""
+    order: TaskOrder = field(default_factory=TaskOrder)
+    """What was asked."""
+    started: Time = Time()
+    """When it began, operators' clock."""
+    ended: Time = Time()
+    """When it ended, operators' clock; 0 while it runs."""
+    state: str = ""
+    """As in TaskStatus: RUNNING, PAUSED, SUCCEEDED, CANCELED, FAILED or INTERRUPTED."""
+    reason: str = ""
+    """One sentence: what became of it and why."""
+    distance: float = 0.0
+    """Driven in this run [m]."""
+    visited: int32 = 0
+    """Waypoints or places reached."""
+    by: str = ""
+    """Who started it; empty when the schedule or the robot did."""
+    code: str = ""
+    """What the reason says, in one word of docs/bridge.md; empty where it has none."""
+    actor_id: str = ""
+    """The client_id of whom the reason is about; empty when nobody, or it is not known."""
+    parameters: list[KeyValue] = []
+    """What the reason names, by the keys that the code has."""
+
+
+class GetHistoryResponse(CommandResponse, frozen=True, gc=False):
+    """What `GetHistory` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetHistoryResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "bool",
+        "string",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
+        "pilothouse_msgs/TaskRun[]",
+    )
+    runs: list[TaskRun] = []
+    """Newest first."""
+
+
+class GetMissionRequest(Msg, frozen=True, gc=False):
+    """Ask for the stored mission."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ()
+
+
+class Mission(Msg, frozen=True, gc=False):
+    """Where to patrol and how."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Mission"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "time",
+        "pilothouse_msgs/Waypoint[]",
+        "pilothouse_msgs/Waypoint[]",
+        "string",
+        "float64",
+        "int32",
+        "bool",
+        "string",
+        "string",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"dwell": "s"}
+    stamp: Time = Time()
+    """When the robot stored it; 0 when it never was."""
+    waypoints: list[Waypoint] = []
+    """Where to go, in the map frame."""
+    home: list[Waypoint] = []
+    """The place to return to: one waypoint, or none when it is not set."""
+    motion: str = "loop"
+    """loop, random or intermittent."""
+    dwell: float = 5.0
+    """How long to stand at each point in intermittent motion [s]."""
+    laps: int32 = 0
+    """Rounds to make; 0 goes on until stopped."""
+    stop_on_intruder: bool = False
+    """Pause when an intruder is found, whatever `on_intruder` says."""
+    name: str = ""
+    """What it is kept as; empty for a mission without a name."""
+    on_intruder: str = ""
+    """stop, report or circle when an intruder is found; empty reports it."""
+
+
+class GetMissionResponse(Msg, frozen=True, gc=False):
+    """What `GetMission` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "bool",
+        "string",
+        "pilothouse_msgs/Mission",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
+    )
+    success: bool = False
+    """Always true."""
+    message: str = ""
+    """One sentence when none was stored yet, else empty."""
+    mission: Mission = field(default_factory=Mission)
+    """The stored mission."""
+    code: str = ""
+    """Why not, in one word of docs/bridge.md, as in stop_is_pressed; empty where it was accepted."""
+    actor_id: str = ""
+    """The client_id of whom the reason is about, as of who has control; empty when nobody, or it is not
+    known.
+    """
+    parameters: list[KeyValue] = []
+    """What the reason names, by the keys that the code has."""
+
+
+class GetMissionsRequest(CommandRequest, frozen=True, gc=False):
+    """Ask for the missions that are kept."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionsRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+
+
+class KeptMission(Msg, frozen=True, gc=False):
+    """A mission that is kept under a name."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/KeptMission"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "time", "int32", "string", "int32")
+    name: str = ""
+    """What it is kept as."""
+    stamp: Time = Time()
+    """When its newest revision was stored, operators' clock."""
+    points: int32 = 0
+    """Waypoints of it."""
+    motion: str = ""
+    """loop, random or intermittent."""
+    revisions: int32 = 0
+    """How many of its revisions are kept, 20 at most."""
+
+
+class GetMissionsResponse(CommandResponse, frozen=True, gc=False):
+    """What `GetMissions` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/GetMissionsResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "bool",
+        "string",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
+        "string[]",
+        "pilothouse_msgs/KeptMission[]",
+    )
+    names: list[str] = []
+    """In the order of the alphabet."""
+    missions: list[KeptMission] = []
+    """The same with what is known of each."""
+
+
+class Intruder(Msg, frozen=True, gc=False):
+    """A thing that does not belong here."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Intruder"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string", "geometry_msgs/Point", "time", "int32")
+    UNITS: ClassVar[dict[str, str]] = {"position": "m"}
+    id: int32 = 0
+    """Counts from 1 for each run of the robot side."""
+    class_id: str = "cone"
+    """What it is."""
+    position: Point = Point()
+    """In map [m]."""
+    first_seen: Time = Time()
+    """When it was seen first."""
+    sightings: int32 = 1
+    """How often it was seen."""
+
+
+class IntruderArray(Msg, frozen=True, gc=False):
+    """All intruders known; latched on /intruders, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/IntruderArray"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "pilothouse_msgs/Intruder[]")
+    header: Header = Header()
+    """Frame map."""
+    intruders: list[Intruder] = []
+    """In the order of their ids."""
+
+
+class LightState(Msg, frozen=True, gc=False):
+    """The lights of a robot; to the robot, how they shall be."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/LightState"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64")
+    header: Header = Header()
+    """Frame base_link."""
+    brightness: float = 0.0
+    """0 off to 1 full."""
+
+
+class Limits(Msg, frozen=True, gc=False):
+    """What the robot's own configuration allows; latched on /limits, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Limits"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "geometry_msgs/Polygon[]",
+        "geometry_msgs/Polygon[]",
+    )
+    UNITS: ClassVar[dict[str, str]] = {
+        "max_speed": "m/s",
+        "max_yaw_rate": "rad/s",
+        "min_depth": "m",
+        "max_depth": "m",
+        "max_height": "m",
+        "max_slope": "rad",
+        "keep_in": "m",
+        "keep_out": "m",
+    }
+    max_speed: float = math.nan
+    """Greatest speed, along any direction [m/s]; NaN for none beside RobotInfo's."""
+    max_yaw_rate: float = math.nan
+    """Greatest turn rate [rad/s], either way; NaN for none beside RobotInfo's."""
+    min_depth: float = math.nan
+    """Least depth, positive down from the surface [m]; NaN for none."""
+    max_depth: float = math.nan
+    """Greatest depth, positive down from the surface [m]; NaN for none."""
+    max_height: float = math.nan
+    """Greatest height above the map's origin [m]; NaN for none."""
+    max_slope: float = math.nan
+    """Steepest ground or greatest tilt [rad]; NaN for none."""
+    keep_in: list[Polygon] = []
+    """Areas in map [m], of which it stays in at least one; none for everywhere."""
+    keep_out: list[Polygon] = []
+    """Areas in map [m] that it never enters, holes of the others included."""
+
+
+class LineSensor(Msg, frozen=True, gc=False):
+    """A row of cells that look down at the ground and measure how bright it is."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/LineSensor"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float32[]", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"spacing": "m"}
+    header: Header = Header()
+    """Its frame; the cells lie along the frame's y axis."""
+    values: Float32Array = field(default_factory=Float32Array)
+    """From the leftmost cell to the rightmost one, 0 dark to 1 bright; NaN for a cell that tells nothing."""
+    spacing: float = math.nan
+    """Between the middles of two neighbouring cells [m]; NaN when not known."""
+
+
+class Manoeuvre(Msg, frozen=True, gc=False):
+    """How a robot moves until it is told otherwise, for what a twist alone does not say. To the robot an
+    order; on /manoeuvre what it follows now.
+    Which kinds a robot knows is in its RobotInfo. What a kind does not name below is not looked at.
+    """
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Manoeuvre"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "std_msgs/Header",
+        "string",
+        "geometry_msgs/Twist",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+    )
+    UNITS: ClassVar[dict[str, str]] = {
+        "speed": "m/s",
+        "steering": "rad",
+        "roll": "rad",
+        "pitch": "rad",
+        "yaw": "rad",
+        "height": "m",
+    }
+    header: Header = Header()
+    """Frame map."""
+    kind: str = ""
+    """twist, steer, course, tilt, hover, take_off, land, surface or rest."""
+    twist: Twist = Twist()
+    """twist: all of it. tilt: climb in linear.z, turn in angular.z."""
+    speed: float = math.nan
+    """steer, course: ahead [m/s]; NaN where the throttle says it."""
+    throttle: float = math.nan
+    """steer, course: share of the full power, -1 to 1; NaN where the speed says it."""
+    steering: float = 0.0
+    """steer: angle of the front wheels [rad], of the rudder [rad]; positive to the left."""
+    roll: float = 0.0
+    """tilt: to hold [rad]."""
+    pitch: float = 0.0
+    """tilt: to hold [rad], positive nose down."""
+    yaw: float = math.nan
+    """course, hover: to hold in map [rad]; NaN the present one."""
+    height: float = math.nan
+    """course, hover, take_off: to hold above the map's origin [m], below water negative; NaN the present
+    or the usual one.
+    """
+
+
+class MotorArray(Msg, frozen=True, gc=False):
+    """The motors of a robot: wheels, propeller, legs or rotors."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/MotorArray"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "std_msgs/Header",
+        "string[]",
+        "float64[]",
+        "float64[]",
+        "float64[]",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"speeds": "rad/s", "torques": "N m", "temperatures": "degC"}
+    header: Header = Header()
+    """Frame base_link."""
+    names: list[str] = []
+    """Of each motor."""
+    speeds: Float64Array = field(default_factory=Float64Array)
+    """Of what the motor turns [rad/s]; of a leg its swing's greatest."""
+    torques: Float64Array = field(default_factory=Float64Array)
+    """There [N m]."""
+    temperatures: Float64Array = field(default_factory=Float64Array)
+    """Of the winding [degC]."""
+
+
+class MoveArmRequest(CommandRequest, frozen=True, gc=False):
+    """Where a mounted arm is to go."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/MoveArmRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "pilothouse_msgs/ArmOrder",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    order: ArmOrder = field(default_factory=ArmOrder)
+    """By a pose's name, a point for the tip, or angles."""
+
+
+class MoveArmResponse(CommandResponse, frozen=True, gc=False):
+    """What `MoveArm` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/MoveArmResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
+class Place(Msg, frozen=True, gc=False):
+    """A named pose, so that people say Office 12 and never coordinates."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Place"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "int32",
+        "string",
+        "string",
+        "string",
+        "float64",
+        "float64",
+        "float64",
+        "string",
+        "string",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"x": "m", "y": "m", "yaw": "rad"}
+    id: int32 = 0
+    """Given by the robot and never used again; 0 asks for a new place."""
+    name: str = ""
+    """What people call it; two places never have the same."""
+    kind: str = "place"
+    """place, office, home, dock, reception, lab or hall."""
+    floor: str = "0"
+    """The floor that it is on, as people call it."""
+    x: float = 0.0
+    """East of the map's origin [m]."""
+    y: float = 0.0
+    """North of the map's origin [m]."""
+    yaw: float = math.nan
+    """Direction to stand in [rad], 0 east, anticlockwise; NaN when any will do."""
+    tag: str = ""
+    """What the robot's reader reads of the card of who belongs here; empty when nobody has one."""
+    note: str = ""
+    """What to tell people who are led here; empty when there is nothing to tell."""
+
+
+class PlaceArray(Msg, frozen=True, gc=False):
+    """All places known; latched on /places, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/PlaceArray"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "pilothouse_msgs/Place[]")
+    stamp: Time = Time()
+    """When it changed, operators' clock."""
+    places: list[Place] = []
+    """In the order of their ids."""
+
+
+class RecallMissionRequest(CommandRequest, frozen=True, gc=False):
+    """Make a kept mission the stored one."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RecallMissionRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    name: str = ""
+    """What it was stored as."""
+
+
+class RecallMissionResponse(CommandResponse, frozen=True, gc=False):
+    """What `RecallMission` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RecallMissionResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
+class RobotInfo(Msg, frozen=True, gc=False):
+    """Who this robot is and what it can do; latched on /robot/info."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RobotInfo"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "string",
+        "string",
+        "string",
+        "string",
+        "float64",
+        "float64",
+        "float64",
+        "string[]",
+        "float64",
+        "float64",
+        "float64",
+        "string[]",
+        "string[]",
+        "float64",
+        "string[]",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+    )
+    UNITS: ClassVar[dict[str, str]] = {
+        "max_speed": "m/s",
+        "max_yaw_rate": "rad/s",
+        "radius": "m",
+        "latitude": "deg",
+        "longitude": "deg",
+        "camera_fov": "rad",
+        "laser_x": "m",
+        "max_climb": "m/s",
+        "max_tilt": "rad",
+        "max_steering": "rad",
+        "min_radius": "m",
+    }
+    name: str = ""
+    """What people call it, as in Patrol-1."""
+    kind: str = ""
+    """wheels, ackermann, boat, hexapod or quadrotor."""
+    model: str = ""
+    """What the --robot option calls it, as in patrol."""
+    description: str = ""
+    """The kind in plain words, as in Differential drive."""
+    world: str = ""
+    """Name of the place or simulated world."""
+    max_speed: float = 0.0
+    """Greatest speed, along any direction [m/s]."""
+    max_yaw_rate: float = 0.0
+    """Greatest turn rate [rad/s], either way."""
+    radius: float = 0.0
+    """Of the circle that the body fits in [m]."""
+    cameras: list[str] = []
+    """Names of the camera streams; each is served at ws://HOST:PORT/camera/NAME."""
+    latitude: float = math.nan
+    """Of the map frame's origin [deg]; NaN when the map has no place on earth."""
+    longitude: float = math.nan
+    """Of the map frame's origin [deg]."""
+    camera_fov: float = math.nan
+    """Horizontal field of view of the first camera [rad]."""
+    manoeuvres: list[str] = []
+    """Which kinds of pilothouse_msgs/Manoeuvre it knows; empty for one that knows twists only."""
+    payloads: list[str] = []
+    """Names of the payloads that are mounted."""
+    laser_x: float = 0.0
+    """How far its laser is ahead of base_link [m]."""
+    tasks: list[str] = []
+    """Which tasks of pilothouse_msgs/TaskOrder it knows; empty for one that does not say."""
+    max_climb: float = 0.0
+    """Greatest speed up and down [m/s]; 0 for one that stays on the ground or the water."""
+    max_tilt: float = 0.0
+    """Greatest roll and pitch that it holds by order [rad]; 0 for one that takes no such order."""
+    max_steering: float = 0.0
+    """Greatest angle of its front wheels or its rudder [rad]; 0 for one that has none."""
+    min_radius: float = 0.0
+    """Of the tightest turn that it drives [m]; 0 for one that turns where it stands."""
+
+
+class RudderState(Msg, frozen=True, gc=False):
+    """The rudder and the propeller of a boat."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RudderState"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "float64", "float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"angle": "rad", "wanted": "rad", "thrust": "N"}
+    header: Header = Header()
+    """Frame base_link."""
+    angle: float = 0.0
+    """[rad], positive turns the boat to the left."""
+    wanted: float = 0.0
+    """Where the rudder is told to go [rad]."""
+    throttle: float = 0.0
+    """Told to the propeller, a share of its full thrust, -1 to 1."""
+    thrust: float = 0.0
+    """Of the propeller [N], negative astern."""
+
+
+class TaskProgress(Msg, frozen=True, gc=False):
+    """How far the running task is; /task/progress at 2 Hz, only while one runs."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskProgress"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"distance_to_next": "m", "time_left": "s", "distance_driven": "m"}
+    stamp: Time = Time()
+    """When it was reckoned."""
+    task_id: int32 = 0
+    """That of TaskStatus."""
+    progress: float = math.nan
+    """Of this lap, or of the whole where laps are counted: 0 to 1."""
+    distance_to_next: float = math.nan
+    """Along the path [m]."""
+    time_left: float = math.nan
+    """Estimate to the end of this lap, or of the whole where laps are counted [s]."""
+    distance_driven: float = 0.0
+    """In this run [m]."""
+
+
+class RunTaskFeedback(TaskProgress, frozen=True, gc=False):
+    """How far `RunTask` is."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskFeedback"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "float64", "float64", "float64", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"distance_to_next": "m", "time_left": "s", "distance_driven": "m"}
+
+
+class StartTaskRequest(CommandRequest, frozen=True, gc=False):
+    """Start a task."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/StartTaskRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "string",
+        "pilothouse_msgs/TaskOrder",
+        "bool",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    task: str = "patrol"
+    """patrol or go_home; counts only while the order's own task is empty."""
+    order: TaskOrder = field(default_factory=TaskOrder)
+    """What to do; with its task empty, the field `task` says it."""
+    instead: bool = False
+    """Also while a task is under way, which ends only when this one is accepted; the queue waits then."""
+
+
+class RunTaskGoal(StartTaskRequest, frozen=True, gc=False):
+    """Run a task and be told what became of it. Taking the goal back ends the task."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskGoal"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "string",
+        "pilothouse_msgs/TaskOrder",
+        "bool",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+
+
+class RunTaskResult(Msg, frozen=True, gc=False):
+    """What `RunTask` came to."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/RunTaskResult"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("int32", "string", "string", "int32")
+    task_id: int32 = 0
+    """Number of this run, as in TaskStatus."""
+    state: str = ""
+    """SUCCEEDED; whatever else became of it is told as a failure with its reason."""
+    message: str = ""
+    """One sentence: what was done."""
+    visited: int32 = 0
+    """Waypoints reached."""
+
+
+class ScheduledTask(Msg, frozen=True, gc=False):
+    """A task that starts by itself, at a time of day or every so often."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/ScheduledTask"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "int32",
+        "bool",
+        "pilothouse_msgs/TaskOrder",
+        "string",
+        "bool[7]",
+        "float64",
+        "time",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"every": "s"}
+    id: int32 = 0
+    """Given by the robot; 0 asks for a new one."""
+    enabled: bool = True
+    """It starts when its time comes; kept and not started otherwise."""
+    order: TaskOrder = field(default_factory=TaskOrder)
+    """What to do."""
+    at: str = ""
+    """Time of day as HH:MM, local time of the robot; empty when `every` says it."""
+    days: _Boolx7 = field(default_factory=lambda: [True, True, True, True, True, True, True])
+    """Days on which `at` counts, Monday first."""
+    every: float = 0.0
+    """From one start to the next [s]; 0 when `at` says it."""
+    next: Time = Time()
+    """When it starts next, operators' clock, told by the robot; 0 for never."""
+
+
+class Schedule(Msg, frozen=True, gc=False):
+    """All that starts by itself; latched on /schedule, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/Schedule"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "pilothouse_msgs/ScheduledTask[]")
+    stamp: Time = Time()
+    """When it changed, operators' clock."""
+    tasks: list[ScheduledTask] = []
+    """In the order of their ids."""
+
+
+class SetLightsRequest(CommandRequest, frozen=True, gc=False):
+    """How bright the robot's lights shall be."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetLightsRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "float64")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    brightness: float = 0.0
+    """0 off to 1 full."""
+
+
+class SetLightsResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetLights` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetLightsResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
+class SetMissionRequest(CommandRequest, frozen=True, gc=False):
+    """Store a mission on the robot."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetMissionRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "pilothouse_msgs/Mission",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    mission: Mission = field(default_factory=Mission)
+    """Replaces what was stored."""
+
+
+class SetMissionResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetMission` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetMissionResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
+class SetModeRequest(CommandRequest, frozen=True, gc=False):
+    """Give the robot to a person or to its task."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetModeRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("string", "float64", "float64", "string", "string", "string")
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    mode: str = ""
+    """MANUAL pauses the task, AUTO goes on with it."""
+
+
+class SetModeResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetMode` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetModeResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
+class SetOptionRequest(CommandRequest, frozen=True, gc=False):
+    """Change one of the robot's settings; it is kept over restarts."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "string",
+        "string",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    name: str = ""
+    """follow_link or lost_link_stops_task."""
+    value: str = ""
+    """on or off."""
+
+
+class SetOptionResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetOption` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetOptionResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
+class SetPlaceRequest(CommandRequest, frozen=True, gc=False):
+    """Store a place, or change the one with its id."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetPlaceRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "pilothouse_msgs/Place",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    place: Place = Place()
+    """Replaces what was stored under its id; 0 makes a new one."""
+
+
+class SetPlaceResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetPlace` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetPlaceResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "bool",
+        "string",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
+        "int32",
+    )
+    id: int32 = 0
+    """Of the place; 0 when it was not accepted."""
+
+
+class SetQueueRequest(CommandRequest, frozen=True, gc=False):
+    """Replace what comes after the task that runs."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetQueueRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "int32",
+        "pilothouse_msgs/TaskOrder[]",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    revision: int32 = 0
+    """That of the TaskQueue it was made from; refused when the queue has changed since."""
+    orders: list[TaskOrder] = []
+    """Waiting, the next one first; those with an id stay what they were."""
+
+
+class SetQueueResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetQueue` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetQueueResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
+class SetScheduleRequest(CommandRequest, frozen=True, gc=False):
+    """Store a scheduled task, or change the one with its id."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetScheduleRequest"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "string",
+        "float64",
+        "float64",
+        "string",
+        "string",
+        "pilothouse_msgs/ScheduledTask",
+    )
+    UNITS: ClassVar[dict[str, str]] = {"stamp": "s", "valid_for": "s"}
+    task: ScheduledTask = field(default_factory=ScheduledTask)
+    """Replaces what was stored under its id; 0 makes a new one."""
+
+
+class SetScheduleResponse(CommandResponse, frozen=True, gc=False):
+    """What `SetSchedule` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SetScheduleResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "bool",
+        "string",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
+        "int32",
+    )
+    id: int32 = 0
+    """Of the scheduled task; 0 when it was not accepted."""
+
+
+class SonarRing(Msg, frozen=True, gc=False):
+    """Distances all round by ultrasound, each the nearest thing in a cone."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/SonarRing"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "std_msgs/Header",
+        "float64[]",
+        "float64",
+        "float64",
+        "float64",
+        "float64",
+        "float32[]",
+    )
+    UNITS: ClassVar[dict[str, str]] = {
+        "bearings": "rad",
+        "field_of_view": "rad",
+        "radius": "m",
+        "range_min": "m",
+        "range_max": "m",
+        "ranges": "m",
+    }
+    header: Header = Header()
+    """Frame base_link."""
+    bearings: Float64Array = field(default_factory=Float64Array)
+    """Of each cone's middle in base_link [rad], 0 ahead, positive to the left."""
+    field_of_view: float = 0.0
+    """Width of a cone [rad]."""
+    radius: float = 0.0
+    """From the middle of the robot to each sonar [m]."""
+    range_min: float = 0.0
+    """Shortest that can be measured [m]."""
+    range_max: float = 0.0
+    """Longest [m]."""
+    ranges: Float32Array = field(default_factory=Float32Array)
+    """From each sonar [m]; +inf nothing in range, -inf too close (REP-117)."""
+
+
+class StartTaskResponse(CommandResponse, frozen=True, gc=False):
+    """What `StartTask` answers."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/StartTaskResponse"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("bool", "string", "string", "string", "diagnostic_msgs/KeyValue[]")
+
+
+class TagRead(Msg, frozen=True, gc=False):
+    """A card at the robot's reader; /tag, once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TagRead"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("std_msgs/Header", "string")
+    header: Header = Header()
+    """When it was read, robot's clock."""
+    tag: str = ""
+    """What was read; empty when the card is gone."""
+
+
+class TaskQueue(Msg, frozen=True, gc=False):
+    """What comes after the task that runs; latched on /task/queue, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskQueue"
+    ROSTYPES: ClassVar[tuple[str, ...]] = ("time", "int32", "pilothouse_msgs/TaskOrder[]", "string")
+    stamp: Time = Time()
+    """When it changed, operators' clock."""
+    revision: int32 = 0
+    """Counts every change; /task/queue/set names the one that it was made from."""
+    orders: list[TaskOrder] = []
+    """Waiting, the next one first."""
+    held: str = ""
+    """Why it waits for /task/resume, as the end of a sentence; empty while it goes on by itself."""
+
+
+class TaskStatus(Msg, frozen=True, gc=False):
+    """What the robot is doing for the operator; latched on /task/status, sent once per change."""
+
+    MSGTYPE: ClassVar[str] = "pilothouse_msgs/TaskStatus"
+    ROSTYPES: ClassVar[tuple[str, ...]] = (
+        "time",
+        "int32",
+        "string",
+        "string",
+        "string",
+        "string",
+        "int32",
+        "int32",
+        "int32",
+        "int32",
+        "int32",
+        "string",
+        "string",
+        "string",
+        "string[]",
+        "string",
+        "string",
+        "diagnostic_msgs/KeyValue[]",
+    )
+    stamp: Time = Time()
+    """When it changed."""
+    task_id: int32 = 0
+    """Number of this run; 0 before the first."""
+    task: str = ""
+    """patrol, deliver, guide, go_to, go_home, hold, follow_heading, dock or empty."""
+    state: str = "IDLE"
+    """IDLE, RUNNING, PAUSED, SUCCEEDED, CANCELED, FAILED or INTERRUPTED (a restart cut it; resume or
+    cancel it).
+    """
+    reason: str = ""
+    """One sentence for the operator: what it does and why."""
+    motion: str = ""
+    """loop, random or intermittent; empty without a patrol."""
+    waypoint: int32 = 0
+    """Number of the waypoint it is heading for, from 1; 0 for none."""
+    waypoints: int32 = 0
+    """How many waypoints there are."""
+    lap: int32 = 0
+    """From 1."""
+    laps: int32 = 0
+    """0 until stopped."""
+    visited: int32 = 0
+    """Waypoints reached in this run."""
+    phase: str = ""
+    """driving, waiting, dwelling, holding, turning, planning (looks for a way), docking, circling, taking
+    off, landing or surfacing; empty when it does none of them.
+    """
+    asks: str = ""
+    """A question that /task/confirm answers, as in: Has it been picked up at Office 12? Empty for none."""
+    place: str = ""
+    """Name of the place it heads for or stands at; empty for none."""
+    places: list[str] = []
+    """Names of the places of this task, in their order."""
+    code: str = ""
+    """What the reason says, in one word of docs/bridge.md; empty where it has none."""
+    actor_id: str = ""
+    """The client_id of whom the reason is about; empty when nobody, or it is not known."""
+    parameters: list[KeyValue] = []
+    """What the reason names, by the keys that the code has."""
