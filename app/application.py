@@ -280,9 +280,8 @@ class PilothouseApp(App):
             self.session.deliver(channel, post)
             self.records.put(channel, post.value)
             if channel == "/robot/info":
-                self.robots.name(
-                    self.session.link.url, post.value.name, post.value.kind, post.value.description
-                )
+                info = post.value
+                self.robots.name(self.session.link.url, info.name, info.kind, info.description, info.icon)
                 self._save_robots()
 
     def _on_frame(self, frame: Frame, received: float) -> None:

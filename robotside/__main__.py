@@ -25,6 +25,7 @@ from robotside.foreign.foreign_robot import ForeignRobot
 from robotside.gateways.fleet_server import Together
 from robotside.gateways.malloc_trim import trim
 from robotside.gateways.station_server import Addresses, Serving
+from robotside.kinds.registry import kind_of
 from robotside.options import One, UserMistake
 from robotside.records.landmarks import take_over
 from robotside.records.opening import open_records
@@ -174,7 +175,10 @@ def _catalogue() -> dict[str, Any]:
         raise _no_simulation(missing) from missing
     except ValueError as fault:
         raise UserMistake(str(fault)) from fault
-    return catalogue()
+    found = catalogue()
+    for robot in found["robots"]:
+        robot["icon"] = kind_of(robot["kind"]).icon
+    return found
 
 
 def _offer(catalogue: dict[str, Any], *, as_json: bool) -> str:

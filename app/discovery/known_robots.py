@@ -74,6 +74,8 @@ class Entry:
     """Its address was entered by hand."""
     boot: str = ""
     """Alike for one robot under two addresses; empty when it never said HELLO."""
+    icon: str = ""
+    """As in RobotInfo; empty when it gave none."""
 
     @property
     def state(self) -> str:
@@ -117,10 +119,10 @@ class Robots:
         self._saved.setdefault(url, dict.fromkeys(_KEPT, ""))
         return url
 
-    def name(self, url: str, name: str, kind: str, description: str) -> None:
+    def name(self, url: str, name: str, kind: str, description: str, icon: str = "") -> None:
         """Remember what a saved address turned out to be."""
         if url in self._saved:
-            self._saved[url] = {"name": name, "kind": kind, "description": description}
+            self._saved[url] = {"name": name, "kind": kind, "description": description, "icon": icon}
 
     def remove(self, url: str) -> None:
         """Forget a saved address; a robot that says HELLO is listed all the same."""
@@ -162,11 +164,12 @@ class Robots:
             self._latency.get(hello.url, math.nan),
             hello.url in self._saved,
             hello.boot,
+            hello.icon,
         )
 
 
-_KEPT = ("name", "kind", "description")
+_KEPT = ("name", "kind", "description", "icon")
 
 
 def _kept(hello: Hello) -> dict[str, str]:
-    return {"name": hello.name, "kind": hello.kind, "description": hello.description}
+    return {key: getattr(hello, key) for key in _KEPT}

@@ -23,6 +23,8 @@ class SimulatedRobot(msgspec.Struct, frozen=True):
     description: str
     home: str
     """Name of the world that it is put into unless another one is chosen."""
+    icon: str = ""
+    """As in `RobotInfo.icon`."""
 
 
 class SimulatedWorld(msgspec.Struct, frozen=True):

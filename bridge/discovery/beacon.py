@@ -42,6 +42,8 @@ class Hello(Msg, frozen=True, gc=False):
     model: str = ""
     description: str = ""
     """The kind in plain words."""
+    icon: str = ""
+    """As in `RobotInfo.icon`."""
     url: str = ""
     """Of its bridge, as in `ws://192.168.1.7:9090`."""
     http: str = ""

@@ -1048,6 +1048,12 @@ class RobotInfo(Msg, frozen=True, gc=False):
         "float64",
         "float64",
         "float64",
+        "string",
+        "string",
+        "string",
+        "string[]",
+        "bool",
+        "bool",
     )
     UNITS: ClassVar[dict[str, str]] = {
         "max_speed": "m/s",
@@ -1065,7 +1071,7 @@ class RobotInfo(Msg, frozen=True, gc=False):
     name: str = ""
     """What people call it, as in Patrol-1."""
     kind: str = ""
-    """wheels, ackermann, boat, hexapod or quadrotor."""
+    """wheels, ackermann, boat, hexapod, quadrotor, or another one."""
     model: str = ""
     """What the --robot option calls it, as in patrol."""
     description: str = ""
@@ -1102,6 +1108,20 @@ class RobotInfo(Msg, frozen=True, gc=False):
     """Greatest angle of its front wheels or its rudder [rad]; 0 for one that has none."""
     min_radius: float = 0.0
     """Of the tightest turn that it drives [m]; 0 for one that turns where it stands."""
+    icon: str = ""
+    """Of its kind, a name of Material Symbols, as in sailing; empty for a generic one."""
+    moves: str = ""
+    """How it moves, as a sentence about it begins: Sails; empty for Drives."""
+    holds: str = ""
+    """How it keeps its place, likewise: Hovers where it is; empty for Stands still where it is."""
+    order_fields: list[str] = []
+    """Which of speed, throttle and height an order may give, height only with a max_climb; empty for speed
+    and height.
+    """
+    dives: bool = False
+    """It keeps a depth, which orders give in place of a height, and may lie any way up."""
+    flies: bool = False
+    """It takes off and lands."""
 
 
 class RudderState(Msg, frozen=True, gc=False):

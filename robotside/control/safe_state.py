@@ -14,6 +14,7 @@ from bridge.core.units import wrap
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.core.config import SafeStateSettings
+from robotside.kinds.registry import kind_of
 from robotside.motion.measured import Measured
 from robotside.motion.speed_limit import within
 
@@ -59,24 +60,6 @@ BRAKE = Act(None, "brakes")
 _AT_REST = Act(None, "is at rest")
 
 
-@dataclass(frozen=True, slots=True)
-class _Usual:
-    """What a kind does unless it is told otherwise."""
-
-    action: str
-    hold_for: float = math.inf
-    then: str = "stay"
-
-
-USUAL = {
-    "wheels": _Usual("brake"),
-    "ackermann": _Usual("brake_straight"),
-    "boat": _Usual("hold_heading"),
-    "hexapod": _Usual("hold_depth", 60.0, "surface"),
-    "quadrotor": _Usual("hover", 10.0, "land"),
-}
-
-
 class SafeState:
     """The safe state of one robot. It is entered when a command has run out, and left when somebody drives or a task begins."""
 
@@ -86,7 +69,7 @@ class SafeState:
         `knows` are the manoeuvres that it can be told in place of twists.
         """
         self._knows = knows
-        usual = USUAL.get(kind, USUAL["wheels"])
+        usual = kind_of(kind).safe_state
         self._action = settings.action or usual.action
         self._usual_then = self._then = settings.then or usual.then
         self._hold_for = usual.hold_for if settings.hold_for is None else settings.hold_for

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from robotside.core.vehicle_kinds import kind_of
+from robotside.kinds.registry import kind_of
 from robotside.motion.measured import Measured
 
 __all__ = ["still_moves"]

@@ -16,7 +16,7 @@ from robotside.control.limit_violations import Excesses
 from robotside.control.safe_state import Act, SafeState
 from robotside.core.config import ControlSettings
 from robotside.core.refusal import Refusal
-from robotside.core.vehicle_kinds import kind_of
+from robotside.kinds.registry import kind_of
 from robotside.limits.bumper_guard import AGAIN, kept_off
 from robotside.limits.limits import turned_over
 from robotside.motion.manoeuvres import BY_STICK, Order, settled

@@ -157,6 +157,7 @@ class Serving:
             kind=info.kind,
             model=info.model,
             description=info.description,
+            icon=info.icon,
             url=self.addresses.bridge,
             http=self.addresses.http,
             battery=self.station.autonomy.battery,

@@ -9,7 +9,7 @@ import math
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import RobotInfo
-from robotside.core.vehicle_kinds import kind_of
+from robotside.kinds.registry import kind_of
 from robotside.motion.manoeuvres import Order, kept, leads_to
 from robotside.motion.measured import Measured
 

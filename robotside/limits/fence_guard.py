@@ -8,8 +8,9 @@ from collections.abc import Callable
 import numpy as np
 
 from robotside.core.pose2 import Points, Pose2
+from robotside.kinds.vehicle_kind import Handling
 from robotside.limits.fence import Fence
-from robotside.motion.stopping_path import REST, Handling, Moving, reach, track
+from robotside.motion.stopping_path import REST, Moving, reach, track
 
 __all__ = ["GAP", "LEVEL_FROM", "MOST_DOUBT", "SLACK", "SURE_ENOUGH", "Fencing", "doubt_of"]
 

@@ -18,7 +18,8 @@ from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
 from robotside.core.config import LimitSettings, Ring
 from robotside.core.pose2 import Pose2
 from robotside.core.text import place_sentence
-from robotside.core.vehicle_kinds import kind_of
+from robotside.kinds.registry import kind_of
+from robotside.kinds.vehicle_kind import Handling
 from robotside.limits.fence import Fence
 from robotside.limits.fence_guard import LEVEL_FROM, MOST_DOUBT, SURE_ENOUGH, Fencing, doubt_of
 from robotside.mapping.occupancy_grid import Grid
@@ -26,7 +27,7 @@ from robotside.motion.manoeuvres import BY_ITSELF, Order, kept, leads_to, levell
 from robotside.motion.measured import Measured
 from robotside.motion.speed_limit import slower, within
 from robotside.motion.station_keeping import BACK_AT, BACK_TO, CREEP, DRIFTS, Drift, back, way_back
-from robotside.motion.stopping_path import HANDLING, REACTION, Handling, Moving
+from robotside.motion.stopping_path import REACTION, Moving
 
 __all__ = ["GOAL_ROOM", "PATH_ROOM", "Clamped", "Keeper", "Kept", "turned_over"]
 
@@ -74,7 +75,7 @@ class Keeper:
         """`settings` are the configuration's, `info` what the robot says of itself."""
         self._settings = settings
         self._own, self._radius = info, info.radius
-        known = HANDLING.get(info.kind, HANDLING["wheels"])
+        known = kind_of(info.kind).handling
         self._handling: Handling = replace(known, braking=settings.braking or known.braking)
         self._height = _highest(settings)
         self._deepest = -settings.max_depth if settings.max_depth is not None else -math.inf

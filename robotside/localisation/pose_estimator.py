@@ -26,7 +26,7 @@ from bridge.msgs.std_msgs import Header, Time
 from bridge.msgs.tf2_msgs import TFMessage
 from robotside.core.bus import Publish
 from robotside.core.pose2 import Points, Pose2
-from robotside.core.vehicle_kinds import kind_of
+from robotside.kinds.registry import kind_of
 from robotside.localisation.position_uncertainty import Doubt
 from robotside.localisation.scan_matching import Localiser
 from robotside.mapping.occupancy_grid import Grid

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from bridge.core.units import wrap
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
-from robotside.core.vehicle_kinds import kind_of
+from robotside.kinds.registry import kind_of
 from robotside.motion.measured import Measured
 from robotside.motion.speed_limit import slower, within
 from robotside.motion.station_keeping import CREEP

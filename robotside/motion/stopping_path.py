@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from robotside.core.pose2 import Points, Pose2
+from robotside.kinds.vehicle_kind import Handling
 
-__all__ = ["HANDLING", "REACTION", "REST", "Handling", "Moving", "reach", "track"]
+__all__ = ["REACTION", "REST", "Moving", "reach", "track"]
 
 REACTION = 0.15
 """From a command until the next one can tell otherwise and is felt [s]: a period of odometry, and the drive's own lag."""
@@ -41,36 +41,6 @@ class Moving(NamedTuple):
 
 
 REST = Moving(0.0, 0.0, 0.0)
-
-
-@dataclass(frozen=True, slots=True)
-class Handling:
-    """How a kind of robot moves."""
-
-    braking: float
-    """Deceleration that can be counted on, wet or dry, however it is told [m/s2]."""
-    turning: float
-    """As fast a turn dies away [rad/s2]."""
-    sideways: bool = False
-    """It can go in any direction, so that it may slide along a fence."""
-    steers: bool = False
-    """It turns only by going, in proportion to its speed."""
-    drifts: bool = False
-    """Nothing that stands still holds it where it is: water carries it along, and what it has of way aside."""
-    glide: float = 0.0
-    """What way it has aside only drag takes off it, to 1/e of it within this [m]; 0 for one that brakes all ways."""
-    levelling: float = 1.0
-    """Deceleration up and down that can be counted on [m/s2]."""
-
-
-HANDLING = {
-    "wheels": Handling(0.8, 2.5),
-    "ackermann": Handling(1.5, 1.0, steers=True),
-    "boat": Handling(0.15, 0.3, drifts=True),
-    "hexapod": Handling(0.2, 0.6, drifts=True, glide=0.7, levelling=0.08),
-    "quadrotor": Handling(1.0, 2.0, sideways=True, levelling=0.5),
-}
-"""By the kind that `/robot/info` tells. The deceleration can be configured, since floors and loads differ."""
 
 
 def reach(start: Moving, command: Moving, handling: Handling) -> float:

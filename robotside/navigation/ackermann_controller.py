@@ -13,10 +13,11 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Manoeuvrable, Robot
 from robotside.core.text import place_sentence
+from robotside.kinds.registry import kind_of
 from robotside.navigation.lattice_planner import Lattice, Piece
 from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, Grounded, Search
 from robotside.navigation.planner import Planner, Unreachable
-from robotside.navigation.pure_pursuit import Follower, Manner
+from robotside.navigation.pure_pursuit import Follower
 
 __all__ = ["Trucking", "bend_of", "girth"]
 
@@ -65,8 +66,6 @@ LOCK = 0.5
 TRIES = 2
 """Ways to come to look where it should, after the first."""
 
-MANNER = Manner(0.0, 0.0, 1.3, 0.5, 0.6, 0.4, 0.8)
-
 
 def _end(points: Points) -> NDArray[np.float64]:
     """The direction in which a way ends, of length 1."""
@@ -95,7 +94,7 @@ class Trucking(Grounded):
         super().__init__()
         info = robot.info
         self._robot = robot
-        self._bend = bend_of(info)
+        self._bend, self._pursuit = bend_of(info), kind_of(info.kind).pursuit
         self.discs: tuple[float, ...] = tuple(part * info.radius for part in DISCS)
         self._girth = girth(info)
         self.turning = 1.0 / (SPARE * self._bend)
@@ -174,7 +173,7 @@ class Trucking(Grounded):
         left = max(0.0, follower.remaining(looking) - BEYOND)
         speed = min(
             follower.speed(looking, bearing, distance),
-            max(MANNER.creep, math.sqrt(2 * MANNER.slowdown * left)),
+            max(self._pursuit.min_speed, math.sqrt(2 * self._pursuit.deceleration * left)),
         )
         speed = min(speed if sure else min(speed, UNSURE_SPEED), self._speed + 0.1)
         bend, room = self._free_of(bend, way, points)
@@ -261,7 +260,9 @@ class Trucking(Grounded):
         along = _end(points)
         # aiming beyond the end it comes there in the direction of the way
         beyond = points[-1] + np.arange(0.1, BEYOND + 0.05, 0.1)[:, None] * along
-        self._follower = Follower(np.concatenate([points, beyond]), cruise=self.cruise, manner=MANNER)
+        self._follower = Follower(
+            np.concatenate([points, beyond]), cruise=self.cruise, parameters=self._pursuit
+        )
         self._speed = 0.0
 
     def _at_end(self, pose: Pose2) -> bool:

@@ -8,9 +8,8 @@ from bridge.core.units import wrap
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Manoeuvrable, Robot
-from robotside.core.vehicle_kinds import kind_of
+from robotside.kinds.registry import kind_of
 from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, OneWay
-from robotside.navigation.pure_pursuit import Manner
 
 __all__ = ["TAKES_OFF_TO", "Coursing"]
 
@@ -32,13 +31,6 @@ BOAT_TURNS = 3.0
 ALIGNED = 0.1
 """It looks to where it should within this [rad]."""
 
-MANNERS = {
-    "boat": Manner(1.5, 3.0, 4.0, 1.0, 0.2, 0.3, 0.4),
-    "hexapod": Manner(0.4, 0.8, 1.2, 1.0, 0.15, 0.1, 0.2),
-    "quadrotor": Manner(0.3, 0.6, 1.0, 0.8, 0.5, 0.15, 0.8),
-}
-"""By kind; the circles of arrival are as large as waves, currents and the way that one has on make them."""
-
 
 class Coursing(OneWay):
     """`going.Going` of a robot that keeps courses."""
@@ -50,7 +42,7 @@ class Coursing(OneWay):
 
     def __init__(self, robot: Robot) -> None:
         info = robot.info
-        super().__init__(MANNERS[info.kind])
+        super().__init__(kind_of(info.kind).pursuit)
         self._robot, self._comes_about = robot, kind_of(info.kind).comes_about
         self.cruise, self.clear = min(CRUISE * info.max_speed, FASTEST), info.radius + 0.18
         self.turning = BOAT_TURNS if kind_of(info.kind).comes_about else 0.0

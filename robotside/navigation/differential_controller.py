@@ -9,6 +9,7 @@ import numpy as np
 from bridge.msgs.geometry_msgs import Twist
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Robot
+from robotside.kinds.registry import kind_of
 from robotside.navigation.avoidance import Avoidance, free_lengths
 from robotside.navigation.path_controller import CRUISE, UNSURE_SPEED, Grounded, OneWay
 
@@ -34,8 +35,8 @@ class Wheeling(OneWay, Grounded):
     look = 6.0
 
     def __init__(self, robot: Robot) -> None:
-        super().__init__()
         info = robot.info
+        super().__init__(kind_of(info.kind).pursuit)
         self._robot, self._turn = robot, info.max_yaw_rate
         self._avoidance = Avoidance(info.radius, max_yaw_rate=info.max_yaw_rate)
         self.cruise, self.clear = CRUISE * info.max_speed, info.radius + 0.18

@@ -13,6 +13,7 @@ from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Manoeuvrable, Robot
 from robotside.core.text import place_sentence
+from robotside.kinds.registry import kind_of
 from robotside.mapping.obstacle_memory import Obstacles
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.ackermann_controller import Trucking, girth
@@ -70,24 +71,22 @@ class Goal:
         return name if name == self.place else f"{name[0].lower()}{name[1:]}"
 
 
-GOINGS: dict[str, Callable[[Robot], Going]] = {
-    "wheels": Wheeling,
-    "ackermann": Trucking,
-    "boat": Coursing,
-    "hexapod": Coursing,
-    "quadrotor": Coursing,
+PATH_CONTROLLERS: dict[str, Callable[[Robot], Going]] = {
+    "differential": Wheeling,
+    "lattice": Trucking,
+    "course": Coursing,
 }
-"""How robots go, by kind."""
+"""How robots follow a path, by `path_controller` of their kind."""
 
 
 def going_of(robot: Robot) -> Going:
-    """How a robot of its kind goes; one of an unknown kind as if on wheels."""
-    return GOINGS.get(robot.info.kind, Wheeling)(robot)
+    """The path controller of the robot's kind."""
+    return PATH_CONTROLLERS[kind_of(robot.info.kind).path_controller](robot)
 
 
 def room_of(info: RobotInfo) -> float:
     """The room that a robot needs round its place, whichever way it points [m]."""
-    return girth(info) if info.kind == "ackermann" else info.radius
+    return girth(info) if kind_of(info.kind).path_controller == "lattice" else info.radius
 
 
 class Guide:

@@ -9,8 +9,9 @@ from typing import Protocol
 import numpy as np
 
 from robotside.core.pose2 import Points, Pose2
+from robotside.kinds.vehicle_kind import PursuitParameters
 from robotside.navigation.planner import Planner
-from robotside.navigation.pure_pursuit import ON_WHEELS, Follower, Manner
+from robotside.navigation.pure_pursuit import ON_WHEELS, Follower
 
 __all__ = ["CRUISE", "UNSURE_SPEED", "Going", "Grounded", "OneWay", "Search"]
 
@@ -103,9 +104,9 @@ class OneWay:
 
     cruise: float
 
-    def __init__(self, manner: Manner = ON_WHEELS) -> None:
+    def __init__(self, parameters: PursuitParameters = ON_WHEELS) -> None:
         super().__init__()
-        self._manner = manner
+        self._parameters = parameters
         self._follower: Follower | None = None
         self._speed = 0.0
 
@@ -124,7 +125,7 @@ class OneWay:
     ) -> Search:
         """For a way to `goal`. Unreachable raises."""
         path = yield from planner.search((pose.x, pose.y), goal[:2], name, obstacles)
-        self._follower = Follower(path, cruise=self.cruise, manner=self._manner)
+        self._follower = Follower(path, cruise=self.cruise, parameters=self._parameters)
         return path
 
     def forget(self) -> None:

@@ -3,51 +3,32 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from robotside.core.pose2 import Points, Pose2
+from robotside.kinds.vehicle_kind import PursuitParameters
 
-__all__ = ["ARRIVED", "CREEP", "Follower", "Manner"]
+__all__ = ["ARRIVED", "CREEP", "Follower"]
 
-ARRIVED = 0.1
-"""A goal is reached within this distance [m]; the rest up to the promised 0.3 m is for the position's own error."""
-
-CREEP = 0.12
-"""Least speed on the way [m/s]."""
-
-
-@dataclass(frozen=True, slots=True)
-class Manner:
-    """How a kind of robot follows a path; as it stands here, one that turns where it stands."""
-
-    arrived: float = ARRIVED
-    """A goal is reached within this distance [m]."""
-    missed: float = 0.22
-    """A goal that gets farther away again within this distance is passed [m]."""
-    lookahead: float = 0.5
-    """Distance of the point steered for at rest [m]; grows with the speed."""
-    lookahead_time: float = 0.6
-    """[s]"""
-    slowdown: float = 0.5
-    """Deceleration planned for [m/s2]."""
-    creep: float = CREEP
-    """Least speed on the way [m/s]."""
-    sideways: float = 0.5
-    """Sideways acceleration allowed in a bend [m/s2]."""
-
-
-ON_WHEELS = Manner()
+ON_WHEELS = PursuitParameters()
+"""Of one that turns where it stands."""
+ARRIVED, CREEP = ON_WHEELS.goal_tolerance, ON_WHEELS.min_speed
+"""Its circle of arrival [m] and its least speed on the way [m/s]."""
 
 
 class Follower:
     """Steers along one path."""
 
     def __init__(
-        self, path: Points, *, cruise: float, final_speed: float = 0.0, manner: Manner = ON_WHEELS
+        self,
+        path: Points,
+        *,
+        cruise: float,
+        final_speed: float = 0.0,
+        parameters: PursuitParameters = ON_WHEELS,
     ) -> None:
-        self.path, self._manner = path, manner
+        self.path, self._parameters = path, parameters
         steps = np.hypot(*np.diff(path, axis=0).T)
         self._left = np.concatenate((np.cumsum(steps[::-1])[::-1], [0.0]))
         self._cruise, self._final = cruise, final_speed
@@ -72,14 +53,14 @@ class Follower:
     def arrived(self, pose: Pose2) -> bool:
         """The end of the path is reached, or was passed closely."""
         distance = pose.distance(*self.path[-1].tolist())
-        passed = distance < self._manner.missed and distance > self._nearest_goal + 0.02
+        passed = distance < self._parameters.passed_tolerance and distance > self._nearest_goal + 0.02
         self._nearest_goal = min(self._nearest_goal, distance)
-        return distance < self._manner.arrived or passed
+        return distance < self._parameters.goal_tolerance or passed
 
     def aim(self, pose: Pose2, speed: float) -> tuple[float, float]:
         """Distance [m] and bearing [rad] of the point of the path to steer for, moving at `speed` [m/s]."""
         self._advance(pose)
-        reach = self._manner.lookahead + self._manner.lookahead_time * abs(speed)
+        reach = self._parameters.lookahead + self._parameters.lookahead_time * abs(speed)
         ahead = self.ahead
         beyond = np.flatnonzero(np.hypot(ahead[:, 0] - pose.x, ahead[:, 1] - pose.y) >= reach)
         x, y = (ahead[beyond[0]] if len(beyond) else self.path[-1]).tolist()
@@ -87,12 +68,12 @@ class Follower:
 
     def speed(self, pose: Pose2, bearing: float, distance: float) -> float:
         """How fast to go [m/s], steering for a point at `bearing` and `distance`."""
-        manner = self._manner
+        parameters = self._parameters
         bend = abs(2.0 * math.sin(bearing) / max(distance, 0.1))
-        by_bend = math.sqrt(manner.sideways / bend) if bend > 0.1 else math.inf
-        left = max(0.0, self.remaining(pose) - 0.5 * manner.arrived)
-        by_goal = math.sqrt(self._final**2 + 2.0 * manner.slowdown * left)
-        return max(manner.creep, min(self._cruise, by_bend, by_goal))
+        by_bend = math.sqrt(parameters.lateral_acceleration / bend) if bend > 0.1 else math.inf
+        left = max(0.0, self.remaining(pose) - 0.5 * parameters.goal_tolerance)
+        by_goal = math.sqrt(self._final**2 + 2.0 * parameters.deceleration * left)
+        return max(parameters.min_speed, min(self._cruise, by_bend, by_goal))
 
     def _advance(self, pose: Pose2) -> None:
         while True:  # a way that was long looked for begins some way back

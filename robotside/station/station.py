@@ -42,7 +42,7 @@ from robotside.core.pose2 import Pose2
 from robotside.core.refusal import Refusal
 from robotside.core.robot import Robot
 from robotside.core.topic_demand import Demand
-from robotside.core.vehicle_kinds import kind_of, unknown
+from robotside.kinds.registry import described, kind_of, unknown
 from robotside.limits.limits import Keeper
 from robotside.motion.manoeuvres import Order
 from robotside.motion.measured import Measured
@@ -95,7 +95,7 @@ class Station:
         self.keeper = Keeper(config.limits, port_info(robot))
         """Keeps the robot to its limits."""
         self.info = replace(
-            self.keeper.info,
+            described(self.keeper.info),
             name=name or config.robot.name or robot.info.name,
             tasks=tasks_of(self.keeper.info),
         )

@@ -11,7 +11,7 @@ from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import Bumper, FlightState
 from bridge.msgs.sensor_msgs import Imu
 from robotside.core.pose2 import Pose2
-from robotside.core.vehicle_kinds import kind_of
+from robotside.kinds.registry import kind_of
 from robotside.motion.measured import Measured
 from robotside.motion.stopping_path import Moving
 

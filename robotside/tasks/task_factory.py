@@ -13,7 +13,7 @@ from py_trees.composites import Sequence as Chain
 from bridge.msgs.pilothouse_msgs import TASKS, Mission, Place, RobotInfo, TaskOrder, Waypoint
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
-from robotside.core.vehicle_kinds import kind_of
+from robotside.kinds.registry import kind_of
 from robotside.navigation.navigator import Goal, Guide
 from robotside.records import Records
 from robotside.records.events import Say

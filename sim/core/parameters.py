@@ -24,6 +24,12 @@ class Info(Table, frozen=True, kw_only=True):
     model: str
     kind: str
     description: str
+    on_the_ground: bool = False
+    """It drives on the ground, so that it can look at it."""
+    floats: bool = False
+    """It floats on the water, where waves may break over it without sinking it."""
+    dives: bool = False
+    """It swims under water and may lie any way up."""
 
 
 class Limits(Table, frozen=True, kw_only=True):

@@ -154,7 +154,7 @@ class MountedLine(_Plain):
     def __init__(self, vehicle: Vehicle, figures: LineMount) -> None:
         """Under the bow of `vehicle`; ValueError for one that does not drive on the ground."""
         info = vehicle.parameters.info
-        if info.kind not in ("wheels", "ackermann"):
+        if not info.on_the_ground:
             raise ValueError(f"{info.name} does not drive on the ground, which a line sensor looks at.")
         super().__init__(figures.power, ())
         parameters = LineParameters(

@@ -55,10 +55,10 @@ class Mishaps:
     """Looks at one robot; each mishap is told once, until it is over."""
 
     def __init__(self, info: Info, scene: Scene) -> None:
-        """A robot in `scene`; of the kinds that may lie anyhow, or dive, that is not told."""
+        """A robot in `scene`; one that dives may lie anyhow and deep."""
         self._name, self._world, self._weather = info.name, scene.world, scene.weather
-        self._may_turn_over = self._may_dive = info.kind == "hexapod"
-        self._drowning = DROWNING if info.kind == "boat" else PATIENCE
+        self._dives = info.dives
+        self._drowning = DROWNING if info.floats else PATIENCE
         self._signs: dict[str, _Sign] = {}
 
     def due(self, steps: int) -> bool:
@@ -79,10 +79,10 @@ class Mishaps:
         """What may go wrong, for how many looks it must last, and whether it is so now."""
         x, y, z = state.position
         ground, name = self._world.ground, self._name
-        if not self._may_turn_over:
+        if not self._dives:
             over = rotate(state.rotation, (0.0, 0.0, 1.0))[2] < _UPSIDE_DOWN
             yield f"{name} has turned over.", PATIENCE, over
-        if self._world.water and not self._may_dive:
+        if self._world.water and not self._dives:
             yield f"{name} has sunk.", self._drowning, self._weather.surface(x, y) - z > _SUNK
         gone = abs(x) > ground.length / 2 + OUTSIDE or abs(y) > ground.width / 2 + OUTSIDE
         yield f"{name} has left {self._world.name}.", PATIENCE, gone

@@ -101,15 +101,10 @@ NEEDS = {
 }
 PECULIAR = ("take_off", "land", "surface")
 """Tasks of robots that fly or dive."""
-HOLDS = {
-    "wheels": "Stands still where it is",
-    "ackermann": "Stands still where it is",
-    "boat": "Keeps its place on the water",
-    "hexapod": "Keeps its place in the water",
-    "quadrotor": "Hovers where it is",
-}
-GOES = {"wheels": "Drives", "ackermann": "Drives", "boat": "Sails", "hexapod": "Swims", "quadrotor": "Flies"}
-"""Kind of robot to its verb; any other one is as wheels."""
+MOVES, HOLDS = "Drives", "Stands still where it is"
+"""Words for a robot that gives none of its own: how it moves, and how it keeps its place."""
+FIGURES = ("speed", "throttle", "height")
+"""Fields of an order that only some robots take, as `RobotInfo.order_fields` names them."""
 DAYS = ("Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun")
 REACTS = {
     "stop": "Stops when it finds an intruder.",
@@ -156,9 +151,11 @@ def lacking(order: TaskOrder, mission: Mission | None = None) -> str:
 
 
 def fields(task: str, info: RobotInfo) -> tuple[str, ...]:
-    """What the operator may say about a task of that robot: a height only to one that climbs or dives, a throttle in
-    place of a speed to a boat."""
-    left_out = {"throttle" if info.kind != "boat" else "speed", *(() if info.max_climb > 0 else ("height",))}
+    """Fields of a task's order that make sense for that robot, in the order of the form."""
+    taken = info.order_fields or ("speed", "height")
+    left_out = {figure for figure in FIGURES if figure not in taken}
+    if not info.max_climb > 0:
+        left_out.add("height")
     return tuple(one for one in TASKS[task].fields if one not in left_out) if task in TASKS else ()
 
 
@@ -169,13 +166,13 @@ def known(info: RobotInfo) -> list[str]:
 
 
 def will(
-    order: TaskOrder, mission: Mission | None = None, *, follows: bool = True, kind: str = "wheels"
+    order: TaskOrder, mission: Mission | None = None, *, follows: bool = True, robot: RobotInfo | None = None
 ) -> str:
     """What will happen when the order is given, as a sentence or two; what is lacking when it cannot be given.
 
-    `follows`: the robot can tell whether somebody follows it. `kind` is the robot's, as RobotInfo has it.
+    `follows`: the robot can tell whether somebody follows it. `robot` has words of its own; None for the generic ones.
     """
-    missing = lacking(order, mission)
+    missing, robot = lacking(order, mission), robot or RobotInfo()
     if missing:
         return missing
     says = {"patrol": lambda: _patrols(order, mission or Mission())}
@@ -185,8 +182,8 @@ def will(
         "dock": lambda: _docks(order),
     }
     says |= {
-        "hold": lambda: _holds(order, kind),
-        "follow_heading": lambda: _follows(order, kind),
+        "hold": lambda: _holds(order, robot),
+        "follow_heading": lambda: _follows(order, robot),
         "take_off": lambda: _takes_off(order),
         "land": lambda: "Lands on what is below it.",
         "surface": lambda: "Swims up to the surface and stays there.",
@@ -202,18 +199,16 @@ def _how_long(order: TaskOrder) -> str:
     return f"for {span_words(order.duration)}" if math.isfinite(order.duration) else "until you stop it"
 
 
-def _holds(order: TaskOrder, kind: str) -> str:
-    does = HOLDS.get(kind, HOLDS["wheels"])
-    return f"{does}{_at_height(order, kind)} {_how_long(order)}."
+def _holds(order: TaskOrder, robot: RobotInfo) -> str:
+    return f"{robot.holds or HOLDS}{_at_height(order, robot)} {_how_long(order)}."
 
 
-def _follows(order: TaskOrder, kind: str) -> str:
+def _follows(order: TaskOrder, robot: RobotInfo) -> str:
     towards = "where it points now" if math.isnan(order.heading) else heading_of(order.heading)
     pace = f" at {order.speed:.1f} m/s" if math.isfinite(order.speed) else ""
     if math.isfinite(order.throttle):
         pace = f" with {order.throttle * 100:.0f} % throttle"
-    does = GOES.get(kind, GOES["wheels"])
-    return f"{does} straight towards {towards}{pace}{_at_height(order, kind)} {_how_long(order)}."
+    return f"{robot.moves or MOVES} straight towards {towards}{pace}{_at_height(order, robot)} {_how_long(order)}."
 
 
 def _takes_off(order: TaskOrder) -> str:
@@ -221,11 +216,10 @@ def _takes_off(order: TaskOrder) -> str:
     return f"Takes off{height} and hovers there."
 
 
-def _at_height(order: TaskOrder, kind: str) -> str:
+def _at_height(order: TaskOrder, robot: RobotInfo) -> str:
     if not math.isfinite(order.height):
         return ""
-    deep = kind == "hexapod"
-    return f", {abs(order.height):g} m {'deep' if deep else 'high'},"
+    return f", {abs(order.height):g} m {'deep' if robot.dives else 'high'},"
 
 
 def _patrols(order: TaskOrder, mission: Mission) -> str:

@@ -148,7 +148,7 @@ class OrderForm(Control, BoxLayout):
     """What is asked for so far."""
 
     def _sentence(self) -> str:
-        return will(self.order, self.mission, follows=self.follows, kind=self.robot.kind)
+        return will(self.order, self.mission, follows=self.follows, robot=self.robot)
 
     sentence = AliasProperty(_sentence, bind=["order", "mission", "follows", "robot"])
     """What will happen, or what is still lacking."""
@@ -377,7 +377,7 @@ class OrderForm(Control, BoxLayout):
         return [self._row("Throttle", throttle)]
 
     def _height(self) -> list[Widget]:
-        deep = self.robot.kind == "hexapod"
+        deep = self.robot.dives
         value = 0 if math.isnan(self.at_height) else abs(self.at_height)
         usual = "as usual" if self.task == "take_off" else "as now"
         height = Stepper(value=value, step=0.5, maximum=HIGHEST, unit="m", zero=usual)
@@ -423,12 +423,16 @@ def samples() -> dict[str, Callable[[], Widget]]:
         "heading": make(TaskOrder(task="follow_heading", heading=math.pi / 2, duration=120.0)),
         "hold": make(TaskOrder(task="hold")),
         "hold a depth": make(
-            TaskOrder(task="hold", height=-4.5), robot=RobotInfo(kind="hexapod", max_climb=0.5)
+            TaskOrder(task="hold", height=-4.5),
+            robot=RobotInfo(holds="Keeps its place in the water", dives=True, max_climb=0.5),
         ),
         "heading of a boat": make(
-            TaskOrder(task="follow_heading", heading=0.0, throttle=0.6), robot=RobotInfo(kind="boat")
+            TaskOrder(task="follow_heading", heading=0.0, throttle=0.6),
+            robot=RobotInfo(moves="Sails", order_fields=["throttle"]),
         ),
-        "take off": make(TaskOrder(task="take_off"), robot=RobotInfo(kind="quadrotor", max_climb=1.0)),
+        "take off": make(
+            TaskOrder(task="take_off"), robot=RobotInfo(moves="Flies", flies=True, max_climb=1.0)
+        ),
         "dock": make(TaskOrder(task="dock")),
         "from where": make(TaskOrder(task="deliver"), pick="from"),
         "disabled": make(TaskOrder(task="dock"), state="disabled"),

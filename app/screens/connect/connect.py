@@ -15,21 +15,15 @@ from app.discovery.known_robots import Entry
 from app.layout.arrange import connect_columns
 from app.screens.parts.method_chip import InputsChip  # noqa: F401 - its rule draws what is used here
 from app.screens.parts.themes import THEMES
+from widgets.core.icons import ICONS
 from widgets.core.surfaces import EdgedBox  # noqa: F401 - its rule draws the bar
 from widgets.core.theme import theme
 from widgets.parts.kit import Banner, Card, Text
 
-__all__ = ["ConnectScreen", "RobotCard"]
+__all__ = ["ConnectScreen", "RobotCard", "robot_icon"]
 
-KINDS = {
-    "wheels": ("smart_toy_fill", "Differential drive"),
-    "ackermann": ("agriculture", "Ackermann truck"),
-    "boat": ("sailing", "Surface boat"),
-    "hexapod": ("scuba_diving", "Underwater hexapod"),
-    "quadrotor": ("mode_fan", "Quadrotor"),
-}
-"""Kind of robot to its icon and its name in plain words."""
-"""Theme to icon, words and name of the one that a tap brings."""
+GENERIC_ICON = "smart_toy_fill"
+"""Of a robot that names none, or one that this app cannot draw."""
 HINT = (
     "No robot has said hello on this network yet.\n"
     "Switch one on, enter its address, or start the built-in simulator."
@@ -195,6 +189,11 @@ def _shortened(name: str, most: int) -> str:
     return name if len(name) <= most else f"{name[: most - 1].rstrip()}…"
 
 
+def robot_icon(name: str) -> str:
+    """The icon that a robot calls `name`; GENERIC_ICON for one that is not in this app's font."""
+    return name if name in ICONS else GENERIC_ICON
+
+
 class RobotCard(Card):
     """One robot: what it is, its battery, how far, who drives, and one big button."""
 
@@ -202,7 +201,7 @@ class RobotCard(Card):
 
     title = StringProperty("")
     subtitle = StringProperty("")
-    icon = StringProperty("smart_toy_fill")
+    icon = StringProperty(GENERIC_ICON)
     lost = BooleanProperty(False)
     saved = BooleanProperty(False)
     quiet = BooleanProperty(False)
@@ -223,10 +222,9 @@ class RobotCard(Card):
     def show_entry(self, entry: Entry, me: str) -> None:
         """Take over what is known of the robot; `me` is this handheld's client id."""
         self.entry = entry
-        icon, words = KINDS.get(entry.kind, ("smart_toy_fill", ""))
-        self.icon, self.lost = icon, entry.state == "lost"
+        self.icon, self.lost = robot_icon(entry.icon), entry.state == "lost"
         self.title = entry.name or entry.address
-        about = [entry.description or words or "Saved address"]
+        about = [entry.description or "Saved address"]
         self.subtitle = " · ".join([*about, entry.address] if entry.name else about)
         self.saved = entry.saved
         self._show_battery(entry)

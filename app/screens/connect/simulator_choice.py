@@ -12,7 +12,7 @@ from kivy.uix.gridlayout import GridLayout
 
 import widgets.parts.kit  # noqa: F401 - its rules draw what is used here
 from app.discovery.simulator_options import Choice, Offered
-from app.screens.connect.connect import KINDS
+from app.screens.connect.connect import robot_icon
 from app.screens.parts.dialogs import Question
 from widgets.parts.labels import Icon
 from widgets.parts.rows import ListRow
@@ -127,8 +127,7 @@ class SimulatorChoice(Question):
         robots.clear_widgets()
         worlds.clear_widgets()
         for robot in offered.robots:
-            icon, _ = KINDS.get(robot.kind, ("smart_toy_fill", ""))
-            row = self._add(robots, "robot", robot.name, icon, robot.title)
+            row = self._add(robots, "robot", robot.name, robot_icon(robot.icon), robot.title)
             row.detail = robot.description
             row.bind(on_release=lambda _, name=robot.name: self.tap(name))
         for world in offered.worlds:

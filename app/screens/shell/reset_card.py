@@ -50,7 +50,7 @@ class Resetting:
         """Bring up to date who may, and whether the card is on the glass."""
         session, card = self._session, self.card
         card.name, card.blocked = session.name, not session.may_ask
-        card.flies = session.info.kind == "quadrotor"
+        card.flies = session.info.flies
         self._notices.keep(card, shown=card.open and session.connected and self.possible)
 
     def _answer(self, name: str) -> None:

@@ -11,7 +11,7 @@ from py_trees.common import Status
 from bridge.msgs.geometry_msgs import Twist
 from robotside.core.pose2 import Points
 from robotside.core.text import heading
-from robotside.motion.stopping_path import HANDLING
+from robotside.kinds.registry import kind_of
 from robotside.navigation.ackermann_controller import Trucking
 from robotside.navigation.avoidance import BRAKING, GAP, HORIZON, free_lengths
 from robotside.navigation.course_controller import Coursing
@@ -57,7 +57,7 @@ class FollowHeading(Behaviour):
         """
         super().__init__("follow heading")
         self._heading, self._speed, self._span, self._throttle = heading, speed, span, throttle
-        self._braking = min(BRAKING, HANDLING[guide.kind].braking) if guide.kind in HANDLING else BRAKING
+        self._braking = min(BRAKING, kind_of(guide.kind).handling.braking)
         fastest = guide.cruise if math.isnan(speed) else speed
         self._horizon = max(HORIZON, fastest * fastest / (2 * self._braking) + 1.0)
         self._guide, self._situation = guide, situation

@@ -8,7 +8,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
-from robotside.core.vehicle_kinds import kind_of
+from robotside.kinds.registry import kind_of
 from robotside.navigation.navigator import Goal, Guide, Leg
 from robotside.tasks.behaviours.course import Span
 from robotside.tasks.behaviours.fly import TakeOff

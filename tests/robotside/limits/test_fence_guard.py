@@ -12,12 +12,14 @@ from hypothesis import strategies as st
 
 from robotside.core.config import Ring
 from robotside.core.pose2 import Pose2
+from robotside.kinds.registry import KINDS
+from robotside.kinds.vehicle_kind import Handling
 from robotside.limits.fence import Fence
 from robotside.limits.fence_guard import GAP, Fencing
-from robotside.motion.stopping_path import HANDLING, REST, Handling, Moving
+from robotside.motion.stopping_path import REST, Moving
 
 RADIUS = 0.2
-WHEELS = HANDLING["wheels"]
+WHEELS = KINDS["wheels"].handling
 
 
 def box(west: float, south: float, east: float, north: float) -> Ring:
@@ -116,21 +118,21 @@ def test_a_turn_that_has_not_died_away_yet_is_counted_in() -> None:
 
 
 def test_one_that_can_go_sideways_slides_along_the_fence() -> None:
-    fencing = Fencing(YARD, RADIUS, HANDLING["quadrotor"])
+    fencing = Fencing(YARD, RADIUS, KINDS["quadrotor"].handling)
     slid = fencing.slowed(Pose2(-4.0 + RADIUS + GAP, 0.0, math.pi), REST, Moving(0.5, 0.5, 0.0))
     assert slid.x == pytest.approx(0.0, abs=0.02)
     assert slid.y == pytest.approx(0.5)
 
 
 def test_what_slides_along_a_fence_that_it_came_too_near_to_goes_inward_a_little() -> None:
-    fencing = Fencing(YARD, RADIUS, HANDLING["quadrotor"])
+    fencing = Fencing(YARD, RADIUS, KINDS["quadrotor"].handling)
     slid = fencing.slowed(Pose2(-4.0 + RADIUS - 0.05, 0.0, math.pi), REST, Moving(0.5, 0.5, 0.0))
     assert slid.x == pytest.approx(-0.15, abs=0.03)
     assert slid.y == pytest.approx(0.5)
 
 
 def test_one_that_steers_goes_slower_on_the_same_arc() -> None:
-    fencing = Fencing(YARD, RADIUS, HANDLING["ackermann"])
+    fencing = Fencing(YARD, RADIUS, KINDS["ackermann"].handling)
     slowed = fencing.slowed(Pose2(-3.4, 0.0, math.pi), REST, Moving(2.0, 0.0, 0.5))
     assert 0.0 < slowed.x < 2.0
     assert slowed.turn / slowed.x == pytest.approx(0.25)
@@ -145,7 +147,7 @@ def test_from_outside_only_ways_that_lead_back_are_allowed() -> None:
 
 def test_a_way_through_a_thin_area_is_no_way_past_it() -> None:
     wall = Fence([box(-9.0, -9.0, 9.0, 9.0)], [box(1.0, -9.0, 1.01, 9.0)])
-    slowed = Fencing(wall, 0.0, HANDLING["ackermann"]).slowed(
+    slowed = Fencing(wall, 0.0, KINDS["ackermann"].handling).slowed(
         Pose2(0.0, 0.0, 0.0), REST, Moving(5.0, 0.0, 0.0)
     )
     assert slowed.x < 1.8
@@ -163,7 +165,7 @@ FASTEST = {"wheels": 0.7, "ackermann": 2.0, "boat": 0.8, "hexapod": 0.5, "quadro
 
 
 @settings(max_examples=60, deadline=None)
-@given(PLACES, COMMANDS, st.sampled_from(sorted(HANDLING)), st.booleans(), st.booleans())
+@given(PLACES, COMMANDS, st.sampled_from(sorted(KINDS)), st.booleans(), st.booleans())
 def test_whatever_is_commanded_from_inside_the_body_stays_inside_until_it_is_at_rest(
     place: tuple[float, float, float],
     commands: list[tuple[float, float, float, int]],
@@ -171,7 +173,7 @@ def test_whatever_is_commanded_from_inside_the_body_stays_inside_until_it_is_at_
     prompt: bool,
     swings: bool,
 ) -> None:
-    handling, fastest = HANDLING[kind], FASTEST[kind]
+    handling, fastest = KINDS[kind].handling, FASTEST[kind]
     fencing = Fencing(YARD, RADIUS, handling)
     robot = Vehicle(Pose2(*place), handling, prompt=prompt, swings=swings)
     for forward, left, turn, ticks in commands:

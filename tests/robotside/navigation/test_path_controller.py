@@ -7,7 +7,7 @@ import math
 import msgspec
 import pytest
 
-from robotside.core.vehicle_kinds import KINDS
+from robotside.kinds.registry import KINDS
 from robotside.mapping.occupancy_grid import Grid
 from robotside.navigation.navigator import Guide
 from robotside.navigation.path_controller import Going, Grounded

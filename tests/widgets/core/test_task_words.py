@@ -6,6 +6,7 @@ import pytest
 
 from bridge.msgs.pilothouse_msgs import PLACE_KINDS, Mission, RobotInfo, ScheduledTask, TaskOrder, Waypoint
 from bridge.msgs.pilothouse_msgs import TASKS as KNOWN
+from robotside.kinds.registry import described
 from widgets.core.task_words import KINDS, TASKS, heading_of, known, lacking, rhythm, span_words, title, will
 
 SIX = Mission(waypoints=[Waypoint(float(x), 0.0) for x in range(6)], on_intruder="circle")
@@ -37,7 +38,7 @@ def test_one_that_does_not_say_is_not_asked_to_fly_or_to_dive():
     ],
 )
 def test_each_kind_has_its_own_verb(kind, order, sentence):
-    assert will(order, kind=kind) == sentence
+    assert will(order, robot=described(RobotInfo(kind=kind))) == sentence
 
 
 def test_there_are_words_for_every_task_and_kind_of_place():

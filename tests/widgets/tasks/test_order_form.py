@@ -5,6 +5,7 @@ import math
 import pytest
 
 from bridge.msgs.pilothouse_msgs import Mission, PlaceArray, RobotInfo, TaskOrder, Waypoint
+from robotside.kinds.registry import described
 from widgets.controls.heading_dial import HeadingDial
 from widgets.core.task_words import TASKS
 from widgets.parts.buttons import PushButton
@@ -160,18 +161,18 @@ def steppers(form):
 def test_only_a_robot_that_climbs_is_asked_for_a_height_and_a_diver_for_a_depth(stage, form):
     form.begin("hold")
     assert "Height" not in steppers(form)
-    form.robot = RobotInfo(kind="hexapod", max_climb=0.5)
+    form.robot = described(RobotInfo(kind="hexapod", max_climb=0.5))
     steppers(form)["Depth"].count(3)
     assert form.asked[-1].height == -1.5
     assert form.sentence == "Keeps its place in the water, 1.5 m deep, until you stop it."
-    form.robot = RobotInfo(kind="quadrotor", max_climb=1.0)
+    form.robot = described(RobotInfo(kind="quadrotor", max_climb=1.0))
     form.begin("take_off")
     steppers(form)["Height"].count(4)
     assert form.asked[-1].height == 2.0
 
 
 def test_a_boat_is_asked_for_its_throttle_in_place_of_a_speed(form):
-    form.robot = RobotInfo(kind="boat")
+    form.robot = described(RobotInfo(kind="boat"))
     form.begin("follow_heading")
     rows = steppers(form)
     assert "Speed" not in rows

@@ -17,6 +17,7 @@ from widgets.tasks.order_form import FormRow
 AQUA = RobotInfo(
     name="Aqua-1",
     kind="hexapod",
+    dives=True,
     model="aqua",
     max_speed=0.7,
     max_yaw_rate=0.8,

@@ -10,7 +10,6 @@ import msgspec
 import pytest
 
 import robotside
-from app.screens.connect.connect import KINDS as KINDS_SHOWN
 from bridge.msgs.pilothouse_msgs import (
     FlightState,
     Manoeuvre,
@@ -19,19 +18,19 @@ from bridge.msgs.pilothouse_msgs import (
     TaskOrder,
     Waypoint,
 )
-from robotside.control.safe_state import USUAL
+from robotside.control.safe_state import SafeState
 from robotside.core.config import NOTHING_SET, Config, LimitSettings
-from robotside.core.vehicle_kinds import KINDS, unknown
-from robotside.motion.stopping_path import HANDLING
-from robotside.navigation.course_controller import MANNERS, Coursing
+from robotside.kinds.registry import GENERIC, KINDS, described, kind_of, unknown
+from robotside.motion.measured import Measured
 from robotside.navigation.differential_controller import Wheeling
-from robotside.navigation.navigator import GOINGS
+from robotside.navigation.navigator import PATH_CONTROLLERS
 from robotside.tasks.task_factory import tasks_of
 from sim.robot import ROBOTS
 from tests.fakes import FakeRobot
 from tests.robotside.scene import Scene
-from widgets.core.task_words import GOES, HOLDS
+from widgets.core.icons import ICONS
 
+ROOT = Path(robotside.__file__).parents[1]
 EVERYWHERE = ["patrol", "deliver", "guide", "go_to", "go_home", "hold", "follow_heading"]
 
 
@@ -123,15 +122,28 @@ def test_who_does_not_come_off_the_ground_gives_up_and_says_so(tmp_path: Path) -
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_kind_is_known_wherever_it_counts(kind: str) -> None:
-    """A kind that a place does not know would pass for wheels there, without a word."""
-    assert unknown(kind) == ""
-    assert kind in HANDLING
-    assert kind in USUAL
-    assert kind in GOINGS
-    assert (kind in MANNERS) == (GOINGS[kind] is Coursing)
-    assert kind in KINDS_SHOWN
-    assert kind in HOLDS
-    assert kind in GOES
+    """A record that names a strategy or an icon that does not exist fails here and not in the field."""
+    record = kind_of(kind)
+    assert (record.name, unknown(kind)) == (kind, "")
+    assert record.path_controller in PATH_CONTROLLERS
+    assert record.icon in ICONS
+    assert set(record.order_fields) <= {"speed", "throttle", "height"}
+    safe = SafeState(kind, NOTHING_SET.safe_state)
+    safe.enter(0.0, Measured())
+    assert safe.step(0.0, Measured(), lost=True).phase
+
+
+def test_a_robot_keeps_the_words_of_its_own() -> None:
+    own = described(RobotInfo(kind="boat", description="Tug", icon="anchor", moves="Tugs"))
+    assert (own.description, own.icon, own.moves) == ("Tug", "anchor", "Tugs")
+    assert own.holds == "Keeps its place on the water"
+
+
+def test_a_robot_of_an_unknown_kind_has_the_generic_record() -> None:
+    assert kind_of("submarine") is GENERIC
+    info = described(RobotInfo(kind="submarine"))
+    assert (info.kind, info.description, info.icon, info.moves) == ("submarine", "", GENERIC.icon, "Drives")
+    assert (info.dives, info.flies) == (False, False)
 
 
 def test_every_simulated_vehicle_is_of_a_known_kind() -> None:
@@ -139,16 +151,15 @@ def test_every_simulated_vehicle_is_of_a_known_kind() -> None:
 
 
 def test_no_other_place_decides_by_a_kind() -> None:
-    tables = {"kinds.py", "guide.py", "coursing.py", "tracks.py", "safe_state.py"}
     kinds = set(KINDS) - {"wheels"}
-    root = Path(robotside.__file__).parent
     found = {
-        path.name
-        for path in root.rglob("*.py")
+        path.relative_to(ROOT).as_posix()
+        for package in ("robotside", "app", "widgets", "sim", "bridge")
+        for path in (ROOT / package).rglob("*.py")
         for node in ast.walk(ast.parse(path.read_text()))
         if isinstance(node, ast.Constant) and node.value in kinds
     }
-    assert found == tables
+    assert {Path(name).parent.as_posix() for name in found} == {"robotside/kinds"}
 
 
 def test_an_unknown_kind_is_said_once_and_goes_as_if_on_wheels(tmp_path: Path) -> None:

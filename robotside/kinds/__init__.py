@@ -1,0 +1,1 @@
+"""Kinds of vehicles: one record and one file for each."""
