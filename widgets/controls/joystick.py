@@ -20,7 +20,7 @@ from widgets.controls.stick import DEAD, Stick
 from widgets.core.canvas_ink import tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.parts.stick_caption import Captioned
+from widgets.controls.stick_caption import Captioned
 
 __all__ = ["DEAD", "Joystick"]
 
