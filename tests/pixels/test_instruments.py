@@ -96,7 +96,7 @@ def test_a_disc_is_round_and_its_edge_is_smooth(stage):
         def draw(self) -> None:
             shapes, ink = Shapes(), Ink()
             shapes.disc(30, 30, 20, (1, 1, 1, 1))
-            ink.draw(shapes)
+            ink.fill(shapes)
             self.canvas.add(ink)
 
     picture = stage.pixels(stage.show(Dot(), size=(60, 60)))[..., 3].astype(float) / 255

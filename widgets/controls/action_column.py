@@ -139,7 +139,7 @@ class ActionColumn(Outlined, Control, BoxLayout):
 
     veiled = False
 
-    actions = ListProperty()
+    actions: ListProperty[Action] = ListProperty()
     """`Action` after `Action`, from the top."""
     hint = StringProperty("")
     """How else they can be worked, at the end of its title, as in `Tab next · Enter do it`; empty for nothing."""

@@ -70,7 +70,7 @@ Builder.load_string("""
 class Crosshair(Widget):
     """Takes no finger; its middle is the place."""
 
-    at = ListProperty([0.0, 0.0])
+    at: ListProperty[float] = ListProperty([0.0, 0.0])
     """Where it points [px, window]."""
     holds = BooleanProperty(False)
     """It has taken hold of what was there."""

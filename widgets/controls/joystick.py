@@ -16,11 +16,11 @@ from kivy.properties import AliasProperty, NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import Twist
-from widgets.controls.stick import DEAD, Stick
+from widgets.controls.stick import DEAD
+from widgets.controls.stick_caption import Captioned
 from widgets.core.canvas_ink import tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.controls.stick_caption import Captioned
 
 __all__ = ["DEAD", "Joystick"]
 
@@ -28,7 +28,7 @@ BELOW = 0.6
 """From the middle down to the caption, of the radius: on the inner ring, between the knob at rest and the arrow."""
 
 
-class Joystick(Captioned, Stick):
+class Joystick(Captioned):
     """Dispatches `on_command(twist)` at every change. It follows the finger that came down on it and no other."""
 
     sends = (Twist,)
@@ -110,7 +110,7 @@ class Joystick(Captioned, Stick):
             shapes.line(np.array([self.center, knob]), dp(5), theme.accent)
         shapes.disc(*knob, self.knob_radius, theme.accent)
         shapes.ring(*knob, self.knob_radius - dp(6), dp(2), tint(theme.knob, 0.6))
-        self._ink.draw(shapes)
+        self._ink.fill(shapes)
 
     def _arrow(self, index: int, radius: float) -> list[tuple[float, float]]:
         """A triangle that points outward: 0 ahead, and on anticlockwise by quarters."""

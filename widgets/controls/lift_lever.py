@@ -15,16 +15,16 @@ from kivy.properties import NumericProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
-from widgets.controls.stick import DEAD, Stick
+from widgets.controls.stick import DEAD
+from widgets.controls.stick_caption import Captioned
 from widgets.core.canvas_ink import tint
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
-from widgets.controls.stick_caption import Captioned
 
 __all__ = ["LiftLever"]
 
 
-class LiftLever(Captioned, Stick):
+class LiftLever(Captioned):
     """Dispatches `on_command(twist)` at every change: a climb and nothing else."""
 
     sends = (Twist,)
@@ -93,7 +93,7 @@ class LiftLever(Captioned, Stick):
             shapes.line(np.array([self.center, knob]), dp(5), theme.accent)
         shapes.disc(*knob, self.knob_radius, theme.accent)
         shapes.ring(*knob, self.knob_radius - dp(5), dp(2), tint(theme.knob, 0.6))
-        self._ink.draw(shapes)
+        self._ink.fill(shapes)
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

@@ -180,7 +180,7 @@ class RudderThrottle(Stick, Gauge):
         blade = np.array([-math.sin(turned), -math.cos(turned)]) * half * 0.34
         ink = theme.text if known else theme.faint
         shapes.line(np.stack([stern, stern + blade]), dp(4), ink)
-        shapes.disc(*stern, dp(3.2), ink)
+        shapes.disc(float(stern[0]), float(stern[1]), dp(3.2), ink)
 
     def _scale(
         self,

@@ -1,17 +1,17 @@
-"""What pushing a stick means, in a word or two on it.
+"""Caption of a stick: the meaning of a push, in a word or two below the knob.
 
-class Lever(Captioned, Stick):
+class Lever(Captioned):
     caption_drop = 40
 """
 
 from __future__ import annotations
 
-from kivy.event import EventDispatcher
 from kivy.graphics.texture import Texture
 from kivy.lang import Builder
 from kivy.metrics import sp
 from kivy.properties import AliasProperty, StringProperty
 
+from widgets.controls.stick import Stick
 from widgets.core.base import text_texture
 from widgets.core.theme import theme
 
@@ -35,8 +35,8 @@ Builder.load_string("""
 """)
 
 
-class Captioned(EventDispatcher):
-    """With a `Stick`: its caption stands below the knob, `caption_drop` under the middle."""
+class Captioned(Stick):
+    """A stick whose caption stands below the knob, `caption_drop` under the middle."""
 
     caption = StringProperty("")
     """What pushing it means, where that is not to drive and to turn, as in `climb · turn`."""
@@ -59,7 +59,7 @@ class Captioned(EventDispatcher):
     """The caption."""
 
     def _words_size(self) -> tuple[float, float]:
-        return self.words.size  # type: ignore[no-any-return]
+        return self.words.size
 
     words_size = AliasProperty(_words_size, bind=["words"], cache=True)
     """[px]; kv does not see a texture's size change."""

@@ -202,7 +202,7 @@ class Control(RobotWidget):
     sends: ClassVar[tuple[type[Msg], ...]] = ()
     """Types that `on_command` carries."""
 
-    __events__ = ("on_command",)
+    __events__: tuple[str, ...] = ("on_command",)
 
     def __init__(self, **kwargs: Any) -> None:
         kwargs.setdefault("state", "live")

@@ -2,7 +2,7 @@
 
 self.ink, self.words = Ink(), Words()
 self.canvas.add(self.ink), self.canvas.add(self.words.canvas)
-self.ink.draw(shapes)
+self.ink.fill(shapes)
 self.words.write([Word("N", x, y, sp(16), theme.danger)])
 """
 
@@ -112,7 +112,7 @@ class Ink(RenderContext):
         self._mesh = Mesh(fmt=FORMAT, mode="triangles")
         self.add(self._mesh)
 
-    def draw(self, shapes: Shapes) -> None:
+    def fill(self, shapes: Shapes) -> None:
         """Show these shapes instead of those before."""
         vertices, indices = shapes.arrays()
         # Kivy's mesh cannot be emptied: nothing is drawn as a triangle without area

@@ -104,7 +104,7 @@ class View:
         """The same as `to_screen` for an array of shape (n, 2)."""
         a, b = self.turn_scale, self.offset
         matrix = np.array([[a.real, a.imag], [-a.imag, a.real]])
-        return points @ matrix + (b.real, b.imag)
+        return np.asarray(points @ matrix + (b.real, b.imag))
 
     def moved(self, dx: float, dy: float) -> View:
         """The view after the world was dragged by (dx, dy) [px]."""
@@ -286,7 +286,7 @@ def scan_points(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], Points]:
     """Ranges [m], directions [rad] and points [m, x ahead, y left] of a sweep; what is not finite stays so."""
     measured = np.asarray(ranges, dtype=np.float64)
-    angles = angle_min + angle_increment * np.arange(len(measured))
+    angles: NDArray[np.float64] = angle_min + angle_increment * np.arange(len(measured), dtype=np.float64)
     units = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     with np.errstate(invalid="ignore"):
         return measured, angles, units * measured[:, None]
@@ -310,7 +310,7 @@ def thinned(points: Points, apart: float) -> Points:
     reached = np.floor(np.cumsum(steps) / apart)
     kept = np.concatenate([[True], np.diff(reached, prepend=0.0) > 0])
     kept[-1] = True
-    return points[kept]
+    return np.asarray(points[kept])
 
 
 def spread(points: Iterable[tuple[float, float]]) -> Points:

@@ -140,7 +140,7 @@ def _row(
     usual = few and not _is_header(value) if not parts else depth == 0
     opened = folds.get(path, usual)
     yield Row(
-        BRANCH, path, depth, name, kind, value, opened, unit if parts else _common_unit(type(value), unit)
+        BRANCH, path, depth, name, kind, value, opened, unit if parts else _common_unit(value.__class__, unit)
     )
     if not opened:
         return
@@ -261,7 +261,7 @@ def unit(row: Row) -> str:
     value = row.value
     if row.kind == BRANCH:
         closed = isinstance(value, Msg) and not row.open
-        figures = closed and _is_figures([getattr(value, name) for name, _, _ in _table(type(value))])
+        figures = closed and _is_figures([getattr(value, name) for name, _, _ in _table(value.__class__)])
         return spelled(row.unit) if figures else ""
     number_alone = row.kind == LEAF and isinstance(value, int | float) and not isinstance(value, bool)
     return spelled(row.unit) if number_alone else ""
@@ -318,7 +318,7 @@ def _summary(value: Any, now: float, *, opened: bool) -> str:
         return ""
     if _is_header(value):
         return _moment(value.stamp, now)
-    parts = [getattr(value, name) for name, _, _ in _table(type(value))]
+    parts = [getattr(value, name) for name, _, _ in _table(value.__class__)]
     if _is_figures(parts):
         return "  ".join(_plainly(part, 2) if math.isfinite(part) else DASH for part in parts)
     texts = [part for part in parts if isinstance(part, str) and part]

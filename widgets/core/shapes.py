@@ -219,4 +219,4 @@ def _mitres(points: Points) -> Points:
     after = np.concatenate([normals, normals[-1:]])
     middle = before + after
     squared = np.maximum((middle**2).sum(axis=1), 1e-9)
-    return middle * np.minimum(2.0 / squared, _MITRE / np.sqrt(squared))[:, None]
+    return np.asarray(middle * np.minimum(2.0 / squared, _MITRE / np.sqrt(squared))[:, None])

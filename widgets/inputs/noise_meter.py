@@ -85,7 +85,7 @@ class NoiseMeter(Drawing):
         shapes = Shapes()
         self._scale(shapes)
         words = [*self._title(), *self._below()]
-        self._ink.draw(shapes)
+        self._ink.fill(shapes)
         self._words.write(words, 1.0)
 
     def _place(self, level: float) -> float:

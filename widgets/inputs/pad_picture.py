@@ -51,15 +51,15 @@ class PadPicture(Control, Drawing):
         "nothing",
     )
 
-    left_stick = ListProperty([0.0, 0.0])
+    left_stick: ListProperty[float] = ListProperty([0.0, 0.0])
     """How far the left stick is pushed ahead and to the left, each -1 to 1."""
-    right_stick = ListProperty([0.0, 0.0])
+    right_stick: ListProperty[float] = ListProperty([0.0, 0.0])
     """The same of the right one."""
-    triggers = ListProperty([0.0, 0.0])
+    triggers: ListProperty[float] = ListProperty([0.0, 0.0])
     """How far the left and the right one are pressed, each 0 to 1."""
-    down = ListProperty()
+    down: ListProperty[str] = ListProperty()
     """Names of the buttons that are down, as SDL has them."""
-    stops = ListProperty(["b"])
+    stops: ListProperty[str] = ListProperty(["b"])
     """Names of those that are STOP."""
     dead_zone = NumericProperty(0.12)
     """Of the way of a stick, round its middle."""
@@ -120,7 +120,7 @@ class PadPicture(Control, Drawing):
             words.append(self._word(self.nothing, (WIDTH / 2, -0.5), 4.6, theme.muted))
         elif extra:
             words.append(self._word(f"Button {', '.join(extra)}", (WIDTH / 2, -0.5), 4.6, theme.accent))
-        self._ink.draw(shapes)
+        self._ink.fill(shapes)
         self._words.write(words, 1.0)
 
     def _role(self, name: str) -> Any:

@@ -38,7 +38,7 @@ class ScanKeyboard(ScanPad):
 
     text = StringProperty("")
     """What was typed so far."""
-    words = ListProperty()
+    words: ListProperty[str] = ListProperty()
     """What is likely to be typed, the likeliest first."""
     kind = OptionProperty("text", options=["text", "url", "number", "tel"])
     """What is typed: decides which letters come first."""

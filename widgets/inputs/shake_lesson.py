@@ -86,7 +86,7 @@ class ShakeLesson(Drawing):
             words.append(Word(icon("check"), x, y, half * 0.5, colour, font="Icons"))
         words.append(self._said(foot))
         self._bar(shapes, colour)
-        self._ink.draw(shapes)
+        self._ink.fill(shapes)
         self._words.write(words, 1.0)
 
     def _said(self, foot: float) -> Word:

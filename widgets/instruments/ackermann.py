@@ -69,7 +69,7 @@ class AckermannView(Gauge):
     """Of a wheel in the middle of the front axle [rad], positive left; NaN when not known."""
     radius = NumericProperty(math.nan)
     """Of the turn [m], positive left; infinite straight ahead, NaN when not known."""
-    wheels = ListProperty()
+    wheels: ListProperty[tuple[str, float, float]] = ListProperty()
     """Name, angle [rad] and speed at the rim [m/s] of each; NaN for what is not measured."""
 
     def __init__(self, **kwargs: Any) -> None:

@@ -63,7 +63,7 @@ class CommandedMotion(Gauge):
 
     kind = StringProperty("")
     """Of the order, as the message says it; empty before the first."""
-    figures = ListProperty()
+    figures: ListProperty[Figure] = ListProperty()
     """A `Figure` for each part that the order has."""
     target = NumericProperty(math.nan)
     """Depth or height that is held whatever the order says [m]; NaN for none."""

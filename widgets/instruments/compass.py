@@ -92,11 +92,11 @@ class Compass(Drawing):
         look = (self.side, theme.name, self.transparent, self.state)
         if look != self._card_look:
             self._card_look = look
-            self._card.draw(self._card_shapes())
+            self._card.fill(self._card_shapes())
         known = not math.isnan(self.heading)
         self._place.xy = self.center
         self._turn.angle = self.heading if known else 0.0
-        self._marks.draw(self._mark_shapes())
+        self._marks.fill(self._mark_shapes())
         strength = 1.0 if known else UNKNOWN
         self._card.fade(strength)
         self._marks.fade(strength)

@@ -58,12 +58,12 @@ class DepthGauge(Gauge):
     reach = NumericProperty(REACHES[1])
     """Depth at the lower end of the scale [m]; it grows at once and shrinks late."""
 
-    def _words(self) -> str:
+    def _figure_text(self) -> str:
         if math.isnan(self.depth):
             return DASH
         return figure(self.depth, 1 if self.depth < 99.95 else 0)
 
-    words = AliasProperty(_words, bind=["depth"], cache=True)
+    words = AliasProperty(_figure_text, bind=["depth"], cache=True)
     """The depth as written, in metres."""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -157,8 +157,8 @@ class DepthGauge(Gauge):
         for number in range(round(self.reach / step) + 1):
             deep = number * step
             y = top - deep / self.reach * span
-            ends = np.array([[bar_right - dp(9), y]]), np.array([[bar_right, y]])
-            shapes.segments(*ends, dp(1.5), theme.muted)
+            start, end = np.array([[bar_right - dp(9), y]]), np.array([[bar_right, y]])
+            shapes.segments(start, end, dp(1.5), theme.muted)
             yield Word(f"{deep:g}", right, y, sp(11.5), theme.muted, anchor=(1, 0.5))
         if math.isfinite(self.wanted):
             y = top - min(self.wanted, self.reach) / self.reach * span

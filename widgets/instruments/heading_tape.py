@@ -91,7 +91,7 @@ class HeadingTape(Glass, Drawing):
             words = [*self._strip(shapes)]
             self._wanted_mark(shapes)
         self._pointer(shapes, self.center_x, theme.accent, dp(9))
-        self._ink.draw(shapes)
+        self._ink.fill(shapes)
         self._words.write(words)
 
     def _strip(self, shapes: Shapes) -> Iterator[Word]:

@@ -59,12 +59,12 @@ class HeightTape(Gauge):
     max_climb = NumericProperty(1.0)
     """Upward speed of a full bar [m/s], above 0."""
 
-    def _words(self) -> str:
+    def _figure_text(self) -> str:
         if not math.isfinite(self.own_height):
             return DASH
         return figure(self.own_height, 1 if self.own_height < 99.95 else 0)
 
-    words = AliasProperty(_words, bind=["own_height"], cache=True)
+    words = AliasProperty(_figure_text, bind=["own_height"], cache=True)
     """The height as written, in metres."""
 
     def __init__(self, **kwargs: Any) -> None:

@@ -147,8 +147,8 @@ class ArtificialHorizon(Glass, Drawing):
         look = (self.radius, theme.name, self.state, self.known, *self.pos)
         if look != self._scale_look:
             self._scale_look = look
-            self._scale.draw(self._bank_scale())
-            self._frame.draw(self._aircraft())
+            self._scale.fill(self._bank_scale())
+            self._frame.fill(self._aircraft())
             dash = Word(DASH, *self.center, self.radius * 0.5, theme.text, bold=True)
             self._words.write([] if self.known else [dash])
         self._ladder.write(self._ladder_texts() if self.known else ())

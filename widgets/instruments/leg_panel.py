@@ -176,7 +176,7 @@ class LegPanel(Gauge):
             end = dial_point(angle, radius * 0.84)
             points = np.array([[x, y], [x + end[0], y + end[1]]])
             shapes.line(points, max(dp(3), radius * 0.15), theme.accent)
-            shapes.disc(*points[1], max(dp(3), radius * 0.15) / 2, theme.accent)
+            shapes.disc(x + end[0], y + end[1], max(dp(3), radius * 0.15) / 2, theme.accent)
         shapes.disc(x, y, max(dp(2.5), radius * 0.14), theme.text if math.isfinite(angle) else theme.faint)
 
     def _brief(self) -> Word:

@@ -75,9 +75,9 @@ class RollPitch(Gauge):
     """[rad], positive right side down; NaN when not known."""
     pitch = NumericProperty(math.nan)
     """[rad], positive bow down; NaN when not known."""
-    rolled = ListProperty()
+    rolled: ListProperty[float] = ListProperty()
     """Least and greatest roll of the last half minute [rad]; empty before the first."""
-    pitched = ListProperty()
+    pitched: ListProperty[float] = ListProperty()
     """Least and greatest pitch of the last half minute [rad]; empty before the first."""
     steep = NumericProperty(math.radians(20))
     """From here on an angle is a warning [rad]."""
@@ -246,7 +246,7 @@ def spread_of(angles: Sequence[float]) -> list[float]:
 def _turned(corners: Sequence[tuple[float, float]], angle: float) -> Points:
     """The corners turned anticlockwise by `angle` [rad]."""
     cos, sin = math.cos(angle), math.sin(angle)
-    return np.array(corners) @ np.array([[cos, sin], [-sin, cos]])
+    return np.asarray(np.array(corners) @ np.array([[cos, sin], [-sin, cos]]))
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

@@ -46,7 +46,7 @@ class RotorSpeeds(Gauge):
     accepts: ClassVar = (MotorArray,)
     drawn_from: ClassVar = ("rotors", "full", "warm", "hot")
 
-    rotors = ListProperty()
+    rotors: ListProperty[tuple[str, float, float]] = ListProperty()
     """Name, speed [rad/s] and temperature [degC] of each; NaN for what is not measured. Empty before the first."""
     full = NumericProperty(500.0)
     """Speed of a full scale [rad/s]: the fastest that was seen, if that is more."""

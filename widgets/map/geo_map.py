@@ -48,12 +48,12 @@ class GeoMap(MapOverlay):
     from the middle of the glass, which is some pixels at the edge of a tablet.
     """
 
-    drawn_from: ClassVar = (*MapOverlay.drawn_from, "tiles", "datum")
+    drawn_from: ClassVar[tuple[str, ...]] = (*MapOverlay.drawn_from, "tiles", "datum")
     may_turn = False
 
     tiles = StringProperty("")
     """Path of the MBTiles file; empty shows a plain ground. `MBTiles` says what is wrong with a file."""
-    datum = ObjectProperty(None, allownone=True)
+    datum: ObjectProperty[Datum | None] = ObjectProperty(None, allownone=True)
     """Where the map's origin is on earth, a `bridge.core.geo.Datum`; None while that is not known."""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -78,20 +78,15 @@ class GeoMap(MapOverlay):
             self.view = self.limited(self.view)
             self._fit_until_touched()
 
-    def _scale_at(self, zoom: float) -> float:
-        """Pixels to a metre at a zoom level of the pictures: the mean of east and north, which differ a little."""
-        source = self._pictures.map_source
-        near, east, north = (self.datum.to_geographic(*place) for place in ((0, 0), (PROBE, 0), (0, PROBE)))
-        wide = source.get_x(zoom, east[1]) - source.get_x(zoom, near[1])
-        high = source.get_y(zoom, north[0]) - source.get_y(zoom, near[0])
-        return math.sqrt(wide * high) / PROBE
-
     def limited(self, view: View) -> View:
         """The view north up, with a scale at which there are pictures."""
-        if self._pictures is None:
+        if self._pictures is None or self.datum is None:
             return super().limited(view)
-        source, middle = self._pictures.map_source, self._free_middle()
-        least, most = self._scale_at(source.min_zoom), self._scale_at(source.max_zoom) * OVER
+        source, datum, middle = self._pictures.map_source, self.datum, self._free_middle()
+        least, most = (
+            _scale_at(source, datum, source.min_zoom),
+            _scale_at(source, datum, source.max_zoom) * OVER,
+        )
         upright = View.centred(*view.to_world(*middle), at=middle, scale=view.scale)
         return upright.within(least, most, *middle)
 
@@ -99,17 +94,17 @@ class GeoMap(MapOverlay):
         """Bring the pictures below the marks."""
         self._ground.pos, self._ground.size = self.pos, self.size
         self._colour.rgba = tween(theme.bg, theme.surface, 0.6)
-        if self._pictures is None:
+        if self._pictures is None or self.datum is None:
             self._haze.size = 0, 0
             return
         self._haze.pos, self._haze.size = self.pos, self.size
         self._haze_colour.rgba = tint(theme.bg, HAZE[theme.name])
-        source = self._pictures.map_source
-        scale = self.view.scale / self._scale_at(source.min_zoom)
+        source, datum = self._pictures.map_source, self.datum
+        scale = self.view.scale / _scale_at(source, datum, source.min_zoom)
         zoom = min(source.min_zoom + int(math.log2(max(scale, 1.0)) + 1e-6), source.max_zoom)
-        middle = self.datum.to_geographic(*self.view.to_world(*self.center))
+        latitude, longitude = datum.to_geographic(*self.view.to_world(*self.center))
         self._pictures.pos, self._pictures.size = self.pos, self.size
-        self._pictures.look_at(*middle, zoom, self.view.scale / self._scale_at(zoom))
+        self._pictures.look_at(latitude, longitude, zoom, self.view.scale / _scale_at(source, datum, zoom))
 
     def _fill_robot(self, shapes: Shapes) -> Iterator[Word]:
         yield from super()._fill_robot(shapes)
@@ -120,6 +115,14 @@ class GeoMap(MapOverlay):
                 low += dp(24)  # above the legend
             text = self._pictures.map_source.attribution
             yield from outlined(Word(text, x + wide - dp(10), y + low, sp(11), theme.text, anchor=(1, 0)))
+
+
+def _scale_at(source: MBTiles, datum: Datum, zoom: float) -> float:
+    """Pixels to a metre at a zoom level of the pictures: the mean of east and north, which differ a little."""
+    near, east, north = (datum.to_geographic(*place) for place in ((0, 0), (PROBE, 0), (0, PROBE)))
+    wide = source.get_x(zoom, east[1]) - source.get_x(zoom, near[1])
+    high = source.get_y(zoom, north[0]) - source.get_y(zoom, near[0])
+    return math.sqrt(wide * high) / PROBE
 
 
 class _Pictures(MapView):

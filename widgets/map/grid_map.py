@@ -44,10 +44,10 @@ __all__ = ["GridMap", "fenced", "patrol", "samples"]
 class GridMap(MapOverlay):
     """The local map. Two fingers move, enlarge and turn it."""
 
-    accepts: ClassVar = (OccupancyGrid, *MapOverlay.accepts)
-    drawn_from: ClassVar = (*MapOverlay.drawn_from, "grid")
+    accepts: ClassVar[tuple[type[Msg], ...]] = (OccupancyGrid, *MapOverlay.accepts)
+    drawn_from: ClassVar[tuple[str, ...]] = (*MapOverlay.drawn_from, "grid")
 
-    grid = ObjectProperty(None, allownone=True, force_dispatch=True)
+    grid: ObjectProperty[OccupancyGrid | None] = ObjectProperty(None, allownone=True, force_dispatch=True)
     """The newest OccupancyGrid; None before the first."""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -87,7 +87,7 @@ class GridMap(MapOverlay):
         if self.grid is None:
             return spread([])
         info = self.grid.info
-        known = np.argwhere(self._numbers() >= 0)
+        known = np.argwhere(_numbers(self.grid) >= 0)
         if not len(known):
             return spread([])
         (low_row, low_column), (row, column) = known.min(axis=0), known.max(axis=0) + 1
@@ -97,37 +97,33 @@ class GridMap(MapOverlay):
         corners = [origin + ahead * complex(c, r) for c in (low_column, column) for r in (low_row, row)]
         return spread((z.real, z.imag) for z in corners)
 
-    def _numbers(self) -> NDArray[np.int8]:
-        info = self.grid.info
-        return np.frombuffer(self.grid.data, np.int8).reshape(info.height, info.width)
-
     def draw_ground(self) -> None:
         """Bring the ground, the grid and the squares up to date."""
         self._ground.pos, self._ground.size = self.pos, self.size
         self._ground_colour.rgba = tween(theme.bg, theme.surface, 0.6)
         shapes = Shapes()
         grid_lines(shapes, self.view, (*self.pos, *self.size), tint(theme.muted, 0.13))
-        self._squares.draw(shapes)
+        self._squares.fill(shapes)
         if self.grid is None:
             self._grid_colour.a = 0.0
             return
-        self._colour_grid()
-        self._place_grid()
+        self._colour_grid(self.grid)
+        self._place_grid(self.grid.info)
 
-    def _place_grid(self) -> None:
-        info, view = self.grid.info, self.view
+    def _place_grid(self, info: MapMetaData) -> None:
+        view = self.view
         position = info.origin.position
         self._shift.xy = view.to_screen(position.x, position.y)
         self._turn.angle = screen_angle(view.turn + info.origin.orientation.yaw)
         self._scale.x = self._scale.y = view.scale * info.resolution
         self._cells.size = info.width, info.height
 
-    def _colour_grid(self) -> None:
-        look = (id(self.grid), theme.name)
+    def _colour_grid(self, grid: OccupancyGrid) -> None:
+        look = (id(grid), theme.name)
         if look == self._texture_look:
             return
         self._texture_look = look
-        numbers = self._numbers()
+        numbers = _numbers(grid)
         free, unknown = theme.surface, tint(theme.bg, 0.0)
         pixels = occupancy_pixels(numbers, free, tween(theme.line, theme.muted, 0.45), unknown)
         size = (numbers.shape[1], numbers.shape[0])
@@ -149,6 +145,10 @@ def _parking_lot() -> OccupancyGrid:
             cells[row + 2 : row + 40, column + 2 : column + 16] = 84
     info = MapMetaData(resolution=0.1, width=360, height=240, origin=Pose(Point(-18.0, -12.0)))
     return OccupancyGrid(info=info, data=Int8Array(cells.tobytes()))
+
+
+def _numbers(grid: OccupancyGrid) -> NDArray[np.int8]:
+    return np.frombuffer(grid.data, np.int8).reshape(grid.info.height, grid.info.width)
 
 
 def patrol(map_: MapOverlay) -> None:
@@ -187,7 +187,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         fence: bool = False,
         size: tuple[float, float] = (760, 500),
         **more: Any,
-    ) -> Any:
+    ) -> Callable[[], GridMap]:
         def build() -> GridMap:
             map_ = GridMap(size_hint=(None, None), size=(dp(size[0]), dp(size[1])), **more)
             if grid:

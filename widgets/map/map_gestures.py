@@ -49,22 +49,22 @@ class Grip:
 class MapGestures(Widget):
     """Fingers on a map, as changes of the view and as events in world coordinates [m]."""
 
-    view = ObjectProperty(View())
+    view: ObjectProperty[View] = ObjectProperty(View())
     """How the world lies on the screen, a `View`."""
     mode = OptionProperty("view", options=("view", "points", "home", "place", "place_robot"))
     """What a tap or a drag means: look only; add, select and move waypoints; set home; make and open named places;
     say where the robot is."""
-    waypoints = ListProperty()
+    waypoints: ListProperty[tuple[float, float]] = ListProperty()
     """Places to pass in order, (x, y) in `map` [m]."""
-    selected = NumericProperty(-1)
+    selected: NumericProperty[int] = NumericProperty(-1)
     """Index of the selected waypoint; -1 for none."""
-    home = ListProperty()
+    home: ListProperty[float] = ListProperty()
     """The place to return to, (x, y) in `map` [m]; empty when it is not set."""
-    places = ListProperty()
+    places: ListProperty[tuple[float, float, str, str]] = ListProperty()
     """Places that have names: x, y in `map` [m], name, kind."""
-    placed = ListProperty()
+    placed: ListProperty[float] = ListProperty()
     """Where the operator is putting the robot: x, y [m], yaw [rad]; empty unless `mode` is `place_robot`."""
-    grip = ObjectProperty(None, allownone=True)
+    grip: ObjectProperty[Grip | None] = ObjectProperty(None, allownone=True)
     """What a finger holds just now, a `Grip`, or None."""
 
     __events__ = (
@@ -148,7 +148,7 @@ class MapGestures(Widget):
     def on_touch_move(self, touch: MotionEvent) -> bool:
         """Follow the map's own fingers."""
         if touch.grab_current is not self or touch.uid not in self._fingers:
-            return super().on_touch_move(touch)
+            return bool(super().on_touch_move(touch))
         before = dict(self._fingers)
         self._fingers[touch.uid] = complex(*touch.pos)
         if len(before) > 1:
@@ -162,7 +162,7 @@ class MapGestures(Widget):
     def on_touch_up(self, touch: MotionEvent) -> bool:
         """Let go of what the finger held, or take it as a tap."""
         if touch.grab_current is not self or touch.uid not in self._fingers:
-            return super().on_touch_up(touch)
+            return bool(super().on_touch_up(touch))
         touch.ungrab(self)
         self._held.cancel()
         del self._fingers[touch.uid]
@@ -227,7 +227,8 @@ class MapGestures(Widget):
 
     def handle_reach(self) -> float:
         """From the robot being placed to its handle [px]; the handle stays on the map."""
-        return handle_reach(self.view, tuple(self.placed), (*self.pos, *self.size))
+        x, y, yaw = self.placed
+        return handle_reach(self.view, (x, y, yaw), (*self.pos, *self.size))
 
     def handle_place(self) -> tuple[float, float]:
         """Where the handle is that turns the robot being placed [m]."""

@@ -60,7 +60,7 @@ def trail_line(shapes: Shapes, view: View, trail: Points) -> None:
     for piece, strength in zip(np.split(trail, jumps), strengths, strict=True):
         seen = thinned(view.many_to_screen(piece), dp(2.5))
         colours = np.tile(np.asarray(theme.accent, dtype=np.float32), (len(seen), 1))
-        colours[:, 3] = np.linspace(*strength[[0, -1]], len(seen)) if len(seen) else 0.0
+        colours[:, 3] = np.linspace(strength[0], strength[-1], len(seen)) if len(seen) else 0.0
         shapes.line(seen, dp(7), tint(theme.bg, 0.35))
         shapes.line(seen, dp(4), colours)
 

@@ -51,39 +51,45 @@ NOTHING = np.zeros((0, 2))
 class MapOverlay(MapGestures, Drawing):
     """The robot and its task on a map. Everything is in the `map` frame: x east, y north [m]."""
 
-    accepts: ClassVar = (PoseWithCovarianceStamped, Path, IntruderArray, LaserScan, Limits)
-    drawn_from: ClassVar = (
+    accepts: ClassVar[tuple[type[Msg], ...]] = (
+        PoseWithCovarianceStamped,
+        Path,
+        IntruderArray,
+        LaserScan,
+        Limits,
+    )
+    drawn_from: ClassVar[tuple[str, ...]] = (
         "view", "waypoints", "selected", "home", "placed", "grip", "mode", "robot", "robot_radius", "camera_fov",
         "plan", "places", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets", "fence", "foot",
     )  # fmt: skip
 
-    robot = ListProperty([math.nan] * 3)
+    robot: ListProperty[float] = ListProperty([math.nan] * 3)
     """Where it believes to be: x, y [m], yaw [rad]; NaN before the first pose."""
     robot_radius = NumericProperty(0.2)
     """Of the robot itself [m]; its disc never gets smaller than that on the map."""
     camera_fov = NumericProperty(math.nan)
     """Horizontal field of view of its camera [rad]; NaN draws none."""
-    plan = ObjectProperty(NOTHING, force_dispatch=True)
+    plan: ObjectProperty[Points] = ObjectProperty(NOTHING, force_dispatch=True)
     """The way it means to take, shape (n, 2) [m]."""
-    intruders = ListProperty()
+    intruders: ListProperty[tuple[float, float, str]] = ListProperty()
     """What does not belong here: (x, y, label), [m]."""
-    laser = ObjectProperty(NOTHING, force_dispatch=True)
+    laser: ObjectProperty[Points] = ObjectProperty(NOTHING, force_dispatch=True)
     """What the laser hit, shape (n, 2) [m], placed by the pose known when the sweep came."""
     show_laser = BooleanProperty(False)
     """Draw what the laser hits."""
-    fence = ObjectProperty(Fence())
+    fence: ObjectProperty[Fence] = ObjectProperty(Fence())
     """Where it may be, a `Fence`; waypoints, home and places that it would refuse are marked."""
     foot = NumericProperty(0)
     """How far above the lower edge of what is free the scale and the legend begin [px]; NaN draws neither."""
-    visited = NumericProperty(0)
+    visited: NumericProperty[int] = NumericProperty(0)
     """How many of the first waypoints are done; they are drawn filled."""
-    coming = NumericProperty(-1)
+    coming: NumericProperty[int] = NumericProperty(-1)
     """Index of the waypoint it is heading for; -1 for none."""
     motion_name = OptionProperty("loop", options=("loop", "random", "intermittent"))
     """How the waypoints follow each other: round and round, in any order, or round with a stay at each."""
     follow = BooleanProperty(False)
     """Keep the robot in the middle; a finger that moves the map ends that."""
-    insets = ListProperty([0, 0, 0, 0])
+    insets: ListProperty[float] = ListProperty([0, 0, 0, 0])
     """How much is covered by what lies over the map [px]: left, bottom, right, top."""
 
     veils: ClassVar = {"disabled": VEIL["disabled"]}
@@ -105,7 +111,7 @@ class MapOverlay(MapGestures, Drawing):
     badge_pos = AliasProperty(_badge_pos, bind=["badge_size", "free_box", "badge_span"], cache=True)
     """The age stands at the top of what is free."""
 
-    badge_span = ListProperty([0, 0])
+    badge_span: ListProperty[float] = ListProperty([0, 0])
     """From where to where along that top nothing lies, x [px]; zeros for all of it."""
 
     def _mark_radius(self) -> float:
@@ -132,8 +138,8 @@ class MapOverlay(MapGestures, Drawing):
         for ink, words in self._layers:
             self.canvas.add(ink)
             self.canvas.add(words.canvas)
-        for part in (StencilUnUse(), self._clip[1], StencilPop()):
-            self.canvas.after.add(part)
+        for last in (StencilUnUse(), self._clip[1], StencilPop()):
+            self.canvas.after.add(last)
         self.bind(pos=self._lay_out, size=self._lay_out, insets=self._lay_out)
         self._lay_out()
 
@@ -272,7 +278,7 @@ class MapOverlay(MapGestures, Drawing):
         for (ink, words), fill in zip(self._layers, (self._fill_task, self._fill_robot), strict=True):
             shapes = Shapes()
             words.write(list(fill(shapes)))
-            ink.draw(shapes)
+            ink.fill(shapes)
 
     def draw_ground(self) -> None:
         """Bring what lies below the marks up to date."""
@@ -285,7 +291,7 @@ class MapOverlay(MapGestures, Drawing):
             shapes = Shapes()
             if self.fence:
                 fence_marks.fence_lines(shapes, self.view, self.fence, (*self.pos, *self.size))
-            self._fence_ink.draw(shapes)
+            self._fence_ink.fill(shapes)
 
     def _fill_task(self, shapes: Shapes) -> Iterator[Word]:
         view, places, home = self.view, self._places(), self._home_place()
@@ -311,7 +317,7 @@ class MapOverlay(MapGestures, Drawing):
         if not self.fence:
             return
         sizes = [(place, self.mark_radius) for place in waypoints]
-        sizes += [(tuple(home[:2]), self.mark_radius * 0.9)] if home else []
+        sizes += [((home[0], home[1]), self.mark_radius * 0.9)] if home else []
         sizes += [(place[:2], self.mark_radius * 0.8) for place in self.places if place[3] != "dock"]
         for (x, y), size in sizes:
             if self.fence.forbids(x, y, self.robot_radius):
@@ -320,14 +326,16 @@ class MapOverlay(MapGestures, Drawing):
     def _fill_robot(self, shapes: Shapes) -> Iterator[Word]:
         yield from self._alarms(shapes)
         if self.located:
-            self._robot_shapes(shapes, tuple(self.robot), faded=self.state == "stale")
+            x, y, yaw = self.robot
+            self._robot_shapes(shapes, (x, y, yaw), faded=self.state == "stale")
         else:
             x, y = self._free_middle()
             word = Word("No position has come yet", x, y, sp(16), theme.text)
             ground(shapes, word, tint(theme.bg, 0.85))
             yield word
         if self.placed:
-            pose = tuple(self.placed)
+            x, y, yaw = self.placed
+            pose = (x, y, yaw)
             word, _ = marks.place_handle(shapes, self.view, pose, self.mark_radius, self.handle_reach())
             marks.ghost_mark(shapes, self.view, pose, self._robot_disc())
             yield word
@@ -354,9 +362,9 @@ class MapOverlay(MapGestures, Drawing):
         )  # fmt: skip
 
     def _robot_disc(self) -> float:
-        return max(self.mark_radius * 1.1, self.robot_radius * self.view.scale)
+        return float(max(self.mark_radius * 1.1, self.robot_radius * self.view.scale))
 
-    def _robot_shapes(self, shapes: Shapes, pose: tuple[float, ...], *, faded: bool) -> None:
+    def _robot_shapes(self, shapes: Shapes, pose: tuple[float, float, float], *, faded: bool) -> None:
         alarm = self.state == "alarm"
         fov = math.nan if faded else self.camera_fov
         marks.robot_mark(shapes, self.view, pose, self._robot_disc(), fov=fov, faded=faded, alarm=alarm)

@@ -157,7 +157,7 @@ class PushButton(Pressable, AnchorLayout):
     def on_meaning(self, *_: object) -> None:
         """Let go of a finger that is down, and take none for a while."""
         if self._meant:
-            if self.state == "down":
+            if self.state == "down" and self.last_touch is not None:
                 self.last_touch.ungrab(self)
                 self.state = "normal"
             self._settling.cancel()

@@ -205,7 +205,7 @@ class SheetGrip(Widget):
 class Sheet(BoxLayout):
     """The card at the bottom of a phone: pull it by its upper edge; it comes to rest at one of `detents`."""
 
-    detents = ListProperty([120.0, 348.0])
+    detents: ListProperty[float] = ListProperty([120.0, 348.0])
     """Heights that it rests at [px], least first."""
     detent = NumericProperty(0)
     """Index of the height that it rests at or moves to."""

@@ -90,7 +90,7 @@ class Segment(ButtonBehavior, Label):
     chosen = BooleanProperty(False)
     first = BooleanProperty(False)
     """Has no line before it."""
-    radii = ListProperty([0, 0, 0, 0])
+    radii: ListProperty[float] = ListProperty([0, 0, 0, 0])
     """Of its corners [px]: only the ends of the row are round."""
     text_size_px = NumericProperty("16sp")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from kivy.input import MotionEvent
 from kivy.lang import Builder
 from kivy.metrics import dp, sp
 from kivy.properties import AliasProperty, BooleanProperty, NumericProperty, StringProperty
@@ -209,7 +210,7 @@ class Chip(Pressable, BoxLayout):
         reach = max(0.0, theme.target - self.height) / 2 if self.pressable else 0.0
         return self.x <= x <= self.right and self.y - reach <= y <= self.top + reach
 
-    def on_touch_down(self, touch: object) -> bool:
+    def on_touch_down(self, touch: MotionEvent) -> bool:
         """Leave the finger alone unless this one is there to be pressed."""
         return bool(self.pressable and super().on_touch_down(touch))
 

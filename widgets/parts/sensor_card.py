@@ -64,7 +64,7 @@ class Gauge(Glass, Drawing):
         """Bring the picture up to date."""
         shapes = Shapes()
         words = list(self.marks(shapes))
-        self._ink.draw(shapes)
+        self._ink.fill(shapes)
         self._words.write(words)
 
     def marks(self, shapes: Shapes) -> Iterator[Word]:

@@ -85,7 +85,7 @@ class TextField(TextInput):
     label_texture = AliasProperty(_label_texture, bind=["label"], cache=True)
 
     def _label_size(self) -> tuple[float, float]:
-        return tuple(self.label_texture.size)
+        return self.label_texture.size
 
     label_size = AliasProperty(_label_size, bind=["label_texture"], cache=True)
     """[px]"""

@@ -39,7 +39,7 @@ class EncodersView(Gauge):
     accepts: ClassVar = (JointState,)
     drawn_from: ClassVar = ("wheels", "full")
 
-    wheels = ListProperty()
+    wheels: ListProperty[tuple[str, float, float]] = ListProperty()
     """Name, speed [rad/s] and angle [rad] of each; NaN for what is not measured. Empty before the first."""
     full = NumericProperty(LEAST_FULL)
     """Speed of a full bar [rad/s]: the fastest that was seen."""
@@ -94,7 +94,7 @@ class EncodersView(Gauge):
         text_y = middle + (dp(5) if roomy else 0)
         shown = figure(speed, 1) + (unit if math.isfinite(speed) else "")
         yield Word(shown, right, text_y, size, theme.text, bold=True, anchor=(1, 0.5))
-        names = (name, name[:1].upper())
+        names: tuple[str, ...] = (name, name[:1].upper())
         if roomy:
             names = (f"{name} · {_turns(angle)}", *names)
         label = first_fitting(names, size, right - left - dp(8) - wide(shown, size, bold=True))

@@ -83,7 +83,9 @@ class FieldView(RobotWidget, FloatLayout):
 
     accepts = (Msg,)
 
-    message = ObjectProperty(None, allownone=True, comparator=lambda one, other: one is other)
+    message: ObjectProperty[Msg | None] = ObjectProperty(
+        None, allownone=True, comparator=lambda one, other: one is other
+    )
     """The newest; None before the first."""
     type = ObjectProperty(None, allownone=True)
     """Class of what is awaited: before the first message its fields are shown with dashes. None for any."""
@@ -91,9 +93,9 @@ class FieldView(RobotWidget, FloatLayout):
     """The robot's clock [s]; NaN leaves ages away."""
     folds = DictProperty()
     """Paths that a finger has opened (True) or folded (False)."""
-    lines = ListProperty()
+    lines: ListProperty[Row] = ListProperty()
     """Rows of the tree, as `widgets.core.message_fields.rows` gives them."""
-    edges = ListProperty([0.0])
+    edges: ListProperty[float] = ListProperty([0.0])
     """Where each row begins from the top, and where the last one ends [px]."""
 
     def _length(self) -> float:

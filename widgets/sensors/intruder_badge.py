@@ -131,7 +131,7 @@ class IntruderBadge(Drawing):
         """Bring ground, arrow and words up to date."""
         shapes = Shapes()
         self._words.write(list(self._found(shapes) if self.count > 0 else self._quiet(shapes)))
-        self._ink.draw(shapes)
+        self._ink.fill(shapes)
 
     def _quiet(self, shapes: Shapes) -> Iterator[Word]:
         old = age_text(self.age) if self.state == "stale" else ""

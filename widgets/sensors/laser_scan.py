@@ -41,7 +41,7 @@ class LaserScanView(Glass, Drawing):
     accepts: ClassVar = (LaserScan,)
     drawn_from: ClassVar = ("scan", "title", "rate", "reach", "near", "close", "card")
 
-    scan = ObjectProperty(None, allownone=True, force_dispatch=True)
+    scan: ObjectProperty[LaserScan | None] = ObjectProperty(None, allownone=True, force_dispatch=True)
     """The newest LaserScan; None before the first."""
     title = StringProperty("Laser")
     """Name of the sensor."""
@@ -91,7 +91,7 @@ class LaserScanView(Glass, Drawing):
         for word in words:
             ground(shapes, word, tint(theme.surface, 0.85))
         shapes.polygon(arrow(x, y, AHEAD, dp(15)), theme.text)
-        self._ink.draw(shapes)
+        self._ink.fill(shapes)
         self._words.write(words)
 
     def _returns(self, scan: LaserScan) -> tuple[NDArray[np.float64], NDArray[np.float64], Points]:
@@ -156,7 +156,7 @@ class LaserScanView(Glass, Drawing):
 
     def _colours(self, measured: NDArray[np.float64]) -> NDArray[np.float32]:
         roles = np.array([theme.danger, theme.warn, theme.accent], np.float32)
-        return roles[(measured >= self.close).astype(int) + (measured >= self.near)]
+        return np.asarray(roles[(measured >= self.close).astype(int) + (measured >= self.near)])
 
     def _header(self) -> Iterator[Word]:
         yield from self._name()
@@ -190,7 +190,7 @@ def _goes_round(angles: NDArray[np.float64]) -> bool:
     """The last beam has the first for its neighbour."""
     if len(angles) < 3:
         return False
-    return math.tau - abs(angles[-1] - angles[0]) < 1.5 * abs(angles[1] - angles[0])
+    return bool(math.tau - abs(angles[-1] - angles[0]) < 1.5 * abs(angles[1] - angles[0]))
 
 
 def _farthest(measured: NDArray[np.float64], range_max: float) -> float:

@@ -63,7 +63,7 @@ class SonarRingView(Gauge):
     accepts: ClassVar = (SonarRing, Bumper)
     drawn_from: ClassVar = ("ring", "pressed", "contact", "reach", "near", "close")
 
-    ring = ObjectProperty(None, allownone=True, force_dispatch=True)
+    ring: ObjectProperty[SonarRing | None] = ObjectProperty(None, allownone=True, force_dispatch=True)
     """The newest SonarRing; None before the first."""
     pressed = NumericProperty(math.nan)
     """The bumper is touched: 1 or 0; NaN before it has told anything."""
@@ -115,7 +115,7 @@ class SonarRingView(Gauge):
             return DASH
         away = float(self.told[1][self.nearest])
         if math.isinf(away):
-            return "clear" if away > 0 else f"<{self.ring.range_min * 100:.0f} cm"
+            return "clear" if away > 0 else f"<{(self.ring or SonarRing()).range_min * 100:.0f} cm"
         return away_text(away)
 
     @property
@@ -179,7 +179,10 @@ class SonarRingView(Gauge):
         x, y, radius, scale, body = place
         if not math.isfinite(yaw):
             return
-        half = min(max(self.ring.field_of_view / 2, math.radians(4)), math.pi / max(len(self.told[0]), 4))
+        half = min(
+            max((self.ring or SonarRing()).field_of_view / 2, math.radians(4)),
+            math.pi / max(len(self.told[0]), 4),
+        )
         if math.isnan(away):
             shapes.sector(x, y, radius, yaw=yaw, half_angle=half * 0.9, colour=tint(theme.muted, 0.12))
             return

@@ -49,7 +49,7 @@ class UltrasoundView(Gauge):
 
     echoes = DictProperty()
     """The newest Range by frame."""
-    silent = ListProperty()
+    silent: ListProperty[str] = ListProperty()
     """Frames that have told nothing for a while in which others did."""
     reach = NumericProperty(2.0)
     """Distance at the end of a cone [m]; what is farther is told in figures only."""

@@ -63,15 +63,15 @@ class Video(Drawing):
         "below", "marks", "field_of_view",
     )  # fmt: skip
 
-    frame_size = ListProperty([0, 0])
+    frame_size: ListProperty[int] = ListProperty([0, 0])
     """Width and height of the picture [pixel]; 0 before the first."""
     fit = OptionProperty("cover", options=("cover", "contain"))
     """Fill the frame and cut the picture, or show all of it."""
-    taken_size = ListProperty([0, 0])
+    taken_size: ListProperty[int] = ListProperty([0, 0])
     """Width and height of the picture as it was taken [pixel]; more than `frame_size` where it was made smaller on its way."""
-    boxes = ListProperty()
+    boxes: ListProperty[tuple[str, float, float, float, float, float]] = ListProperty()
     """What was recognised: (label, score, left, top, width, height), from the top left corner of the picture as taken [pixel]."""
-    marks = ListProperty()
+    marks: ListProperty[tuple[str, float]] = ListProperty()
     """What is known to be somewhere: (label, direction [rad, 0 ahead, positive left]), also where it is not in the picture."""
     field_of_view = NumericProperty(math.nan)
     """Horizontal, of the camera, which looks ahead [rad]; NaN when not known, and then nothing is marked."""
@@ -85,7 +85,7 @@ class Video(Drawing):
     """Say size, rate and latency in the corner."""
     corner = NumericProperty("12dp")
     """Radius of the frame's corners [px]; 0 for a picture that fills the glass."""
-    insets = ListProperty([0, 0, 0, 0])
+    insets: ListProperty[float] = ListProperty([0, 0, 0, 0])
     """How much is covered by what lies over the picture [px]: left, bottom, right, top; the chip keeps clear of it."""
     below = NumericProperty(math.inf)
     """Lower edge of what lies over the picture for now [px]: the sentence stands under it where there is room."""
@@ -99,7 +99,8 @@ class Video(Drawing):
         if not all(self.frame_size):
             return self.width, self.height
         scaled = cover if self.fit == "cover" else contain
-        return scaled(*self.frame_size, *self.size)
+        wide, high = self.frame_size
+        return scaled(wide, high, self.width, self.height)
 
     picture_size = AliasProperty(_picture_size, bind=["frame_size", "size", "fit"], cache=True)
     """Size of the whole picture on the glass, also where it is cut off [px]."""
@@ -170,7 +171,7 @@ class Video(Drawing):
         self._frame.radius = [max(self.corner, 0.01)]
         shapes = Shapes()
         self._words.write([*self._box_marks(shapes), *self._pointers(shapes), *self._sentence()])
-        self._ink.draw(shapes)
+        self._ink.fill(shapes)
         self._draw_chip()
 
     def _fills(self) -> bool:
@@ -239,7 +240,7 @@ class Video(Drawing):
     def _across(self, angle: float) -> float:
         """Column of the picture as taken [pixel] that looks in a direction [rad]; far outside for what is behind."""
         ahead = max(-1.5, min(1.5, angle))
-        return self.taken_size[0] / 2 * (1 - math.tan(ahead) / math.tan(self.field_of_view / 2))
+        return float(self.taken_size[0]) / 2 * (1 - math.tan(ahead) / math.tan(self.field_of_view / 2))
 
     def _pointer(
         self, shapes: Shapes, place: tuple[float, tuple[float, float]], label: str, turn: float

@@ -137,7 +137,7 @@ class CheckList(Outlined, RobotWidget, BoxLayout):
     """Says each sentence; folded it is one line."""
     brief = BooleanProperty(False)
     """Only what is not good is said, where there is little room."""
-    checks = ListProperty()
+    checks: ListProperty[Check] = ListProperty()
     """As they came, of `Check`; empty before the first list, and then nothing is drawn."""
     wide = NumericProperty("330dp")
     """As wide as it is unfolded [px]; folded it is as wide as its words, so that fingers beside it reach what is below."""

@@ -85,9 +85,9 @@ class EventLog(RobotWidget, FloatLayout):
     """Events in the list."""
     acts = BooleanProperty(False)
     """A finger can say that one has been seen to."""
-    asked = ListProperty()
+    asked: ListProperty[tuple[str, int]] = ListProperty()
     """Run and number of those of which the robot is being told that they have been seen to."""
-    missed = ListProperty()
+    missed: ListProperty[tuple[str, int]] = ListProperty()
     """Run and number of those that happened while nobody listened here."""
     head = StringProperty("")
     """What is said above the newest of those; empty for nothing."""
@@ -181,7 +181,8 @@ class EventLog(RobotWidget, FloatLayout):
         }
 
     def _write(self, *_: object) -> None:
-        asked, missed = {tuple(key) for key in self.asked}, {tuple(key) for key in self.missed}
+        asked = {(run, number) for run, number in self.asked}
+        missed = {(run, number) for run, number in self.missed}
         rows = [self._row(event, asked, missed) for event in self.events]
         first = next((index for index, row in enumerate(rows) if row["missed"]), None)
         if self.head and first is not None:

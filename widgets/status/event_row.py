@@ -223,7 +223,7 @@ class EventRow(RecycleDataViewBehavior, BoxLayout):
     """Somebody has to see to it."""
     missed = BooleanProperty(False)
     """It happened while nobody listened here."""
-    act = ObjectProperty(None, allownone=True)
+    act: ObjectProperty[Callable[[], object] | None] = ObjectProperty(None, allownone=True)
     """Called when a finger says that it has been seen to; None where that cannot be said."""
 
     def refresh_view_attrs(self, rv: Any, index: int, data: dict[str, Any]) -> None:

@@ -117,7 +117,7 @@ class Ticks(Drawing, Widget):
             x = left + (right - left) * self.value / MOST
             shapes.disc(x, y, dp(12), theme.accent)
             shapes.ring(x, y, dp(8), dp(2), theme.ink_accent)
-        self._ink.draw(shapes)
+        self._ink.fill(shapes)
         low = self.y + dp(10)
         self._words.write(
             [

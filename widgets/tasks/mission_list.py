@@ -37,7 +37,7 @@ class MissionList(Listing):
     accepts = (GetMissionsResponse,)
     sends = (KeptMission,)
 
-    missions = ListProperty()
+    missions: ListProperty[KeptMission] = ListProperty()
     """Every `KeptMission`."""
     chosen = StringProperty("")
     """Name of the one that is looked at; empty for none."""

@@ -98,7 +98,7 @@ class OrderForm(Control, BoxLayout):
 
     task = StringProperty("")
     """As TaskOrder has it; empty for none yet."""
-    places = ListProperty()
+    places: ListProperty[str] = ListProperty()
     """Names in their order; empty where one is not chosen yet."""
     message = StringProperty("")
     recipient_tag = StringProperty("")
@@ -112,9 +112,9 @@ class OrderForm(Control, BoxLayout):
     """[m], below water negative; NaN for the usual or the present one."""
     duration = NumericProperty(math.nan)
     """[s]; NaN until stopped."""
-    robot = ObjectProperty(RobotInfo())
+    robot: ObjectProperty[RobotInfo] = ObjectProperty(RobotInfo())
     """Who it is for: what it can do decides what is asked for, and how fast and how high."""
-    mission = ObjectProperty(Mission())
+    mission: ObjectProperty[Mission] = ObjectProperty(Mission())
     """Where a patrol goes when no places are named."""
     follows = BooleanProperty(True)
     """The robot can tell whether somebody follows it."""

@@ -42,7 +42,7 @@ class OrderQueue(Control, BoxLayout):
 
     accepts = (TaskQueue,)
 
-    orders = ListProperty()
+    orders: ListProperty[TaskOrder] = ListProperty()
     """Every `TaskOrder` that waits, the next one first."""
     waits = BooleanProperty(False)
     """The robot has not confirmed what is shown."""

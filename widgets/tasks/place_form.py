@@ -85,7 +85,7 @@ class PlaceForm(Control, BoxLayout):
     accepts = (Place, PoseWithCovarianceStamped)
     sends = (Place,)
 
-    shown = ObjectProperty(Place())
+    shown: ObjectProperty[Place] = ObjectProperty(Place())
     """The place as it came."""
     name = StringProperty("")
     kind = StringProperty("place")
@@ -94,13 +94,13 @@ class PlaceForm(Control, BoxLayout):
     note = StringProperty("")
     yaw = NumericProperty(math.nan)
     """Direction to stand in [rad]; NaN for any."""
-    taken = ListProperty()
+    taken: ListProperty[str] = ListProperty()
     """Names of the other places."""
 
     def _place(self) -> Place:
         was = self.shown
-        words = [text.strip() for text in (self.name, self.kind, self.floor)]
-        return Place(was.id, *words, was.x, was.y, self.yaw, self.tag.strip(), self.note.strip())
+        name, kind, floor = (text.strip() for text in (self.name, self.kind, self.floor))
+        return Place(was.id, name, kind, floor, was.x, was.y, self.yaw, self.tag.strip(), self.note.strip())
 
     place = AliasProperty(_place, bind=["shown", "name", "kind", "floor", "tag", "note", "yaw"])
     """What it says so far."""

@@ -93,13 +93,13 @@ class PlaceList(Control, BoxLayout):
     accepts = (PlaceArray, PoseWithCovarianceStamped)
     sends = (Place,)
 
-    places = ListProperty()
+    places: ListProperty[Place] = ListProperty()
     """Every `Place` that there is."""
-    robot = ListProperty([math.nan, math.nan])
+    robot: ListProperty[float] = ListProperty([math.nan, math.nan])
     """Where the robot is: x, y [m]; NaN while that is not known."""
     search = StringProperty("")
     """What is looked for; empty shows all."""
-    chosen = ListProperty()
+    chosen: ListProperty[str] = ListProperty()
     """Names of the places that stand out."""
     nothing = StringProperty("No place has a name yet: hold a finger on the map to make one.")
     """What to say while there are no places."""

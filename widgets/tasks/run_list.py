@@ -43,7 +43,7 @@ class RunList(Listing):
 
     accepts = (GetHistoryResponse,)
 
-    runs = ListProperty()
+    runs: ListProperty[TaskRun] = ListProperty()
     """Every `TaskRun` known here, newest first."""
     more = BooleanProperty(False)
     """There may be older ones at the robot."""

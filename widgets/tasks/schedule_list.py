@@ -32,7 +32,7 @@ class ScheduleList(Listing):
 
     __events__ = ("on_open",)
 
-    tasks = ListProperty()
+    tasks: ListProperty[ScheduledTask] = ListProperty()
     """Every `ScheduledTask`."""
     nothing = StringProperty("Nothing starts by itself.")
     now = NumericProperty(math.nan)

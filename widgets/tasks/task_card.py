@@ -95,9 +95,9 @@ class TaskCard(Outlined, RobotWidget, Column):
 
     brief = BooleanProperty(False)
     """Takes little room: the reason on one line, no figures."""
-    status = ObjectProperty(TaskStatus())
+    status: ObjectProperty[TaskStatus] = ObjectProperty(TaskStatus())
     """The newest TaskStatus."""
-    told = ObjectProperty(None, allownone=True)
+    told: ObjectProperty[TaskProgress | None] = ObjectProperty(None, allownone=True)
     """The newest TaskProgress of that task; None before the first."""
 
     def _active(self) -> bool:
@@ -160,8 +160,7 @@ class TaskCard(Outlined, RobotWidget, Column):
             self.told = msg if counts else self.told
         else:
             super().show(msg)
-        running = self.active and self.told is not None
-        self.progress = self.told.progress if running else math.nan
+        self.progress = self.told.progress if self.active and self.told is not None else math.nan
         self.figures = figures_words(self.status, self.told) if self.active else ""
 
 
@@ -178,7 +177,7 @@ def samples() -> dict[str, Callable[[], Widget]]:
         waypoint=1,
         waypoints=2,
     )
-    patrol = {"task": "patrol", "waypoint": 3, "waypoints": 6, "lap": 1, "laps": 3}
+    patrol: dict[str, Any] = {"task": "patrol", "waypoint": 3, "waypoints": 6, "lap": 1, "laps": 3}
     told = TaskProgress(task_id=4, progress=0.38, distance_to_next=7.4, time_left=190.0, distance_driven=21.0)
     why = "Canceled by tablet-B."
     cut = "The robot's computer restarted in the middle of a patrol; choose Resume to go on, or Discard."

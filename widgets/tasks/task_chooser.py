@@ -83,7 +83,7 @@ class TaskChooser(Control, Grid):
 
     accepts = (TaskOrder,)
 
-    tasks = ListProperty(list(TASKS))
+    tasks: ListProperty[str] = ListProperty(list(TASKS))
     """Those that are offered."""
     chosen = StringProperty("")
     """The task that stands out; empty for none."""

@@ -84,7 +84,7 @@ class WhenPicker(Control, Column):
     accepts = (ScheduledTask,)
     sends = (ScheduledTask,)
 
-    task = ObjectProperty(ScheduledTask(at="08:00"))
+    task: ObjectProperty[ScheduledTask] = ObjectProperty(ScheduledTask(at="08:00"))
     """What it starts, with when."""
     way = StringProperty("at")
     """`at` a time of day, or `every` so often."""
@@ -92,7 +92,7 @@ class WhenPicker(Control, Column):
     """Of the time of day, or of the period [h]."""
     minute = NumericProperty(0)
     """The same [min]."""
-    days = ListProperty([True] * 7)
+    days: ListProperty[bool] = ListProperty([True] * 7)
     """Monday first."""
 
     def __init__(self, **kwargs: Any) -> None:

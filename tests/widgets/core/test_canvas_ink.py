@@ -104,9 +104,9 @@ def test_ink_can_be_wiped_away():
     drawn = Ink()
     shapes = Shapes()
     shapes.disc(1, 1, 5, (1, 1, 1, 1))
-    drawn.draw(shapes)
+    drawn.fill(shapes)
     assert len(drawn._mesh.vertices) == 4 * FLOATS
-    drawn.draw(Shapes())
+    drawn.fill(Shapes())
     assert not np.asarray(drawn._mesh.vertices).any()
 
 

@@ -37,13 +37,13 @@ class ArmKeys(Grip, Gauge):
     """Opening between the fingers [m]; NaN when not known."""
     pose = StringProperty("")
     """The named pose that it is in; empty for any other."""
-    poses = ListProperty()
+    poses: ListProperty[str] = ListProperty()
     """Those that have names."""
     open_width = NumericProperty(0.075)
     """Opening of the gripper when it is wide open [m]."""
     choosing = BooleanProperty(False)
     """The poses are open over the picture."""
-    page = NumericProperty(0)
+    page: NumericProperty[int] = NumericProperty(0)
     """Which of the poses are shown where there is no room for all."""
 
     def _beside(self) -> bool:

@@ -84,21 +84,21 @@ class ArmPanel(ArmKeys):
         "bearing",
     )
 
-    angles = ListProperty()
+    angles: ListProperty[float] = ListProperty()
     """Of the joints from the foot on [rad]; empty before the first, or while one is not known."""
-    wanted = ListProperty()
+    wanted: ListProperty[float] = ListProperty()
     """Where each is going [rad]; empty when that is not known."""
-    tip = ListProperty()
+    tip: ListProperty[float] = ListProperty()
     """Between the fingertips, in `base_link` [m]; empty before the first."""
     touching = BooleanProperty(False)
     """The hand touches something."""
-    links = ObjectProperty(Links())
+    links: ObjectProperty[Links] = ObjectProperty(Links())
     """Lengths for the picture."""
     outcome = OptionProperty("ready", options=list(OUTCOMES))
     """What became of the last order."""
     held = OptionProperty("", options=["", "tip", "turn"])
     """What a finger drags; empty without one."""
-    aim = ListProperty()
+    aim: ListProperty[float] = ListProperty()
     """Where the tip is wanted, ahead of and above the foot in the plane of the arm [m]; empty where nobody pointed."""
     bearing = NumericProperty(math.nan)
     """Where its foot is being turned to [rad]; NaN while no finger turns it."""
@@ -271,8 +271,8 @@ class ArmPanel(ArmKeys):
                 theme.text if self.held == "tip" else theme.muted,
             )
         if self.aim:
-            role = theme.danger if self.outcome in ("refused", "no_reply") and not self.held else theme.plan
-            draw_aim(shapes, points[-1], side.at(self.aim), role)
+            failed = self.outcome in ("refused", "no_reply") and not self.held
+            draw_aim(shapes, points[-1], side.at(self.aim), theme.danger if failed else theme.plan)
         yield from self._figures((left, low, width, height), roomy)
         if height >= dp(62):
             yield from self._foot(shapes, roomy)

@@ -33,7 +33,7 @@ from widgets.controls.goals.goal_status import Errand
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.finger_grip import Grip
-from widgets.core.geometry import DASH
+from widgets.core.geometry import DASH, Points
 from widgets.core.icons import icon
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -95,15 +95,17 @@ class GoalPad(Grip, Gauge):
     sends = (PoseStamped,)
     drawn_from: ClassVar = ("actual", "wanted", "followed", "outcome", "way", "pressed")
 
-    actual = ListProperty()
+    actual: ListProperty[float] = ListProperty()
     """Where the robot is: x, y [m], yaw [rad]; empty while that is not known."""
-    wanted = ListProperty()
+    wanted: ListProperty[float] = ListProperty()
     """Where it is to go: x, y [m], yaw [rad]; empty before anybody said."""
-    followed = ListProperty()
+    followed: ListProperty[float] = ListProperty()
     """Where the robot goes while another goal is being set here: x, y [m], yaw [rad]; empty where it goes to no other."""
     outcome = OptionProperty("", options=list(OUTCOMES))
     """What became of the goal: empty while it has not been sent as it is."""
-    way = ObjectProperty(np.zeros((0, 2)), force_dispatch=True, comparator=lambda *_: False)
+    way: ObjectProperty[Points] = ObjectProperty(
+        np.zeros((0, 2)), force_dispatch=True, comparator=lambda *_: False
+    )
     """The way that the robot means to take, shape (n, 2) [m]; empty when it has none."""
     pressed = OptionProperty("", options=["", *BUTTONS])
     """The button under the finger; empty without one."""
