@@ -9,6 +9,7 @@ import pytest
 from msgspec.structs import replace
 
 import widgets.core.message_fields
+import widgets.sensors.field_view
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import Imu
 from bridge.msgs.std_msgs import String
@@ -125,8 +126,8 @@ def test_fifty_messages_a_second_are_written_ten_times(stage, view, monkeypatch)
     view.show(scan())
     stage.run_for(0.5)
     written = []
-    tree = widgets.field_view.rows
-    monkeypatch.setattr(widgets.field_view, "rows", lambda *args: written.append(1) or tree(*args))
+    tree = widgets.sensors.field_view.rows
+    monkeypatch.setattr(widgets.sensors.field_view, "rows", lambda *args: written.append(1) or tree(*args))
     for _ in range(50):
         view.show(scan())
         stage.frames(1, 0.02)
