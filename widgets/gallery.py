@@ -97,7 +97,11 @@ def modules(name: str = "") -> dict[str, str]:
     known = {title: module for title, module in {**CATALOGUE, **KIT}.items() if find_spec(module)}
     if not name:
         return known
-    wanted = {title: module for title, module in known.items() if name.lower() in {title.lower(), module[8:]}}
+    wanted = {
+        title: module
+        for title, module in known.items()
+        if name.lower() in {title.lower(), module.rpartition(".")[2]}
+    }
     if not wanted:
         raise KeyError(f"There is no widget {name!r}; there are {', '.join(known)}.")
     return wanted

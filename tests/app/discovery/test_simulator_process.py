@@ -101,7 +101,7 @@ def test_closing_ends_the_process_and_is_no_failure(run: Run) -> None:
 
 def test_a_killed_app_leaves_no_simulator_behind(tmp_path: Path) -> None:
     starts = (
-        "import subprocess, sys; from app.simulator import command; "
+        "import subprocess, sys; from app.discovery.simulator_process import command; "
         "child = subprocess.Popen(command(), stdout=subprocess.PIPE, text=True); "
         "print(child.pid, child.stdout.readline().strip(), flush=True); child.wait()"
     )

@@ -110,7 +110,7 @@ print(json.dumps({"event": "State", "word": "failed", "sentence": "There is no h
 def test_what_a_foreign_library_prints_breaks_no_event():
     program = """
 import os
-from app.voice.child import own_line
+from app.inputs.voice.process.child import own_line
 events = own_line()
 os.write(1, b"ALSA lib pcm.c: no newline at the end")
 print("stop", file=events, flush=True)
@@ -466,7 +466,7 @@ for line in sys.stdin:
 
 
 def test_a_fault_in_the_real_process_gives_its_reason(told, monkeypatch):
-    program = "from app.voice import child; child.judge_of = lambda *_: 1 / 0; child._alone()"
+    program = "from app.inputs.voice.process import child; child.judge_of = lambda *_: 1 / 0; child._alone()"
     voice = InProcess("phonemes", command=[sys.executable, "-c", program, "phonemes"])
     voice.missing = lambda: ""
     monkeypatch.setattr("app.inputs.voice.process.worker._missing", lambda name: "")
