@@ -393,7 +393,7 @@ class PilothouseApp(App):
 
     def _keep_address(self) -> None:
         """Save an address that was typed: something has answered there."""
-        if self.session is not None and self._unproven == self.session.url:
+        if self.session is not None and self._unproven == self.session.robot.url:
             self.robots.add(self._unproven)
             self._save_robots()
         self._unproven = ""
@@ -406,9 +406,9 @@ class PilothouseApp(App):
         place = {"size": self.root.size, "pos": self.root.pos}
         self.shell = robot_shell(self, self.session, self.layout_for, **place)
         self.root.show_page(self.shell)
-        for post in self.session.early:
+        for post in self.session.events.early:
             self.shell.replay(post)
-        self.session.shown = True
+        self.session.events.shown = True
         self.show(self._first_screen)
         self.shell.tick()  # nothing comes onto the glass that says less than is known
 

@@ -103,7 +103,7 @@ class Acting:
             "lights": lambda: session.command("lights", brightness=0.0 if self._lit else 1.0),
             "snapshot": app.records.snapshot,
             "record": app.toggle_recording,
-            "camera": session.next_camera,
+            "camera": session.cameras.choose_next,
             "take_control": session.take_control,
             **{f"screen.{name}": partial(app.show, name) for name in ("drive", "mission", "tasks")},
             **{intent: partial(self._do_task, task) for intent, task in TO_TASK.items()},
@@ -146,7 +146,7 @@ class Acting:
         return "" if session.may_ask else "It is not known yet who has control."
 
     def _latched(self) -> str:
-        return HELD if self._session.stop_latched else ""
+        return HELD if self._session.robot_stop.latched else ""
 
     # STOP
 
@@ -159,7 +159,7 @@ class Acting:
     def _why_not_pause(self) -> str:
         if why := self._asked_of():
             return why
-        if not self._session.offers("/task/pause"):
+        if not self._session.robot.offers("/task/pause"):
             return "This robot knows no pause."
         if not self._runs():
             return "No task runs that could be paused."
@@ -176,7 +176,7 @@ class Acting:
         if why := self._asked_of() or self._latched():
             return why
         session = self._session
-        if not (session.knows("go_home") and session.offers("/task/go_home")):
+        if not (session.robot.knows("go_home") and session.robot.offers("/task/go_home")):
             return "This robot cannot go home by itself."
         return "It goes home already." if self._doing("go_home") else ""
 
@@ -187,7 +187,7 @@ class Acting:
         session = self._session
         if why := self._asked_of() or self._latched():
             return why
-        if not (session.knows(task) and session.offers("/task/start")):
+        if not (session.robot.knows(task) and session.robot.offers("/task/start")):
             return f"This robot knows no such task: {TASKS[task].name}."
         return f"It is {TASKS[task].doing} already." if self._doing(task) else ""
 
@@ -212,7 +212,7 @@ class Acting:
         session = self._session
         if why := self._asked_of() or self._latched():
             return why
-        if not (session.knows(order.task) and session.offers("/task/start")):
+        if not (session.robot.knows(order.task) and session.robot.offers("/task/start")):
             return f"This robot knows no such task: {TASKS[order.task].name}."
         if self._runs() and self._status is not None:
             return f"{title(TaskOrder(task=self._status.task))} runs; end it first."
@@ -258,11 +258,11 @@ class Acting:
     def _why_not_lights(self) -> str:
         if why := self._asked_of():
             return why
-        offered = self._session.offer is not None and self._session.offers("/lights/set")
+        offered = self._session.robot.capabilities is not None and self._session.robot.offers("/lights/set")
         return "" if offered else "This robot has no lights to switch."
 
     def _why_not_camera(self) -> str:
-        return "" if len(self._session.info.cameras) > 1 else "This robot has no other camera."
+        return "" if len(self._session.robot.info.cameras) > 1 else "This robot has no other camera."
 
     def _why_not_control(self) -> str:
         session = self._session

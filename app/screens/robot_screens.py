@@ -36,7 +36,7 @@ class Profile:
         """The one that is on the glass."""
 
     def _wanted(self) -> Layout:
-        info = self._session.info
+        info = self._session.robot.info
         return self._layout_for(info.model, info.kind)
 
     def screen(self) -> Any:

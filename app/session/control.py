@@ -9,11 +9,13 @@ import math
 from collections.abc import Callable
 from typing import Any, Protocol
 
+from app.core.command_origin import NOBODY, origins
 from app.link.feeds import Feeds
+from app.session.robot_profile import RobotProfile
 from bridge.core.liveness import LAPSE
 from bridge.msgs.pilothouse_msgs import ControlStatus
 
-__all__ = ["Authority", "ControlledRobot"]
+__all__ = ["Authority", "ControlledRobot", "Line"]
 
 News = Callable[[str, str], None]
 """A sentence for the operator and its level, as of a banner."""
@@ -34,8 +36,8 @@ class ControlledRobot(Protocol):
     """The session with one robot, as far as control needs it."""
 
     client_id: str
-    wants_control: bool
     feeds: Feeds
+    robot: RobotProfile
 
     @property
     def link(self) -> Line:
@@ -44,13 +46,6 @@ class ControlledRobot(Protocol):
     @property
     def connected(self) -> bool:
         """The link stands."""
-
-    @property
-    def foreign(self) -> bool:
-        """The robot is known to have no Pilothouse services."""
-
-    def offers(self, service: str) -> bool:
-        """The robot has that service, or has not yet said which ones it has."""
 
     def command(self, name: str, /, **fields: Any) -> None:
         """Send a one-shot command of `app.link.commands.COMMANDS`."""
@@ -62,8 +57,13 @@ class ControlledRobot(Protocol):
 class Authority:
     """Control of one robot. Everything here happens in the UI thread."""
 
-    def __init__(self, session: ControlledRobot) -> None:
+    def __init__(self, session: ControlledRobot, *, wants_control: bool) -> None:
+        """`wants_control` takes control whenever it is free."""
         self._session = session
+        self.wanted = wants_control
+        """Control is taken whenever it is free; without it the robot is only watched."""
+        self._claimed = False
+        """Control was asked for since it became free."""
         self.on_news: News = lambda *_: None
         """Called with what the operator has to be told of a change."""
         self.on_past: Callable[[], object] = lambda: None
@@ -92,7 +92,7 @@ class Authority:
         `none` on a robot that is not ours: there is none to have, and whoever sends drives it.
         """
         session = self._session
-        if session.foreign and session.connected:
+        if session.robot.foreign and session.connected:
             return "none"
         status: ControlStatus | None = session.feeds.latest("/control/status")
         if status is None or not session.connected or session.link.silence > LAPSE:
@@ -133,32 +133,50 @@ class Authority:
     def take(self) -> None:
         """Take control, or ask who has it; it is taken again after a reconnect."""
         session = self._session
-        session.wants_control = True
+        self.wanted = True
         self._released = self._withdrawn = False
-        ask = self.who == "other" and session.offers("/control/request")
+        ask = self.who == "other" and session.robot.offers("/control/request")
         session.command("request" if ask else "acquire")
 
     def release(self) -> None:
         """Give control up, and do not ask for it again; a stick that went on being pushed would take it anew."""
         self._session.rest()
-        self._session.wants_control = False
+        self.wanted = False
         self._released = self._held
         self._session.command("release")
 
     def take_back(self) -> None:
         """Ask for control no longer."""
-        self._session.wants_control = False
+        self.wanted = False
         self._withdrawn = True
         self._session.command("release")
 
     # what is heard
 
-    def link_changed(self) -> None:
+    def on_link(self) -> None:
         """The link came or went."""
         self._away = self._away or not self._session.connected
+        if self._session.connected:
+            self._claimed = False
+            self._claim()
 
-    def hear(self, status: ControlStatus) -> None:
-        """The robot says who has control; what changed by that is told."""
+    def on_status(self, status: ControlStatus) -> None:
+        """The robot says who has control: report the change, and claim control that is wanted and free."""
+        self._report(status)
+        self._claim()
+
+    def _claim(self) -> None:
+        """Ask once each time that control becomes free."""
+        if self.who == "unknown":
+            return
+        if self.who != "free":
+            self._claimed = False
+        elif self.wanted and not self._claimed:
+            self._claimed = True
+            with origins.during(NOBODY):
+                self._session.command("acquire")
+
+    def _report(self, status: ControlStatus) -> None:
         before, self._before = self._before, status
         news = self._end(before, status) or self._beginning(before, status)
         mine = status.driver_id == self._session.client_id
@@ -207,12 +225,12 @@ class Authority:
     def _lost(self, before: ControlStatus, status: ControlStatus) -> tuple[str, str] | None:
         """Control was ours and is not: handed over to who asked, or lapsed."""
         if before.requested_by_id and status.driver_id == before.requested_by_id:
-            self._session.wants_control = False
+            self.wanted = False
             return f"{status.driver} has control now.", "info"
         why = "while the link was away" if self._away else f"the robot heard nothing for {LAPSE:.0f}\u00a0s"
-        free = "It is asked for again" if self._session.wants_control else "It is free"
+        free = "It is asked for again" if self.wanted else "It is free"
         now = f"{status.driver} has it now" if status.driver else free
-        self._lapsed = why if self._session.wants_control else ""
+        self._lapsed = why if self.wanted else ""
         return f"Your control lapsed: {why}. {now}.", "warn"
 
 

@@ -75,7 +75,7 @@ class Actions:
             "lights": self._switch_lights,
             "record": app.toggle_recording,
             "snapshot": app.records.snapshot,
-            "camera": session.next_camera,
+            "camera": session.cameras.choose_next,
             "reset": self._ask_to_reset,
         }
 
@@ -96,7 +96,7 @@ class Actions:
         task = action.name.removeprefix("task.")
         if not self._paused:
             return replace(action, text=self._words[action.name][0], able=False, meaning="")
-        able = action.able and not self._session.stop_latched
+        able = action.able and not self._session.robot_stop.latched
         return replace(action, text=f"Resume {TASKS[task].doing}", able=able, meaning="resume")
 
     def confirm(self, what: str) -> str:
@@ -112,7 +112,7 @@ class Actions:
 
     def _carries(self, what: str) -> bool:
         """The robot says that it has that."""
-        info = self._session.info
+        info = self._session.robot.info
         return "lights" in info.payloads if what == "lights" else len(info.cameras) > 1
 
     def act(self, what: str) -> None:
@@ -141,11 +141,11 @@ class Actions:
     def _task(self, what: str, text: str, icon: str) -> Action | None:
         session, task = self._session, what.removeprefix("task.")
         service = "/task/go_home" if task == "go_home" else "/task/start"
-        if not session.knows(task) or not session.offers(service):
+        if not session.robot.knows(task) or not session.robot.offers(service):
             return None
         if self._runs(task):
             return Action(what, f"End {TASKS[task].doing}", "stop", session.may_ask, meaning="end")
-        able = session.may_ask and not session.stop_latched
+        able = session.may_ask and not session.robot_stop.latched
         return Action(what, text, icon, able, meaning="start")
 
     def _ask_for(self, task: str) -> None:
@@ -161,9 +161,9 @@ class Actions:
 
     def _pause(self, text: str, icon: str) -> Action | None:
         session = self._session
-        if not session.offers("/task/pause"):
+        if not session.robot.offers("/task/pause"):
             return None
-        able = session.may_ask and session.running and not (session.stop_latched and self._paused)
+        able = session.may_ask and session.running and not (session.robot_stop.latched and self._paused)
         return (
             Action("pause", "Resume", "play_arrow", able)
             if self._paused
@@ -179,7 +179,7 @@ class Actions:
 
     def _lights(self, text: str, icon: str) -> Action | None:
         session = self._session
-        if session.offer is None or not session.offers("/lights/set"):
+        if session.robot.capabilities is None or not session.robot.offers("/lights/set"):
             return None
         known = session.feeds.latest("/lights") is not None
         said = ("on" if self._lit else "off") if known else ""
@@ -190,14 +190,14 @@ class Actions:
         self._session.command("lights", brightness=0.0 if self._lit else 1.0)
 
     def _camera(self, text: str, icon: str) -> Action | None:
-        cameras = self._session.info.cameras
+        cameras = self._session.robot.info.cameras
         if len(cameras) < 2:
             return None
-        return Action("camera", text, icon, said=self._session.camera(None) or "", meaning="next")
+        return Action("camera", text, icon, said=self._session.cameras.wanted(None) or "", meaning="next")
 
     def _reset(self, text: str, icon: str) -> Action | None:
         session = self._session
-        return Action("reset", text, icon, session.may_ask) if session.offers("/robot/reset") else None
+        return Action("reset", text, icon, session.may_ask) if session.robot.offers("/robot/reset") else None
 
     def _ask_to_reset(self) -> None:
         self._app.shell.reset.ask()

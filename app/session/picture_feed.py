@@ -50,7 +50,7 @@ class Pictures:
         """Ask for the picture that the robot offers, once it has said what there is."""
         if not session.connected:
             return
-        wanted = session.camera(self._watched)
+        wanted = session.cameras.wanted(self._watched)
         if wanted != self._watched:
             self._watched = wanted
             session.link.watch(wanted)

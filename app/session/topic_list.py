@@ -70,7 +70,7 @@ class Topics:
     @property
     def offer(self) -> Offer | None:
         """What the robot offers; None until it said so."""
-        return self._session.offer
+        return self._session.robot.capabilities
 
     def tick(self) -> None:
         """Ask for the list again now and then, while somebody looks at it."""

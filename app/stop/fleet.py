@@ -54,40 +54,54 @@ class Row:
     """Other addresses under which it is listed as well; it counts once."""
 
 
-class Connected(Protocol):
-    """What is needed of the session with the connected robot."""
+class Identity(Protocol):
+    """Who the connected robot is."""
+
+    url: str
 
     @property
-    def url(self) -> str:
-        """Its address."""
+    def name(self) -> str:
+        """Its name, else its address."""
+
+    @property
+    def info(self) -> RobotInfo:
+        """Its newest `/robot/info`; all fields empty before the first."""
+
+    @property
+    def foreign(self) -> bool:
+        """It is known to have no STOP of its own."""
+
+
+class StopReport(Protocol):
+    """STOP of the connected robot."""
+
+    @property
+    def phase(self) -> str:
+        """As of `stop_state.Verdict`; `ready` when it was released."""
+
+    @property
+    def sentence(self) -> str:
+        """The same for the operator; empty where the phase says it all."""
+
+
+class Connected(Protocol):
+    """The session with the connected robot, as far as STOP ALL needs it."""
+
+    @property
+    def robot(self) -> Identity:
+        """Who it is."""
+
+    @property
+    def robot_stop(self) -> StopReport:
+        """Its STOP."""
 
     @property
     def boot(self) -> str:
         """Alike for one robot under two addresses; empty while it is not known."""
 
     @property
-    def name(self) -> str:
-        """What to call it."""
-
-    @property
-    def info(self) -> RobotInfo:
-        """Who it is."""
-
-    @property
-    def foreign(self) -> bool:
-        """It is known to have no STOP of its own."""
-
-    @property
-    def stop_phase(self) -> str:
-        """What became of its STOP, as of `stopping.Verdict`; `ready` when it was released."""
-
-    @property
-    def stop_sentence(self) -> str:
-        """The same for the operator; empty where the phase says it all."""
-
-    @property
     def control_status(self) -> ControlStatus | None:
-        """What it said last of control."""
+        """Its newest word of control; None before the first."""
 
     def stop(self) -> None:
         """STOP, over its own lane."""
@@ -189,8 +203,10 @@ class Fleet:
         if connected is not None:
             connected.stop()
             time.sleep(0)  # lets the network thread send it before anything is done here
-            self._linked = connected.url
-            self._robots.setdefault(connected.url, _Robot(connected.url, connected.name, "")).begun = False
+            self._linked = connected.robot.url
+            self._robots.setdefault(
+                connected.robot.url, _Robot(connected.robot.url, connected.robot.name, "")
+            ).begun = False
         self.untried = 0
         for entry in entries:
             self._add(entry)
@@ -206,10 +222,10 @@ class Fleet:
         if not self.active:
             self.rows = []
             return
-        url = "" if connected is None else connected.url
+        url = "" if connected is None else connected.robot.url
         if self._linked and self._linked != url:
             self._take_over(self._robots[self._linked])
-        if connected is not None and url in self._robots and self._linked != url and connected.foreign:
+        if connected is not None and url in self._robots and self._linked != url and connected.robot.foreign:
             connected.stop()
             self._close_lane(self._robots[url])
             self._linked = url
@@ -300,7 +316,7 @@ class Fleet:
 
     def _row(self, robot: _Robot, connected: Connected | None) -> Row:
         if connected is not None and robot.url == self._linked:
-            robot.begun = robot.begun or connected.stop_phase != "ready"
+            robot.begun = robot.begun or connected.robot_stop.phase != "ready"
             robot.last = _linked_row(connected, begun=robot.begun)
             return robot.last
         lane = robot.lane  # once: the network thread takes it away
@@ -341,8 +357,8 @@ _CERTAIN = ("released", "moves", "stopped", "sent", "lost", "no_answer")
 def known(entries: Iterable[Entry], connected: Connected | None) -> int:
     """How many robots there are, one that is known under two addresses counted once."""
     found = {entry.url: entry.boot or entry.url for entry in entries}
-    if connected is not None and connected.url not in found:
-        found[connected.url] = connected.boot or connected.url
+    if connected is not None and connected.robot.url not in found:
+        found[connected.robot.url] = connected.boot or connected.robot.url
     return len(set(found.values()))
 
 
@@ -351,14 +367,20 @@ def _not_heard(silent: float) -> str:
 
 
 def _identity(connected: Connected) -> tuple[str, str, Time] | None:
-    status, info = connected.control_status, connected.info
+    status, info = connected.control_status, connected.robot.info
     if status is None or not info.name or status.stamp == Time():
         return None
     return info.name, info.model, status.stamp
 
 
 def _linked_row(connected: Connected, *, begun: bool) -> Row:
-    phase, sentence = connected.stop_phase, connected.stop_sentence
+    phase, sentence = connected.robot_stop.phase, connected.robot_stop.sentence
     if phase == "ready":
         phase, sentence = ("released", "STOP was released.") if begun else ("sent", "")
-    return Row(connected.url, connected.name, phase, sentence, connected.foreign and phase != "released")
+    return Row(
+        connected.robot.url,
+        connected.robot.name,
+        phase,
+        sentence,
+        connected.robot.foreign and phase != "released",
+    )

@@ -45,7 +45,7 @@ class LocalStop:
         """It was held long enough."""
         self._pressed_at = math.nan
 
-    def hear(self, odometry: Odometry, received: float) -> None:
+    def on_odometry(self, odometry: Odometry, received: float) -> None:
         """Odometry came at `received` [s], our clock. A speed that is not finite confirms nothing."""
         linear, angular = odometry.twist.twist.linear, odometry.twist.twist.angular
         speed = math.hypot(linear.x, linear.y, linear.z)

@@ -15,7 +15,7 @@ from typing import Any, Protocol, TypeVar
 from app.link.capabilities import DRIVE, NOTHING, Offer, ask
 from app.link.commands import Commands, Outcome
 from app.stop.local_stop import LocalStop
-from app.stop.stop_state import Stopping
+from app.stop.stop_state import StopState
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.core.errors import BridgeError
 from bridge.core.topic_choice import drive_message
@@ -116,7 +116,7 @@ class StopLane:
         self._zero = LocalStop(now)
         self._wanted, self._done = asyncio.Event(), asyncio.Event()
         self._identity: tuple[str, str, Time] | None = None
-        self._stopping = Stopping(now, client_id)
+        self._stopping = StopState(now, client_id)
         self._stopping.reach(False)
         self._reached = False
         self._offer: Offer | None = None
@@ -198,7 +198,7 @@ class StopLane:
     def _follow(self) -> None:
         if self._only_zero:
             self._commands.void_stop()
-            self._listen((self._offer or NOTHING).source("/odom"), Odometry, self._zero.hear)
+            self._listen((self._offer or NOTHING).source("/odom"), Odometry, self._zero.on_odometry)
             if self._drive is not None:
                 self._client.advertise(self._drive, TwistStamped if self._stamped else Twist)
             return
@@ -215,7 +215,7 @@ class StopLane:
 
     def _on_status(self, status: ControlStatus, received: float) -> None:
         self._status = status
-        self._stopping.hear(status, received)
+        self._stopping.on_status(status, received)
         if self._reached:
             self._heed()
 
@@ -234,7 +234,7 @@ class StopLane:
         self._look()
 
     def _on_outcome(self, outcome: Outcome) -> None:
-        self._stopping.answered(outcome)
+        self._stopping.on_outcome(outcome)
         if outcome.phase == "accepted" and self._stopping.rests:
             self._done.set()
         self._look()

@@ -1,6 +1,6 @@
 """What became of STOP: decided here for the robot that is connected, for every robot of STOP ALL, and for one without a STOP.
 
-`judge` decides, by what is known and the time alone. `Stopping` notes what is heard of a robot that has a STOP.
+`judge` decides, by what is known and the time alone. `StopState` notes what is heard of a robot that has a STOP.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from app.link.commands import STILL_SENDING, STOP_DOUBT, Outcome
 from bridge.msgs.pilothouse_msgs import ControlStatus
 
-__all__ = ["COMES_TO_REST", "DOUBT", "Known", "Stopping", "Verdict", "judge", "silence"]
+__all__ = ["COMES_TO_REST", "DOUBT", "Known", "StopState", "Verdict", "judge", "silence"]
 
 DOUBT = STOP_DOUBT
 """A STOP that the robot did not take after this is unanswered; it goes on being sent [s]."""
@@ -117,7 +117,7 @@ def silence(seconds: float) -> str:
     return f"{seconds / 60:.0f} min" if seconds < 3600 else f"{seconds / 3600:.0f} h"
 
 
-class Stopping:
+class StopState:
     """Notes what is heard of the STOP of a robot that has one, over whatever link."""
 
     def __init__(self, now: Callable[[], float], client_id: str) -> None:
@@ -166,7 +166,7 @@ class Stopping:
         self._refusal = ""
         self._done = self._released = False
 
-    def answered(self, outcome: Outcome) -> None:
+    def on_outcome(self, outcome: Outcome) -> None:
         """What came of asking for it."""
         if outcome.phase == "sent" or math.isnan(self._asked_at):
             self.press()
@@ -176,7 +176,7 @@ class Stopping:
         elif outcome.phase in ("refused", "no_reply"):
             self._refusal = "" if outcome.reason == STILL_SENDING else outcome.reason
 
-    def hear(self, status: ControlStatus, received: float) -> None:
+    def on_status(self, status: ControlStatus, received: float) -> None:
         """What the robot says of it, `received` when it came [s].
 
         While the link does not stand that is the last word of the old connection if it came before it was lost, and else the
@@ -215,7 +215,7 @@ class Stopping:
         if not reached:
             self._cut_at = self._now() if math.isnan(at) else at
         elif early is not None:
-            self.hear(early, self._now())
+            self.on_status(early, self._now())
 
     @property
     def _other(self) -> str:

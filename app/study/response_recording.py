@@ -245,7 +245,7 @@ class Responding:
         if session is None:
             return
         if channel == OUTCOME:
-            self.tracks.robot = session.name
+            self.tracks.robot = session.robot.name
             self.tracks.outcome(post.value, post.received)
             self._stopped(post.value)
         elif channel in STATES:

@@ -50,7 +50,7 @@ class Grip:
     def ready(self) -> bool:
         """Connected, in control, on the drive screen, with a live stick."""
         app = self.app
-        if app.shell is None or app.session.stop_phase != "ready":
+        if app.shell is None or app.session.robot_stop.phase != "ready":
             return False
         if app.shell.screen != "drive":
             app.show("drive")
@@ -62,7 +62,7 @@ class Grip:
     @property
     def settled(self) -> bool:
         """What happened may be made good: a STOP is released once it is known that the robot rests."""
-        return not self.stops or self.app.session.stop_phase == "stopped"
+        return not self.stops or self.app.session.robot_stop.phase == "stopped"
 
     def take(self, kind: str) -> None:
         """Drive by `finger` or by `pad` from now on, each time the other way."""

@@ -64,7 +64,7 @@ def test_an_address_is_kept_once_something_has_answered_there(glass: Glass, robo
     app._add_address(robot.url)
     glass.until(lambda: app.connect._banner and "No robot answers" in app.connect._banner.text, "no sentence")
     assert app.robots.entries() == []
-    assert app.session.name == f"127.0.0.1:{robot.port}", "two robots of one host are told apart"
+    assert app.session.robot.name == f"127.0.0.1:{robot.port}", "two robots of one host are told apart"
     robot.start()
     app._add_address(robot.url)
     glass.until(lambda: app.shell is not None, "no screens")
@@ -195,7 +195,7 @@ def test_a_robot_comes_onto_the_glass_with_all_that_is_known_of_it(glass: Glass,
 
     def enter() -> None:
         app._enter_robot = lambda: None  # the frames of the wait ask for it again
-        glass.until(lambda: app.session.control == "other" and app.session.info.name, "nothing told")
+        glass.until(lambda: app.session.control == "other" and app.session.robot.info.name, "nothing told")
         entered()
         mission = app.screens["mission"]
         first.append((app.shell.bar.robot_name, app.shell.bar.mode_text, mission.panel.tasks.state))
@@ -210,7 +210,7 @@ def test_nothing_can_be_asked_for_before_it_is_known_who_has_control(driving: Gl
     app = driving.app
     feed = app.feeds["/control/status"]
     told, feed.message = feed.message, None
-    app.session.deliver("/robot/info", Post(app.session.info, app._now(), 1))
+    app.session.deliver("/robot/info", Post(app.session.robot.info, app._now(), 1))
     app.shell.tick()
     drive, mission = app.screens["drive"], app.screens["mission"]
     mission.tick()

@@ -9,7 +9,7 @@ from app.study.response_log import read
 def test_a_finger_and_a_voice_leave_a_line_each_with_what_the_robot_answered(driving):
     app = driving.app
     driving.tap(app.shell.stop)
-    driving.until(lambda: app.session.stop_latched, "the robot was not stopped")
+    driving.until(lambda: app.session.robot_stop.latched, "the robot was not stopped")
     app.intents.take(Heard("lights", "voice", 0.9, app.now() - 0.5, app.now() - 0.1, said="lights"))
     driving.stage.frames(5)
     log = app.methods.get("log")

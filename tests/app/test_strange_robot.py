@@ -25,7 +25,7 @@ def strange(request: pytest.FixtureRequest) -> Iterator[Strange]:
 @pytest.fixture
 def operator(strange: Strange, tmp_path: Path) -> Iterator[Operator]:
     operator = Operator(strange.url, tmp_path, wants_control=True)
-    operator.until(lambda: operator.session.foreign and operator.session.connected)
+    operator.until(lambda: operator.session.robot.foreign and operator.session.connected)
     yield operator
     operator.close()
 
@@ -49,7 +49,7 @@ def test_what_it_has_is_heard_and_nothing_else_is_asked_for(operator: Operator, 
     for name in ("/odom", "/imu/data", "/scan", "/battery_state", "/pose"):
         operator.until(lambda name=name: operator.session.feeds.latest(name) is not None)
     assert strange.listened() == {"/odom", "/imu/data", "/scan", "/battery_state"}
-    assert operator.session.camera(None) == ""
+    assert operator.session.cameras.wanted(None) == ""
     called = {op["service"] for op in strange.operations("call_service")}
     assert not {name for name in called if not str(name).startswith("/rosapi/")}
 
@@ -59,12 +59,12 @@ def test_pictures_come_by_the_topic_of_their_type(
 ) -> None:
     seen: list[bytes] = []
     monkeypatch.setattr(operator.link, "_on_picture", lambda frame, _: seen.append(frame.jpeg))
-    operator.link.watch(operator.session.camera(None))
+    operator.link.watch(operator.session.cameras.wanted(None))
     operator.until(lambda: seen)
     assert seen[0].startswith(b"\xff\xd8")
-    assert operator.session.offer.source(CAMERA) in strange.listened()
+    assert operator.session.robot.capabilities.source(CAMERA) in strange.listened()
     operator.link.watch(None)
-    operator.until(lambda: operator.session.offer.source(CAMERA) not in strange.listened())
+    operator.until(lambda: operator.session.robot.capabilities.source(CAMERA) not in strange.listened())
 
 
 def test_there_is_no_control_to_take_and_none_is_asked_for(operator: Operator) -> None:
@@ -82,8 +82,8 @@ def test_it_drives_and_rests_when_let_go(operator: Operator, strange: Strange) -
 def test_stop_sends_zero_again_and_again_until_it_is_released(operator: Operator, strange: Strange) -> None:
     drives(operator, strange)
     operator.session.stop()
-    assert operator.session.stop_phase == "sent"
-    operator.until(lambda: operator.session.stop_phase == "stopped")
+    assert operator.session.robot_stop.phase == "sent"
+    operator.until(lambda: operator.session.robot_stop.phase == "stopped")
     assert strange.robot.speed == 0.0
     before = len(told(strange))
     holds(operator, 1.0, lambda: operator.link.drive(AHEAD))
@@ -92,7 +92,7 @@ def test_stop_sends_zero_again_and_again_until_it_is_released(operator: Operator
     assert all(op["msg"]["linear"]["x"] == 0.0 for op in sent)
     assert not operator.session.may_drive
     operator.session.release_stop()
-    assert operator.session.stop_phase == "ready"
+    assert operator.session.robot_stop.phase == "ready"
     holds(operator, 0.4)
     quiet = len(told(strange))
     holds(operator, 0.4)
@@ -102,12 +102,12 @@ def test_stop_sends_zero_again_and_again_until_it_is_released(operator: Operator
 
 def test_stop_outlives_a_cut_connection(operator: Operator, strange: Strange) -> None:
     operator.session.stop()
-    operator.until(lambda: operator.session.stop_phase == "stopped")
+    operator.until(lambda: operator.session.robot_stop.phase == "stopped")
     strange.cut()
     operator.until(lambda: not operator.session.connected)
     operator.until(lambda: operator.session.connected)
     operator.until(lambda: len(told(strange)) > 3)
-    operator.until(lambda: operator.session.stop_phase == "stopped")
+    operator.until(lambda: operator.session.robot_stop.phase == "stopped")
 
 
 @pytest.fixture
@@ -156,8 +156,8 @@ def test_a_robot_that_does_not_obey_is_not_said_to_be_stopped(operator: Operator
     strange.robot.command = lambda _: None  # type: ignore[method-assign]
     strange.robot.step = lambda _: None  # type: ignore[method-assign]
     operator.session.stop()
-    operator.until(lambda: operator.session.stop_phase == "no_answer")
-    assert "does not yet say that it rests" in operator.session.local_stop.sentence(drives=True)
+    operator.until(lambda: operator.session.robot_stop.phase == "no_answer")
+    assert "does not yet say that it rests" in operator.session.robot_stop.local.sentence(drives=True)
 
 
 def test_a_topic_of_a_type_that_nobody_knew_is_learned_and_let_go(
@@ -180,7 +180,7 @@ def test_a_topic_of_a_type_that_nobody_knew_is_learned_and_let_go(
 def test_a_type_that_cannot_be_learned_is_said(operator: Operator) -> None:
     topics = Topics(operator.session)
     operator.session.listeners.append(topics.hear)
-    offer = operator.session.offer
+    offer = operator.session.robot.capabilities
     object.__setattr__(offer, "topics", {**offer.topics, "/odd": "odd_msgs/Odd"})
     topics.open("/odd")
     operator.until(lambda: topics.problem)
@@ -200,7 +200,7 @@ def bare(tmp_path: Path) -> Iterator[Callable[..., tuple[Operator, Strange]]]:
         def connect(*withheld: str) -> tuple[Operator, Strange]:
             robot.withhold(*withheld)
             made.append(Operator(robot.url, tmp_path, wants_control=True))
-            made[0].until(lambda: made[0].session.foreign and made[0].session.connected)
+            made[0].until(lambda: made[0].session.robot.foreign and made[0].session.connected)
             return made[0], robot
 
         yield connect
@@ -221,11 +221,11 @@ def test_a_robot_without_rosapi_is_tried_by_the_usual_names(
     bare: Callable[..., tuple[Operator, Strange]],
 ) -> None:
     operator, strange = bare()
-    assert not operator.session.offer.rosapi
+    assert not operator.session.robot.capabilities.rosapi
     operator.until(lambda: operator.session.feeds.latest("/odom") is not None)
     drives(operator, strange)
     operator.session.stop()
-    operator.until(lambda: operator.session.stop_phase == "stopped")
+    operator.until(lambda: operator.session.robot_stop.phase == "stopped")
     assert Topics(operator.session).sentence == "This robot does not tell its topics: it runs no rosapi."
 
 
@@ -233,7 +233,7 @@ def test_a_robot_that_takes_stamped_commands_is_driven_by_them(tmp_path: Path) -
     with strange_robot(2) as strange:
         strange.drive_by("/base/cmd_vel", "geometry_msgs/TwistStamped")
         operator = Operator(strange.url, tmp_path, wants_control=True)
-        operator.until(lambda: operator.session.foreign and operator.session.connected)
+        operator.until(lambda: operator.session.robot.foreign and operator.session.connected)
         drives(operator, strange)
         operator.link.drive(Twist())
         operator.until(lambda: strange.robot.speed == 0.0)

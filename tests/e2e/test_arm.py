@@ -108,8 +108,8 @@ def test_lights_and_the_camera_that_looks_back_have_buttons_by_themselves(
         glass.run(0.6)  # a button whose meaning has just changed takes no press
         glass.tap("Lights", "QuietButton")
         glass.until(lambda: told.lights.brightness == 1.0, "light")
-        first = session.camera(None)
+        first = session.cameras.wanted(None)
         glass.tap("More", "QuietButton")
         glass.run(0.6)
         glass.tap("Camera", "QuietButton")
-        glass.until(lambda: session.camera(None) == "rear" != first, "the camera that looks back")
+        glass.until(lambda: session.cameras.wanted(None) == "rear" != first, "the camera that looks back")

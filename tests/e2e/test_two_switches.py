@@ -78,7 +78,7 @@ def test_a_patrol_is_planned_started_paused_stopped_and_released_by_two_keys(
         keys.choose("Release STOP")
         keys.look()
         keys.choose("Release STOP")  # asked once more, since no finger stays on it
-        glass.until(lambda: not app.session.stop_latched, "STOP to be released")
+        glass.until(lambda: not app.session.robot_stop.latched, "STOP to be released")
         keys.choose("Back", within="Top bar")
         glass.until(lambda: app.shell is None, "the list of robots")
         assert keys.presses < 500

@@ -299,7 +299,7 @@ class Talking(Switched):
             self.say(f"{label}: {why}. {outcome.reason}", "alarm")
 
     def _watch_stop(self) -> None:
-        stopped = self._session is not None and self._session.stop_phase == "stopped"
+        stopped = self._session is not None and self._session.robot_stop.phase == "stopped"
         if stopped and not self._stopped:
             self.say("Halted: the robot confirms it.", "alarm")
         self._stopped = stopped

@@ -29,7 +29,7 @@ class ArmHand:
     @property
     def carried(self) -> bool:
         """The robot is known to have an arm that can be told what to do."""
-        offer = self._session.offer
+        offer = self._session.robot.capabilities
         return offer is not None and offer.serves(SERVICE)
 
     @property
@@ -69,5 +69,5 @@ class ArmHand:
         age = session.feeds.age(TOPIC)
         if state == "stale" and not abs(age - panel.age) < 0.5:
             panel.age = age
-        asked = session.may_ask and not session.stop_latched
+        asked = session.may_ask and not session.robot_stop.latched
         panel.state = state if asked or state != "live" else "disabled"

@@ -138,7 +138,7 @@ class DiveScreen(Driving):
         """The robot said what it is: what swims shows its motion in the water."""
         for widget in self.instruments.places.get("motion", ()):
             if hasattr(widget, "under_water"):
-                widget.under_water = self.session.info.dives
+                widget.under_water = self.session.robot.info.dives
 
     def tick(self) -> None:
         """Bring up to date what time changes."""

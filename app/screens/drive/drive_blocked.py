@@ -35,9 +35,9 @@ def why_not(session: Session) -> str:
         return ""
     if session.may_drive:
         return GROUNDED.get(grounded(session), "")
-    if session.foreign:
-        return "" if session.local_stop.latched else "This robot has no topic to drive it by."
-    if session.stop_latched:
+    if session.robot.foreign:
+        return "" if session.robot_stop.local.latched else "This robot has no topic to drive it by."
+    if session.robot_stop.latched:
         return "STOP is pressed; hold it to release."
     if session.control == "other":
         return f"{session.authority.status.driver} has control; ask for it."
@@ -64,7 +64,11 @@ class InVain:
             return
         self._said = text
         shell.unsay(AUTHORITY)
-        if session.control == "other" and not session.authority.asking and session.offers("/control/request"):
+        if (
+            session.control == "other"
+            and not session.authority.asking
+            and session.robot.offers("/control/request")
+        ):
             shell.notices.offer(text, "Ask", session.take_control, icon="person")
         else:
             shell.say(text, "warn", about=ABOUT)

@@ -189,7 +189,7 @@ class Hands(EventDispatcher):
 
     def _kinds(self) -> tuple[str, ...]:
         session = self._session
-        return tuple(session.info.manoeuvres) if session.link.steers else ()
+        return tuple(session.robot.info.manoeuvres) if session.link.steers else ()
 
     def _act(self, widget: Any, what: str) -> None:
         name = self._actions.confirm(what)
@@ -263,7 +263,7 @@ class Hands(EventDispatcher):
             stick.state = "live" if session.may_drive and not phase else "disabled"
             self._caption(stick, one, phase if session.may_drive else "")
         able = {action.name: action for action in self._actions.slides()}
-        asked = session.may_ask and not session.stop_latched
+        asked = session.may_ask and not session.robot_stop.latched
         for widget, one in self._asking:
             action = able.get(one.action)
             may = (action is not None and action.able) if one.action else asked
@@ -287,7 +287,7 @@ class Hands(EventDispatcher):
     def _tell_driven(self) -> None:
         """Slider and lever mean the hand alone: while a task drives, its own speed stands there."""
         status: TaskStatus | None = self._session.feeds.latest("/task/status")
-        led = status is not None and status.state == "RUNNING" and not self._session.stop_latched
+        led = status is not None and status.state == "RUNNING" and not self._session.robot_stop.latched
         if self.speed is not None:
             self.speed.driven = f"task: {self._speed_words}" if led else ""
         for stick, _ in self._sticks:
@@ -313,7 +313,7 @@ class Hands(EventDispatcher):
 
     def take_limits(self) -> None:
         """The slider's range is the robot's; where it stood is kept."""
-        limits, info = self._session.feeds.latest("/limits"), self._session.info
+        limits, info = self._session.feeds.latest("/limits"), self._session.robot.info
         fastest, _ = allowed(info, limits)
         if self.speed is not None:
             self._range(self.speed, fastest)
@@ -334,7 +334,7 @@ class Hands(EventDispatcher):
 
     def _limit(self, *_: object) -> None:
         """Slow on the slider is slow in everything but turning, which is never below half, and steering, which is whole."""
-        info = self._session.info
+        info = self._session.robot.info
         fastest, turn = allowed(info, self._session.feeds.latest("/limits"))
         speed = self.speed.maximum_speed if self.speed is not None else fastest
         share = min(1.0, speed / fastest)

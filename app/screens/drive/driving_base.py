@@ -77,7 +77,7 @@ class Driving(FloatLayout):
         self.dashboard.bind(
             self.video,
             "/detections",
-            lambda found: self.video.show(session.found_in_picture(found)),
+            lambda found: self.video.show(session.cameras.detections_shown(found)),
             fresh=False,
             empty=Detection2DArray(),
         )
@@ -124,7 +124,7 @@ class Driving(FloatLayout):
         self.dashboard.deliver(channel, post.value)
         self.hands.hear(channel, post)
         if channel == OFFER:
-            self.instruments.name_sources(self.session.offer)
+            self.instruments.name_sources(self.session.robot.capabilities)
         if channel in ("/robot/info", OFFER):
             self.meet()
 
@@ -132,7 +132,7 @@ class Driving(FloatLayout):
         """Come onto the glass."""
         self.hands.take_limits()
         self.meet()
-        self.instruments.name_sources(self.session.offer)
+        self.instruments.name_sources(self.session.robot.capabilities)
         self.dashboard.enter()
         self.tick()
 

@@ -49,7 +49,7 @@ class Sight(IntruderBadge):
         self._show()
         self.seen = len(self._video.boxes)
         self._grow_old(feeds)
-        fov, first = self._session.info.camera_fov, self._session.shows_first_camera
+        fov, first = self._session.robot.info.camera_fov, self._session.cameras.shows_first
         self._video.field_of_view = fov if fov > 0 and first else math.nan
         placed = self.told and self.count > 0 and feeds.state(POSE) == "live" and math.isfinite(self.angle)
         placed = placed and first

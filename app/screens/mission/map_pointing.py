@@ -86,12 +86,12 @@ class Pointing:
     @property
     def can_place(self) -> bool:
         """The robot can be told where it is."""
-        offer = self._session.offer
+        offer = self._session.robot.capabilities
         return offer is None or offer.ours or not offer.rosapi or "/initialpose" in offer.topics
 
     def modes(self) -> list[tuple[str, str]]:
         """A finger on the map can do only what this robot takes."""
-        lacks = self._session.lacks_tasks
+        lacks = self._session.robot.lacks_tasks
         modes = [one for one in MODES if not lacks or one[0] == "view"]
         if lacks and self.can_place:
             modes.append(MODES[-1])
@@ -198,7 +198,7 @@ class Pointing:
 
     def _new_place(self, x: float, y: float) -> None:
         """A finger pointed at where a place is; what it is called is asked on another screen."""
-        if not self._session.offers("/places/set"):
+        if not self._session.robot.offers("/places/set"):
             return
         place, self._moving = self._moving or Place(), None
         self._edit_place(msgspec.structs.replace(place, x=x, y=y))

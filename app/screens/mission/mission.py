@@ -164,7 +164,7 @@ class MissionScreen(FloatLayout):
         bind(
             self.video,
             "/detections",
-            lambda found: self.video.show(self.session.found_in_picture(found)),
+            lambda found: self.video.show(self.session.cameras.detections_shown(found)),
             fresh=False,
             empty=Detection2DArray(),
         )
@@ -180,7 +180,7 @@ class MissionScreen(FloatLayout):
         self._rearrange()
         self.dashboard.enter()
         self._show_draft()
-        self._show_info(self.session.info)
+        self._show_info(self.session.robot.info)
         self.map.fit()
 
     # what the shell calls
@@ -282,7 +282,7 @@ class MissionScreen(FloatLayout):
 
     def _place_tools(self, rect: Rect, dp: float, tall: bool) -> None:
         names = ["centre", "layers", "undo", "redo"] if tall else list(self._tools)
-        if self.session.lacks_tasks:
+        if self.session.robot.lacks_tasks:
             names = [name for name in names if name not in ("undo", "redo")]
         if self._maps.pictures() is None:
             names = ["fit" if name == "layers" else name for name in names if name != "layers" or tall]

@@ -50,7 +50,7 @@ class Maps:
 
     def pictures(self) -> Path | None:
         """The file with aerial pictures of this robot's world; None when there is none or its place is unknown."""
-        info = self._session.info
+        info = self._session.robot.info
         path = PICTURES / f"{info.world}.mbtiles"
         return path if math.isfinite(info.latitude) and info.world and path.is_file() else None
 
@@ -60,7 +60,7 @@ class Maps:
         if self._other is None and pictures is not None and self._pointing is not None:
             from widgets import GeoMap
 
-            info = self._session.info
+            info = self._session.robot.info
             self._other = GeoMap(tiles=str(pictures), datum=Datum(info.latitude, info.longitude))
             self._bind(self._other, self._pointing)
         if self._other is None:

@@ -236,7 +236,7 @@ class MissionPanel(BoxLayout):
 
     def _order(self) -> tuple[list[Widget], list[Widget]]:
         """What is in sight at rest, and what a phone has to be scrolled or its sheet drawn up for."""
-        if self._session.lacks_tasks:
+        if self._session.robot.lacks_tasks:
             return [self.lacking, *([self.plain] if self.form == "short" else []), self._rest], []
         if self.form == "wide":
             return [self._send, self.motion, self.tasks, self._progress, self.events], []
@@ -257,7 +257,7 @@ class MissionPanel(BoxLayout):
         column.clear_widgets()
         self.readouts.clear_widgets()
         if self.form == "wide":
-            figures = self.plain if self._session.lacks_tasks else self.figures
+            figures = self.plain if self._session.robot.lacks_tasks else self.figures
             if figures.parent is not None:
                 figures.parent.remove_widget(figures)
             self.readouts.add_widget(figures)
@@ -280,7 +280,7 @@ class MissionPanel(BoxLayout):
     @property
     def beside_stop(self) -> Widget:
         """What a phone has beside STOP: the task's buttons, or the figures of a robot that has no tasks."""
-        return self.plain if self._session.lacks_tasks else self.tasks
+        return self.plain if self._session.robot.lacks_tasks else self.tasks
 
     def keep_tasks(self, here: bool) -> None:
         """Have the task's buttons as wide as the panel, where they are in it."""
@@ -347,12 +347,12 @@ class MissionPanel(BoxLayout):
         if not session.connected:
             self._progress.where = "What runs is not known without a link."
         mine = session.may_ask
-        tasks, missions = session.offers("/task/start"), session.offers("/mission/set")
+        tasks, missions = session.robot.offers("/task/start"), session.robot.offers("/mission/set")
         self.tasks.state = "live" if mine and tasks else "disabled"
         if not tasks:
             self.tasks.reason = NO_TASKS
         self.tasks.ready = bool(session.mission.draft.points)
-        self.tasks.held = session.stop_latched
+        self.tasks.held = session.robot_stop.latched
         self._send.may_send = int(mine and missions and session.mission.state == "draft")
         if not missions:
             self._send.note = NO_MISSIONS

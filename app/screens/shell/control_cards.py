@@ -84,11 +84,11 @@ class ControlCards:
         self.handover.left = authority.left
         self._tick_mode(other=other)
         self.paused.held = session.link.driving
-        self.paused.name = session.own_name.known
+        self.paused.name = session.events.own_name.known
         self.cap.rtt = session.link.rtt
         self.cap.driver = authority.status.driver if other else ""
         self.cap.blocked = other
-        self._place(screen, usable=session.connected and not session.foreign, other=other)
+        self._place(screen, usable=session.connected and not session.robot.foreign, other=other)
 
     def _place(self, screen: str, *, usable: bool, other: bool) -> None:
         """Put on the glass what is open; where there is little room only what cannot wait."""
@@ -96,7 +96,7 @@ class ControlCards:
         asked, chosen = usable and self.handover.open, usable and self.mode.open
         free = usable and not self.yields and not (tight and (asked or chosen))
         paused = self.paused.open and not (
-            self._closed or self._pause_asked or other or self._session.stop_latched
+            self._closed or self._pause_asked or other or self._session.robot_stop.latched
         )
         paused, capped = free and paused and screen in TASKLESS, free and self.cap.open and screen in DRIVING
         if self.alone:
@@ -119,7 +119,7 @@ class ControlCards:
         card.task = TASKS[task.task].doing if task is not None and task.task in TASKS else ""
         waits = task is not None and task.state in ("PAUSED", "INTERRUPTED")
         card.ready = waits or bool(queue is not None and queue.orders)
-        if session.stop_latched:
+        if session.robot_stop.latched:
             card.why_not = "STOP is pressed; hold it to release."
         else:
             card.why_not = f"{session.authority.status.driver} has control." if other else ""

@@ -24,7 +24,7 @@ class Resetting:
     @property
     def possible(self) -> bool:
         """The robot is known to be one that can be put back, as a simulated one."""
-        return self._session.offer is not None and self._session.offers(SERVICE)
+        return self._session.robot.capabilities is not None and self._session.robot.offers(SERVICE)
 
     def ask(self) -> None:
         """Ask the operator whether it shall be done; nothing for a robot that cannot be put back."""
@@ -49,8 +49,8 @@ class Resetting:
     def tick(self) -> None:
         """Bring up to date who may, and whether the card is on the glass."""
         session, card = self._session, self.card
-        card.name, card.blocked = session.name, not session.may_ask
-        card.flies = session.info.flies
+        card.name, card.blocked = session.robot.name, not session.may_ask
+        card.flies = session.robot.info.flies
         self._notices.keep(card, shown=card.open and session.connected and self.possible)
 
     def _answer(self, name: str) -> None:

@@ -238,7 +238,12 @@ class Shell(FloatLayout):
         """Say in the same frame what the robot is and who has it, as soon as that is another."""
         session, status = self.session, self.session.control_status
         task: TaskStatus | None = session.feeds.latest("/task/status")
-        told = (session.name, session.link_state.phase, session.offer, task and (task.task_id, task.state))
+        told = (
+            session.robot.name,
+            session.link_state.phase,
+            session.robot.capabilities,
+            task and (task.task_id, task.state),
+        )
         held = status and (status.mode, status.stopped, status.driver_id, status.requested_by_id)
         if (told, held) != self._stands:
             self._stands = told, held
@@ -246,7 +251,7 @@ class Shell(FloatLayout):
 
     def _greet(self) -> None:
         """Say once what is missing on a robot that is not ours."""
-        offer = self.session.offer
+        offer = self.session.robot.capabilities
         if offer is not None and offer.sentence != self._greeted:
             self._greeted = offer.sentence
             if offer.sentence:
@@ -315,14 +320,16 @@ class Shell(FloatLayout):
 
     def _show_stop(self) -> None:
         """What became of STOP; as soon as it is known, not when the next tick comes."""
-        if self.stop.phase == "stopped" != self.session.stop_phase:
+        if self.stop.phase == "stopped" != self.session.robot_stop.phase:
             for kind in ("stop", "task"):
                 self.unsay(kind)
-        lost_for = self.session.stop_lost_for
+        lost_for = self.session.robot_stop.lost_for
         self.stop.ago = "" if math.isnan(lost_for) else silence(lost_for)
         # without a link nothing can be let go, and nothing is offered to be held
-        self.stop.local = self.session.connected and (self.session.foreign or self.session.stop_latched)
-        self.stop.phase = self.session.stop_phase
+        self.stop.local = self.session.connected and (
+            self.session.robot.foreign or self.session.robot_stop.latched
+        )
+        self.stop.phase = self.session.robot_stop.phase
 
     def _tick_banner(self) -> None:
         session = self.session
@@ -338,9 +345,9 @@ class Shell(FloatLayout):
         """What is known of a STOP that this handheld alone holds, for as long as it holds it."""
         session, banner = self.session, self._stop_banner
         drives = session.link.drive_topic is not None
-        text = session.local_stop.sentence(drives, session.connected) if session.foreign else ""
+        text = session.robot_stop.local.sentence(drives, session.connected) if session.robot.foreign else ""
         banner.text = text or banner.text
-        banner.level = "ok" if session.stop_phase == "stopped" else "warn"
+        banner.level = "ok" if session.robot_stop.phase == "stopped" else "warn"
         if text and banner.parent is None:
             self.unsay("offer")
         self.notices.keep(banner, shown=bool(text))
@@ -349,7 +356,7 @@ class Shell(FloatLayout):
         """What the task asks is over every screen until it is answered."""
         card = self.question
         card.blocked = not self.session.may_ask
-        card.held = self.session.stop_latched
+        card.held = self.session.robot_stop.latched
         card.tight = self.form == "short"
         card.old = "" if self.session.connected else age_text(self.session.feeds.age("/task/status"))
         # a phone on its side has room for one card: the one that counts down goes first

@@ -33,8 +33,8 @@ CONTROLS = {
 def mode(session: Session, *, brief: bool) -> tuple[str, str, str]:
     """Words, icon and role of who steers the robot, and with what task unless `brief`."""
     status: ControlStatus | None = session.feeds.latest("/control/status")
-    if session.foreign and session.connected:
-        held = session.local_stop.latched
+    if session.robot.foreign and session.connected:
+        held = session.robot_stop.local.latched
         return "STOP" if held else "MANUAL", *MODES["STOPPED" if held else "MANUAL"]
     if status is None or not session.connected:
         return "no link" if not session.connected else "—", "signal_disconnected", "muted"

@@ -194,11 +194,13 @@ class TopBar(EdgedBox):
 
     def tick(self, session: Session) -> None:
         """Say how the robot stands now."""
-        self.robot_name = session.name
+        self.robot_name = session.robot.name
         self.mode_text, self.mode_icon, self.mode_role = standing.mode(session, brief=self.form == "tall")
-        self.mode_offered = session.connected and not session.foreign and session.offers("/mode/set")
+        self.mode_offered = (
+            session.connected and not session.robot.foreign and session.robot.offers("/mode/set")
+        )
         self.fix_text, self.fix_role = standing.fix(session)
-        offer = session.offer
+        offer = session.robot.capabilities
         self.located = offer is None or "/fix" in offer.topics or session.feeds.latest("/fix") is not None
         self.control_text, self.control_icon, self.control_role = standing.control(
             session, brief=self.form != "wide"

@@ -122,7 +122,7 @@ class NowList(BoxLayout):
         """Bring up to date what can be done; `may` when it can be asked for from here."""
         session = self._session
         status: TaskStatus = session.feeds.latest("/task/status") or TaskStatus()
-        self.may, self.held = may, session.stop_latched
+        self.may, self.held = may, session.robot_stop.latched
         self.active = status.state in ("RUNNING", "PAUSED", "INTERRUPTED")
         count = len(session.tasking.queue.orders)
         waiting = count > 0 and not self.active

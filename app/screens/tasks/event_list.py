@@ -67,7 +67,7 @@ class EventList(BoxLayout):
         clock = session.link.robot_time()
         if math.isfinite(clock) and not abs(clock - log.now) < 1.0:
             log.now = clock
-        log.acts = session.connected and session.offers("/events/acknowledge")
+        log.acts = session.connected and session.robot.offers("/events/acknowledge")
         if self._stale:
             self._stale = False
             events = self._book.events

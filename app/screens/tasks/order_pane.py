@@ -66,7 +66,7 @@ def why_not_now(session: Session, *, timed: bool = False) -> str:
     status: TaskStatus | None = session.feeds.latest("/task/status")
     if timed:
         return ""
-    if session.stop_latched:
+    if session.robot_stop.latched:
         return "Not now: STOP is pressed; hold it to release."
     if session.running and status is not None:
         name = title(TaskOrder(task=status.task, places=list(status.places)))

@@ -51,9 +51,9 @@ class SettingsPane(BoxLayout):
         session = self._session
         if not session.connected:
             self.options.forget()
-        self.options.state = "live" if may and session.offers("/settings/set") else "disabled"
+        self.options.state = "live" if may and session.robot.offers("/settings/set") else "disabled"
         self.head.sentence = self._sentence()
-        possible = session.offer is not None and session.offers("/robot/reset")
+        possible = session.robot.capabilities is not None and session.robot.offers("/robot/reset")
         if possible != (self.back.parent is self):
             (self.add_widget if possible else self.remove_widget)(self.back)
         self.back.disabled = not may
@@ -63,7 +63,7 @@ class SettingsPane(BoxLayout):
         status: ControlStatus | None = session.feeds.latest("/control/status")
         if not session.connected:
             return "There is no link; they can be switched when it is back."
-        if not session.offers("/settings/set"):
+        if not session.robot.offers("/settings/set"):
             return "This robot has no settings to switch."
         if session.control == "other" and status is not None:
             return f"{status.driver or 'Somebody else'} has control and can switch them."

@@ -107,7 +107,7 @@ class TaskActs(ActButtons):
             "place": ["keep", *(["forget", "go", "move"] if screen.form.shown.id else [])],
             "mission": ["recall" if screen.mission_pane.chosen is not None else "keep_mission"],
         }.get(shown, [])
-        if self._session.lacks_tasks:
+        if self._session.robot.lacks_tasks:
             for_list = for_detail = []
         if shown == "place" and not screen.place_pane.there:
             for_detail = []
@@ -123,18 +123,18 @@ class TaskActs(ActButtons):
         """What cannot be asked for just now cannot be pressed."""
         screen, session, buttons, mine = self._screen, self._session, self.by_name, self._screen.mine
         complete = screen.pane.complete and mine
-        buttons["start"].disabled = not complete or session.stop_latched or session.running
+        buttons["start"].disabled = not complete or session.robot_stop.latched or session.running
         buttons["queue"].disabled = not complete
         buttons["save"].disabled = not complete
         buttons["keep"].disabled = not mine or bool(screen.form.lacking)
         for name in ("forget", "unschedule", "here"):
             buttons[name].disabled = not mine
-        buttons["recall"].disabled = not mine or not session.offers("/mission/recall")
+        buttons["recall"].disabled = not mine or not session.robot.offers("/mission/recall")
         buttons["keep_mission"].disabled = not mine or bool(screen.mission_pane.lacking)
         waiting = len(screen.events.waiting)
         buttons["seen_all"].disabled = not waiting or not screen.events.log.acts
         buttons["seen_all"].text = f"All seen ({waiting})" if waiting else "All seen"
-        buttons["go"].disabled = not session.knows("go_to")
+        buttons["go"].disabled = not session.robot.knows("go_to")
         located = math.isfinite(screen.places.robot[0])
         buttons["here"].disabled = not mine or not located
 

@@ -193,13 +193,13 @@ class TasksScreen(FloatLayout):
         self.dashboard.tick()
         self.now.tick(self.mine)
         self.pane.refresh()
-        self.pane.meet(self.session.info)
+        self.pane.meet(self.session.robot.info)
         clock = self.session.link.robot_time()
         if math.isfinite(clock) and not abs(clock - self.schedule.now) < 5.0:
             self.schedule.now = self.runs.now = self.missions.now = clock
         self.tabs.waiting, self.tabs.has_settings = (
             len(self.session.logbook.open),
-            not self.session.lacks_tasks,
+            not self.session.robot.lacks_tasks,
         )
         self.events.tick()
         self.mission_pane.refresh()
@@ -242,7 +242,7 @@ class TasksScreen(FloatLayout):
             "places": self.places,
             "missions": self.missions,
         }
-        if self.session.lacks_tasks:
+        if self.session.robot.lacks_tasks:
             lists, shown = dict.fromkeys(lists, self._lacking), ""
         tall = self._form == "tall"
         listed.clear_widgets()
@@ -279,9 +279,9 @@ class TasksScreen(FloatLayout):
 
     def _ask(self) -> None:
         """What the robot does not tell by itself is asked for when it is looked at."""
-        if self.tab == "history" and self.session.connected and self.session.offers("/history/get"):
+        if self.tab == "history" and self.session.connected and self.session.robot.offers("/history/get"):
             self.session.tasking.ask_history()
-        if self.tab == "missions" and self.session.connected and self.session.offers("/missions/get"):
+        if self.tab == "missions" and self.session.connected and self.session.robot.offers("/missions/get"):
             self.session.missions.ask()
 
     def open(self, detail: str) -> None:

@@ -14,9 +14,7 @@ from collections.abc import Sequence as Places
 from py_trees.behaviour import Behaviour
 from py_trees.composites import Sequence
 
-from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Place
-from robotside.core.notice import Notice
 from robotside.navigation.navigator import Guide
 from robotside.records.events import Say
 from robotside.tasks.behaviours.acts import Act, Rounds
@@ -45,8 +43,7 @@ def deliver(
 
     def arrived() -> bool:
         goal = course.goal
-        reached = Notice(Code.WAYPOINT_REACHED, f"{goal.name} reached.", place=goal.name.rstrip(","))
-        say("waypoint", reached, "ok", at=(goal.x, goal.y))
+        say("waypoint", f"{goal.name} reached.", "ok", at=(goal.x, goal.y))
         return True
 
     def count() -> bool:

@@ -7,10 +7,8 @@ import math
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from bridge.core.codes import Code
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Place
-from robotside.core.notice import Notice
 from robotside.core.pose2 import Pose2
 from robotside.navigation.navigator import Goal, Guide
 from robotside.tasks.behaviours.course import Course
@@ -98,8 +96,9 @@ class Dock(Behaviour):
             return Status.RUNNING
         left = PATIENCE - (now.worked - self._began)
         if left <= 0:
-            said = f"No charge was seen at {name} within {PATIENCE:.0f} s; the robot stands there."
-            self._guide.reason = Notice(Code.DOCK_DEAD, said, place=name, seconds=PATIENCE)
+            self._guide.reason = (
+                f"No charge was seen at {name} within {PATIENCE:.0f} s; the robot stands there."
+            )
             return Status.FAILURE
         at_end = now.touched or here.x > BEYOND
         text = f"Waiting for the charge at {name}." if at_end else f"Creeping to {name}."

@@ -76,7 +76,7 @@ class Robot(Asked):
 @pytest.fixture
 def robot(tmp_path: Path) -> Any:
     asked = Robot(tmp_path)
-    settings = asked.session._settings
+    settings = asked.session.drafts._settings
     yield asked
     settings.close()
 

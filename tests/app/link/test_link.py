@@ -104,7 +104,7 @@ def test_who_connects_takes_control_where_it_is_free(
     operator = connect()
     operator.until(lambda: operator.session.control == "mine")
     assert robot.services() == ["/control/acquire"]
-    assert operator.session.name == "Fake-1"
+    assert operator.session.robot.name == "Fake-1"
 
 
 def test_who_watches_asks_for_nothing(robot: FakeRobot, connect: Callable[..., Operator]) -> None:
@@ -210,12 +210,12 @@ def test_stop_is_confirmed_by_the_robot_and_lets_the_stick_go(
     operator.link.drive(AHEAD)
     operator.until(lambda: AHEAD in robot.twists())
     operator.link.stop()
-    operator.until(lambda: operator.session.stop_phase == "stopped")
+    operator.until(lambda: operator.session.robot_stop.phase == "stopped")
     operator.until(lambda: robot.twists()[-3:] == [Twist()] * 3)
     assert robot.services().count("/stop") >= 1
     assert not operator.session.may_drive
     operator.session.command("stop_release")
-    operator.until(lambda: operator.session.stop_phase == "ready")
+    operator.until(lambda: operator.session.robot_stop.phase == "ready")
 
 
 def test_stop_is_repeated_while_the_robot_does_not_rest_until_it_is_let_go(
@@ -228,10 +228,10 @@ def test_stop_is_repeated_while_the_robot_does_not_rest_until_it_is_let_go(
     operator.until(lambda: "/stop" in robot.services())
     held = {"driver": "tablet", "driver_id": "me"}
     robot.publish("/control/status", ControlStatus(mode="STOPPED", stopped=True, at_rest=False, **held))
-    operator.until(lambda: operator.session.stop_latched)
+    operator.until(lambda: operator.session.robot_stop.latched)
     asked = robot.services().count("/stop")
     operator.until(lambda: robot.services().count("/stop") > asked + 3)
-    operator.until(lambda: operator.session.stop_phase == "no_answer")
+    operator.until(lambda: operator.session.robot_stop.phase == "no_answer")
     operator.session.release_stop()
     operator.until(lambda: "/stop/release" in robot.services())
     holds(operator, 0.6)
@@ -472,7 +472,7 @@ def test_events_heard_by_nobody_are_kept_for_who_comes_later(
     operator = connect()
     operator.session.listeners.clear()
     operator.session.deliver("event", Post(Event(id=1, text="early"), 0.0, 1))
-    assert [post.value.text for post in operator.session.early] == ["early"]
+    assert [post.value.text for post in operator.session.events.early] == ["early"]
 
 
 def test_a_draft_that_was_under_way_over_a_closed_link_can_be_sent_again(
@@ -495,4 +495,4 @@ def test_whether_it_is_stopped_wakes_the_glass_at_once(
     operator.woken.clear()
     robot.publish("/control/status", ControlStatus(stopped=True))
     assert operator.woken.wait(PATIENCE)
-    operator.until(lambda: operator.session.stop_latched)
+    operator.until(lambda: operator.session.robot_stop.latched)

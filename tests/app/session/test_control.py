@@ -31,6 +31,7 @@ class Watch:
         self.clock = Clock()
         self.asked: list[str] = []
         self.link = SimpleNamespace(
+            url="ws://127.0.0.1:9090",
             state=BACK,
             silent=False,
             silence=0.0,
@@ -95,7 +96,9 @@ def test_whoever_has_control_given_up_the_robot_rests_first_and_the_stick_lets_g
 
 
 def test_a_robot_that_cannot_be_asked_is_taken_as_before(watch: Watch) -> None:
-    watch.session.offer = SimpleNamespace(ours=True, serves=lambda name: name != "/control/request")  # type: ignore[assignment]
+    watch.session.robot.capabilities = SimpleNamespace(
+        ours=True, serves=lambda name: name != "/control/request"
+    )  # type: ignore[assignment]
     watch.told(BOBS)
     watch.authority.toggle()
     assert watch.asked == ["acquire"]
@@ -111,7 +114,7 @@ def test_who_asks_sees_how_long_still_and_can_take_it_back(watch: Watch) -> None
     watch.authority.toggle()
     assert watch.asked == ["release"]
     watch.told(BOBS)
-    assert (watch.news, watch.session.wants_control) == ([], False)
+    assert (watch.news, watch.session.authority.wanted) == ([], False)
 
 
 def test_the_countdown_ends_at_zero_and_is_not_guessed_without_a_clock(watch: Watch) -> None:
@@ -132,7 +135,7 @@ def test_the_driver_is_told_who_asks_and_what_became_of_it(watch: Watch) -> None
 
 
 def test_who_handed_control_over_does_not_take_it_again_by_itself(watch: Watch) -> None:
-    watch.session.wants_control = True
+    watch.session.authority.wanted = True
     watch.told(MINE)
     watch.told(watch.asks(MINE, "Anna", "a"))
     watch.told(ControlStatus(driver="Anna", driver_id="a"))
@@ -171,7 +174,7 @@ def test_control_that_lapsed_while_the_link_was_away_is_said(watch: Watch) -> No
 
 
 def test_control_that_lapsed_is_said_and_asked_for_again(watch: Watch) -> None:
-    watch.session.wants_control = True
+    watch.session.authority.wanted = True
     watch.told(MINE)
     watch.told(FREE)
     assert watch.asked == ["acquire"]
@@ -181,7 +184,7 @@ def test_control_that_lapsed_is_said_and_asked_for_again(watch: Watch) -> None:
 
 
 def test_control_that_lapsed_and_came_back_is_said_in_its_place(watch: Watch) -> None:
-    watch.session.wants_control = True
+    watch.session.authority.wanted = True
     watch.told(MINE)
     watch.link_becomes(DROPPED)
     watch.link_becomes(BACK)

@@ -33,6 +33,7 @@ class Asked:
     def __init__(self, folder: Path, services: frozenset[str] = SERVICES) -> None:
         self.commands: list[tuple[str, dict[str, Any]]] = []
         link = SimpleNamespace(
+            url="ws://127.0.0.1:9090",
             state=LinkState(Phase.CONNECTED, "", 0, 0.0),
             silent=False,
             silence=0.0,
@@ -53,7 +54,7 @@ class Asked:
         self.recorded: list[bool] = []
         self.toggle_recording = lambda: self.recorded.append(True)
         self.shell = SimpleNamespace(reset=SimpleNamespace(ask=lambda: self.resets.append(True)))
-        self.session.offer = Offer(
+        self.session.robot.capabilities = Offer(
             {"/control/status": "pilothouse_msgs/ControlStatus"}, services, rosapi=True
         )
         self.actions = Actions([Line(what) for what in ACTIONS], self.session, self)
@@ -166,7 +167,7 @@ def test_what_a_robot_carries_needs_no_line_of_a_layout(asked: Asked) -> None:
 
 
 def test_lights_are_not_there_before_the_robot_has_said_what_it_offers(asked: Asked) -> None:
-    asked.session.offer = None
+    asked.session.robot.capabilities = None
     assert "lights" not in asked.names
 
 
@@ -178,22 +179,22 @@ def test_cameras_go_round_and_one_alone_has_no_button(asked: Asked) -> None:
         seen.append(asked["camera"].said)
         asked.actions.act("camera")
     assert seen == ["front", "rear", "front"]
-    assert asked.session.camera(None) == "rear"
+    assert asked.session.cameras.wanted(None) == "rear"
 
 
 def test_what_was_found_is_drawn_only_into_the_picture_that_is_searched(asked: Asked) -> None:
     found = Detection2DArray(detections=[Detection2D()])
     asked.tell("/robot/info", RobotInfo(cameras=["front", "rear"]))
-    assert asked.session.found_in_picture(found) is found
+    assert asked.session.cameras.detections_shown(found) is found
     asked.actions.act("camera")
-    assert asked.session.found_in_picture(found).detections == []
+    assert asked.session.cameras.detections_shown(found).detections == []
 
 
 def test_a_camera_that_is_gone_gives_way_to_the_first(asked: Asked) -> None:
     asked.tell("/robot/info", RobotInfo(cameras=["front", "rear"]))
     asked.actions.act("camera")
     asked.tell("/robot/info", RobotInfo(cameras=["front"]))
-    assert asked.session.camera(None) == "front"
+    assert asked.session.cameras.wanted(None) == "front"
 
 
 def test_a_reset_is_asked_about_and_not_sent(asked: Asked) -> None:

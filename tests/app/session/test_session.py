@@ -24,6 +24,7 @@ UNREACHED = "STOP is pressed, but the robot cannot be reached: the connection wa
 class Wire:
     """Stands for the link; notes what it is asked for."""
 
+    url = "ws://127.0.0.1:9090"
     state = LinkState(Phase.CONNECTED, "", 0, 0.0)
     silence = 0.0
     robot_time = staticmethod(lambda: math.nan)
@@ -76,33 +77,33 @@ def watch(tmp_path: Path) -> Watch:
 def test_stop_is_done_when_the_robot_says_that_it_rests(watch: Watch) -> None:
     watch.session.stop()
     watch.outcome("sent")
-    assert watch.session.stop_phase == "sent"
+    assert watch.session.robot_stop.phase == "sent"
     watch.told(at_rest=False)
     watch.outcome("accepted")
-    assert (watch.session.stop_phase, watch.session.stop_latched) == ("sent", True)
+    assert (watch.session.robot_stop.phase, watch.session.robot_stop.latched) == ("sent", True)
     watch.told(at_rest=True)
-    assert watch.session.stop_phase == "stopped"
+    assert watch.session.robot_stop.phase == "stopped"
 
 
 def test_a_robot_that_does_not_come_to_rest_in_time_is_said_to_move(watch: Watch) -> None:
     watch.told(at_rest=False)
     watch.clock.time += COMES_TO_REST - 0.1
     watch.told(at_rest=False)
-    assert watch.session.stop_phase == "sent"
+    assert watch.session.robot_stop.phase == "sent"
     watch.clock.time += 0.2
-    assert watch.session.stop_phase == "moves"
-    assert watch.session.stop_sentence == "STOP is pressed, and it does not come to rest."
+    assert watch.session.robot_stop.phase == "moves"
+    assert watch.session.robot_stop.sentence == "STOP is pressed, and it does not come to rest."
     watch.told(at_rest=True)
-    assert watch.session.stop_phase == "stopped"
+    assert watch.session.robot_stop.phase == "stopped"
 
 
 def test_a_robot_that_was_stopped_when_its_link_was_lost_is_not_said_to_be_stopped(watch: Watch) -> None:
     watch.told(at_rest=True)
     watch.session.deliver(LINK, Post(LinkState(Phase.WAITING, "No robot answers.", 1, 1.0), 0.0, 1))
     watch.clock.time += 4.0
-    assert watch.session.stop_phase == "lost"
-    assert watch.session.stop_lost_for == 4.0
-    assert watch.session.stop_sentence == "STOPPED when it was last heard, 4 s ago. No robot answers."
+    assert watch.session.robot_stop.phase == "lost"
+    assert watch.session.robot_stop.lost_for == 4.0
+    assert watch.session.robot_stop.sentence == "STOPPED when it was last heard, 4 s ago. No robot answers."
 
 
 def test_what_somebody_else_releases_is_ready_to_be_pressed_again(watch: Watch) -> None:
@@ -111,18 +112,18 @@ def test_what_somebody_else_releases_is_ready_to_be_pressed_again(watch: Watch) 
     watch.outcome("accepted")
     watch.told(stopped=False, at_rest=True)
     watch.clock.time += 60.0
-    assert watch.session.stop_phase == "ready"
+    assert watch.session.robot_stop.phase == "ready"
 
 
 def test_a_robot_side_that_cannot_reach_its_robot_has_not_stopped_it(watch: Watch) -> None:
     watch.outcome("sent")
     watch.told(at_rest=False)
     watch.outcome("no_reply", UNREACHED)
-    assert (watch.session.stop_phase, watch.session.stop_latched) == ("no_answer", True)
+    assert (watch.session.robot_stop.phase, watch.session.robot_stop.latched) == ("no_answer", True)
     watch.outcome("accepted")
-    assert watch.session.stop_phase == "sent"
+    assert watch.session.robot_stop.phase == "sent"
     watch.told(at_rest=True)
-    assert watch.session.stop_phase == "stopped"
+    assert watch.session.robot_stop.phase == "stopped"
 
 
 def test_who_else_pressed_stop_is_said_though_it_has_the_same_name(tmp_path: Path) -> None:
@@ -130,7 +131,7 @@ def test_who_else_pressed_stop_is_said_though_it_has_the_same_name(tmp_path: Pat
     for client_id, said in (("other", "Pressed by tablet."), ("me", "")):
         status = ControlStatus(stopped=True, stopped_by="tablet", stopped_by_id=client_id)
         watch.session.deliver("/control/status", Post(status, watch.clock.time, 1))
-        assert watch.session.stop_sentence == said
+        assert watch.session.robot_stop.sentence == said
 
 
 def test_stop_can_be_let_go_before_it_was_done_and_is_asked_for_no_longer(watch: Watch) -> None:
@@ -139,7 +140,7 @@ def test_stop_can_be_let_go_before_it_was_done_and_is_asked_for_no_longer(watch:
     watch.session.release_stop()
     assert watch.link.asked == ["unlatch", "stop_release"]
     watch.told(stopped=False, at_rest=False)
-    assert (watch.session.stop_phase, watch.session.stop_latched) == ("ready", False)
+    assert (watch.session.robot_stop.phase, watch.session.robot_stop.latched) == ("ready", False)
 
 
 def test_a_stop_that_is_not_done_goes_on_over_a_new_link(watch: Watch) -> None:
@@ -183,6 +184,6 @@ def test_what_paused_the_task_and_gave_stop_is_told_as_done_here_once_the_name_i
 def test_events_are_kept_for_the_screens_until_there_are_any_whoever_else_listens(watch: Watch) -> None:
     watch.session.listeners.append(lambda _channel, _post: None)
     for text, shown in (("before", False), ("after", True)):
-        watch.session.shown = shown
+        watch.session.events.shown = shown
         watch.session.deliver(EVENT, Post(Event(text=text), watch.clock(), 1))
-    assert [post.value.text for post in watch.session.early] == ["before"]
+    assert [post.value.text for post in watch.session.events.early] == ["before"]

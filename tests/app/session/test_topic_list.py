@@ -35,7 +35,7 @@ class Robot:
     def __init__(self, offer: Offer | None = FOREIGN) -> None:
         self.time = 10.0
         self.asked: list[tuple[str, ...]] = []
-        self.offer, self.connected = offer, True
+        self.robot, self.connected = SimpleNamespace(capabilities=offer), True
         self.feeds = Feeds(self.now)
         self.feeds.link(True)
         self.link = SimpleNamespace(
@@ -90,12 +90,12 @@ def test_each_way_of_having_nothing_has_its_sentence() -> None:
     assert robot.topics.sentence == "Asking the robot for its topics …"
     robot.connected = False
     assert robot.topics.sentence == "There is no connection."
-    robot.offer = Offer({}, frozenset(), rosapi=False)
+    robot.robot.capabilities = Offer({}, frozenset(), rosapi=False)
     assert robot.topics.sentence == "This robot does not tell its topics: it runs no rosapi."
     assert robot.topics.summary == ""
-    robot.offer = Offer({}, frozenset())
+    robot.robot.capabilities = Offer({}, frozenset())
     assert robot.topics.sentence == "This robot has no topics."
-    robot.offer, robot.topics.search = FOREIGN, " boat "
+    robot.robot.capabilities, robot.topics.search = FOREIGN, " boat "
     assert robot.topics.sentence == "No topic has “boat” in its name or type."
     robot.topics.search = ""
     assert (robot.topics.sentence, robot.topics.summary) == ("", "4 topics, 1 services")
@@ -145,8 +145,8 @@ def test_a_type_that_cannot_be_shown_and_a_topic_that_went_away_are_said() -> No
     assert robot.topics.notice == "acme_msgs/Gripper cannot be shown."
     robot.topics.hear(LINK, Post(None, robot.time, 1))
     assert robot.asked[-1] == ("look", "/gripper", "acme_msgs/Gripper"), "tried again with the connection"
-    robot.offer = Offer.of({"/imu": "sensor_msgs/Imu"}, frozenset())
-    robot.topics.hear(OFFER, Post(robot.offer, robot.time, 1))
+    robot.robot.capabilities = Offer.of({"/imu": "sensor_msgs/Imu"}, frozenset())
+    robot.topics.hear(OFFER, Post(robot.robot.capabilities, robot.time, 1))
     assert robot.topics.notice == "The robot no longer offers /gripper."
 
 

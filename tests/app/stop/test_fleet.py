@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -74,14 +75,15 @@ class Link:
     """The session with the robot that is connected."""
 
     def __init__(self, url: str, *, foreign: bool = False) -> None:
-        self.url, self.name, self.foreign, self.boot = url, "Linked", foreign, ""
-        self.info, self.control_status = RobotInfo(name="Linked", model="patrol"), ControlStatus()
-        self.stop_phase, self.stop_sentence = "ready", ""
+        info = RobotInfo(name="Linked", model="patrol")
+        self.robot = SimpleNamespace(url=url, name="Linked", foreign=foreign, info=info)
+        self.boot, self.control_status = "", ControlStatus()
+        self.robot_stop = SimpleNamespace(phase="ready", sentence="")
         self.stops = 0
 
     def stop(self) -> None:
         self.stops += 1
-        self.stop_phase = "sent"
+        self.robot_stop.phase = "sent"
 
 
 @pytest.fixture
@@ -152,7 +154,7 @@ def test_it_counts_who_says_that_it_is_stopped(fleet: Fleet, lanes: Lanes) -> No
     fleet.press([heard(B, "Boat"), heard(C, "Truck")], link)
     until(lambda: len(lanes.open) == 2, "no lanes")
     lanes.reports = {B: Report("stopped"), C: Report("no_answer", "No robot answers.")}
-    link.stop_phase = "stopped"
+    link.robot_stop.phase = "stopped"
     fleet.look(link)
     assert (fleet.stopped, fleet.total, fleet.sending) == (2, 3, True)
     lanes.reports[C] = Report("stopped")
@@ -242,7 +244,7 @@ def test_the_connected_robot_is_not_counted_again_under_another_address(fleet: F
     fleet.press([heard(A, "Linked")], link)
     until(lambda: A in lanes.open, "no lane")
     lanes.reports[A] = Report("stopped", identity=("Linked", "patrol", Time(7, 1)))
-    link.stop_phase = "stopped"
+    link.robot_stop.phase = "stopped"
     fleet.look(link)
     assert (fleet.stopped, fleet.total) == (1, 1)
 
@@ -274,9 +276,12 @@ def test_one_robot_that_says_hello_from_two_addresses_is_counted_once(fleet: Fle
 def test_it_says_of_the_connected_robot_what_its_session_says(fleet: Fleet) -> None:
     link = Link(A)
     fleet.press([], link)
-    link.stop_phase, link.stop_sentence = "moves", "STOP is pressed, and it does not come to rest."
+    link.robot_stop.phase, link.robot_stop.sentence = (
+        "moves",
+        "STOP is pressed, and it does not come to rest.",
+    )
     fleet.look(link)
-    assert (fleet.rows[0].phase, fleet.rows[0].sentence) == (link.stop_phase, link.stop_sentence)
+    assert (fleet.rows[0].phase, fleet.rows[0].sentence) == (link.robot_stop.phase, link.robot_stop.sentence)
 
 
 def test_a_lane_that_the_network_thread_takes_away_meanwhile_was_there_or_not(fleet: Fleet) -> None:
@@ -313,9 +318,9 @@ def test_who_leaves_a_robot_whose_stop_is_under_way_goes_on_stopping_it(fleet: F
 def test_one_whose_stop_was_released_is_not_stopped_anew_by_leaving_it(fleet: Fleet, lanes: Lanes) -> None:
     link = Link(A)
     fleet.press([heard(B)], link)
-    link.stop_phase = "stopped"
+    link.robot_stop.phase = "stopped"
     fleet.look(link)
-    link.stop_phase = "ready"
+    link.robot_stop.phase = "ready"
     assert phases(fleet, link)["Linked"] == "released"
     assert phases(fleet, None)["Linked"] == "released"
     until(lambda: B in lanes.open, "no lane")
@@ -338,7 +343,7 @@ def test_a_robot_without_a_stop_goes_over_to_its_link_where_it_can_be_released(
     fleet.look(link)
     until(lambda: set(lanes.open) == {B}, "its lane still says zero")
     assert link.stops == 1
-    link.stop_phase = "ready"
+    link.robot_stop.phase = "ready"
     assert phases(fleet, link)["Linked"] == "released"
 
 

@@ -22,7 +22,7 @@ class Watch:
         for _ in range(round(seconds / 0.05)):
             self.time += 0.05
             twist = TwistWithCovariance(Twist.planar(speed, turn))
-            self.stop.hear(Odometry(twist=twist), self.time)
+            self.stop.on_odometry(Odometry(twist=twist), self.time)
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from app.link.commands import STILL_SENDING, Outcome
-from app.stop.stop_state import COMES_TO_REST, DOUBT, Known, Stopping, Verdict, judge
+from app.stop.stop_state import COMES_TO_REST, DOUBT, Known, StopState, Verdict, judge
 from bridge.msgs.pilothouse_msgs import ControlStatus
 from tests.bridge.wires import Clock
 
@@ -69,13 +69,13 @@ class Watch:
 
     def __init__(self) -> None:
         self.clock = Clock()
-        self.stopping = Stopping(self.clock, "me")
+        self.stopping = StopState(self.clock, "me")
 
     def told(self, *, stopped: bool = True, at_rest: bool = True) -> None:
-        self.stopping.hear(ControlStatus(stopped=stopped, at_rest=at_rest), self.clock.time)
+        self.stopping.on_status(ControlStatus(stopped=stopped, at_rest=at_rest), self.clock.time)
 
     def outcome(self, phase: str, reason: str = "") -> None:
-        self.stopping.answered(Outcome("stop", "1", phase, reason))
+        self.stopping.on_outcome(Outcome("stop", "1", phase, reason))
 
     @property
     def phase(self) -> str:
@@ -109,13 +109,13 @@ def test_a_robot_that_is_slow_to_rest_is_not_obeyed_only_after_its_time(watch: W
 def test_who_pressed_it_is_known_by_the_id_and_not_by_the_name(
     watch: Watch, client_id: str, said: str
 ) -> None:
-    watch.stopping.hear(ControlStatus(stopped=True, stopped_by="tablet", stopped_by_id=client_id), 100.0)
+    watch.stopping.on_status(ControlStatus(stopped=True, stopped_by="tablet", stopped_by_id=client_id), 100.0)
     assert watch.stopping.verdict == Verdict("stopped", said)
 
 
 def test_a_handheld_without_an_id_takes_nobodys_stop_for_its_own() -> None:
-    stopping = Stopping(Clock(), "")
-    stopping.hear(ControlStatus(stopped=True, stopped_by="a browser"), 100.0)
+    stopping = StopState(Clock(), "")
+    stopping.on_status(ControlStatus(stopped=True, stopped_by="a browser"), 100.0)
     assert stopping.verdict.sentence == "Pressed by a browser."
 
 
@@ -182,7 +182,7 @@ def test_a_word_of_the_old_connection_does_not_count_over_the_new_one(watch: Wat
     watch.clock.time += 1.0
     watch.stopping.reach(False, WHY, at=watch.clock.time)
     watch.clock.time += 3.0
-    watch.stopping.hear(ControlStatus(stopped=True), watch.clock.time - 3.5)
+    watch.stopping.on_status(ControlStatus(stopped=True), watch.clock.time - 3.5)
     watch.stopping.reach(True)
     assert watch.phase == "lost"
 

@@ -51,7 +51,7 @@ class Desk:
         self.mouth = mouth or Mouth()
         self.session = SimpleNamespace(
             listeners=[],
-            stop_phase="ready",
+            robot_stop=SimpleNamespace(phase="ready"),
             link=SimpleNamespace(robot_time=lambda: 0.0),
             logbook=SimpleNamespace(is_news=lambda event, _: event.news),
         )
@@ -131,10 +131,10 @@ def test_what_is_done_on_the_handheld_needs_nobody_to_confirm_it(desk: Desk) -> 
 
 
 def test_stop_is_told_once_when_the_robot_confirms_it(desk: Desk) -> None:
-    desk.session.stop_phase = "waiting"
+    desk.session.robot_stop.phase = "waiting"
     desk.wait(0.1)
     assert desk.mouth.said == []
-    desk.session.stop_phase = "stopped"
+    desk.session.robot_stop.phase = "stopped"
     desk.wait(0.1)
     desk.mouth.ends()
     desk.wait(0.1)

@@ -117,9 +117,9 @@ def test_three_columns_open_it_over_the_instruments(driving: Glass, robot: FakeR
 def test_what_is_taken_off_goes_and_what_is_read_is_said(driving: Glass, robot: FakeRobot) -> None:
     screen = armed(driving)
     panel, session = screen.hands.arm.panel, driving.app.session
-    offer = session.offer
+    offer = session.robot.capabilities
     bare = Offer(offer.topics, offer.services - {"/arm/move"}, True, offer.names, offer.drive)
-    session.offer = bare
+    session.robot.capabilities = bare
     screen.hear(OFFER, type("Said", (), {"value": bare})())
     driving.stage.frames(2)
     assert (panel.parent, screen.switch.parent, screen.hands.chosen) == (None, None, "")

@@ -27,6 +27,7 @@ SIZES = {"tall": (388, 166), "short": (276, 254)}
 @pytest.fixture
 def session(tmp_path: Path) -> Session:
     link = SimpleNamespace(
+        url="ws://127.0.0.1:9090",
         state=LinkState(Phase.CONNECTED, "", 0, 0.0),
         silent=False,
         silence=0.0,
@@ -172,7 +173,7 @@ def test_with_stop_pressed_nothing_that_moves_can_be_asked_for(
 def test_who_has_control_is_told_so_and_nobody_of_the_same_name(
     session: Session, driver: str, who: str, wants: bool, said: str
 ) -> None:
-    session.own_name, session.wants_control = OwnName("me", "tablet", lambda: 100.0), wants
+    session.events.own_name, session.authority.wanted = OwnName("me", "tablet", lambda: 100.0), wants
     heard: list[Any] = []
     session.listeners.append(lambda name, post: name == EVENT and heard.append(post.value.text))
     tell(session, EVENT, Event(id=1, kind="control", text=f"{driver} has control."))
@@ -186,7 +187,7 @@ def test_a_robot_without_missions_and_tasks_is_offered_none(
 ) -> None:
     from app.screens.mission.mission_panel import MissionPanel
 
-    session.offer = Offer({"/odom": "nav_msgs/Odometry"}, frozenset())
+    session.robot.capabilities = Offer({"/odom": "nav_msgs/Odometry"}, frozenset())
     panel: Any = MissionPanel(session, Dashboard(session.feeds))
     chosen: list[str] = []
     panel.lacking.bind(on_choose=lambda _, screen: chosen.append(screen))
@@ -204,12 +205,12 @@ def test_a_robot_without_missions_and_tasks_is_offered_none(
 def test_a_robot_that_turns_out_to_have_tasks_is_offered_them(stage: Stage, session: Session) -> None:
     from app.screens.mission.mission_panel import MissionPanel
 
-    session.offer = Offer({}, frozenset())
+    session.robot.capabilities = Offer({}, frozenset())
     panel: Any = MissionPanel(session, Dashboard(session.feeds))
     panel.take_form("wide")
     stage.show(panel, (316, 600))
     settle(stage, panel)
-    session.offer = Offer({}, frozenset({"/task/start", "/mission/set"}))
+    session.robot.capabilities = Offer({}, frozenset({"/task/start", "/mission/set"}))
     settle(stage, panel)
     assert seen(panel, panel.ids["send"])
     assert panel.lacking.parent is None

@@ -94,7 +94,7 @@ def test_stop_acts_under_every_question_at_every_shape_of_the_glass(driving: Gla
                     question.close()
     finally:
         stage.window.size = app.root.size = before
-    assert app.session.stop_latched
+    assert app.session.robot_stop.latched
 
 
 def test_a_finger_beside_the_card_still_closes_it_and_reaches_nothing_else(driving: Glass) -> None:
@@ -103,4 +103,4 @@ def test_a_finger_beside_the_card_still_closes_it_and_reaches_nothing_else(drivi
     driving.stage.frames(4)
     driving.stage.tap(3, 3)
     assert question.parent is None
-    assert not app.session.stop_latched
+    assert not app.session.robot_stop.latched

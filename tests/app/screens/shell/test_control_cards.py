@@ -301,7 +301,7 @@ def test_a_stick_that_is_pushed_without_control_says_why_and_offers_to_ask(
     said[0].dispatch("on_act")
     assert robot.until(lambda: "/control/request" in robot.services())
     tell(robot, driver="", driver_id="", stopped=True, mode="STOPPED")
-    driving.until(lambda: driving.app.session.stop_latched, "no STOP")
+    driving.until(lambda: driving.app.session.robot_stop.latched, "no STOP")
     driving.until(lambda: not any("Bob" in text for text in driving.banners()), "still said of Bob")
     driving.tap(stick)
     assert "STOP is pressed; hold it to release." in driving.banners()

@@ -85,7 +85,7 @@ def test_from_every_screen_of_a_robot_one_finger_stops_all(
             one.publish("/control/status", one.control)
         driving.app.fleet.let_go()
         driving.app.session.release_stop()
-        driving.until(lambda: driving.app.session.stop_phase == "ready", screen)
+        driving.until(lambda: driving.app.session.robot_stop.phase == "ready", screen)
 
 
 def test_with_one_robot_alone_stop_has_its_room_to_itself(driving: Glass, robot: FakeRobot) -> None:

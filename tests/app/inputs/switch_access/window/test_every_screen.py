@@ -130,7 +130,7 @@ def screens(walk: Walk) -> Iterator[tuple[str, Callable[[], object]]]:
 def introduce(walk: Walk, info: RobotInfo) -> None:
     """It is another robot now, and the app knows."""
     walk.robot.publish("/robot/info", info)
-    walk.glass.until(lambda: walk.app.session.info.name == info.name, info.name)
+    walk.glass.until(lambda: walk.app.session.robot.info.name == info.name, info.name)
 
 
 def asked(app: Any) -> ControlStatus:

@@ -1,0 +1,54 @@
+"""Unsent missions, remembered on this handheld for each robot by its name."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from app.core.settings_store import Settings
+from app.session.mission_editor import MissionEditor
+from app.session.robot_profile import RobotProfile
+from bridge.msgs.pilothouse_msgs import Mission
+
+__all__ = ["MissionDrafts"]
+
+
+class MissionDrafts:
+    """The mission being edited for one robot, and its copy in the settings."""
+
+    def __init__(self, settings: Settings, robot: RobotProfile) -> None:
+        self._settings, self._robot = settings, robot
+        self.editor = MissionEditor(on_change=self._save)
+        self._restored = False
+        """The robot's name is known, and a draft of an earlier day is back in the editor."""
+        self._pending: Mission | None = None
+        """The robot's mission, received before its name."""
+
+    def on_introduced(self) -> None:
+        """The robot's name came: restore its draft once, before its mission is compared with it."""
+        if not self._restored:
+            self._restored = True
+            self.editor.load(self._drafts().get(self._robot.name))
+            self._compare()
+
+    def on_mission(self, mission: Mission) -> None:
+        """The robot's own mission came."""
+        self._pending = mission
+        self._compare()
+
+    def _compare(self) -> None:
+        if self._restored and self._pending is not None:
+            self.editor.robot_has(self._pending)
+            self._pending = None
+
+    def _drafts(self) -> dict[str, Any]:
+        drafts = self._settings.get("drafts", {})
+        return drafts if isinstance(drafts, dict) else {}
+
+    def _save(self) -> None:
+        if not self._restored:
+            return
+        name = self._robot.name
+        drafts = {robot: draft for robot, draft in self._drafts().items() if robot != name}
+        if self.editor.dirty:
+            drafts[name] = self.editor.save()
+        self._settings.set("drafts", drafts)
