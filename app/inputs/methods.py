@@ -26,7 +26,7 @@ log = logging.getLogger(__name__)
 MADE_BY: dict[str, str] = {
     "log": "app.study.response_recording:Responding",
     "talk": "app.inputs.voice.talkback:Talking",
-    "voice": "app.inputs.voice.voice_input:Speaking",
+    "voice": "app.inputs.voice.voice_input:VoiceInput",
     "shake": "app.inputs.motion.shake_input:Shaking",
     "tilt": "app.inputs.motion.tilt_input:Tilting",
     "switches": "app.inputs.switch_access.switches:Switches",

@@ -20,7 +20,7 @@ from app.inputs.switch_access.scan import settings as switches
 from app.inputs.switch_access.switches import Switches
 from app.inputs.switch_access.usage import Usage
 from app.inputs.voice.talkback import Talking
-from app.inputs.voice.voice_input import Speaking
+from app.inputs.voice.voice_input import VoiceInput
 from app.intents.intents import Intents
 from app.intents.method_permits import Permits
 from app.study.response_recording import Responding
@@ -84,7 +84,7 @@ class Desk:
             return self.permits.problem
         if name == "switches":
             return switches.read(Switches(self)._app.settings.get("switches"))[1]
-        kinds = {"voice": Speaking, "shake": Shaking, "tilt": Tilting, "talk": Talking, "study": Responding}
+        kinds = {"voice": VoiceInput, "shake": Shaking, "tilt": Tilting, "talk": Talking, "study": Responding}
         method = kinds[name](self)
         return " ".join(method.faults) if name == "tilt" else method.mistaken
 

@@ -12,7 +12,7 @@ from app.inputs.input_snapshot import set_up
 from app.inputs.motion.shake_input import Shaking
 from app.inputs.motion.tilt_input import Tilting
 from app.inputs.switch_access.switches import Switches
-from app.inputs.voice.voice_input import Speaking
+from app.inputs.voice.voice_input import VoiceInput
 from app.intents.method_permits import Permits
 from tests.app.inputs.pushing import Settings
 
@@ -20,7 +20,7 @@ from tests.app.inputs.pushing import Settings
 def test_what_nobody_changed_is_told_as_well_and_can_be_written_as_json() -> None:
     app: Any = SimpleNamespace(settings=Settings(), now=lambda: 1.0, session=None)
     app.intents = SimpleNamespace(table=Permits(app.settings))
-    made = {"shake": Shaking(app), "voice": Speaking(app)}
+    made = {"shake": Shaking(app), "voice": VoiceInput(app)}
     app.methods = SimpleNamespace(get=made.get)
     app.inputs = SimpleNamespace(mapped=Mapped(app.settings))
     told = json.loads(json.dumps(set_up(app)))
@@ -34,4 +34,4 @@ def test_what_nobody_changed_is_told_as_well_and_can_be_written_as_json() -> Non
 
 
 def test_each_method_that_is_told_of_says_what_it_is_set_to() -> None:
-    assert all(isinstance(kind.set_to, property) for kind in (Shaking, Speaking, Tilting, Switches))
+    assert all(isinstance(kind.set_to, property) for kind in (Shaking, VoiceInput, Tilting, Switches))

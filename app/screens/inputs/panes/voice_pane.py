@@ -13,7 +13,7 @@ from app.inputs.voice.interfaces.speech_recognizer import Level, Result
 from app.inputs.voice.recognition.phrases import LANGUAGES, PHRASES
 from app.inputs.voice.speech.tts import VOICES
 from app.inputs.voice.talkback import RATES, Talking
-from app.inputs.voice.voice_input import Speaking
+from app.inputs.voice.voice_input import VoiceInput
 from app.intents.intents import INTENTS
 from app.screens.inputs.parts.setting_row import number_row, switch_row
 from widgets.inputs.noise_meter import NoiseMeter
@@ -35,7 +35,7 @@ class VoicePane(BoxLayout):
     def __init__(self, app: Any, **kwargs: Any) -> None:
         super().__init__(orientation="vertical", spacing="8dp", **kwargs)
         self._app = app
-        self.speaking: Speaking = app.methods.get("voice")
+        self.speaking: VoiceInput = app.methods.get("voice")
         """What hears."""
         self.talking: Talking = app.methods.get("talk")
         """What talks."""
@@ -171,14 +171,14 @@ class VoicePane(BoxLayout):
         self.voices.value, self.rate.value = talking.voice, round(talking.rate, 2)
         self.trouble.text = talking.problem
 
-    def _usual(self, speaking: Speaking) -> str:
+    def _usual(self, speaking: VoiceInput) -> str:
         if speaking.trying:
             return TRY
         if not speaking.on:
             return "Off: nothing listens and nothing is loaded. Switch it on in the list of inputs, or try it here."
         return {"listening": "Listening.", "hold to talk": "Ready."}.get(speaking.standing, "One moment …")
 
-    def _show_meter(self, speaking: Speaking) -> None:
+    def _show_meter(self, speaking: VoiceInput) -> None:
         meter, level = self.meter, speaking.level
         open_ = speaking.ready and speaking.listening
         meter.state = "alarm" if speaking.loud else "live" if open_ else "never"

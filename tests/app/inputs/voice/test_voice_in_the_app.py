@@ -10,7 +10,7 @@ import pytest
 
 from app.core.command_origin import origins
 from app.inputs.voice.process.worker import InProcess
-from app.inputs.voice.voice_input import Speaking
+from app.inputs.voice.voice_input import VoiceInput
 from tests.app.fakes import FakeRobot
 from tests.app.glass import Glass
 
@@ -42,7 +42,7 @@ def test_a_spoken_stop_reaches_the_robot_and_what_is_risky_is_asked(
     app.intents.on_taken.append(lambda heard, verdict: taken.append((heard.intent, verdict.what)))
     stop = app.session.stop
     monkeypatch.setattr(app.session, "stop", lambda *given: (stops.append(origins.current()), stop(*given)))
-    assert isinstance(speaking, Speaking)
+    assert isinstance(speaking, VoiceInput)
     monkeypatch.setattr(speaking, "_make", lambda: InProcess("phonemes", [spoken]))
     app.methods.turn("voice", on=True)
     driving.until(lambda: speaking.ready, "the recogniser does not start")

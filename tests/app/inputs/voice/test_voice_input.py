@@ -1,4 +1,4 @@
-"""Speaking as a way in: when the ears are open, what counts, and what becomes of what was understood."""
+"""VoiceInput as a way in: when the ears are open, what counts, and what becomes of what was understood."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from app.inputs.voice.command_gate import DEAF, EARLIER
 from app.inputs.voice.interfaces.speech_recognizer import (
     Grammar,
     Level,
@@ -17,19 +18,9 @@ from app.inputs.voice.interfaces.speech_recognizer import (
     VoiceTrouble,
 )
 from app.inputs.voice.process.service import MUTED
-from app.inputs.voice.voice_input import (
-    CLIPPED,
-    CLIPS,
-    DEAF,
-    DEAF_NOW,
-    EARLIER,
-    HEARS,
-    LONGEST,
-    MUTED_NOW,
-    TAP_LASTS,
-    TRIES_AGAIN,
-    Speaking,
-)
+from app.inputs.voice.talk_button import MAX_HOLD, TAP_TIMEOUT
+from app.inputs.voice.voice_input import HEARS, RETRY_PERIOD, VoiceInput
+from app.inputs.voice.voice_status import CLIPPED_TIME, CLIPS, DEAF_NOW, MUTED_NOW
 from app.intents.intents import Heard, Intents
 from app.intents.method_permits import Permits
 from tests.headless import Stage
@@ -112,7 +103,7 @@ class Desk:
             intents=Intents(self.acts, Permits(settings), lambda: self.t),
         )
         self.app.intents.on_taken.append(lambda heard, _: self.taken.append(heard))
-        self.speaking = Speaking(self.app, lambda: self.recogniser)
+        self.speaking = VoiceInput(self.app, lambda: self.recogniser)
         self.speaking.start()
         self.wait(0.0)
 
@@ -167,7 +158,7 @@ def test_a_tap_opens_them_for_one_command(desk: Desk) -> None:
 def test_a_tap_that_nothing_follows_is_over_by_itself(desk: Desk) -> None:
     desk.speaking.press()
     desk.speaking.release()
-    desk.wait(TAP_LASTS - 0.1)
+    desk.wait(TAP_TIMEOUT - 0.1)
     assert desk.recogniser.open
     desk.wait(0.2)
     assert not desk.recogniser.open
@@ -175,7 +166,7 @@ def test_a_tap_that_nothing_follows_is_over_by_itself(desk: Desk) -> None:
 
 def test_what_lies_on_the_button_does_not_keep_them_open(desk: Desk) -> None:
     desk.speaking.press()
-    desk.wait(LONGEST + 0.1)
+    desk.wait(MAX_HOLD + 0.1)
     assert not desk.recogniser.open
 
 
@@ -380,14 +371,14 @@ def test_hands_free_a_microphone_pulled_out_is_opened_anew_until_it_works() -> N
     assert desk.said == [f"Voice: {gone.sentence} {DEAF_NOW}"]
     assert desk.speaking.sign == "wrong"
     desk.recogniser.listen = lambda *, on: desk.recogniser.orders.append(on) or desk.recogniser.hear(gone)
-    desk.wait(TRIES_AGAIN - 0.1)
+    desk.wait(RETRY_PERIOD - 0.1)
     assert desk.recogniser.orders == [True]
     desk.wait(0.2)
     desk.wait(0.1)
     assert desk.recogniser.orders == [True, True]
     assert len(desk.said) == 1, "once"
     del desk.recogniser.listen
-    desk.wait(TRIES_AGAIN + 0.1)
+    desk.wait(RETRY_PERIOD + 0.1)
     desk.wait(0.1)
     assert desk.recogniser.orders == [True, True, True]
     assert (desk.speaking.problem, desk.said[-1]) == ("", f"Voice: {HEARS}")
@@ -397,7 +388,7 @@ def test_hands_free_a_muted_microphone_is_a_problem_until_there_is_a_sound() -> 
     desk = Desk(hands_free=True)
     desk.recogniser.hear(State("muted", MUTED))
     for _ in range(3):
-        desk.wait(TRIES_AGAIN)
+        desk.wait(RETRY_PERIOD)
         assert (desk.speaking.standing, desk.speaking.sign) == ("deaf", "wrong")
         assert desk.speaking.problem == f"{MUTED} {MUTED_NOW}"
     assert not desk.speaking.ready
@@ -428,7 +419,7 @@ def test_an_overdriven_microphone_is_a_problem_for_as_long_as_it_is_and_still_li
     desk.wait(0.0)
     desk.recogniser.hear(Level(-1.0, -50.0, 20.0, clipped=True))
     assert (desk.speaking.problem, desk.speaking.sign) == (CLIPS, "listening")
-    desk.wait(CLIPPED + 0.1)
+    desk.wait(CLIPPED_TIME + 0.1)
     assert desk.speaking.problem == ""
 
 

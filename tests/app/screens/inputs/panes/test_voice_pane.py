@@ -13,7 +13,7 @@ from app.screens.inputs.panes.voice_pane import FREE, PUSH, TRY, VoicePane
 from tests.headless import Stage
 
 
-class Speaking:
+class VoiceInput:
     """The method as the pane sees it."""
 
     def __init__(self) -> None:
@@ -38,7 +38,7 @@ class Talking:
 
 class Desk:
     def __init__(self, stage: Stage, languages: tuple[str, ...] = ("en",)) -> None:
-        self.speaking, self.talking, self.stage = Speaking(), Talking(), stage
+        self.speaking, self.talking, self.stage = VoiceInput(), Talking(), stage
         self.speaking.languages = languages
         methods = {"voice": self.speaking, "talk": self.talking}
         app: Any = SimpleNamespace(methods=SimpleNamespace(get=methods.get, turn=self._turn))

@@ -1,0 +1,99 @@
+"""Settings of voice input, as the handheld remembers them under `voice`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from app.core.checked_settings import Kept, known, shown
+from app.inputs.base.toggleable_method import Switched
+from app.inputs.voice.recognition.phrases import PHRASES
+
+__all__ = ["VoiceOptions", "VoiceSettings", "read_settings"]
+
+NO_LANGUAGE = "There are no commands in the language {}; they are English."
+
+
+@dataclass(frozen=True, slots=True)
+class VoiceSettings:
+    """What the operator has chosen."""
+
+    on: bool = False
+    """The operator wants voice input."""
+    hands_free: bool = False
+    """It listens all the time, and not only while the button to talk is held."""
+    language: str = "en"
+    """ISO 639-1, of what may be said."""
+
+    def save(self) -> dict[str, Any]:
+        """As JSON."""
+        return {"on": self.on, "hands_free": self.hands_free, "language": self.language}
+
+
+def read_settings(value: object) -> tuple[VoiceSettings, str]:
+    """The settings kept as `value`, and one sentence about what means nothing; empty when all is well."""
+    kept = Kept(value, "voice")
+    on, hands_free = kept.flag("on", usual=False), kept.flag("hands_free", usual=False)
+    mistaken = kept.sentence
+    language = kept.values.get("language", "en")
+    if not known(language, PHRASES):
+        language, mistaken = "en", NO_LANGUAGE.format(shown(language))
+    return VoiceSettings(on, hands_free, language), mistaken
+
+
+class VoiceOptions(Switched):
+    """The settings as a pane changes them: what is assigned is kept at once, and voice input goes by it."""
+
+    name = "voice"
+
+    def __init__(self, app: Any) -> None:
+        """`app` is asked for its `settings`."""
+        self._app = app
+        self._settings, self.mistaken = read_settings(app.settings.get(self.name))
+        """`mistaken` is one sentence about settings that mean nothing; empty when all is well."""
+
+    def _fit(self) -> None:
+        """Open the microphone, or close it, as is wanted now."""
+        raise NotImplementedError
+
+    def _restart(self) -> None:
+        """Begin again with other settings; nothing where it has not begun."""
+        raise NotImplementedError
+
+    def _kept(self) -> dict[str, Any]:
+        return self._settings.save()
+
+    def _change(self, **values: Any) -> None:
+        self._settings = replace(self._settings, **values)
+        self._keep()
+
+    @property
+    def on(self) -> bool:
+        """The operator wants it."""
+        return self._settings.on
+
+    @on.setter
+    def on(self, on: bool) -> None:
+        self._change(on=on)
+
+    @property
+    def hands_free(self) -> bool:
+        """It listens all the time, and not only while the button to talk is held."""
+        return self._settings.hands_free
+
+    @hands_free.setter
+    def hands_free(self, on: bool) -> None:
+        self._change(hands_free=on)
+        self._fit()
+
+    @property
+    def language(self) -> str:
+        """ISO 639-1, of what may be said; ValueError for one without commands."""
+        return self._settings.language
+
+    @language.setter
+    def language(self, language: str) -> None:
+        if language not in PHRASES:
+            raise ValueError(f"There are no commands in {language!r}; there are {', '.join(PHRASES)}.")
+        self._change(language=language)
+        self._restart()
