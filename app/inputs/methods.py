@@ -28,7 +28,7 @@ MADE_BY: dict[str, str] = {
     "talk": "app.inputs.voice.talkback:Talking",
     "voice": "app.inputs.voice.voice_input:VoiceInput",
     "shake": "app.inputs.motion.shake_input:Shaking",
-    "tilt": "app.inputs.motion.tilt_input:Tilting",
+    "tilt": "app.inputs.motion.tilt_input:TiltInput",
     "switches": "app.inputs.switch_access.switches:Switches",
     "gamepad": "app.inputs.hand_methods:GamepadMethod",
     "keyboard": "app.inputs.hand_methods:KeyboardMethod",

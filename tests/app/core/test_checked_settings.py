@@ -15,7 +15,7 @@ from app.discovery.known_robots import Robots
 from app.inputs.bindings import Mapped
 from app.inputs.motion.motion_sensing import Sensing
 from app.inputs.motion.shake_input import Shaking
-from app.inputs.motion.tilt_input import Tilting
+from app.inputs.motion.tilt_input import TiltInput
 from app.inputs.switch_access.scan import settings as switches
 from app.inputs.switch_access.switches import Switches
 from app.inputs.switch_access.usage import Usage
@@ -84,7 +84,13 @@ class Desk:
             return self.permits.problem
         if name == "switches":
             return switches.read(Switches(self)._app.settings.get("switches"))[1]
-        kinds = {"voice": VoiceInput, "shake": Shaking, "tilt": Tilting, "talk": Talking, "study": Responding}
+        kinds = {
+            "voice": VoiceInput,
+            "shake": Shaking,
+            "tilt": TiltInput,
+            "talk": Talking,
+            "study": Responding,
+        }
         method = kinds[name](self)
         return " ".join(method.faults) if name == "tilt" else method.mistaken
 

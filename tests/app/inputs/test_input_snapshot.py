@@ -10,7 +10,7 @@ from app.inputs.bindings import Mapped
 from app.inputs.gamepad.pad_map import Profile
 from app.inputs.input_snapshot import set_up
 from app.inputs.motion.shake_input import Shaking
-from app.inputs.motion.tilt_input import Tilting
+from app.inputs.motion.tilt_input import TiltInput
 from app.inputs.switch_access.switches import Switches
 from app.inputs.voice.voice_input import VoiceInput
 from app.intents.method_permits import Permits
@@ -34,4 +34,4 @@ def test_what_nobody_changed_is_told_as_well_and_can_be_written_as_json() -> Non
 
 
 def test_each_method_that_is_told_of_says_what_it_is_set_to() -> None:
-    assert all(isinstance(kind.set_to, property) for kind in (Shaking, VoiceInput, Tilting, Switches))
+    assert all(isinstance(kind.set_to, property) for kind in (Shaking, VoiceInput, TiltInput, Switches))

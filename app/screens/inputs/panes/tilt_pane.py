@@ -11,7 +11,8 @@ from kivy.uix.boxlayout import BoxLayout
 from kivy.uix.widget import Widget
 
 from app.inputs.motion.tilt import RANGES
-from app.inputs.motion.tilt_input import LEAST, Tilting
+from app.inputs.motion.tilt_input import TiltInput
+from app.inputs.motion.tilt_sensor import MIN_RATE
 from widgets import TiltCircle
 from widgets.parts.kit import Card, Column, ListRow, Remark, Roll, Stepper, Text, Toggle
 
@@ -80,7 +81,7 @@ class TiltPane(BoxLayout):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.tilting: Tilting = self.app.methods.get("tilt")
+        self.tilting: TiltInput = self.app.methods.get("tilt")
         """The method that is set up here."""
         self.circle = TiltCircle(title="Tilt", needs_hold=True, in_shares=True, state="disabled")
         self.circle.size_hint_x = None
@@ -205,13 +206,13 @@ class TiltPane(BoxLayout):
         key = f", or the key {keys[0].upper()}," if keys else ""
         return f"Hold the circle{key} and tilt. This one drives nothing."
 
-    def _sensor(self, tilting: Tilting) -> tuple[str, str]:
+    def _sensor(self, tilting: TiltInput) -> tuple[str, str]:
         """What the sensor delivers, and the role of that."""
         if tilting.problem:
             return tilting.problem, "warn"
         sensing = self.app.sensing
         kind = "gravity" if sensing.has("gravity") else "acceleration"
-        rate = sensing.health(kind, LEAST).rate
+        rate = sensing.health(kind, MIN_RATE).rate
         name = (
             "simulated"
             if tilting.simulated

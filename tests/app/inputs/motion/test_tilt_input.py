@@ -12,7 +12,7 @@ from app.core.command_origin import origins
 from app.device.motion import NoMotion, SimulatedMotion, leaned
 from app.inputs.base.button_presses import Press
 from app.inputs.motion.motion_sensing import Sensing
-from app.inputs.motion.tilt_input import Tilting
+from app.inputs.motion.tilt_input import TiltInput
 from tests.app.inputs.motion.test_motion_sensing import WithoutGravity
 from widgets import TiltCircle
 
@@ -43,7 +43,7 @@ class Handheld:
         self.met = 0
         screen = SimpleNamespace(hands=self.hands, meet=self._meet)
         self.shell = SimpleNamespace(screen="drive", screens={"drive": screen}, say=self._say)
-        self.tilting = Tilting(self, lambda: self.quarters)
+        self.tilting = TiltInput(self, lambda: self.quarters)
 
     def now(self) -> float:
         return self.time
