@@ -25,7 +25,7 @@ from app.discovery.known_robots import Robots, check_address
 from app.garbage_collector import Collector
 from app.inputs.inputs import Inputs
 from app.inputs.methods import Methods
-from app.intents.intent_executor import Acting
+from app.intents.intent_executor import IntentExecutor
 from app.intents.intents import Intents
 from app.intents.method_permits import Permits
 from app.layout.layout import Layout, choose, load, load_all
@@ -152,7 +152,7 @@ class PilothouseApp(App):
         self.client_id = self._identity()
         self.client_name = str(self.settings.get("client_name") or device_name())
         self.robots = Robots(self._now, self.settings.get("robots") or ())
-        self.acting = Acting(self)
+        self.acting = IntentExecutor(self)
         self.acting.on_help = partial(toggle_help, self)
         self.intents = Intents(self.acting, Permits(self.settings), self._now)
         self.methods = Methods(self)

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from app.core.command_origin import origins
-from app.intents.intent_executor import ALONE, Acting
+from app.intents.intent_executor import ALONE, IntentExecutor
 from app.intents.intents import INTENTS
 from bridge.client.client import LinkState, Phase
 from bridge.msgs.pilothouse_msgs import ControlStatus, LightState, RobotInfo, TaskOrder, TaskStatus
@@ -59,7 +59,7 @@ class Robot(Asked):
             reset=SimpleNamespace(card=card),
             question=card,
         )
-        self.acting = Acting(self)
+        self.acting = IntentExecutor(self)
         self.tell("/robot/info", RAY)
         self.tell("/control/status", ControlStatus(driver="me", driver_id="me"))
         self.tell("/task/status", TaskStatus(state="IDLE"))

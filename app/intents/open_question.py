@@ -1,0 +1,73 @@
+"""The question that is open on the screen: of the robot, or of the app about it; and its answer by any method."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from app.intents.robot_access import HELD
+
+__all__ = ["OpenQuestion"]
+
+
+class OpenQuestion:
+    """Of one app. Everything in the UI thread."""
+
+    def __init__(self, app: Any) -> None:
+        """`app` is asked for its `shell`."""
+        self._app = app
+
+    def _asked(self) -> Callable[[bool], str] | None:
+        """What answers the question on the glass; None while nothing asks that can be answered now."""
+        shell = self._app.shell
+        if shell is None:
+            return None
+        handover, reset, question = shell.cards.handover, shell.reset.card, shell.question
+        if reset.parent is not None and reset.asked and not reset.sent and not reset.blocked:
+            return self._answer_reset
+        if (
+            handover.parent is not None
+            and handover.part == "asked"
+            and not (handover.sent or handover.blocked)
+        ):
+            return self._answer_handover
+        if question.parent is not None and question.open and not question.blocked:
+            return self._answer_question
+        return None
+
+    def answer(self, yes: bool) -> str:
+        """Answer it; one sentence of what was answered, empty where nothing asks."""
+        asked = self._asked()
+        return asked(yes) if asked is not None else ""
+
+    def why_not_answer(self) -> str:
+        """Why nothing can be answered, in one sentence; empty where something asks."""
+        return "" if self._asked() is not None else "Nothing is asked just now."
+
+    def why_not_yes(self) -> str:
+        """A task that was cut short is not resumed while STOP is pressed; that it be ended can be said."""
+        if self._asked() == self._answer_question:
+            card = self._app.shell.question
+            if card.cut and card.held:
+                return f"{card.question} Not yet: {HELD}"
+        return self.why_not_answer()
+
+    def _answer_reset(self, yes: bool) -> str:
+        card = self._app.shell.reset.card
+        (card.press if yes else card.close)()
+        return f"Put {card.name} back: {'yes' if yes else 'no'}."
+
+    def _answer_handover(self, yes: bool) -> str:
+        self._app.shell.cards.handover.ask("grant" if yes else "object")
+        return "Control is handed over." if yes else "Control is kept."
+
+    def _answer_question(self, yes: bool) -> str:
+        card = self._app.shell.question
+        asked = card.question
+        if card.cut:
+            card.ask("resume" if yes else "cancel")
+        elif yes:
+            card.ask("confirm")
+        else:
+            return f"{asked} Not yet."
+        return f"{asked} {'Yes' if yes else 'No'}."
