@@ -2,8 +2,15 @@
 
 from __future__ import annotations
 
+from robotside.core.notice import Notice
+
 __all__ = ["Refusal"]
 
 
 class Refusal(Exception):
-    """The robot does not do what it was asked; the text is one sentence for the operator."""
+    """The robot does not do what it was asked, for the reason that its notice gives."""
+
+    def __init__(self, notice: Notice | str) -> None:
+        super().__init__(notice)
+        self.notice = notice if isinstance(notice, Notice) else Notice.of(notice)
+        """One sentence for the operator, with its code."""

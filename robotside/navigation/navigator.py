@@ -8,8 +8,10 @@ from enum import Enum
 
 import numpy as np
 
+from bridge.core.codes import Code
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
+from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.robot import Manoeuvrable, Robot
 from robotside.core.text import place_sentence
@@ -102,7 +104,7 @@ class Guide:
         self._radius = room_of(info)
         self.take_map(grid)
         self._goal: Goal | None = None
-        self.reason = ""
+        self.reason: Problem = ""
         """Why the way is blocked, as one sentence; empty when it is not."""
         self.waits_for = ""
         """What it does before it can go, as one sentence; empty when it goes."""
@@ -241,7 +243,8 @@ class Guide:
             return ""
         self._waits_since = min(self._waits_since, now)
         if now - self._waits_since > PATIENCE:
-            self.reason = f"{waits[:-1]} took longer than {PATIENCE:.0f} s; the robot stays where it is."
+            said = f"{waits[:-1]} took longer than {PATIENCE:.0f} s; the robot stays where it is."
+            self.reason = Notice(Code.TASK_SLOW, said, seconds=PATIENCE)
         return waits
 
     def _ask(self, now: float) -> None:
@@ -265,7 +268,7 @@ class Guide:
             self._show(found.value)
         except Unreachable as problem:
             # an old path stays; standing still on it is noticed
-            self.reason = "" if self.going.under_way else str(problem)
+            self.reason = "" if self.going.under_way else Notice(Code.WAY_MISSING, str(problem))
         else:
             return False
         self._moved += now - self._asked
@@ -311,7 +314,9 @@ class Guide:
             self._ask(now)
             return True
         name = self._goal.name if self._goal else "the goal"
-        self.reason = f"Stuck at ({pose.x:.1f}, {pose.y:.1f}): the way to {place_sentence(name, *self._at())} is blocked."
+        where = f"({pose.x:.1f}, {pose.y:.1f})"
+        said = f"Stuck at {where}: the way to {place_sentence(name, *self._at())} is blocked."
+        self.reason = Notice(Code.WAY_BLOCKED, said, place=name, x=pose.x, y=pose.y)
         return False
 
     def _at(self) -> tuple[float, float]:

@@ -9,6 +9,7 @@ from typing import Protocol
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event, GetEventsRequest, GetEventsResponse
 from bridge.msgs.std_msgs import Time
+from robotside.core.notice import coded
 from robotside.core.text import plain
 from robotside.records.eventlog import EventLog
 
@@ -50,7 +51,7 @@ class Events:
         """Record one sentence; `at` is where in `map` [m], None when it has no place."""
         position = Point(at[0], at[1], 0.0) if at else Point(math.nan, math.nan, math.nan)
         said = plain(text, LONGEST)
-        event = Event(0, "", Time.at(self._now()), level, kind, said, position)
+        event = Event(0, "", Time.at(self._now()), level, kind, said, position, **coded(text))
         return self._log.add(event, self._publish)
 
     def since(self, number: int, boot: str) -> list[Event]:

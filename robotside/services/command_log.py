@@ -9,6 +9,7 @@ from collections.abc import Callable
 from bridge.codec import from_json
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from robotside.control.command_expiry import AHEAD
+from robotside.core.notice import coded
 from robotside.core.refusal import Refusal
 from robotside.core.text import number, plain
 from robotside.records.answers import KEPT
@@ -92,5 +93,5 @@ def _answer(action: Callable[[], str | CommandResponse], response: type[CommandR
     try:
         done = action()
     except Refusal as refusal:
-        return response(False, plain(str(refusal), LONGEST))
+        return response(False, plain(refusal.notice, LONGEST), **coded(refusal.notice))
     return done if isinstance(done, CommandResponse) else response(True, done)

@@ -113,4 +113,4 @@ def _done(action: Action, client: Operator, asked: CommandRequest) -> str | Comm
     try:
         return action(client, asked)
     except NotRecorded as problem:
-        raise Refusal(str(problem)) from problem
+        raise Refusal(problem.notice) from problem

@@ -86,7 +86,7 @@ class _Steering:
             if not agenda.manual.end():
                 raise Refusal("There is no task to go on with; start one.")
             return "The robot may start by itself what is scheduled and queued."
-        fresh = agenda.stay_manual(station.controls.name(client))
+        fresh = agenda.stay_manual(station.controls.name(client), station.controls.id(client))
         if not engine.running:
             return f"The robot is driven by hand{'; nothing starts by itself' if fresh else ' already'}."
         self._tasks.pause(client, asked)

@@ -84,7 +84,7 @@ def listener(station: Station) -> Callable[[Operator, str, Msg, float | None], N
             try:
                 orders.go_to(client, Waypoint(pose.x, pose.y, pose.yaw))
             except (Refusal, NotRecorded) as problem:
-                station.events.say("command", str(problem), "warn")
+                station.events.say("command", problem.notice, "warn")
         station.hear(client, topic, msg, stamp)
 
     return hear

@@ -11,9 +11,11 @@ from collections.abc import Callable, Sequence
 
 import msgspec
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Schedule, ScheduledTask, TaskOrder, TaskQueue
 from bridge.msgs.std_msgs import Time
 from robotside.core.bus import Publish
+from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.records import Job, NotRecorded, Records
 from robotside.records.events import Say
@@ -72,9 +74,9 @@ class Agenda:
             records.watch(table, show)
             show()
 
-    def stay_manual(self, name: str) -> bool:
+    def stay_manual(self, name: str, client_id: str) -> bool:
         """`name` chose MANUAL: what waits in the queue goes on waiting. False when that was so already."""
-        fresh = self.manual.choose(name)
+        fresh = self.manual.choose(name, client_id)
         if fresh:
             self.hold(self.manual.why)
         return fresh
@@ -131,7 +133,7 @@ class Agenda:
             try:
                 tidy.append(self._assignments.task(order).order)
             except Refusal as problem:
-                raise Refusal(f"Task {number} of the queue: {problem}") from problem
+                raise Refusal(problem.notice.reworded(f"Task {number} of the queue: {problem}")) from problem
         fresh = not (orders and self._records.queue.current.orders)
         with self._records.together() as job:
             queue = self._records.queue.set([*tidy, *orders[MOST_QUEUED:]], revision)
@@ -174,7 +176,7 @@ class Agenda:
             return
         order = self._records.queue.take()
         if order is not None:
-            self._start(order, now, f"{_title(order)} of the queue is left out")
+            self._start(order, now, Code.QUEUE_LEFT_OUT, f"{_title(order)} of the queue is left out")
 
     def _against(self, orders: Sequence[TaskOrder], *, fresh: bool = False) -> str:
         """Why `orders` would not go on just now, as the end of a sentence; empty when they would, or after the task that runs.
@@ -193,11 +195,11 @@ class Agenda:
         barred = self._barred(_drains(orders[0]))
         return _tail(barred)
 
-    def _start(self, order: TaskOrder, now: float, otherwise: str) -> None:
+    def _start(self, order: TaskOrder, now: float, code: Code, otherwise: str) -> None:
         try:
             task = self._assignments.task(order)
         except Refusal as problem:
-            self._say("task", f"{otherwise}: {problem}", "warn")
+            self._say("task", Notice(code, f"{otherwise}: {problem}", task=order.task), "warn")
             return
         self._engine.start(task, now)
 
@@ -207,35 +209,38 @@ class Agenda:
         title = f"{_title(order)} that was due"
         if turn.missed:
             when = self._spoken(turn.missed)
-            self._skip(title, f"at {when} is skipped: the robot's computer was off or its clock was changed")
+            self._skip(
+                order, f"{title} at {when} is skipped: the robot's computer was off or its clock was changed"
+            )
         if not turn.due:
             return
         barred = self.manual.why or self._barred(_drains(order)) or self._waiting()
         running = self._engine.active or bool(self._records.queue.current.orders)
         if barred:
-            self._skip(title, f"now is skipped: {barred}")
+            self._skip(order, f"{title} now is skipped: {barred}")
         elif running and self._same(order):
-            self._skip(title, "now is skipped: the one before it has not ended")
+            self._skip(order, f"{title} now is skipped: the one before it has not ended")
         elif running:
             self._wait(order, title)
         else:
-            self._start(order, now, f"{title} now is skipped")
+            self._start(order, now, Code.SCHEDULE_SKIPPED, f"{title} now is skipped")
 
     def _wait(self, order: TaskOrder, title: str) -> None:
         with self._records.together() as job:
             try:
                 self._records.queue.add(order)
             except NotRecorded as problem:
-                self._skip(title, f"now is skipped: {problem}")
+                self._skip(order, f"{title} now is skipped: {problem}")
                 return
-            job.after.append(lambda: self._waits(job, title))
+            job.after.append(lambda: self._waits(job, order, title))
 
-    def _waits(self, job: Job, title: str) -> None:
+    def _waits(self, job: Job, order: TaskOrder, title: str) -> None:
         if job.problem:
-            self._skip(title, f"now is skipped: {job.problem}")
+            self._skip(order, f"{title} now is skipped: {job.problem}")
             return
         until = f"; it waits, since {self.held}" if self.held else ""
-        self._say("task", f"{title} now waits in the queue for its turn{until}.", "info")
+        said = f"{title} now waits in the queue for its turn{until}."
+        self._say("task", Notice(Code.QUEUE_ADDED, said, task=order.task), "info")
 
     def _waiting(self) -> str:
         """Why nobody knows when a task in the queue would have its turn; empty when it has one."""
@@ -248,8 +253,8 @@ class Agenda:
         known = [*waiting, task.order] if task else waiting
         return any(_alike(order, other) for other in known)
 
-    def _skip(self, title: str, why: str) -> None:
-        self._say("task", f"{title} {why.rstrip('.')}.", "warn")
+    def _skip(self, order: TaskOrder, said: str) -> None:
+        self._say("task", Notice(Code.SCHEDULE_SKIPPED, f"{said.rstrip('.')}.", task=order.task), "warn")
 
     def _spoken(self, instant: float) -> str:
         return dt.datetime.fromtimestamp(instant, self._zone).strftime("%Y-%m-%d at %H:%M")
@@ -260,7 +265,7 @@ class Agenda:
         said = (
             f"{_counted(count)} {still} in the queue, since {self.held}, until you choose Go on with {these}."
         )
-        self._say("task", said, "warn")
+        self._say("task", Notice(Code.QUEUE_HELD, said, count=count), "warn")
 
     def _show_queue(self) -> None:
         stored, stamp = self._records.queue.stored, Time.at(self._clock())

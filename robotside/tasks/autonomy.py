@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from bridge.core.codes import Code
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseStamped
 from bridge.msgs.nav_msgs import OccupancyGrid, Odometry, Path
@@ -26,6 +27,7 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.sensor_msgs import BatteryState, CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header, Time
 from robotside.core.bus import Bus
+from robotside.core.notice import Notice
 from robotside.core.pose2 import Points, Pose2
 from robotside.core.refusal import Refusal
 from robotside.core.robot import Robot
@@ -174,7 +176,7 @@ class Autonomy:
             return
         silence = self.silence(now)
         if silence:
-            self.engine.pause(f"Paused: {silence}.", "alarm")
+            self.engine.pause(Notice(Code.TASK_SENSOR_SILENT, f"Paused: {silence}."), "alarm")
 
     def _takers(self) -> dict[str, Callable[[Any], None]]:
         """What is done with each topic's messages."""
@@ -221,7 +223,7 @@ class Autonomy:
         if msg is self._chart:
             return
         if not self.has_map and not Grid.fault(msg):
-            self._events.say("localisation", "There is a map now.", "ok")
+            self._events.say("localisation", Notice(Code.MAP_ARRIVED, "There is a map now."), "ok")
         self._coming = msg
 
     def _take_map(self, msg: OccupancyGrid) -> None:
@@ -233,7 +235,7 @@ class Autonomy:
             except MemoryError:
                 problem = f"The map is of no use: {len(msg.data)} cells are too many for this computer."
         if problem:
-            self._events.say("localisation", problem, "warn")
+            self._events.say("localisation", Notice(Code.MAP_UNUSABLE, problem), "warn")
 
     def _use(self, grid: Grid) -> None:
         self.guide.take_map(self._fit(grid))
@@ -251,7 +253,8 @@ class Autonomy:
             return
         self.guide.sure = self.whereabouts.sure
         if self.whereabouts.pushes and self.engine.running and self.engine.status.phase != "docking":
-            self.engine.pause("Paused: the wheels turn, but something holds the robot.", "alarm")
+            said = "Paused: the wheels turn, but something holds the robot."
+            self.engine.pause(Notice(Code.TASK_HELD_FAST, said), "alarm")
         points = self._points
         if self._swept is not None and self.engine.running:
             points = pose.inverse().apply(self._swept.apply(points))
@@ -295,7 +298,8 @@ class Autonomy:
 
     def _battery(self, msg: BatteryState) -> None:
         if msg.percentage < LOW_BELOW <= self.battery:
-            self._events.say("battery", f"Battery low: {msg.percentage:.0%}.", "warn")
+            low = Notice(Code.BATTERY_LOW, f"Battery low: {msg.percentage:.0%}.", charge=msg.percentage)
+            self._events.say("battery", low, "warn")
         self.battery = msg.percentage
         self.situation.charging = msg.power_supply_status in _CHARGING
         self._mind_battery()
@@ -311,10 +315,12 @@ class Autonomy:
             home = self.assignments.task(TaskOrder(task="go_home"))
         except Refusal as problem:
             why = f"{said}: the {task.spoken} ends here. {problem}"
-            self._events.say("battery", why, "alarm")
-            self.engine.cancel(why)
+            ends = Notice(Code.TASK_BATTERY, why, charge=self.battery)
+            self._events.say("battery", ends, "alarm")
+            self.engine.cancel(ends)
             return
-        self._events.say("battery", f"{said}: going home.", "warn")
+        goes = Notice(Code.BATTERY_GOING_HOME, f"{said}: going home.", charge=self.battery)
+        self._events.say("battery", goes, "warn")
         self.engine.start(home, self._now)
 
     def _flight(self, msg: FlightState) -> None:
@@ -336,22 +342,26 @@ class Autonomy:
             self._let_go = self._now
         if not msg.pressed or was or self.engine.status.phase == "docking":
             return
-        self.engine.pause("Paused: the bumper touched something.", "alarm")
+        self.engine.pause(Notice(Code.TASK_BUMPED, "Paused: the bumper touched something."), "alarm")
         if self._now - self._let_go < AGAIN:
             return
         pose = self.whereabouts.pose
         at = (pose.x, pose.y) if pose else None
-        self._events.say("contact", f"The bumper touched something {_side(msg.bearing)}.", "alarm", at=at)
+        side = _side(msg.bearing)
+        touched = Notice(Code.BUMPER_TOUCHED, f"The bumper touched something {side}.", side=side)
+        self._events.say("contact", touched, "alarm", at=at)
 
     def _found(self, intruder: Intruder) -> None:
         x, y = intruder.position.x, intruder.position.y
         text = f"Intruder {intruder.id}: a {intruder.class_id} at ({x:.1f}, {y:.1f})."
-        self._events.say("intruder", text, "alarm", at=(x, y))
+        found = Notice(Code.INTRUDER_FOUND, text, id=intruder.id, kind=intruder.class_id, x=x, y=y)
+        self._events.say("intruder", found, "alarm", at=(x, y))
         mission = self._records.missions.current
         if self.engine.status.task != "patrol":
             return
         if mission.stop_on_intruder or mission.on_intruder == "stop":
-            self.engine.pause(f"Paused: intruder {intruder.id} was found.", "warn")
+            said = f"Paused: intruder {intruder.id} was found."
+            self.engine.pause(Notice(Code.TASK_INTRUDER, said, id=intruder.id), "warn")
         elif mission.on_intruder == "circle" and self.engine.running:
             self.situation.intruders.append(Seen(intruder.id, x, y))
 

@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import msgspec
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import TaskOrder, TaskProgress, TaskRun, TaskStatus
 from bridge.msgs.std_msgs import Time
+from robotside.core.notice import Notice, coded
 from robotside.core.pose2 import Points, Pose2
 from robotside.navigation.navigator import Guide
 from robotside.records.events import Say
@@ -120,6 +123,9 @@ class Engine:
                 visited=run.visited,
                 places=run.order.places,
                 stamp=run.ended,
+                code=run.code,
+                actor_id=run.actor_id,
+                parameters=run.parameters,
             )
         self._show(self.status)
 
@@ -127,7 +133,7 @@ class Engine:
         """Show a task that a restart cut; nothing is done about it."""
         self.status = status
         self._show(status)
-        self._say("task", status.reason, "warn")
+        self._say("task", Notice.of(status.reason, status), "warn")
 
     def start(self, task: Task, now: float, *, task_id: int = 0, driven: float = 0.0) -> None:
         """Begin `task`; one that has not ended yet is canceled.
@@ -135,19 +141,21 @@ class Engine:
         A task that is taken up after a restart keeps its `task_id`, after `driven` [m].
         """
         if not task_id:
-            self.cancel(f"{self.title} ended: {task.spoken} was asked for instead.")
+            said = f"{self.title} ended: {task.spoken} was asked for instead."
+            self.cancel(Notice(Code.TASK_REPLACED, said, task=self.status.task, instead=task.name))
         self.task, self._begun_at = task, self._odometer - driven
         self._next_progress = self._ticked = now
         self._situation.begin()
         self._situation.now = now
         self._guide.keep_height(task.order.height)
         course = task.course
-        verb = "goes on" if task_id else "started"
+        code, verb = (Code.TASK_GOES_ON, "goes on") if task_id else (Code.TASK_STARTED, "started")
+        begun = Notice(code, f"{task.title} {verb}.", task=task.name)
         self.status = TaskStatus(
             task_id=task_id or self.status.task_id + 1,
             task=task.name,
             state="RUNNING",
-            reason=f"{task.title} {verb}.",
+            **_reason(begun),
             motion=course.motion,
             waypoints=course.count,
             visited=course.visited,
@@ -157,7 +165,7 @@ class Engine:
             stamp=Time.at(self._clock()),
         )
         self._show(self.status)
-        self._say("task", f"{task.title} {verb}.", "info")
+        self._say("task", begun, "info")
 
     @property
     def title(self) -> str:
@@ -166,7 +174,7 @@ class Engine:
             return self.task.title
         return "The task before the restart" if self.interrupted else ""
 
-    def pause(self, reason: str, level: str = "info") -> None:
+    def pause(self, reason: Notice, level: str = "info") -> None:
         """Hold the running task where it is; `reason` is one sentence."""
         if self.running:
             self._tell("PAUSED", reason)
@@ -179,7 +187,8 @@ class Engine:
             self._guide.rest()
             self._situation.unhear()
             self._tell("RUNNING", self._situation.doing.text or f"{self.task.title} goes on.")
-            self._say("task", f"{self.task.title} resumed.", "info")
+            resumed = Notice(Code.TASK_RESUMED, f"{self.task.title} resumed.", task=self.task.name)
+            self._say("task", resumed, "info")
 
     def confirm(self, by: str) -> bool:
         """Answer what the task asks; False when it asks nothing."""
@@ -188,12 +197,12 @@ class Engine:
         self._situation.confirmed_by = by
         return True
 
-    def cancel(self, reason: str) -> None:
+    def cancel(self, reason: Notice) -> None:
         """End the task before its time."""
         if self.task or self.interrupted:
             self._end("CANCELED", reason, "warn")
 
-    def fail(self, reason: str) -> None:
+    def fail(self, reason: Notice) -> None:
         """End the task, which cannot go on; `reason` is one sentence."""
         if self.task:
             self._end("FAILED", reason, "alarm")
@@ -216,11 +225,12 @@ class Engine:
             self._tell("RUNNING", here.doing.text)
             self._report(task.course, now)
         elif task.root.status is Status.SUCCESS:
-            self._end("SUCCEEDED", task.done(), "ok")
+            self._end("SUCCEEDED", Notice(Code.TASK_DONE, task.done(), task=task.name), "ok")
         else:
-            self._end("FAILED", self._guide.reason or f"{task.title} failed.", "alarm")
+            failed = Notice(Code.TASK_FAILED, f"{task.title} failed.", task=task.name)
+            self._end("FAILED", self._guide.reason or failed, "alarm")
 
-    def _end(self, state: str, reason: str, level: str) -> None:
+    def _end(self, state: str, reason: Notice, level: str) -> None:
         task, self.task = self.task, None
         if task is not None:
             task.root.stop(Status.INVALID)
@@ -238,7 +248,7 @@ class Engine:
         fresh = msgspec.structs.replace(
             self.status,
             state=state,
-            reason=reason or self.status.reason,
+            **(_reason(reason) if reason else {}),
             waypoint=course.number if course and state in ("RUNNING", "PAUSED") else 0,
             phase=doing.phase if running else "",
             asks=doing.asks if running else "",
@@ -274,3 +284,8 @@ class Engine:
                 self._odometer - self._begun_at,
             )
         )
+
+
+def _reason(text: str) -> dict[str, Any]:
+    """The fields of a status that give the reason `text`, with its code where it has one."""
+    return {"reason": str(text), **coded(text)}

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import msgspec
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import TaskStatus
+from robotside.core.notice import Notice, coded
 from robotside.records.runs import UnderWay
 from robotside.tasks.behaviours.course import Noted
 from robotside.tasks.engine import Engine, Task
@@ -22,6 +24,7 @@ class Interrupted:
         run = cut.run
         offer = "choose Resume to go on, or Discard"
         said = f"The robot's computer restarted in the middle of {words_for(run.order.task)}; {offer}."
+        cut_off = Notice(Code.TASK_INTERRUPTED, said, task=run.order.task)
         engine.offer(
             TaskStatus(
                 task_id=run.id,
@@ -30,6 +33,7 @@ class Interrupted:
                 reason=said,
                 visited=run.visited,
                 places=run.order.places,
+                **coded(cut_off),
             )
         )
 

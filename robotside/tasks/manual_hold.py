@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from bridge.core.codes import Code
+from robotside.core.notice import Notice
 from robotside.records import Records
 from robotside.records.events import Say
 
@@ -27,12 +29,13 @@ class Manual:
         """Why nothing starts by itself, as the end of a sentence; empty when it may."""
         return f"{self.by} set the mode to MANUAL" if self.by else ""
 
-    def choose(self, name: str) -> bool:
-        """`name` chose it; False when somebody had already."""
+    def choose(self, name: str, client_id: str = "") -> bool:
+        """`name`, whose `client_id` may be empty, chose it; False when somebody had already."""
         if self.by:
             return False
         self._records.note_setting(_SETTING, name)
-        self._say("control", f"{name} set the mode to MANUAL: nothing starts by itself until it is AUTO.")
+        said = f"{name} set the mode to MANUAL: nothing starts by itself until it is AUTO."
+        self._say("control", Notice(Code.MODE_MANUAL, said, actor_id=client_id, name=name))
         return True
 
     def end(self) -> bool:

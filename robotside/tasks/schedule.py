@@ -16,8 +16,10 @@ from zoneinfo import ZoneInfo
 
 import msgspec
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import ScheduledTask
 from bridge.msgs.std_msgs import Time
+from robotside.core.notice import Notice, Problem
 
 __all__ = ["LATE", "LEAST_EVERY", "Turn", "fault", "following", "local_zone", "turns"]
 
@@ -47,16 +49,21 @@ class Turn(NamedTuple):
     """When it should have started and did not [s]; 0 for nothing missed."""
 
 
-def fault(task: ScheduledTask) -> str:
+def fault(task: ScheduledTask) -> Problem:
     """What is wrong with the times of `task`, as one sentence; empty when nothing is."""
     if bool(task.at) == bool(task.every):
-        return "A scheduled task needs either a time of day, at, or a period, every; not both and not none."
+        said = "A scheduled task needs either a time of day, at, or a period, every; not both and not none."
+        return Notice(Code.SCHEDULE_TIME_MISSING, said)
     if task.at:
         if not _AT.fullmatch(task.at):
-            return f"The time of day must be written as 00:00 to 23:59, not {task.at[:20]!r}."
-        return "" if any(task.days) else "A scheduled task needs at least one day of the week."
+            said = f"The time of day must be written as 00:00 to 23:59, not {task.at[:20]!r}."
+            return Notice(Code.SCHEDULE_TIME_INVALID, said, at=task.at[:20])
+        if any(task.days):
+            return ""
+        return Notice(Code.SCHEDULE_DAY_MISSING, "A scheduled task needs at least one day of the week.")
     if not LEAST_EVERY <= task.every <= MOST_EVERY:
-        return f"The period must be {LEAST_EVERY:.0f} to {MOST_EVERY:.0f} s, not {task.every:g} s."
+        said = f"The period must be {LEAST_EVERY:.0f} to {MOST_EVERY:.0f} s, not {task.every:g} s."
+        return Notice(Code.SCHEDULE_PERIOD_INVALID, said, period=task.every)
     return ""
 
 

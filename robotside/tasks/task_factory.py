@@ -10,7 +10,9 @@ from dataclasses import replace
 import msgspec
 from py_trees.composites import Sequence as Chain
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import TASKS, Mission, Place, RobotInfo, TaskOrder, Waypoint
+from robotside.core.notice import Notice
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
 from robotside.kinds.registry import kind_of
@@ -116,16 +118,17 @@ class Assignments:
         """What does `order`, which `by` has asked for."""
         make = self._makers.get(order.task)
         if make is None:
-            raise Refusal(f"There is no task {order.task!r}; there are {', '.join(TASKS)}.")
+            said = f"There is no task {order.task!r}; there are {', '.join(TASKS)}."
+            raise Refusal(Notice(Code.TASK_UNKNOWN, said, task=order.task[:LONGEST_NAME]))
         known = tasks_of(self._info)
         if order.task not in known:
-            raise Refusal(
-                f"{self._info.name} does not know {words_for(order.task)}; it knows {', '.join(known)}."
-            )
+            said = f"{self._info.name} does not know {words_for(order.task)}; it knows {', '.join(known)}."
+            raise Refusal(Notice(Code.TASK_UNABLE, said, robot=self._info.name, task=order.task))
         order = _tidy(order)
         self._check_height(order.height)
         if self._situation.flight == "turned_over":
-            raise Refusal(f"{self._info.name} has turned over; put it upright first.")
+            said = f"{self._info.name} has turned over; put it upright first."
+            raise Refusal(Notice(Code.ROBOT_OVERTURNED, said, robot=self._info.name))
         return replace(make(order), order=order, by=by)
 
     def home(self) -> Waypoint | None:
@@ -152,7 +155,7 @@ class Assignments:
             self.check_mission(mission)
             course = patrol_course(mission, self._rng)
         else:
-            raise Refusal("The mission has no points; set at least one.")
+            raise Refusal(Notice(Code.MISSION_EMPTY, "The mission has no points; set at least one."))
         tree = patrol(course, self._guide, self._situation, self._say, lambda x, y: self._fault("It", x, y))
 
         def done() -> str:
@@ -203,7 +206,7 @@ class Assignments:
     def _go_home(self, _: TaskOrder) -> Task:
         home = self.home()
         if home is None:
-            raise Refusal("Home is not set; set it on the map first.")
+            raise Refusal(Notice(Code.HOME_UNSET, "Home is not set; set it on the map first."))
         self._check("Home", home.x, home.y)
         course, tree = single("Home", home, self._guide, self._situation)
         if "land" in tasks_of(self._info):
@@ -219,13 +222,16 @@ class Assignments:
 
     def _follow_heading(self, order: TaskOrder) -> Task:
         if math.isinf(order.heading):
-            raise Refusal(f"The heading must be a number [rad], not {order.heading}.")
+            said = f"The heading must be a number [rad], not {order.heading}."
+            raise Refusal(Notice(Code.HEADING_INVALID, said, heading=order.heading))
         most = self._info.max_speed
         if not (math.isnan(order.speed) or 0 < order.speed <= most):
-            raise Refusal(f"The speed must be above 0 and at most {most:g} m/s, not {order.speed:g} m/s.")
+            said = f"The speed must be above 0 and at most {most:g} m/s, not {order.speed:g} m/s."
+            raise Refusal(Notice(Code.SPEED_INVALID, said, speed=order.speed, max=most))
         span = self._span(order)
         if not math.isnan(order.throttle) and not (-1 <= order.throttle <= 1 and order.throttle):
-            raise Refusal(f"The throttle must be a part from -1 to 1 and not 0, not {order.throttle:g}.")
+            said = f"The throttle must be a part from -1 to 1 and not 0, not {order.throttle:g}."
+            raise Refusal(Notice(Code.THROTTLE_INVALID, said, throttle=order.throttle))
         tree = FollowHeading(
             order.heading, order.speed, span, self._guide, self._situation, throttle=order.throttle
         )
@@ -254,7 +260,7 @@ class Assignments:
             return
         name, kind = self._info.name, kind_of(self._info.kind)
         if not (kind.flies or kind.dives):
-            raise Refusal(f"{name} keeps no height; leave it out.")
+            raise Refusal(Notice(Code.HEIGHT_UNUSED, f"{name} keeps no height; leave it out.", robot=name))
         lowest, highest = self._heights
         lowest, highest = (max(LOWEST, lowest), highest) if kind.flies else (lowest, min(0.0, highest))
         lowest = math.ceil(10 * lowest) / 10 if lowest > -math.inf else lowest
@@ -262,12 +268,15 @@ class Assignments:
         if math.isinf(height) or not lowest <= height <= highest:
             allowed = _span_words(lowest, highest, "" if kind.flies else ", 0 being the surface")
             where = f" in {self._info.world}" if self._info.world else ""
-            raise Refusal(f"The height of {name}{where} must be {allowed}, not {height:g} m.")
+            said = f"The height of {name}{where} must be {allowed}, not {height:g} m."
+            code = Code.HEIGHT_INVALID
+            raise Refusal(Notice(code, said, height=height, lowest=lowest, highest=highest))
 
     def _dock(self, order: TaskOrder) -> Task:
         dock = self._named_dock(order)
         if math.isnan(dock.yaw):
-            raise Refusal(f"{dock.name} has no direction; docking needs the one to stand in there.")
+            said = f"{dock.name} has no direction; docking needs the one to stand in there."
+            raise Refusal(Notice(Code.DOCK_UNDIRECTED, said, place=dock.name))
         start = before(dock)
         self._check(f"The place before {dock.name}", start.x, start.y)
         course = Course([start])
@@ -281,13 +290,15 @@ class Assignments:
             return self._places(order, 1, 1, "Docking needs one place", stands=False)[0]
         dock = next((place for place in self._records.places.all() if place.kind == "dock"), None)
         if dock is None:
-            raise Refusal("There is no place of the kind dock; make one first.")
+            said = "There is no place of the kind dock; make one first."
+            raise Refusal(Notice(Code.DOCK_MISSING, said))
         return dock
 
     def _span(self, order: TaskOrder) -> Span:
         if not (math.isnan(order.duration) or 0 < order.duration <= LONGEST_TIME):
             allowed = f"above 0 and at most {LONGEST_TIME:.0f} s, or left out until stopped"
-            raise Refusal(f"The duration must be {allowed}, not {order.duration:g} s.")
+            said = f"The duration must be {allowed}, not {order.duration:g} s."
+            raise Refusal(Notice(Code.DURATION_INVALID, said, duration=order.duration, max=LONGEST_TIME))
         return Span(order.duration, lambda: self._situation.worked)
 
     def _places(
@@ -295,7 +306,8 @@ class Assignments:
     ) -> list[Place]:
         """The places of the order's names; `stands` when the robot is to stand right there."""
         if not least <= len(order.places) <= most:
-            raise Refusal(f"{rule}, not {len(order.places)}.")
+            count = len(order.places)
+            raise Refusal(Notice(Code.PLACES_MISCOUNTED, f"{rule}, not {count}.", count=count))
         places = [self._place(name) for name in order.places]
         for place in places if stands else ():
             self._check(place.name, place.x, place.y)
@@ -310,7 +322,7 @@ class Assignments:
         known = [place.name for place in self._records.places.all()]
         there = ", ".join(known[:NAMED]) + (f" and {len(known) - NAMED} more" if len(known) > NAMED else "")
         which = f"there are {there}" if known else "no place has a name yet"
-        raise Refusal(f"There is no place {name!r}; {which}.")
+        raise Refusal(Notice(Code.PLACE_UNKNOWN, f"There is no place {name!r}; {which}.", place=name))
 
     def _check(self, name: str, x: float, y: float) -> None:
         problem = self._fault(name, x, y)
@@ -331,7 +343,8 @@ def _tidy(order: TaskOrder) -> TaskOrder:
     """The same order with its texts cut to readable lines; Refusal when it names too many places."""
     if max(len(order.places), len(order.goals)) > MOST_PLACES:
         count = max(len(order.places), len(order.goals))
-        raise Refusal(f"A task names at most {MOST_PLACES} places or points, not {count}.")
+        said = f"A task names at most {MOST_PLACES} places or points, not {count}."
+        raise Refusal(Notice(Code.PLACES_TOO_MANY, said, count=count, max=MOST_PLACES))
     return msgspec.structs.replace(
         order,
         places=[plain(name, LONGEST_NAME) for name in order.places],

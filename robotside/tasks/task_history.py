@@ -47,7 +47,14 @@ class History:
             return
         ended = Time.at(self._clock()) if status.state in _OVER else Time()
         run = msgspec.structs.replace(
-            self._run, state=status.state, reason=status.reason, visited=status.visited, ended=ended
+            self._run,
+            state=status.state,
+            reason=status.reason,
+            visited=status.visited,
+            ended=ended,
+            code=status.code,
+            actor_id=status.actor_id,
+            parameters=status.parameters,
         )
         if run != self._run:
             self._keep(run)

@@ -6,13 +6,19 @@ import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from robotside.core.notice import Notice
 from robotside.records.database.rows import Put
 
 __all__ = ["Job", "NotRecorded"]
 
 
 class NotRecorded(Exception):
-    """It was not recorded and is not remembered either; the text is one sentence for the operator."""
+    """It was not recorded and is not remembered either, for the reason that its notice gives."""
+
+    def __init__(self, notice: Notice | str) -> None:
+        super().__init__(notice)
+        self.notice = notice if isinstance(notice, Notice) else Notice.of(notice)
+        """One sentence for the operator, with its code."""
 
 
 @dataclass(slots=True, eq=False)

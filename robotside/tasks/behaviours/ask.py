@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from bridge.core.codes import Code
+from robotside.core.notice import Notice
 from robotside.records.events import Say
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.situation import Situation
@@ -43,7 +45,10 @@ class AskAt(Behaviour):
         self._strange = ""
         question = self._question
         if question and question.message:
-            self._say("task", f"At {self._course.goal.spoken}: {question.message}", "info")
+            goal = self._course.goal
+            said = f"At {goal.spoken}: {question.message}"
+            told = Notice(Code.MESSAGE_TOLD, said, place=goal.place, message=question.message)
+            self._say("task", told, "info")
 
     def update(self) -> Status:
         """Wait."""
@@ -51,10 +56,13 @@ class AskAt(Behaviour):
         if question is None:
             return Status.SUCCESS
         if now.confirmed_by:
-            self._say("task", f"{question.done}, confirmed by {now.confirmed_by}.", "ok")
+            said, place = f"{question.done}, confirmed by {now.confirmed_by}.", self._course.goal.place
+            given = Notice(Code.ANSWER_GIVEN, said, name=now.confirmed_by, place=place)
+            self._say("task", given, "ok")
             return Status.SUCCESS
         if now.tag and now.tag == question.tag:
-            self._say("task", f"{question.done}, confirmed by the card.", "ok")
+            said, place = f"{question.done}, confirmed by the card.", self._course.goal.place
+            self._say("task", Notice(Code.ANSWER_BY_CARD, said, place=place), "ok")
             return Status.SUCCESS
         if now.tag and now.tag != self._strange:
             self._strange = now.tag
@@ -69,8 +77,10 @@ class AskAt(Behaviour):
         number = self._course.index
         return self._questions[number] if 0 <= number < len(self._questions) else None
 
-    def _refusal(self, question: Question) -> str:
-        where = self._course.goal.spoken
+    def _refusal(self, question: Question) -> Notice:
+        goal = self._course.goal
         if not question.tag:
-            return f"No card answers at {where}, since none is known for it; a tap does."
-        return f"The card at the reader is not the one that answers at {where}."
+            said = f"No card answers at {goal.spoken}, since none is known for it; a tap does."
+            return Notice(Code.CARD_UNKNOWN, said, place=goal.place)
+        said = f"The card at the reader is not the one that answers at {goal.spoken}."
+        return Notice(Code.CARD_WRONG, said, place=goal.place)

@@ -8,6 +8,8 @@ from collections.abc import Callable
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from bridge.core.codes import Code
+from robotside.core.notice import Notice
 from robotside.navigation.navigator import Goal, Guide, Leg
 from robotside.records.events import Say
 from robotside.tasks.behaviours.situation import Seen, Situation
@@ -98,4 +100,5 @@ class Circle(Behaviour):
         else:
             text = f"There is no room to go round intruder {seen.id}; going on."
             level = "warn"
-        self._say("intruder", text, level, at=(seen.x, seen.y))
+        circled = Notice(Code.INTRUDER_CIRCLED, text, id=seen.id, sides=self._looked)
+        self._say("intruder", circled, level, at=(seen.x, seen.y))

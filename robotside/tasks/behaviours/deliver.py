@@ -14,7 +14,9 @@ from collections.abc import Sequence as Places
 from py_trees.behaviour import Behaviour
 from py_trees.composites import Sequence
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Place
+from robotside.core.notice import Notice
 from robotside.navigation.navigator import Guide
 from robotside.records.events import Say
 from robotside.tasks.behaviours.acts import Act, Rounds
@@ -43,7 +45,8 @@ def deliver(
 
     def arrived() -> bool:
         goal = course.goal
-        say("waypoint", f"{goal.name} reached.", "ok", at=(goal.x, goal.y))
+        reached = Notice(Code.WAYPOINT_REACHED, f"{goal.name} reached.", place=goal.name.rstrip(","))
+        say("waypoint", reached, "ok", at=(goal.x, goal.y))
         return True
 
     def count() -> bool:

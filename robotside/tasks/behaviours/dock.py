@@ -7,8 +7,10 @@ import math
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from bridge.core.codes import Code
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Place
+from robotside.core.notice import Notice
 from robotside.core.pose2 import Pose2
 from robotside.navigation.navigator import Goal, Guide
 from robotside.tasks.behaviours.course import Course
@@ -96,9 +98,8 @@ class Dock(Behaviour):
             return Status.RUNNING
         left = PATIENCE - (now.worked - self._began)
         if left <= 0:
-            self._guide.reason = (
-                f"No charge was seen at {name} within {PATIENCE:.0f} s; the robot stands there."
-            )
+            said = f"No charge was seen at {name} within {PATIENCE:.0f} s; the robot stands there."
+            self._guide.reason = Notice(Code.DOCK_DEAD, said, place=name, seconds=PATIENCE)
             return Status.FAILURE
         at_end = now.touched or here.x > BEYOND
         text = f"Waiting for the charge at {name}." if at_end else f"Creeping to {name}."

@@ -7,7 +7,9 @@ import math
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Manoeuvre
+from robotside.core.notice import Notice
 from robotside.navigation.navigator import Guide
 from robotside.tasks.behaviours.situation import Situation
 
@@ -47,9 +49,8 @@ class _UpAndDown(Behaviour):
         if self.done():
             return Status.SUCCESS
         if now.worked - self._began > self.lasts:
-            self._guide.reason = (
-                f"{self.title} took longer than {self.lasts:.0f} s; the robot stays where it is."
-            )
+            said = f"{self.title} took longer than {self.lasts:.0f} s; the robot stays where it is."
+            self._guide.reason = Notice(Code.TASK_SLOW, said, seconds=self.lasts)
             return Status.FAILURE
         now.tell(self.title.lower(), f"{self.title}.", still=math.nan)
         self.tell_robot()
@@ -89,9 +90,9 @@ class TakeOff(_UpAndDown):
             self._nearest, self._since = off, now
         if status is not Status.RUNNING or math.isnan(off) or now - self._since < WITHIN:
             return status
-        self._guide.reason = (
-            f"It comes no nearer to {self._height:g} m than {self._guide.height:.1f} m; it stays there."
-        )
+        reached = self._guide.height
+        said = f"It comes no nearer to {self._height:g} m than {reached:.1f} m; it stays there."
+        self._guide.reason = Notice(Code.HEIGHT_UNREACHED, said, height=self._height, reached=reached)
         return Status.FAILURE
 
     def done(self) -> bool:

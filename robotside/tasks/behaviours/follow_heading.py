@@ -8,7 +8,9 @@ import numpy as np
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from bridge.core.codes import Code
 from bridge.msgs.geometry_msgs import Twist
+from robotside.core.notice import Notice
 from robotside.core.pose2 import Points
 from robotside.core.text import heading
 from robotside.kinds.registry import kind_of
@@ -131,7 +133,8 @@ class FollowHeading(Behaviour):
         where = f"at ({now.pose.x:.1f}, {now.pose.y:.1f})"
         if wall or waits <= 0:
             what = "a wall, the fence or the end of the map" if wall else "something that does not go away"
-            self._guide.reason = f"The way straight on ended {where} before {what}."
+            said = f"The way straight on ended {where} before {what}."
+            self._guide.reason = Notice(Code.WAY_ENDED, said, x=now.pose.x, y=now.pose.y)
             return Status.FAILURE
         now.tell("waiting", f"Waiting {where}: something is in the way.", still=waits)
         return Status.RUNNING

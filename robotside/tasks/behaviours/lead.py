@@ -9,7 +9,9 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 from py_trees.composites import Sequence
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Place
+from robotside.core.notice import Notice
 from robotside.navigation.navigator import Goal, Guide
 from robotside.records.events import Say
 from robotside.tasks.behaviours.acts import Act, Rounds
@@ -45,13 +47,15 @@ class _Lead(DriveTo):
         if not self._alone():
             if self._waits:
                 self._waits = False
-                self._say("task", f"Somebody follows again; going on to {goal.spoken}.", "ok")
+                said = f"Somebody follows again; going on to {goal.spoken}."
+                self._say("task", Notice(Code.FOLLOWER_BACK, said, place=goal.place), "ok")
             return super().update()
         if not self._waits:
             self._waits = True
             self._guide.rest()
             at = (now.pose.x, now.pose.y)
-            self._say("task", f"Waiting on the way to {goal.spoken}: nobody follows.", "warn", at=at)
+            said = f"Waiting on the way to {goal.spoken}: nobody follows."
+            self._say("task", Notice(Code.FOLLOWER_LOST, said, place=goal.place), "warn", at=at)
         now.tell("waiting", "Waiting: nobody follows.", place=goal.place)
         return Status.RUNNING
 
@@ -65,7 +69,7 @@ class _Lead(DriveTo):
         if now.follows is None or now.now - now.follows_heard > SILENCE:
             if not self._blind:
                 said = "Nothing tells whether somebody follows; the robot goes on without waiting."
-                self._say("task", said, "warn")
+                self._say("task", Notice(Code.FOLLOWER_UNKNOWN, said), "warn")
             self._blind, self._alone_since = True, math.nan
             return False
         self._blind = False
@@ -87,7 +91,8 @@ class _Tell(Behaviour):
     def initialise(self) -> None:
         goal, note = self._course.goal, self._notes[self._course.index]
         words = f"{goal.name} reached: {note}" if note else f"{goal.name} reached."
-        self._say("waypoint", words, "ok", at=(goal.x, goal.y))
+        reached = Notice(Code.WAYPOINT_REACHED, words, place=goal.name.rstrip(","))
+        self._say("waypoint", reached, "ok", at=(goal.x, goal.y))
         self._until = self._situation.worked + (STAY if note else 0.0)
 
     def update(self) -> Status:
@@ -112,7 +117,7 @@ def lead(
 
     def choose() -> bool:
         if course.index < 0 and message:
-            say("task", message, "info")
+            say("task", Notice(Code.MESSAGE_TOLD, message, place="", message=message), "info")
         course.advance()
         return True
 

@@ -16,7 +16,9 @@ from collections.abc import Callable
 from py_trees.behaviour import Behaviour
 from py_trees.composites import Selector, Sequence
 
+from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Mission, Place, Waypoint
+from robotside.core.notice import Notice
 from robotside.navigation.navigator import Goal, Guide
 from robotside.records.events import Say
 from robotside.tasks.behaviours.acts import Act, Rounds
@@ -58,7 +60,8 @@ def patrol(
     def take_over() -> None:
         if course.take_over():
             points = "point" if course.count == 1 else "points"
-            say("task", f"The patrol goes on with the new mission of {course.count} {points}.", "ok")
+            said = f"The patrol goes on with the new mission of {course.count} {points}."
+            say("task", Notice(Code.TASK_EDITED, said, count=course.count), "ok")
 
     def choose() -> bool:
         take_over()
@@ -74,7 +77,8 @@ def patrol(
         goes_on = course.skip()
         after = "going on to the next" if goes_on else "and no other point can be either"
         said = f"{goal.name} is skipped, {after}: {drive.feedback_message}"
-        say("waypoint", said, "warn", at=(goal.x, goal.y))
+        skipped = Notice(Code.WAYPOINT_SKIPPED, said, place=goal.name.rstrip(","))
+        say("waypoint", skipped, "warn", at=(goal.x, goal.y))
         return goes_on
 
     circle = Circle(guide, situation, say, fault)
@@ -110,7 +114,7 @@ def single(name: str, place: Waypoint, guide: Guide, situation: Situation) -> tu
         return True
 
     def words(goal: Goal) -> str:
-        return "Heading home." if goal.name.startswith("Home") else f"Heading for {goal.spoken}."
+        return "Heading home." if name == "Home" else f"Heading for {goal.spoken}."
 
     drive = DriveTo(course, guide, situation, words)
     return course, Sequence(name, memory=True, children=[drive, Act("reached", reached)])
@@ -124,7 +128,8 @@ def at_place(place: Place) -> Goal:
 def _reached(course: Course, say: Say) -> bool:
     course.reached()
     goal = course.goal
-    say("waypoint", f"{goal.name} reached.", "ok", at=(goal.x, goal.y))
+    reached = Notice(Code.WAYPOINT_REACHED, f"{goal.name} reached.", place=goal.name.rstrip(","))
+    say("waypoint", reached, "ok", at=(goal.x, goal.y))
     return True
 
 

@@ -10,7 +10,7 @@ from bridge.msgs.pilothouse_msgs import Limits, RobotInfo
 from robotside.core.config import LimitSettings
 from robotside.limits.limits import GOAL_ROOM as ROBOTS_ROOM
 from robotside.limits.limits import Keeper
-from widgets.map.fence import GOAL_ROOM, MOST_CORNERS, Fence
+from widgets.map.fence import GOAL_ROOM, MAX_CORNERS, Fence
 
 SQUARE = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
 HOLE = [(4.0, 4.0), (6.0, 4.0), (6.0, 6.0), (4.0, 6.0)]
@@ -78,7 +78,7 @@ def test_areas_that_are_none_are_left_out():
 
 
 def test_a_fence_with_too_many_corners_is_said_to_be_so_and_not_looked_at():
-    turns = np.linspace(0, math.tau, MOST_CORNERS + 1, endpoint=False)
+    turns = np.linspace(0, math.tau, MAX_CORNERS + 1, endpoint=False)
     fence = Fence([np.stack([np.cos(turns), np.sin(turns)], axis=1)])
     assert fence.too_large
     assert fence.fault("It", 5.0, 5.0, 0.2) == ""

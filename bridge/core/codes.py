@@ -1,0 +1,216 @@
+"""Codes of what happens and of why something is refused: what programs go by, so that none has to read a sentence."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Self
+
+__all__ = ["Code"]
+
+
+class Code(StrEnum):
+    """What an event, a refusal or a task's reason says, however it is worded.
+
+    Each member is the code as it travels, its meaning, and the keys of its parameters. A code never gets another
+    meaning; one that is no longer used stays reserved.
+    """
+
+    meaning: str
+    """What is so, in a few words."""
+    parameters: tuple[str, ...]
+    """Keys of what its sentence names."""
+
+    def __new__(cls, code: str, meaning: str, *parameters: str) -> Self:
+        """A member of what stands behind its `=`."""
+        member = str.__new__(cls, code)
+        member._value_, member.meaning, member.parameters = code, meaning, parameters
+        return member
+
+    # STOP
+
+    STOP_PRESSED = "stop_pressed", "The actor pressed STOP.", "name"
+    STOP_RELEASED = "stop_released", "The actor released STOP.", "name"
+    STOP_STILL_PRESSED = "stop_still_pressed", "STOP was pressed before the restart and still is.", "name"
+    STOP_MOVES_ON = "stop_moves_on", "The robot hovers, floats up or drifts though STOP is pressed.", "robot"
+    STOP_UNKEPT = "stop_unkept", "A restart would undo that STOP is pressed or released.", "state"
+    STOP_KEPT = "stop_kept", "A restart would no longer undo that STOP is pressed or released.", "state"
+    STOP_IS_PRESSED = "stop_is_pressed", "STOP has to be released first."
+    STOP_UNSURE = "stop_unsure", "STOP is pressed and may not have reached the robot."
+    STOP_PRESSED_SINCE = "stop_pressed_since", "STOP was pressed after its release was asked for."
+
+    # control
+
+    CONTROL_TAKEN = "control_taken", "The actor has control.", "name"
+    CONTROL_FREE = "control_free", "Control is free."
+    CONTROL_LAPSED = "control_lapsed", "The actor was not heard and lost control.", "name", "seconds"
+    CONTROL_ASKED = "control_asked", "The actor asks the driver for control.", "name", "driver", "seconds"
+    CONTROL_OBJECTED = "control_objected", "The actor keeps control though somebody asked.", "name", "asker"
+    CONTROL_HELD = "control_held", "The actor has control; only its holder may do that.", "name"
+    CONTROL_HELD_ELSEWHERE = "control_held_elsewhere", "The same client_id has control elsewhere.", "name"
+    CONTROL_ASKED_ALREADY = (
+        "control_asked_already",
+        "The actor has asked for control already.",
+        "name",
+        "driver",
+    )
+    CONTROL_OBJECTED_LATELY = "control_objected_lately", "The actor has objected lately.", "name", "seconds"
+    CONTROL_NOT_ASKED = "control_not_asked", "Nobody asks for control."
+    MODE_MANUAL = "mode_manual", "The actor chose MANUAL: nothing starts by itself.", "name"
+    MODE_UNKNOWN = "mode_unknown", "There is no such mode.", "mode"
+    SETTING_CHANGED = "setting_changed", "The actor changed a setting.", "name", "setting", "value"
+    SETTING_UNKNOWN = "setting_unknown", "There is no such setting.", "setting"
+    SETTING_VALUE_UNKNOWN = "setting_value_unknown", "The setting has no such value.", "setting", "value"
+    NOBODY_DRIVES = "nobody_drives", "Nobody drives the robot: it goes into its safe state.", "phase"
+
+    # drive commands
+
+    DRIVE_INVALID = "drive_invalid", "Its speeds are not all numbers."
+    DRIVE_UNSTAMPED = "drive_unstamped", "It has no stamp and may be too old.", "age", "allowed"
+    DRIVE_CLOCK_UNKNOWN = "drive_clock_unknown", "Its stamp is of a clock that was never compared."
+    DRIVE_CLOCK_AHEAD = "drive_clock_ahead", "Its stamp is of the future.", "seconds"
+    DRIVE_LATE = "drive_late", "It came too late.", "age", "allowed"
+    DRIVE_OVERTAKEN = "drive_overtaken", "A newer one came before it."
+    DRIVE_KIND_UNKNOWN = "drive_kind_unknown", "There is no such kind of manoeuvre.", "kind"
+    DRIVE_UNABLE = "drive_unable", "The robot knows no such manoeuvre.", "robot", "kind"
+    DRIVE_NOT_RELEASED = "drive_not_released", "The stick has to be released and pushed again."
+    DRIVE_ON_GROUND = "drive_on_ground", "No stick starts the rotors; take_off does.", "robot"
+    DRIVE_TOUCHES = "drive_touches", "The robot touches something there and is not pushed on."
+    DRIVE_EXCESSIVE = "drive_excessive", "More was asked for than the robot may.", "robot", "asked", "allowed"
+    DRIVE_LIMITED = "drive_limited", "The fence, a height or a depth limits where it is driven."
+
+    # where it is and where it may stand
+
+    MAP_ARRIVED = "map_arrived", "There is a map now."
+    MAP_MISSING = "map_missing", "There is no map of where the robot is."
+    MAP_UNUSABLE = "map_unusable", "The map cannot be used."
+    POSITION_PLACED = "position_placed", "The actor placed the robot on the map.", "name", "x", "y"
+    POSITION_INVALID = "position_invalid", "The pose to place the robot at is not all numbers."
+    POSITION_UNKNOWN = "position_unknown", "The robot does not know yet where it is."
+    POSITION_LOST = "position_lost", "The robot does not find itself on the map."
+    POSITION_UNSURE = "position_unsure", "The robot is not sure where it is."
+    POSITION_SURE = "position_sure", "The robot is sure again where it is."
+    POSITION_BY_WHEELS = "position_by_wheels", "The robot has no laser and reckons by its wheels."
+    FENCE_LEFT = "fence_left", "The robot is outside its fence.", "x", "y"
+    FENCE_UNSURE = "fence_unsure", "The position is unsure, and so is the fence: the robot goes slowly."
+    PLACE_OFF_MAP = "place_off_map", "The place is off the map.", "place", "x", "y"
+    PLACE_IN_OBSTACLE = "place_in_obstacle", "The place is in an obstacle.", "place", "x", "y"
+    PLACE_NEAR_OBSTACLE = "place_near_obstacle", "The place is too near to an obstacle.", "place", "x", "y"
+    PLACE_OUTSIDE_FENCE = "place_outside_fence", "The place is outside the fence.", "place", "x", "y"
+    PLACE_NEAR_FENCE = "place_near_fence", "The place is too near to the fence.", "place", "x", "y"
+
+    # tasks
+
+    TASK_STARTED = "task_started", "A task started.", "task"
+    TASK_GOES_ON = "task_goes_on", "A task goes on that a restart cut.", "task"
+    TASK_RESUMED = "task_resumed", "A paused task goes on.", "task"
+    TASK_DONE = "task_done", "A task is done.", "task"
+    TASK_FAILED = "task_failed", "A task failed.", "task"
+    TASK_REPLACED = "task_replaced", "Another task was asked for instead.", "task", "instead"
+    TASK_INTERRUPTED = "task_interrupted", "A restart cut a task.", "task"
+    TASK_STOPPED = "task_stopped", "The actor's STOP paused the task.", "name"
+    TASK_PAUSED = "task_paused", "The actor paused the task.", "name"
+    TASK_TAKEN_OVER = "task_taken_over", "The actor's stick paused the task.", "name"
+    TASK_LINK_LOST = "task_link_lost", "The lost link to the actor paused the task.", "name"
+    TASK_OVERTURNED = "task_overturned", "The robot has turned over; the task is paused.", "robot"
+    TASK_SENSOR_SILENT = "task_sensor_silent", "A sensor is silent; the task is paused."
+    TASK_HELD_FAST = "task_held_fast", "Something holds the robot; the task is paused."
+    TASK_BUMPED = "task_bumped", "The bumper touched something; the task is paused."
+    TASK_INTRUDER = "task_intruder", "An intruder was found; the task is paused.", "id"
+    TASK_ROBOT_LOST = "task_robot_lost", "The robot cannot be reached; the task is paused."
+    TASK_CANCELED = "task_canceled", "The actor ended the task.", "name"
+    TASK_DISCARDED = "task_discarded", "The actor discarded the task that a restart cut.", "name"
+    TASK_ASKER_GONE = "task_asker_gone", "The actor, who asked for it, is gone; the task ended.", "name"
+    TASK_RESET = "task_reset", "The actor put the robot back; the task ended.", "name"
+    TASK_ROBOT_ENDS = "task_robot_ends", "The robot's program ends, and the task with it."
+    TASK_FAULT = "task_fault", "A fault of the robot's program ended the task.", "fault"
+    TASK_BATTERY = "task_battery", "The battery is low and home cannot be reached; the task ended.", "charge"
+    TASK_SLOW = "task_slow", "Something took too long; the robot stays where it is.", "seconds"
+    TASK_EDITED = "task_edited", "The patrol goes on with a new mission.", "count"
+    WAY_BLOCKED = "way_blocked", "The way is blocked.", "place", "x", "y"
+    WAY_MISSING = "way_missing", "There is no way to the place."
+    WAY_ENDED = "way_ended", "The way straight on ended.", "x", "y"
+    HEIGHT_UNREACHED = "height_unreached", "The height is not reached.", "height", "reached"
+    DOCK_DEAD = "dock_dead", "The dock gives no charge.", "place", "seconds"
+    WAYPOINT_REACHED = "waypoint_reached", "A point or place was reached.", "place"
+    WAYPOINT_SKIPPED = "waypoint_skipped", "A point cannot be reached and is skipped.", "place"
+    MESSAGE_TOLD = "message_told", "The robot tells the message of its task.", "place", "message"
+    FOLLOWER_LOST = "follower_lost", "Nobody follows; the robot waits.", "place"
+    FOLLOWER_BACK = "follower_back", "Somebody follows again.", "place"
+    FOLLOWER_UNKNOWN = "follower_unknown", "Nothing tells whether somebody follows."
+    ANSWER_GIVEN = "answer_given", "Somebody confirmed what the task asked.", "name", "place"
+    ANSWER_BY_CARD = "answer_by_card", "A card confirmed what the task asked.", "place"
+    CARD_UNKNOWN = "card_unknown", "No card can answer there.", "place"
+    CARD_WRONG = "card_wrong", "The card is not the one that answers there.", "place"
+    INTRUDER_FOUND = "intruder_found", "An intruder was found.", "id", "kind", "x", "y"
+    INTRUDER_CIRCLED = (
+        "intruder_circled",
+        "The robot went round an intruder, as far as there is room.",
+        "id",
+        "sides",
+    )
+    BATTERY_LOW = "battery_low", "The battery is low.", "charge"
+    BATTERY_GOING_HOME = "battery_going_home", "The battery is low: the robot goes home.", "charge"
+    BUMPER_TOUCHED = "bumper_touched", "The bumper touched something.", "side"
+
+    # queue and schedule
+
+    QUEUE_HELD = "queue_held", "The queue waits until somebody has it go on.", "count"
+    QUEUE_ADDED = "queue_added", "A scheduled task waits in the queue.", "task"
+    QUEUE_LEFT_OUT = "queue_left_out", "A task of the queue cannot be done and is left out.", "task"
+    SCHEDULE_SKIPPED = "schedule_skipped", "A scheduled task is skipped.", "task"
+    SCHEDULE_TIME_MISSING = (
+        "schedule_time_missing",
+        "It needs a time of day, a period, not both and not none.",
+    )
+    SCHEDULE_DAY_MISSING = "schedule_day_missing", "It needs a day of the week."
+    SCHEDULE_TIME_INVALID = "schedule_time_invalid", "The time of day is none.", "at"
+    SCHEDULE_PERIOD_INVALID = "schedule_period_invalid", "The period is too short or too long.", "period"
+    SCHEDULE_UNKNOWN = "schedule_unknown", "There is no such scheduled task.", "id"
+    QUEUE_CHANGED = "queue_changed", "The queue has changed meanwhile.", "revision"
+    QUEUE_WRONG = "queue_wrong", "Tasks of the queue are unknown or named twice."
+
+    # missions
+
+    MISSION_STORED = "mission_stored", "A mission was stored.", "count"
+    MISSION_EMPTY = "mission_empty", "The mission has no points."
+    MISSION_UNKNOWN = "mission_unknown", "There is no such mission.", "mission"
+    MISSION_TOO_LONG = "mission_too_long", "The mission has too many points.", "count", "max"
+    MOTION_UNKNOWN = "motion_unknown", "There is no such motion.", "motion"
+    REACTION_UNKNOWN = "reaction_unknown", "There is no such reaction to an intruder.", "reaction"
+    DWELL_INVALID = "dwell_invalid", "The dwell is not allowed.", "dwell", "max"
+    LAPS_INVALID = "laps_invalid", "The number of laps is not allowed.", "laps", "max"
+
+    # why a task is refused
+
+    TASK_UNKNOWN = "task_unknown", "There is no such task.", "task"
+    TASK_UNABLE = "task_unable", "The robot does not know the task.", "robot", "task"
+    TASK_ACTIVE = "task_active", "Another task has not ended.", "state"
+    TASK_NONE_RUNNING = "task_none_running", "No task is running."
+    TASK_NONE_PAUSED = "task_none_paused", "No task is paused."
+    TASK_NONE_LEFT = "task_none_left", "There is no task to go on with."
+    TASK_ASKS_NOTHING = "task_asks_nothing", "The robot asks nothing."
+    BATTERY_TOO_LOW = "battery_too_low", "The battery is too low for the task.", "task", "charge", "needed"
+    SENSORS_SILENT = "sensors_silent", "Sensors are silent: the robot can be driven by hand only."
+    ROBOT_OVERTURNED = "robot_overturned", "The robot has turned over.", "robot"
+    HOME_UNSET = "home_unset", "Home is not set."
+    HEADING_INVALID = "heading_invalid", "The heading is no number.", "heading"
+    SPEED_INVALID = "speed_invalid", "The speed is not allowed.", "speed", "max"
+    THROTTLE_INVALID = "throttle_invalid", "The throttle is not allowed.", "throttle"
+    HEIGHT_UNUSED = "height_unused", "The robot keeps no height.", "robot"
+    HEIGHT_INVALID = "height_invalid", "The height is not allowed.", "height", "lowest", "highest"
+    DURATION_INVALID = "duration_invalid", "The duration is not allowed.", "duration", "max"
+    DOCK_MISSING = "dock_missing", "There is no dock."
+    DOCK_UNDIRECTED = "dock_undirected", "The dock has no direction.", "place"
+    PLACES_MISCOUNTED = "places_miscounted", "The task needs another number of places.", "count"
+    PLACES_TOO_MANY = "places_too_many", "The task names too many places.", "count", "max"
+    PLACE_UNKNOWN = "place_unknown", "There is no such place.", "place"
+
+    # the robot itself
+
+    ROBOT_UNREACHABLE = "robot_unreachable", "The robot cannot be reached, or not be driven."
+    ROBOT_BACK = "robot_back", "The robot can be driven again."
+    ROBOT_RESET = "robot_reset", "The actor put the robot back to its start.", "name", "robot", "x", "y"
+    ROBOT_KIND_UNKNOWN = "robot_kind_unknown", "The robot's kind is not known.", "kind"
+    ROBOT_FAULT = "robot_fault", "The robot's program has a fault.", "fault"
+    EQUIPMENT_REFUSED = "equipment_refused", "The robot's own part refuses it."
+    ARM_GOAL_MISSING = "arm_goal_missing", "Nothing says where the arm shall go."
