@@ -13,8 +13,8 @@ from typing import NoReturn
 
 from PIL import Image
 
+from bridge.core.toml_files import FileFault
 from sim.core.shapes import Shape, from_yaw
-from sim.core.toml_tables import FileFault
 from sim.rendering.renderer import NoRendererError, Renderer
 from sim.rendering.view import View
 from sim.vehicles.model import Model, numbered

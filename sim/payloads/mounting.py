@@ -11,8 +11,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
+from bridge.core.toml_files import read, text_of
 from sim.core.parameters import Table
-from sim.core.toml_tables import read, text_of
 from sim.payloads.arm import ArmParameters, MountedArm
 from sim.payloads.mounted import (
     CameraMount,

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Self, TypeVar
 
+from bridge.core.toml_files import read, text_of
 from sim.core.load import Load
 from sim.core.parameters import CameraParameters, Info, Limits, Rate, Table
-from sim.core.toml_tables import read, text_of
 from sim.physics.motors import MotorParameters
 from sim.sensors.battery import BatteryParameters
 from sim.sensors.imu import ImuParameters

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from sim.core.toml_tables import FileFault, fault, read, text_of
+from bridge.core.toml_files import FileFault, fault, read, text_of
 from sim.world.world import World
 from sim.world.world_faults import faults
 

@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from bridge.core.toml_files import FileFault
 from sim.__main__ import main
 from sim.core.shapes import Shape
-from sim.core.toml_tables import FileFault
 from sim.robot import ROBOTS
 from sim.vehicles.model import Model
 from sim.vehicles.patrol import PARAMETERS, Patrol

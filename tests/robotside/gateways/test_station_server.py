@@ -20,6 +20,7 @@ import pytest
 
 from bridge.client.client import BridgeClient, Phase
 from bridge.core.errors import BridgeError
+from bridge.core.toml_files import FileFault
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, ControlStatus, RobotInfo
@@ -28,7 +29,6 @@ from robotside.__main__ import main
 from robotside.core.clock import RobotClock
 from robotside.gateways.station_server import Addresses, Serving
 from robotside.station.station import Station
-from sim.core.toml_tables import FileFault
 from tests.fakes import FakeRobot
 from tests.robotside.scene import records_at
 

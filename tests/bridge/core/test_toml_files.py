@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 import msgspec
 import pytest
 
-from sim.core.toml_tables import FileFault, line_of, read, text_of
+from bridge.core.toml_files import FileFault, line_of, read, text_of
 from sim.payloads import load as load_payloads
 from sim.vehicles.parameters import load as load_parameters
 from sim.vehicles.patrol import PatrolParameters
