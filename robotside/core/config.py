@@ -7,12 +7,12 @@ limits cannot be read does not start. docs/robot.toml.example has every setting.
 from __future__ import annotations
 
 import math
-import re
-import tomllib
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import msgspec
+
+from bridge.core.toml_files import MAX_BYTES, FileFault, read
 
 __all__ = [
     "BadConfig",
@@ -34,8 +34,6 @@ MOST_CORNERS_IN_ALL = 1000
 """Of the whole fence, which is looked at with every drive command."""
 MOST_AREAS = 50
 """Of each kind."""
-LARGEST_FILE = 1_000_000
-"""[bytes]; nobody writes a longer one on purpose."""
 
 Ring: TypeAlias = tuple[tuple[float, float], ...]
 """Corners of an area in `map` [m], in either direction, the first one not repeated."""
@@ -130,8 +128,8 @@ NOTHING_SET = Config()
 def load(path: Path) -> Config:
     """What the file says; BadConfig when it cannot be read or used."""
     try:
-        if path.stat().st_size > LARGEST_FILE:
-            raise BadConfig(f"{path}: a settings file has at most {LARGEST_FILE:,} bytes.")
+        if path.stat().st_size > MAX_BYTES:
+            raise BadConfig(f"{path}: a settings file has at most {MAX_BYTES:,} bytes.")
         return parse(path.read_bytes().decode(), str(path))
     except OSError as error:
         why = (error.strerror or str(error)).lower()
@@ -143,111 +141,21 @@ def load(path: Path) -> Config:
 def parse(text: str, name: str = "robot.toml") -> Config:
     """What `text` says; BadConfig, whose sentence begins with `name`, when it cannot be used."""
     try:
-        told = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise BadConfig(f"{name}: this is no TOML: {_lowered(str(error))}.") from error
-    try:
-        config = msgspec.convert(told, Config)
-    except msgspec.ValidationError as error:
-        raise BadConfig(f"{name}: {_sentence(str(error), told)}") from error
-    problem = _infinite(told) or _limits_problem(config.limits)
+        config = read(text, Config, name, largest=math.inf)
+    except FileFault as fault:
+        raise BadConfig(_sentence(fault, name)) from fault
+    problem = _limits_problem(config.limits)
     if problem:
         raise BadConfig(f"{name}: {problem}")
     return config
 
 
-def _lowered(text: str) -> str:
-    return text[:1].lower() + text[1:].rstrip(".")
-
-
-_PLACE = re.compile(r"^(.*) - at `\$(.*)`$", re.DOTALL)
-_KINDS = {
-    "float": "a number",
-    "int": "a whole number",
-    "str": "a text in quotes",
-    "bool": "true or false",
-    "object": "a section",
-    "array": "a list",
-}
-
-
-def _sentence(said: str, told: Any) -> str:
-    """What msgspec `said` about what the file `told`, in the words of the file."""
-    found = _PLACE.match(said)
-    what, where = (found[1], found[2].lstrip(".")) if found else (said, "")
-    unknown = re.match(r"Object contains unknown field `(.*)`", what, re.DOTALL)
-    if unknown:
-        allowed = ", ".join(_known(where))
-        return f"{where or 'the file'} has no {unknown[1]!r}; there are {allowed}."
-    value = _shown(_at(told, where))
-    choices = re.match(r"Invalid enum value", what)
-    if choices:
-        names = ", ".join(_choices(where))
-        return f"{where} must be one of {names}, not {value}."
-    return f"{where} must be {_wanted(what)}, not {value}."
-
-
-def _wanted(what: str) -> str:
-    """What was expected, in plain words."""
-    size = re.search(r"Expected `array` of length (<=|>=|==)? ?(\d+)", what)
-    if size:
-        return f"a list of {size[2]}" + (" numbers" if size[2] == "2" else "")
-    length = re.search(r"Expected `str` of length (<=|>=) (\d+)", what)
-    if length:
-        return f"a text of at {'most' if length[1] == '<=' else 'least'} {length[2]} characters"
-    bound = re.search(r"Expected `(\w+)` (<=|>=|<|>) ([\d.]+)", what)
-    if bound:
-        words = {"<=": "at most", ">=": "at least", "<": "below", ">": "above"}[bound[2]]
-        return f"{_KINDS.get(bound[1], bound[1])} {words} {float(bound[3]):g}"
-    kind = re.search(r"Expected `(\w+)", what)
-    return _KINDS.get(kind[1], kind[1]) if kind else _lowered(what)
-
-
-def _known(where: str) -> list[str]:
-    """The names that the section `where` has; those of the whole file when it is empty."""
-    struct: Any = Config
-    for part in filter(None, where.split(".")):
-        struct = {each.name: each.type for each in msgspec.structs.fields(struct)}[part]
-    return [each.encode_name for each in msgspec.structs.fields(struct)]
-
-
-def _choices(where: str) -> list[str]:
-    section, _, name = where.rpartition(".")
-    holder = {each.name: each.type for each in msgspec.structs.fields(Config)}[section]
-    field = next(each for each in msgspec.structs.fields(holder) if each.name == name)
-    choice = msgspec.inspect.type_info(field.type)
-    types = choice.types if isinstance(choice, msgspec.inspect.UnionType) else (choice,)
-    return [
-        str(value) for each in types if isinstance(each, msgspec.inspect.LiteralType) for value in each.values
-    ]
-
-
-def _at(told: Any, where: str) -> Any:
-    """The value at a path as in `limits.keep_in[0][2]`; None when a part of it does not say which one."""
-    value = told
-    for name, index in re.findall(r"([^.\[\]]+)|\[([^\]]*)\]", where):
-        try:
-            value = value[name] if name else value[int(index)]
-        except (KeyError, IndexError, TypeError, ValueError):
-            return None
-    return value
-
-
-def _shown(value: Any) -> str:
-    shown = str(value).lower() if isinstance(value, bool) else repr(value)
-    return shown if len(shown) <= 60 else f"{shown[:57]}..."
-
-
-def _infinite(told: Any, where: str = "") -> str:
-    """The first number that is none, as a sentence; empty when all are."""
-    items: list[tuple[str, Any]] = []
-    if isinstance(told, dict):
-        items = [(f"{where}.{key}" if where else key, value) for key, value in told.items()]
-    elif isinstance(told, list):
-        items = [(f"{where}[{index}]", value) for index, value in enumerate(told)]
-    elif isinstance(told, float) and not math.isfinite(told):
-        return f"{where} must be a number, not {told}."
-    return next(filter(None, (_infinite(value, name) for name, value in items)), "")
+def _sentence(fault: FileFault, name: str) -> str:
+    """What is wrong with the file of that `name`, in the words of its sections."""
+    section, _, key = fault.where.rpartition(".")
+    if fault.known:
+        return f"{name}: {section or 'the file'} has no {key!r}; there are {', '.join(fault.known)}."
+    return f"{name}: {fault.where} {fault.reason}." if fault.where else str(fault)
 
 
 def _limits_problem(limits: LimitSettings) -> str:

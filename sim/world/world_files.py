@@ -41,8 +41,8 @@ def parse(text: str, source: str) -> World:
     """The world that a TOML `text` describes; `source` is what a fault calls it."""
     try:
         world = read(text, World, source)
+        for where, reason in faults(world):
+            raise fault(text, source, where, reason)
     except FileFault as problem:
         raise WorldError(str(problem)) from problem
-    for where, reason in faults(world):
-        raise WorldError(fault(text, source, where, reason))
     return world

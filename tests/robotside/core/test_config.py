@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robotside.core.config import LARGEST_FILE, MOST_AREAS, MOST_CORNERS, BadConfig, Config, load, parse
+from bridge.core.toml_files import MAX_BYTES
+from robotside.core.config import MOST_AREAS, MOST_CORNERS, BadConfig, Config, load, parse
 
 EXAMPLE = Path(__file__).parents[3] / "docs" / "robot.toml.example"
 SQUARE = "[[0, 0], [2, 0], [2, 2], [0, 2]]"
@@ -40,11 +41,9 @@ def test_whole_numbers_do_for_numbers() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("x =", "this is no TOML: invalid value (at end of document)."),
-        ("[limits]\nmax_speed = 1\nmax_speed = 2", "this is no TOML: cannot overwrite a value"),
         ("[limit]", "the file has no 'limit'; there are robot, limits, safe_state, control, database."),
         ("[robot]\nnme = 'x'", "robot has no 'nme'; there are name."),
-        ("limits = 3", "limits must be a section, not 3."),
+        ("limits = 3", "limits must be a table, not 3."),
         ("[limits]\nmax_speed = 'fast'", "limits.max_speed must be a number, not 'fast'."),
         ("[limits]\nmax_speed = -1", "limits.max_speed must be a number above 0, not -1."),
         ("[limits]\nmax_speed = inf", "limits.max_speed must be a number, not inf."),
@@ -56,7 +55,7 @@ def test_whole_numbers_do_for_numbers() -> None:
         ("[safe_state]\naction = 'fly'", "safe_state.action must be one of brake, brake_straight,"),
         ("[control]\nfollow_link = 'yes'", "control.follow_link must be true or false, not 'yes'."),
         ("[database]\nbackups = 1.5", "database.backups must be a whole number, not 1.5."),
-        ("[robot]\nname = ''", "robot.name must be a text of at least 1 characters, not ''."),
+        ("[robot]\nname = ''", "robot.name must be a text of at least 1 character, not ''."),
     ],
 )
 def test_a_mistake_is_one_sentence_with_the_value_and_what_is_allowed(text: str, said: str) -> None:
@@ -64,6 +63,19 @@ def test_a_mistake_is_one_sentence_with_the_value_and_what_is_allowed(text: str,
         parse(text, "patrol.toml")
     assert str(problem.value).startswith(f"patrol.toml: {said}")
     assert "\n" not in str(problem.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("x =", "line 1: is not TOML: invalid value where the file ends."),
+        ("[limits]\nmax_speed = 1\nmax_speed = 2", "line 3: is not TOML: cannot overwrite a value"),
+    ],
+)
+def test_what_is_no_toml_is_one_sentence_with_the_line(text: str, said: str) -> None:
+    with pytest.raises(BadConfig) as problem:
+        parse(text, "patrol.toml")
+    assert str(problem.value).startswith(f"patrol.toml, {said}")
 
 
 @pytest.mark.parametrize(
@@ -107,7 +119,7 @@ def test_a_file_that_cannot_be_read_is_said(tmp_path: Path) -> None:
     there.write_bytes(b"\xff\xfe")
     with pytest.raises(BadConfig, match="the file is no UTF-8 text"):
         load(there)
-    there.write_bytes(b"#" * (LARGEST_FILE + 1))
+    there.write_bytes(b"#" * (MAX_BYTES + 1))
     with pytest.raises(BadConfig, match="a settings file has at most 1,000,000 bytes"):
         load(there)
 

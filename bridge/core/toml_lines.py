@@ -1,0 +1,104 @@
+"""Line numbers of the keys of a TOML text, which the parser of the standard library does not give."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator
+from typing import Any, TypeAlias
+
+__all__ = ["Keys", "line_of", "path_of"]
+
+Keys: TypeAlias = tuple[str | int, ...]
+"""The way to a value: names of tables and keys, numbers within lists."""
+
+
+def line_of(text: str, where: str) -> int:
+    """The line of the key `where` or, when it is not there, of the table it belongs in; from 1 on, 0 for the top."""
+    keys = path_of(where)
+    lines: dict[Keys, int] = {}
+    for found, line in _keys(text.splitlines()):
+        lines.setdefault(found, line)
+    while keys and keys not in lines:
+        keys = keys[:-1]
+    return lines.get(keys, 0)
+
+
+def _keys(lines: list[str]) -> Iterator[tuple[Keys, int]]:
+    """Every key of a TOML text with its line."""
+    counts: dict[Keys, int] = {}
+    table: Keys = ()
+    number = 0
+    while number < len(lines):
+        line = lines[number].strip()
+        if line.startswith("["):
+            table = _table(line, counts)
+            yield table, number + 1
+            length = 1
+        else:
+            length, told = _statement(lines, number)
+            for keys, after in _within(told, lines[number : number + length]):
+                yield (*table, *keys), number + 1 + after
+        number += length
+
+
+def _table(line: str, counts: dict[Keys, int]) -> Keys:
+    """What a header opens; `counts` has how many tables of a list were met."""
+    head: Any = tomllib.loads(line)
+    names: list[str] = []
+    while isinstance(head, dict) and head:
+        name, head = next(iter(head.items()))
+        names.append(name)
+        head = head[0] if isinstance(head, list) else head
+    found: Keys = ()
+    for position, name in enumerate(names):
+        found = (*found, name)
+        if line.startswith("[[") and position == len(names) - 1:
+            counts[found] = counts.get(found, 0) + 1
+        if found in counts:
+            found = (*found, counts[found] - 1)
+    return found
+
+
+def _statement(lines: list[str], first: int) -> tuple[int, dict[str, Any]]:
+    """How many lines the statement that begins at `first` has, and what it says."""
+    for length in range(1, len(lines) - first + 1):
+        try:
+            return length, tomllib.loads("\n".join(lines[first : first + length]))
+        except tomllib.TOMLDecodeError:
+            continue
+    return 1, {}
+
+
+def _within(told: Any, lines: list[str], before: Keys = ()) -> Iterator[tuple[Keys, int]]:
+    """The keys in what a statement says, each with how many lines after the statement's first it stands."""
+    if isinstance(told, dict):
+        for name, value in told.items():
+            yield (*before, name), 0
+            yield from _within(value, lines, (*before, name))
+    elif isinstance(told, list) and len(lines) > 1:
+        complete = 0
+        for after in range(len(lines)):
+            count = _complete(lines[: after + 1], len(told))
+            yield from (((*before, index), after) for index in range(complete, count))
+            complete = max(complete, count)
+
+
+def _complete(lines: list[str], most: int) -> int:
+    """How many entries the list has that ends after these lines."""
+    begun = "\n".join(lines).rstrip()
+    for end in ("", "]"):
+        try:
+            told: Any = tomllib.loads(begun + "\n" + end if end else begun)
+        except tomllib.TOMLDecodeError:
+            continue
+        while isinstance(told, dict) and told:
+            told = next(iter(told.values()))
+        return len(told) if isinstance(told, list) else most
+    return 0
+
+
+def path_of(where: str) -> Keys:
+    """The way that is written as in `cars[2].x`."""
+    found = re.findall(r"([^.\[\]]+)|\[(\d+)\]", where)
+    return tuple(int(number) if number else name for name, number in found)
