@@ -6,22 +6,23 @@ done by a button. The app takes the one whose `for` names the robot's model, els
 
 from __future__ import annotations
 
-import tomllib
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated
+
+import msgspec
 
 from app.layout.layout_faults import (
     LayoutError,
     check_apart,
     check_field,
-    check_keys,
     check_room,
     one_of,
-    said,
 )
 from app.link.control_mixer import PARTS
+from bridge.core.toml_files import FileFault, read
 from bridge.core.topics import TOPICS, topic
 
 __all__ = [
@@ -78,14 +79,12 @@ ACTIONS = (
     *("pause", "lights", "record", "snapshot", "camera", "reset"),
 )
 """What a button or a slide may do: the keys of `app.session.layout_actions.ACTIONS`, which is known only once Kivy is set up."""
-_TEXTS = {"slot", "widget", "topic", "field", "title", "unit", "plus", "minus"}
-_NUMBERS = {"factor", "digits"}
-_CONTROL_TEXTS = {"slot", "widget", "topic", "title", "forward", "left", "pad", "action", "icon"}
 _PADS = ("left", "right")
+_SHOWN = tuple(one.name for one in TOPICS if one.to == "handheld")
+"""Topics that can be shown."""
 
 
-@dataclass(frozen=True)
-class Instrument:
+class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """One instrument of a layout."""
 
     slot: str
@@ -100,7 +99,7 @@ class Instrument:
     unit: str = ""
     factor: float = 1.0
     """What the number is multiplied by to be in `unit`."""
-    digits: int = 1
+    digits: Annotated[int, msgspec.Meta(ge=0, le=6)] = 1
     """Figures behind the point."""
     plus: str = ""
     """What a Readout says of a number above 0 and, in `minus`, below 0, in the place of a sign; both or neither."""
@@ -114,8 +113,7 @@ class Instrument:
         return (self.topic, *self.also)
 
 
-@dataclass(frozen=True)
-class Control:
+class Control(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """One control of a layout."""
 
     slot: str
@@ -154,8 +152,7 @@ class Control:
         return SAYS.get(self.widget, tuple(part for part in (self.forward, self.left) if part))
 
 
-@dataclass(frozen=True)
-class Action:
+class Action(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """One button of a layout."""
 
     what: str
@@ -230,114 +227,102 @@ def choose(layouts: Iterable[Layout], model: str, kind: str) -> Layout:
     raise LayoutError(f"There is no layout {DEFAULT!r}, which robots get that none is made for.")
 
 
+class _File(
+    msgspec.Struct,
+    rename={"robots": "for", "instruments": "instrument", "controls": "control", "actions": "action"},
+    forbid_unknown_fields=True,
+):
+    """The tables and keys of a layout file."""
+
+    title: str | None = None
+    robots: tuple[str, ...] = ()
+    arrangement: str = "float"
+    instruments: tuple[Instrument, ...] = ()
+    controls: tuple[Control, ...] = ()
+    actions: tuple[Action, ...] = ()
+
+
 def parse(name: str, text: str, widgets: Iterable[str]) -> Layout:
     """The layout in TOML text; LayoutError with a sentence."""
     from app.layout.layout_widgets import drives  # Kivy has to be set up before a widget is imported
 
     where, known = f"Layout {name}", tuple(widgets)
-    data = _read(where, text)
-    for key in data:
-        one_of(where, "key", key, ("title", "for", "arrangement", "instrument", "control", "action"))
-    arrangement = data.get("arrangement", "float")
-    one_of(where, "arrangement", arrangement, ARRANGEMENTS)
-    places, robots, title = ARRANGEMENTS[arrangement], data.get("for", []), data.get("title", name)
-    if not isinstance(robots, list) or not all(isinstance(robot, str) for robot in robots):
-        raise LayoutError(f"{where}: for is a list of models and kinds of robots, not {said(robots)}.")
-    if not isinstance(title, str):
-        raise LayoutError(f"{where}: title is a text, not {said(title)}.")
-    instruments = tuple(
-        _instrument(f"{where}, instrument {i}", e, known, places.instruments)
-        for i, e in enumerate(_tables(where, data, "instrument"), 1)
-    )
-    controls = tuple(
-        _control(f"{where}, control {i}", e, known, places.controls)
-        for i, e in enumerate(_tables(where, data, "control"), 1)
-    )
-    actions = tuple(
-        _action(f"{where}, action {i}", e) for i, e in enumerate(_tables(where, data, "action"), 1)
-    )
-    check_room(where, "instruments", [one.slot for one in instruments], places.instruments)
-    check_room(where, "controls", [one.slot for one in controls], places.controls)
-    check_room(where, "actions", ["the buttons"] * len(actions), {"the buttons": places.actions})
-    hands = (one for one in controls if one.widget != SLIDER and not one.action)
-    check_apart(where, ((one.slot, one.called, one.says if drives(one.widget) else ()) for one in hands))
-    return Layout(name, title, instruments, arrangement, tuple(robots), controls, actions)
-
-
-def _read(where: str, text: str) -> Mapping[str, Any]:
     try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise LayoutError(f"{where} is no TOML: {error}.") from error
-    except RecursionError as error:
-        raise LayoutError(f"{where} is no TOML that can be read: it is nested too deep.") from error
-    except ValueError as error:  # of a number that has more figures than Python reads
-        raise LayoutError(f"{where} is no TOML that can be read: {error}.") from error
+        file = read(text, _File, where)
+    except FileFault as fault:
+        raise LayoutError(_sentence(fault, where)) from fault
+    one_of(where, "arrangement", file.arrangement, ARRANGEMENTS)
+    places = ARRANGEMENTS[file.arrangement]
+    for number, instrument in enumerate(file.instruments, 1):
+        _check_instrument(f"{where}, instrument {number}", instrument, known, places.instruments)
+    for number, control in enumerate(file.controls, 1):
+        _check_control(f"{where}, control {number}", control, known, places.controls)
+    for number, action in enumerate(file.actions, 1):
+        _check_action(f"{where}, action {number}", action)
+    check_room(where, "instruments", [one.slot for one in file.instruments], places.instruments)
+    check_room(where, "controls", [one.slot for one in file.controls], places.controls)
+    check_room(where, "actions", ["the buttons"] * len(file.actions), {"the buttons": places.actions})
+    hands = (one for one in file.controls if one.widget != SLIDER and not one.action)
+    check_apart(where, ((one.slot, one.called, one.says if drives(one.widget) else ()) for one in hands))
+    title = name if file.title is None else file.title
+    return Layout(name, title, file.instruments, file.arrangement, file.robots, file.controls, file.actions)
 
 
-def _tables(where: str, data: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
-    entries = data.get(key, [])
-    if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
-        raise LayoutError(f"{where} lists its {key}s as [[{key}]] tables.")
-    return entries
+def _sentence(fault: FileFault, where: str) -> str:
+    """What is wrong with a layout, its tables counted as people count them: `instrument[0].slot` is in instrument 1."""
+    found = re.fullmatch(r"(\w+)\[(\d+)\]\.(.*)", fault.where)
+    place, key = (f"{where}, {found[1]} {int(found[2]) + 1}", found[3]) if found else (where, fault.where)
+    if fault.known:
+        return f"{place}: key is one of {', '.join(fault.known)}, not {key!r}."
+    return f"{place}: {key} {fault.reason}." if key else str(fault)
 
 
-def _instrument(
-    where: str, entry: Mapping[str, Any], widgets: Iterable[str], slots: Mapping[str, int]
-) -> Instrument:
+def _check_instrument(where: str, made: Instrument, widgets: Iterable[str], slots: Iterable[str]) -> None:
     from app.layout.layout_widgets import check_instrument  # as above
 
-    check_keys(where, entry, texts=_TEXTS, numbers=_NUMBERS, lists={"also"})
-    one_of(where, "slot", entry.get("slot"), slots)
-    one_of(where, "widget", entry.get("widget"), sorted(widgets))
-    one_of(where, "topic", entry.get("topic"), _TOLD)
-    if entry["widget"] == "Readout":
-        check_field(where, topic(entry["topic"]).type, entry.get("field", ""))
-    also = entry.get("also", [])
-    for name in also:
-        one_of(where, "also", name, _TOLD)
-    made = Instrument(**{**entry, "also": tuple(also)})
+    one_of(where, "slot", made.slot, slots)
+    one_of(where, "widget", made.widget, sorted(widgets))
+    one_of(where, "topic", made.topic, _SHOWN)
+    if made.widget == "Readout":
+        check_field(where, topic(made.topic).type, made.field)
+    for name in made.also:
+        one_of(where, "also", name, _SHOWN)
     check_instrument(where, made.slot, made.widget, made.topics, widgets)
-    return made
 
 
-def _control(
-    where: str, entry: Mapping[str, Any], widgets: Iterable[str], slots: Mapping[str, int]
-) -> Control:
-    from app.layout.layout_widgets import check_control  # as above
-
-    check_keys(where, entry, texts=_CONTROL_TEXTS, lists={"also"})
-    one_of(where, "slot", entry.get("slot"), slots)
-    one_of(where, "widget", entry.get("widget"), [*sorted(widgets), SLIDER])
-    for key, allowed in (
-        ("topic", _TOLD),
-        ("forward", PARTS),
-        ("left", ("", *PARTS)),
-        ("pad", ("", *_PADS)),
-        ("action", ACTIONS),
-    ):
-        if key in entry:
-            one_of(where, key, entry[key], allowed)
-    also = entry.get("also", [])
-    for name in also:
-        one_of(where, "also", name, _TOLD)
-    made = Control(**{**entry, "also": tuple(also)})
+def _check_control(where: str, made: Control, widgets: Iterable[str], slots: Iterable[str]) -> None:
+    one_of(where, "slot", made.slot, slots)
+    one_of(where, "widget", made.widget, [*sorted(widgets), SLIDER])
+    if made.topic:
+        one_of(where, "topic", made.topic, _SHOWN)
+    one_of(where, "forward", made.forward, PARTS)
+    one_of(where, "left", made.left, ("", *PARTS))
+    one_of(where, "pad", made.pad, ("", *_PADS))
+    if made.action:
+        one_of(where, "action", made.action, ACTIONS)
+    for name in made.also:
+        one_of(where, "also", name, _SHOWN)
     if (made.slot == SLIDER_SLOT) != (made.widget == SLIDER):
         raise LayoutError(f"{where}: {SLIDER} goes into {SLIDER_SLOT}, and nothing else does.")
     if made.widget != SLIDER:
-        check_control(where, made.widget, entry, made.topics, widgets, ACTIONS)
-    return made
+        _check_hand(where, made, widgets)
 
 
-def _action(where: str, entry: Mapping[str, Any]) -> Action:
+def _check_hand(where: str, made: Control, widgets: Iterable[str]) -> None:
+    from app.layout.layout_widgets import check_control, check_icon, confirms  # as above
+
+    check_control(where, made.widget, made.topics, widgets)
+    if confirms(made.widget):
+        one_of(where, "action", made.action or None, ACTIONS)
+    elif made.action:
+        raise LayoutError(f"{where}: {made.widget} confirms nothing, so it has no action.")
+    if made.icon:
+        check_icon(where, made.icon)
+
+
+def _check_action(where: str, made: Action) -> None:
     from app.layout.layout_widgets import check_icon  # as above
 
-    check_keys(where, entry, texts={"what", "icon", "text"})
-    one_of(where, "what", entry.get("what"), ACTIONS)
-    if entry.get("icon"):
-        check_icon(where, entry["icon"])
-    return Action(**entry)
-
-
-_TOLD = tuple(one.name for one in TOPICS if one.to == "handheld")
-"""Topics that can be shown."""
+    one_of(where, "what", made.what, ACTIONS)
+    if made.icon:
+        check_icon(where, made.icon)

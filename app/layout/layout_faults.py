@@ -2,83 +2,34 @@
 
 from __future__ import annotations
 
-import math
 import typing
 from collections.abc import Iterable, Mapping, Sequence
-from collections.abc import Set as AbstractSet
 from functools import reduce
 from typing import Any
 
 import msgspec
 
+from bridge.core.toml_files import shown
 from bridge.msgs import Msg
 
 __all__ = [
     "LayoutError",
     "check_apart",
     "check_field",
-    "check_keys",
     "check_room",
     "one_of",
-    "said",
 ]
-
-DIGITS = 6
-"""Figures behind the point at most."""
-LONGEST = 60
-"""Letters of a wrong value that a sentence repeats."""
 
 
 class LayoutError(ValueError):
     """A layout that cannot be shown; the text is one sentence that says what is wrong and what is allowed."""
 
 
-def said(value: object) -> str:
-    """A wrong value as a sentence repeats it."""
-    try:
-        text = repr(value)
-    except ValueError:  # Python writes no number of thousands of digits
-        return "a number of thousands of digits"
-    return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
-
-
 def one_of(where: str, what: str, value: object, allowed: Iterable[str]) -> None:
     """`value` is one of those texts."""
     known = tuple(allowed)
     if not isinstance(value, str) or value not in known:
-        raise LayoutError(f"{where}: {what} is one of {', '.join(known)}, not {said(value)}.")
-
-
-def check_keys(
-    where: str,
-    entry: Mapping[str, Any],
-    *,
-    texts: AbstractSet[str],
-    numbers: AbstractSet[str] = frozenset(),
-    lists: AbstractSet[str] = frozenset(),
-) -> None:
-    """Every key is known and its value of the right type; `digits` is a whole number of few."""
-    for key, value in entry.items():
-        one_of(where, "key", key, sorted(texts | numbers | lists))
-        if key in texts and not isinstance(value, str):
-            raise LayoutError(f"{where}: {key} is a text, not {said(value)}.")
-        if key in numbers:
-            _check_number(where, key, value)
-        if key in lists and not isinstance(value, list):
-            raise LayoutError(f"{where}: {key} is a list of topics, not {said(value)}.")
-
-
-def _check_number(where: str, key: str, value: object) -> None:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise LayoutError(f"{where}: {key} is a number, not {said(value)}.")
-    if key == "digits" and not (isinstance(value, int) and 0 <= value <= DIGITS):
-        raise LayoutError(f"{where}: digits is a whole number from 0 to {DIGITS}, not {said(value)}.")
-    try:
-        finite = math.isfinite(value)
-    except OverflowError:
-        finite = False
-    if not finite:
-        raise LayoutError(f"{where}: {key} is a number that can be reckoned with, not {said(value)}.")
+        raise LayoutError(f"{where}: {what} is one of {', '.join(known)}, not {shown(value)}.")
 
 
 def check_room(where: str, what: str, slots: Sequence[str], room: Mapping[str, int]) -> None:
@@ -92,7 +43,7 @@ def check_field(where: str, kind: type[Msg], path: str) -> None:
     """A message of that type has a number there."""
     found = reduce(_member, path.split("."), kind)
     if found not in (float, int):
-        raise LayoutError(f"{where}: {kind.MSGTYPE} has no number {said(path)}.")
+        raise LayoutError(f"{where}: {kind.MSGTYPE} has no number {shown(path)}.")
 
 
 def _member(kind: Any, name: str) -> Any:
@@ -114,7 +65,7 @@ def check_apart(where: str, sticks: Iterable[tuple[str, str, Sequence[str]]]) ->
     for slot, name, parts in sticks:
         if (slot, name) in names:
             raise LayoutError(
-                f"{where} has two controls called {said(name)} in {slot}; each has a title of its own."
+                f"{where} has two controls called {shown(name)} in {slot}; each has a title of its own."
             )
         names.add((slot, name))
         for part in parts:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import widgets
-from app.layout.layout_faults import LayoutError, one_of, said
+from app.layout.layout_faults import LayoutError
+from bridge.core.toml_files import shown
 from bridge.core.topics import topic
 from bridge.msgs.geometry_msgs import PoseStamped
 from widgets.controls.stick import Stick
@@ -15,7 +16,7 @@ from widgets.core.base import Control
 from widgets.core.finger_grip import Grip
 from widgets.core.icons import ICONS
 
-__all__ = ["check_control", "check_icon", "check_instrument", "drives"]
+__all__ = ["check_control", "check_icon", "check_instrument", "confirms", "drives"]
 
 FIGURES, SENSES = "readouts", "senses"
 """Places for figures only, and for small sensors that look after themselves."""
@@ -37,25 +38,16 @@ def check_instrument(where: str, slot: str, name: str, topics: Iterable[str], kn
     _check_shows(where, getattr(widgets, name), topics)
 
 
-def check_control(
-    where: str,
-    name: str,
-    entry: Mapping[str, Any],
-    topics: Iterable[str],
-    known: Iterable[str],
-    actions: Iterable[str],
-) -> None:
-    """The widget of that name drives or asks for something by a finger, and says what; `known`: all names."""
+def check_control(where: str, name: str, topics: Iterable[str], known: Iterable[str]) -> None:
+    """The widget of that name drives or asks for something by a finger, and shows those topics; `known`: all names."""
     if not _is_hand(name):
         raise LayoutError(f"{where}: a control is one of {_listed(known, _is_hand)}, not {name}.")
-    kind = getattr(widgets, name)
-    if hasattr(kind, "on_confirm"):
-        one_of(where, "action", entry.get("action"), actions)
-    elif "action" in entry:
-        raise LayoutError(f"{where}: {name} confirms nothing, so it has no action.")
-    if entry.get("icon"):
-        check_icon(where, entry["icon"])
-    _check_shows(where, kind, topics)
+    _check_shows(where, getattr(widgets, name), topics)
+
+
+def confirms(name: str) -> bool:
+    """The widget of that name does one action, once it is slid to its end."""
+    return hasattr(getattr(widgets, name), "on_confirm")
 
 
 def drives(name: str) -> bool:
@@ -68,7 +60,7 @@ def check_icon(where: str, name: str) -> None:
     if name not in ICONS:
         near = difflib.get_close_matches(name, ICONS, 3, 0.4)
         hint = f", as {', '.join(near)}" if near else ""
-        raise LayoutError(f"{where}: icon is a name in widgets/core/icons.py{hint}, not {said(name)}.")
+        raise LayoutError(f"{where}: icon is a name in widgets/core/icons.py{hint}, not {shown(name)}.")
 
 
 def _only_shows(kind: Any) -> bool:

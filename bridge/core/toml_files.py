@@ -43,7 +43,7 @@ def fault(
     text: str, source: str, where: str, reason: str, *, line: int = 0, known: tuple[str, ...] = ()
 ) -> FileFault:
     """The fault of the key `where` of the file `source` with this `text`, in its `line`, which is looked for when it is 0."""
-    line = line or line_of(text, where)
+    line = line or (line_of(text, where) if where else 0)
     place = f"{source}, line {line}" if line else source
     found = FileFault(" ".join(f"{place}: {f'{where}: ' if where else ''}{reason}.".splitlines()))
     found.where, found.reason, found.known = where, reason, known
@@ -107,11 +107,12 @@ def _numbers(content: Any, where: str = "") -> Iterator[tuple[str, float]]:
 
 
 def _no_toml(error: str, text: str, source: str) -> FileFault:
-    found = re.fullmatch(r"(.*) \(at line (\d+), column (\d+)\)", error, re.DOTALL)
-    what = found[1] if found else error.replace(" (at end of document)", " where the file ends").rstrip(".")
-    column = f" (column {found[3]})" if found else ""
-    line = int(found[2]) if found else len(text.splitlines())
-    return fault(text, source, "", f"is not TOML: {what[:1].lower()}{what[1:]}{column}", line=line)
+    found = re.fullmatch(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", error, re.DOTALL)
+    what, line, place = error.rstrip("."), 0, ""
+    if found:
+        what, line = found[1], int(found[2] or len(text.splitlines()))
+        place = f" (column {found[3]})" if found[3] else " where the file ends"
+    return fault(text, source, "", f"is not TOML: {what[:1].lower()}{what[1:]}{place}", line=line)
 
 
 _KINDS = {
@@ -122,6 +123,7 @@ _KINDS = {
     "object": "a table",
     "array": "a list",
 }
+_LISTS = {msgspec.inspect.StructType: " of [[{}]] tables", msgspec.inspect.StrType: " of texts in quotes"}
 _BOUNDS = {"<=": "at most", ">=": "at least", "<": "below", ">": "above"}
 
 
@@ -167,10 +169,9 @@ def _wanted(what: str, where: str, types: list[Any]) -> str:
     if length:
         items = {type(item) for one in types for item in getattr(one, "item_types", ())}
         return f"a list of {length[1]}{' numbers' * (items == {msgspec.inspect.FloatType})}"
-    if "Expected `array`" in what and any(
-        hasattr(getattr(one, "item_type", None), "fields") for one in types
-    ):
-        return f"a list of [[{where}]] tables"
+    if "Expected `array`" in what:
+        items = {type(getattr(one, "item_type", None)) for one in types}
+        return "a list" + "".join(_LISTS.get(item, "") for item in items).format(where)
     bound = re.search(r"Expected `(\w+)` (<=|>=|<|>) (-?[\d.]+)", what)
     if bound:
         return f"{_KINDS.get(bound[1], bound[1])} {_BOUNDS[bound[2]]} {float(bound[3]):g}"

@@ -65,7 +65,7 @@ def _statement(lines: list[str], first: int) -> tuple[int, dict[str, Any]]:
     for length in range(1, len(lines) - first + 1):
         try:
             return length, tomllib.loads("\n".join(lines[first : first + length]))
-        except tomllib.TOMLDecodeError:
+        except ValueError:  # no TOML yet, or a number of thousands of digits
             continue
     return 1, {}
 
@@ -90,7 +90,7 @@ def _complete(lines: list[str], most: int) -> int:
     for end in ("", "]"):
         try:
             told: Any = tomllib.loads(begun + "\n" + end if end else begun)
-        except tomllib.TOMLDecodeError:
+        except ValueError:  # no TOML yet, or a number of thousands of digits
             continue
         while isinstance(told, dict) and told:
             told = next(iter(told.values()))

@@ -65,7 +65,7 @@ class Deep(msgspec.Struct, forbid_unknown_fields=True):
     ("text", "said"),
     [
         ("lists = " + "[" * 3000 + "]" * 3000, "my.toml: is not TOML: it is nested too deep."),
-        ("number = 1" + "0" * 5000, "my.toml, line 1: is not TOML: exceeds the limit"),
+        ("number = 1" + "0" * 5000, "my.toml: is not TOML: exceeds the limit"),
         (
             "number = 1" + "0" * 400,
             "my.toml, line 1: number: must be a number that can be reckoned with, not 100",
