@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 from bridge.generate.modules import MARK
+from scripts.room_map import imported_names
 from scripts.topic_table import DOCUMENTS, with_table
-from tests.test_architecture import imports
 
 ROOT = Path(__file__).parents[1]
 SOURCES = [
@@ -98,7 +98,7 @@ def test_everything_that_a_recipe_names_exists(title, quoted):
     "wrong",
     [
         "python -m bridge.nothing x",
-        "robotside/gateways/NAME.py",
+        "robotside/gateways/nothing/NAME.py",
         "sim.robot.ROBOTZ",
         "blackbord",
         "Guide.nope",
@@ -210,7 +210,7 @@ def test_every_import_is_installed_by_the_folders_own_extra(folder):
     wanted = {
         module.split(".")[0]
         for path in (ROOT / folder).rglob("*.py")
-        for module in imports(path)
+        for module in imported_names(path)
         if path.name != "__main__.py" or folder != "robotside"
         if "generate" not in path.parts or folder != "bridge"
     }
