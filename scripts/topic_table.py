@@ -1,4 +1,4 @@
-"""Writes the table of topics, as bridge/core/topics.py has it, into README.md and docs/bridge.md."""
+"""Writes the table of topics, as bridge/core/topics.py has it, into docs/bridge.md."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 from bridge.core.topics import TOPICS, Topic
 
 ROOT = Path(__file__).parents[1]
-DOCUMENTS = (ROOT / "README.md", ROOT / "docs" / "bridge.md")
+DOCUMENTS = (ROOT / "docs" / "bridge.md",)
 BEGIN, END = "<!-- topics: written by scripts/topic_table.py -->", "<!-- end of topics -->"
 
 
