@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping
 
 import msgspec
@@ -12,7 +11,8 @@ from bridge.codec import shown
 from bridge.core.compat import Compat
 from bridge.core.errors import ProtocolError
 from bridge.protocol.arrivals import Arrival, Arrivals
-from bridge.protocol.merging import Subscribed, checked_size, merged, wish
+from bridge.protocol.client_subscriptions import NO_IDS, ClientSubscriptions
+from bridge.protocol.merging import Subscribed, checked_size
 from bridge.protocol.names import MAX_NAME_LENGTH, absolute, checked_id, checked_name, spells_ros2, wrong
 from bridge.protocol.ops import (
     LEVELS,
@@ -34,7 +34,6 @@ from bridge.protocol.ops import (
     Unadvertise,
     UnadvertiseAction,
     UnadvertiseService,
-    Unsubscribe,
 )
 from bridge.protocol.pending import Answer, Calls, Feedback, Goals, Result
 
@@ -43,18 +42,14 @@ __all__ = [
     "MAX_ADVERTISED",
     "MAX_CALLS",
     "MAX_GOALS",
-    "MAX_SUBSCRIPTIONS",
     "ServerSession",
 ]
 
-NAMELESS = (None, UNSET)
 _TYPED = (Subscribe, Advertise, AdvertiseService, AdvertiseAction)
 MAX_SERVER_FRAME = 16_777_216
 """The largest frame that a server takes, and the most that may wait in fragments [byte]."""
 MAX_VALUES = 50_000
 """Values in one binary frame, a number array counted as one."""
-MAX_SUBSCRIPTIONS = 1000
-"""Subscriptions of one client, each id counted."""
 MAX_ADVERTISED = 1000
 """Topics, services and actions that one client may advertise together, each id of a topic counted."""
 MAX_CALLS = 1000
@@ -79,19 +74,18 @@ class ServerSession:
         """Goals of this client that others carry out, by its own ids."""
         self.level = "none"
         """The least remark that the client wants: one of `LEVELS`."""
-        self.fragment_size: int | None = None
-        """Longest text frame [characters] for everything sent to it; None for no end."""
+        self._subscriptions = ClientSubscriptions(self.compat)
         self.ros2 = False
         """It has spelled a type as `pkg/msg/Type`, so it wants times as `sec` and `nanosec` where it names no type."""
         self._limit = limit_bytes
         self._arrivals = Arrivals(limit_bytes, most_values=MAX_VALUES)
-        self._asked: dict[str, dict[Id, Subscribed]] = {}
-        self._wanted: dict[str, Subscribed] = {}
-        self._stale: dict[str, None] = {}
-        self._altered: dict[str, None] = {}
-        self._subscriptions = 0
         self._calls = Calls("service_request", MAX_CALLS)
         self._goals = Goals("action_goal", MAX_GOALS)
+
+    @property
+    def fragment_size(self) -> int | None:
+        """Longest text frame [characters] for everything sent to the client; None for no limit."""
+        return self._subscriptions.fragment_size
 
     def receive(self, frame: str | bytes, now: float) -> list[Arrival]:
         """The operations in a frame that came at `now` [s], any clock that only goes forward; never raises.
@@ -110,8 +104,7 @@ class ServerSession:
         if op.fragment_size is not UNSET:
             size = checked_size(op)
             if self.compat.sticky_fragment_size and size != self.fragment_size:
-                self.fragment_size = size
-                self._stale = dict.fromkeys(self._asked)
+                self._subscriptions.set_fragment_size(size)
         if isinstance(op, SendActionGoal):
             self._note_type(op, op.action_type)
         elif isinstance(op, _TYPED):
@@ -127,65 +120,25 @@ class ServerSession:
         return self.fragment_size if self.compat.sticky_fragment_size else checked_size(op)
 
     def subscribe(self, op: Subscribe) -> str:
-        """Take a subscription in; gives the topic's absolute name. The same id again replaces the first.
-
-        ProtocolError when it asks for what cannot be had, or is one too many.
-        """
-        topic = checked_name(op.topic, op, "topic")
-        id = checked_id(op)
-        asked = self._asked.get(topic, {})
-        if id not in asked and self._subscriptions >= MAX_SUBSCRIPTIONS:
-            raise wrong(op, f"A client may have at most {MAX_SUBSCRIPTIONS} subscriptions.")
-        wanted = wish(op, self.compat, self.ros2)
-        again = id in asked
-        self._asked.setdefault(topic, {})[id] = wanted
-        self._subscriptions += not again
-        if again or topic in self._stale:
-            self._stale[topic] = None
-        else:
-            both = merged((self._wanted[topic], wanted), self.compat) if asked else wanted
-            self._wanted[topic] = self._cut(both)
-        return topic
+        """Add a subscription; returns the topic's absolute name. See `ClientSubscriptions.subscribe`."""
+        return self._subscriptions.subscribe(op, ros2=self.ros2)
 
     def unsubscribe(self, op: Unsubscribe) -> str:
-        """Take a subscription out; gives the topic's absolute name. An unknown one is no error."""
-        topic = absolute(op.topic)
-        asked = self._asked.get(topic, {})
-        before = len(asked)
-        if op.id in NAMELESS:
-            asked.clear()
-        asked.pop(op.id, None)
-        self._subscriptions -= before - len(asked)
-        if asked:
-            self._stale[topic] = None
-        else:
-            for forgotten in (self._asked, self._wanted, self._stale):
-                forgotten.pop(topic, None)
-        return topic
+        """Remove a subscription; returns the topic's absolute name. An unknown one is no error."""
+        return self._subscriptions.unsubscribe(op)
 
     @property
     def subscriptions(self) -> Mapping[str, Subscribed]:
-        """What it wants of each topic, by absolute name."""
-        stale, self._stale = self._stale, {}
-        for topic in stale:
-            self._wanted[topic] = self._cut(merged(self._asked[topic].values(), self.compat))
-        self._altered |= stale
-        return self._wanted
+        """The merged delivery of each topic that the client subscribed, by absolute name."""
+        return self._subscriptions.deliveries
 
-    def stale(self, topic: str) -> bool:
-        """Whether what it wants of a topic, by its absolute name, is still to be put together, for `altered` to tell.
+    def is_stale(self, topic: str) -> bool:
+        """Whether the delivery of a topic (absolute name) is still to be merged, and `changed_subscriptions` will name it."""
+        return self._subscriptions.is_stale(topic)
 
-        That is not done with each operation: a frame may hold a thousand of them, and a topic as many subscriptions.
-        """
-        return topic in self._stale
-
-    def altered(self) -> dict[str, Subscribed]:
-        """What it wants otherwise since this was last asked, by the topic's absolute name; new topics are not among it."""
-        if not self._stale and not self._altered:
-            return {}
-        wanted = self.subscriptions
-        altered, self._altered = self._altered, {}
-        return {topic: wanted[topic] for topic in altered if topic in wanted}
+    def changed_subscriptions(self) -> dict[str, Subscribed]:
+        """The deliveries that changed since the last call, by absolute name; new topics are not among them."""
+        return self._subscriptions.changed()
 
     def advertise(self, op: Advertise) -> str:
         """The client is going to publish; gives the topic's absolute name. ProtocolError when it is one too many."""
@@ -201,7 +154,7 @@ class ServerSession:
         topic = absolute(op.topic)
         advertised = self.advertised.get(topic, {})
         advertised.pop(op.id, None)
-        if op.id in NAMELESS or not advertised:
+        if op.id in NO_IDS or not advertised:
             self.advertised.pop(topic, None)
         return topic
 
@@ -317,17 +270,13 @@ class ServerSession:
         """The client is gone: forget all, tell None to whoever waits for it; gives the goals that it leaves behind."""
         goals = list(self.goals.values())
         for forgotten in (
-            self._asked,
-            self._wanted,
-            self._stale,
-            self._altered,
+            self._subscriptions,
             self.advertised,
             self.services,
             self.actions,
             self.goals,
         ):
             forgotten.clear()
-        self._subscriptions = 0
         self._arrivals = Arrivals(self._limit, most_values=MAX_VALUES)  # with what was unfinished
         try:
             self._calls.lose()
@@ -349,11 +298,3 @@ class ServerSession:
         topics = sum(len(ids) for ids in self.advertised.values())
         if topics + len(self.services) + len(self.actions) >= MAX_ADVERTISED:
             raise wrong(op, f"A client may advertise at most {MAX_ADVERTISED} topics, services and actions.")
-
-    def _cut(self, wanted: Subscribed) -> Subscribed:
-        if not self.compat.sticky_fragment_size:
-            return wanted
-        size = self.fragment_size
-        if size is not None and wanted.fragment_size is not None:
-            size = min(size, wanted.fragment_size)
-        return dataclasses.replace(wanted, fragment_size=size)

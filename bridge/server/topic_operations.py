@@ -87,7 +87,7 @@ class TopicOperations:
         switchboard.check(topic, op.type)
         switchboard.check_fields(topic, op.reduce.fields if op.reduce else None)
         self._protocol.subscribe(op)
-        if self._protocol.stale(topic):
+        if self._protocol.is_stale(topic):
             self._resubscribed.add(topic)
             return
         try:
@@ -99,13 +99,13 @@ class TopicOperations:
     def unsubscribe(self, op: Unsubscribe) -> None:
         """Take a subscription back; an unknown one is no error."""
         topic = self._protocol.unsubscribe(op)
-        if not self._protocol.stale(topic):
+        if not self._protocol.is_stale(topic):
             self._stop_delivery(topic)
 
     def apply_changes(self) -> None:
         """Pass changed subscriptions on to the switchboard, once for all operations of a frame."""
         resubscribed, self._resubscribed = self._resubscribed, set()
-        for topic, wanted in self._protocol.altered().items():
+        for topic, wanted in self._protocol.changed_subscriptions().items():
             if topic in resubscribed:
                 self._switchboard.subscribe(self._client, topic, wanted)
             else:

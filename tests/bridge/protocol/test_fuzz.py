@@ -35,6 +35,7 @@ from bridge.protocol import (
     Unsubscribe,
     arguments,
     client_session,
+    client_subscriptions,
     complaint,
     encode,
     goal_status,
@@ -197,7 +198,8 @@ def test_nothing_but_a_protocol_error_comes_of_damaged_frames(side, seed):
 
 
 def test_what_is_remembered_stays_bounded_whatever_comes(monkeypatch):
-    for name in ("MAX_SUBSCRIPTIONS", "MAX_ADVERTISED", "MAX_CALLS", "MAX_GOALS"):
+    monkeypatch.setattr(client_subscriptions, "MAX_SUBSCRIPTIONS", 5)
+    for name in ("MAX_ADVERTISED", "MAX_CALLS", "MAX_GOALS"):
         monkeypatch.setattr(server_session, name, 5)
     monkeypatch.setattr(client_session, "MAX_GOALS", 5)
     session, rng = ServerSession(limit_bytes=2000), random.Random(3)

@@ -34,6 +34,7 @@ from bridge.protocol import (
     Unadvertise,
     UnadvertiseService,
     Unsubscribe,
+    client_subscriptions,
 )
 from bridge.protocol import server_session as module
 
@@ -63,7 +64,7 @@ class Wishes(RuleBasedStateMachine):
     @rule(compat=COMPATS)
     @precondition(lambda self: not self.asked and self.sticky is None)
     def choose_habits(self, compat):
-        self.session.compat = compat
+        self.session.compat = self.session._subscriptions.compat = compat
 
     @rule(
         topic=TOPIC,
@@ -258,7 +259,7 @@ class Errands(RuleBasedStateMachine):
 
 @pytest.fixture(autouse=True)
 def _little_room(monkeypatch):
-    monkeypatch.setattr(module, "MAX_SUBSCRIPTIONS", ROOM)
+    monkeypatch.setattr(client_subscriptions, "MAX_SUBSCRIPTIONS", ROOM)
     monkeypatch.setattr(module, "MAX_ADVERTISED", ROOM)
 
 

@@ -123,7 +123,9 @@ async def test_subscriptions_are_put_together_once_for_all_operations_of_a_frame
             said({"op": "subscribe", "topic": "/odom", "id": str(number), "throttle_rate": 1000})
         )
     times = Record()
-    monkeypatch.setattr("bridge.protocol.server_session.merged", lambda *all: (times(1), merged(*all))[1])
+    monkeypatch.setattr(
+        "bridge.protocol.client_subscriptions.merged", lambda *all: (times(1), merged(*all))[1]
+    )
     client.on_message(said(*more))
     assert len(times) == 1
     (stream,) = house.switchboard.channels["/odom"].streams.values()
