@@ -50,7 +50,7 @@ from app.session.recordings import Records
 from app.session.session import Session
 from app.stop.fleet import Fleet
 from bridge.core.camera_frames import Frame
-from bridge.discovery.network import NetworkThread
+from bridge.core.network_thread import NetworkThread
 from bridge.msgs.pilothouse_msgs import Event
 from widgets import CATALOGUE
 from widgets.core.theme import theme

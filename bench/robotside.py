@@ -21,7 +21,7 @@ from bench.support.harness import Context, Sides
 from bench.support.planning import DEEP, LAKE, SHALLOW, lake, longest, trap
 from bench.support.station import ROUND, Serving, patrol, serving
 from bridge.core.camera_frames import Frame
-from bridge.discovery.network import NetworkThread
+from bridge.core.network_thread import NetworkThread
 from bridge.msgs.pilothouse_msgs import Mission, SetMissionRequest, StartTaskRequest, TaskProgress
 from bridge.server.server import Session
 from robotside.records import Records

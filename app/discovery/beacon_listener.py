@@ -13,8 +13,8 @@ from urllib.parse import urlsplit
 from app.device import sees_broadcasts
 from app.discovery.known_robots import Entry
 from app.link.feeds import Mailbox
+from bridge.core.network_thread import NetworkThread
 from bridge.discovery.beacon import Hello, Listener
-from bridge.discovery.network import NetworkThread
 
 __all__ = ["HELLO", "LATENCY", "Nearby"]
 

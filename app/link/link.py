@@ -22,8 +22,8 @@ from app.link.subscriptions import Peek, Seen, Sources
 from bridge.client.client import BridgeClient, CameraStream, LinkState, Phase
 from bridge.core.camera_frames import Frame
 from bridge.core.errors import BridgeError, NoReply, NotConnected
+from bridge.core.network_thread import NetworkThread
 from bridge.core.topic_choice import drive_message
-from bridge.discovery.network import NetworkThread
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist, TwistStamped
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, GetEventsResponse, Manoeuvre

@@ -12,7 +12,7 @@ from typing import Any, Protocol
 from app.core.command_origin import NOBODY, origins
 from app.link.feeds import Feeds
 from app.session.robot_profile import RobotProfile
-from bridge.core.liveness import LAPSE
+from bridge.core.link_state import CONTROL_TIMEOUT
 from bridge.msgs.pilothouse_msgs import ControlStatus
 
 __all__ = ["Authority", "ControlledRobot", "Line"]
@@ -95,7 +95,7 @@ class Authority:
         if session.robot.foreign and session.connected:
             return "none"
         status: ControlStatus | None = session.feeds.latest("/control/status")
-        if status is None or not session.connected or session.link.silence > LAPSE:
+        if status is None or not session.connected or session.link.silence > CONTROL_TIMEOUT:
             return "unknown"
         if not status.driver_id and not status.driver:
             return "free"
@@ -227,7 +227,11 @@ class Authority:
         if before.requested_by_id and status.driver_id == before.requested_by_id:
             self.wanted = False
             return f"{status.driver} has control now.", "info"
-        why = "while the link was away" if self._away else f"the robot heard nothing for {LAPSE:.0f}\u00a0s"
+        why = (
+            "while the link was away"
+            if self._away
+            else f"the robot heard nothing for {CONTROL_TIMEOUT:.0f}\u00a0s"
+        )
         free = "It is asked for again" if self.wanted else "It is free"
         now = f"{status.driver} has it now" if status.driver else free
         self._lapsed = why if self.wanted else ""

@@ -20,7 +20,7 @@ from typing import Protocol
 from app.discovery.known_robots import Entry
 from app.stop.stop_lane import Report, StopLane
 from app.stop.stop_state import DOUBT, silence
-from bridge.discovery.network import NetworkThread
+from bridge.core.network_thread import NetworkThread
 from bridge.msgs.pilothouse_msgs import ControlStatus, RobotInfo
 from bridge.msgs.std_msgs import Time
 

@@ -9,10 +9,10 @@ import time
 from collections.abc import Callable
 
 from bridge.client.connection import Connection, dial
+from bridge.client.reconnecting import Reconnecting
 from bridge.core.address import BadAddress, LinkLost
 from bridge.core.camera_frames import Frame, unpack
 from bridge.core.errors import ProtocolError
-from bridge.discovery.reconnecting import Reconnecting
 
 __all__ = ["CameraStream"]
 

@@ -16,16 +16,16 @@ from msgspec import UNSET, Raw
 
 from bridge.client.camera_stream import CameraStream
 from bridge.client.client_goals import part_of
-from bridge.client.client_services import Call, Providing, Run
 from bridge.client.connection import Connection, dial
 from bridge.client.heartbeat import Heartbeat
-from bridge.client.service_calls import Asking
+from bridge.client.reconnecting import Reconnecting
+from bridge.client.service_calls import ServiceCalls
+from bridge.client.service_provider import Call, Run, ServiceProvider
 from bridge.codec import from_builtins, from_json, to_json
 from bridge.core.address import BadAddress, LinkLost
 from bridge.core.errors import ProtocolError
 from bridge.core.link_state import LinkState, Phase
-from bridge.discovery.reconnecting import Reconnecting
-from bridge.discovery.route import Changes, Network, System
+from bridge.discovery.network_changes import Network, NetworkChanges, SystemNetwork
 from bridge.msgs import Msg, ros1_name
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.protocol import (
@@ -54,17 +54,17 @@ R = TypeVar("R", bound=Msg)
 
 OPEN_TIMEOUT = 3.0
 """How long looking up a name may take, and then opening the connection [s]."""
-UNREAD = 0.25
+UNREAD_TIMEOUT = 0.25
 """What a foreign server leaves unread for longer holds drive commands back until it was read [s]."""
-LOOK_PERIOD = 0.25
+CHANGE_CHECK_PERIOD = 0.25
 """While waiting for the next attempt the network is looked at this often [s]."""
 _RAW = {"secs", "nsecs", "bytes"}
 """What stands for a message in cbor-raw: when it was received, and itself in the bytes of ROS."""
-_COMPLAINTS = 100
+_MAX_REPORTED = 100
 """So many kinds of what is wrong are told of once each."""
 
 
-class BridgeClient(Asking, Reconnecting):
+class BridgeClient(ServiceCalls, Reconnecting):
     """A link to one robot; all methods belong to the event loop that `run` runs in."""
 
     def __init__(
@@ -83,11 +83,11 @@ class BridgeClient(Asking, Reconnecting):
         tells of this machine's addresses, None for asking the system.
         """
         Reconnecting.__init__(self, url, now, backoff, rng)
-        Asking.__init__(self, ClientSession(), self.place)
+        ServiceCalls.__init__(self, ClientSession(), self.place)
         self.state = LinkState(Phase.CLOSED, "Not connected.", 0, 0.0)
         self._on_state = on_state
-        self._network: Network = System() if network is None else network
-        self._providing = Providing(self._session, self._send, lambda: self.foreign)
+        self._network: Network = SystemNetwork() if network is None else network
+        self._provider = ServiceProvider(self._session, self._send, lambda: self.foreign)
         self._connection: Connection | None = None
         self._address: tuple[str, int] | None = None
         self._heart: Heartbeat | None = None
@@ -210,7 +210,7 @@ class BridgeClient(Asking, Reconnecting):
             return True
         if connection.ours or not isinstance(msg, (Twist, TwistStamped)):
             return False
-        if heart.life.pongs and connection.unread(now) > UNREAD:
+        if heart.life.pongs and connection.unread(now) > UNREAD_TIMEOUT:
             return True
         connection.sound(now)
         return False
@@ -225,7 +225,7 @@ class BridgeClient(Asking, Reconnecting):
         """
         name = ros1_name(type)
         kind = request or part_of(name, "Request")
-        self._send(self._providing.serve(service, name, kind, call))
+        self._send(self._provider.serve(service, name, kind, call))
 
         def end() -> None:
             if op := self._session.stop_serving(service):
@@ -243,7 +243,7 @@ class BridgeClient(Asking, Reconnecting):
         are not in `bridge.msgs.TYPES`; ProtocolError without.
         """
         name = ros1_name(type)
-        self._send(self._providing.provide(action, name, goal or part_of(name, "Goal"), run))
+        self._send(self._provider.provide(action, name, goal or part_of(name, "Goal"), run))
 
         def end() -> None:
             if op := self._session.stop_providing(action):
@@ -279,11 +279,11 @@ class BridgeClient(Asking, Reconnecting):
 
     async def _pause(self, wait: float) -> None:
         """Wait `wait` [s], less when there is a new way to the robot or this machine wakes up."""
-        changes = Changes(self._network, self._address)
+        changes = NetworkChanges(self._network, self._address)
         clock = asyncio.get_running_loop().time
         until = clock() + wait
         while (left := until - clock()) > 0:
-            await asyncio.sleep(min(left, LOOK_PERIOD))
+            await asyncio.sleep(min(left, CHANGE_CHECK_PERIOD))
             if changes.seen():
                 return
 
@@ -320,7 +320,7 @@ class BridgeClient(Asking, Reconnecting):
                 task.cancel()
             await asyncio.gather(*work, return_exceptions=True)
             self._session.lose()
-            await self._providing.lose()
+            await self._provider.lose()
             await connection.hang_up(lost=lost)
 
     def _met(self) -> None:
@@ -376,7 +376,7 @@ class BridgeClient(Asking, Reconnecting):
                 self._session.goal_given(op)
         except ProtocolError as error:
             if heart.life.robot:
-                self._providing.refuse(op, error)
+                self._provider.refuse(op, error)
             else:
                 heart.life.strange()  # an echo, for instance
             raise
@@ -407,7 +407,7 @@ class BridgeClient(Asking, Reconnecting):
 
     def _complain(self, about: str, error: ProtocolError) -> None:
         """Tell of each kind of trouble once."""
-        new = about not in self._complained and len(self._complained) < _COMPLAINTS
+        new = about not in self._complained and len(self._complained) < _MAX_REPORTED
         if new:
             self._complained.add(about)
         log.log(logging.WARNING if new else logging.DEBUG, "From %s: %s", self.url, error)

@@ -21,7 +21,7 @@ __all__ = ["Connection", "dial"]
 
 OURS = "Pilothouse"
 """What our server calls itself."""
-_UNSENT = 65536
+_MAX_UNSENT_BYTES = 65536
 """With more bytes than this waiting in the socket it is stuck."""
 _RETRANSMITS = 2
 """Place in Linux's `struct tcp_info` of how often the oldest bytes under way were sent again [byte]."""
@@ -65,7 +65,7 @@ class Connection:
     @property
     def full(self) -> bool:
         """So much waits in the socket that nothing more is to be put behind it."""
-        return self._ws.transport.get_write_buffer_size() > _UNSENT
+        return self._ws.transport.get_write_buffer_size() > _MAX_UNSENT_BYTES
 
     def post(self, text: str) -> bool:
         """Send a text now; False when it is closed."""

@@ -8,12 +8,12 @@ from collections import deque
 from collections.abc import Callable
 
 from bridge.client.connection import Connection
-from bridge.client.ping_statistics import Ping, Pings
+from bridge.client.liveness import Liveness
+from bridge.client.ping_statistics import Ping, PingStatistics
 from bridge.codec import from_json
 from bridge.core.address import LinkLost
 from bridge.core.errors import ProtocolError
-from bridge.core.liveness import Liveness
-from bridge.discovery.route import Changes, Network
+from bridge.discovery.network_changes import Network, NetworkChanges
 from bridge.msgs.rosapi_msgs import GetTimeResponse
 from bridge.protocol import ClientSession, Id, Op, ServiceResponse
 
@@ -21,12 +21,12 @@ __all__ = ["Heartbeat"]
 
 PING_PERIOD = 0.5
 """[s]"""
-_ASKED = 10
+_MAX_TIME_QUESTIONS = 10
 """So many questions for the time wait for their answer at most."""
 
 
 class Heartbeat:
-    """Pings over one connection until it is lost."""
+    """PingStatistics over one connection until it is lost."""
 
     def __init__(
         self,
@@ -40,7 +40,7 @@ class Heartbeat:
         on_robot: Callable[[], object],
     ) -> None:
         """`on_robot` is called once, when the other end has shown to be a robot's server."""
-        self.pings = Pings()
+        self.pings = PingStatistics()
         self.life = Liveness(place, connection.ours, now())
         self._connection = connection
         self._session = session
@@ -54,7 +54,7 @@ class Heartbeat:
 
     async def run(self) -> None:
         """Ping; raises LinkLost when the link is silent, was cut off by a change of the network, or never was a robot's."""
-        changes = Changes(self._network, self._connection.address)
+        changes = NetworkChanges(self._network, self._connection.address)
         while True:
             self._beat()
             await asyncio.sleep(PING_PERIOD)
@@ -74,7 +74,7 @@ class Heartbeat:
             return
         op = self._session.call("/rosapi/get_time", b"{}", lambda found: self._answered(ping, found))
         self._asked.append(op.id)
-        if len(self._asked) > _ASKED:
+        if len(self._asked) > _MAX_TIME_QUESTIONS:
             self._session.calls.forget(self._asked.popleft())
         self._send(op)
 

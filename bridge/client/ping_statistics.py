@@ -6,11 +6,11 @@ import math
 from collections import deque
 from dataclasses import dataclass
 
-__all__ = ["Ping", "Pings"]
+__all__ = ["Ping", "PingStatistics"]
 
-KEPT = 20
+WINDOW = 20
 """As many pings are looked at."""
-LATE = 1.5
+LOST_TIMEOUT = 1.5
 """A ping without answer for this long counts as lost [s]."""
 
 
@@ -26,7 +26,7 @@ class Ping:
     """The operators' clock minus ours [s]; NaN when the answer did not say the time."""
 
 
-class Pings:
+class PingStatistics:
     """The last 20 pings of one connection."""
 
     def __init__(self) -> None:
@@ -34,7 +34,7 @@ class Pings:
         """Of the ping answered last [s]; NaN until there is one."""
         self.offset = math.nan
         """The operators' clock minus ours [s], from the ping with the shortest way; NaN until known."""
-        self._last: deque[Ping] = deque(maxlen=KEPT)
+        self._last: deque[Ping] = deque(maxlen=WINDOW)
 
     def send(self, now: float) -> Ping:
         """Note that one was sent at `now` [s]."""
@@ -54,4 +54,4 @@ class Pings:
 
     def lost(self, now: float) -> int:
         """How many of the last 20 were not answered within 1.5 s."""
-        return sum(1 for ping in self._last if math.isnan(ping.rtt) and ping.sent < now - LATE)
+        return sum(1 for ping in self._last if math.isnan(ping.rtt) and ping.sent < now - LOST_TIMEOUT)

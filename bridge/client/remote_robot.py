@@ -16,10 +16,10 @@ from typing import Any, Self, TypeVar
 
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.client.client_goals import Goal, part_of
-from bridge.client.client_services import Call, Run
+from bridge.client.service_provider import Call, Run
 from bridge.core.errors import BridgeError, NoReply, NotConnected
+from bridge.core.network_thread import NetworkThread
 from bridge.core.topics import topic as entry_of
-from bridge.discovery.network import NetworkThread
 from bridge.msgs import Msg, ros1_name
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import CommandResponse

@@ -15,12 +15,12 @@ from bridge.core.errors import NoReply, NotConnected, ProtocolError, Refused
 from bridge.msgs import TYPES, Msg, ros1_name
 from bridge.protocol import ClientSession, Op, ServiceResponse, ros2_name
 
-__all__ = ["Asking"]
+__all__ = ["ServiceCalls"]
 
 M = TypeVar("M", bound=Msg)
 
 
-class Asking:
+class ServiceCalls:
     """The part of a client that asks; nothing of it is remembered over reconnects."""
 
     def __init__(self, session: ClientSession, place: str) -> None:

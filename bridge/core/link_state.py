@@ -5,7 +5,10 @@ from __future__ import annotations
 import enum
 from dataclasses import dataclass
 
-__all__ = ["LinkState", "Phase"]
+__all__ = ["CONTROL_TIMEOUT", "LinkState", "Phase"]
+
+CONTROL_TIMEOUT = 2.0
+"""A client that has control and that the robot has not heard for this long loses it [s]."""
 
 
 class Phase(enum.Enum):

@@ -15,8 +15,8 @@ from collections.abc import Callable, Iterable
 from typing import Any, ClassVar
 
 from bridge.codec import from_json, to_json
+from bridge.core.async_tasks import is_cancelled_from_outside
 from bridge.core.errors import BridgeError, ProtocolError
-from bridge.discovery.reconnecting import cancelled_from_outside
 from bridge.msgs import Msg
 
 __all__ = ["PORT", "Beacon", "Hello", "Listener", "broadcast_addresses"]
@@ -82,7 +82,7 @@ class Beacon:
         try:
             await self._work
         except asyncio.CancelledError:
-            if cancelled_from_outside():
+            if is_cancelled_from_outside():
                 raise
 
     async def close(self) -> None:

@@ -34,6 +34,7 @@ from bridge.protocol.ops import (
     Unadvertise,
     UnadvertiseAction,
     UnadvertiseService,
+    Unsubscribe,
 )
 from bridge.protocol.pending import Answer, Calls, Feedback, Goals, Result
 

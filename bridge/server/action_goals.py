@@ -11,6 +11,7 @@ from msgspec import Raw
 
 from bridge.client.client_goals import CANCELED, SUCCEEDED
 from bridge.codec import shown, to_json
+from bridge.core.async_tasks import cancel_all
 from bridge.core.errors import BridgeError, Refused
 from bridge.core.robot_catalogue import Action, Session
 from bridge.msgs import Msg
@@ -31,7 +32,6 @@ from bridge.server.client_services import ClientServices, Peer
 from bridge.server.flow.outgoing_messages import OutgoingMessage, op_frames
 from bridge.server.flow.priority_lanes import Lane, Stream
 from bridge.server.flow.send_queue import SendQueue
-from bridge.server.flow.sockets import cancel_all
 
 __all__ = ["ActionGoals"]
 

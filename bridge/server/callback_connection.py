@@ -20,8 +20,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode, Frame, Opcode
 from websockets.protocol import Event, State
 
-from bridge.server.flow.send_queue import WriteBatch
-from bridge.server.flow.sockets import TURN_TIME
+from bridge.server.flow.send_queue import TURN_TIME, WriteBatch
 
 __all__ = ["MessageHandler", "CallbackConnection"]
 

@@ -3,13 +3,28 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable
+from typing import Protocol
 
+from bridge.core.async_tasks import cancel_all, wait
 from bridge.server.flow.picture_quality import COARSEST, PictureQuality
 from bridge.server.flow.quality_levels import Picture
-from bridge.server.flow.sockets import Socket, cancel_all, wait
 
-__all__ = ["CameraSocket"]
+__all__ = ["CameraSocket", "Socket"]
+
+
+class Socket(Protocol):
+    """A WebSocket; iterating and sending raise when the connection ends badly."""
+
+    @property
+    def transport(self) -> asyncio.Transport:
+        """The connection below."""
+
+    def __aiter__(self) -> AsyncIterator[str | bytes]:
+        """Messages as they come."""
+
+    async def send(self, message: bytes, *, text: bool | None = None) -> None:
+        """Send one message; waits while too much is on its way."""
 
 
 class CameraSocket:
@@ -33,7 +48,7 @@ class CameraSocket:
             async for text in self._socket:
                 self._acknowledge(text)
         finally:
-            await cancel_all({writer})
+            await cancel_all([writer])
 
     def offer(self, picture: Picture) -> None:
         """Have a picture sent as soon as there is room for it; a newer one replaces one that still waits."""

@@ -41,8 +41,7 @@ from bridge.server.client_faults import ClientFaults
 from bridge.server.flow.outgoing_messages import OutgoingMessage, op_frames
 from bridge.server.flow.priority_lanes import Lane, Stream
 from bridge.server.flow.round_trip import RoundTrip
-from bridge.server.flow.send_queue import FrameWriter, SendQueue, WriteBatch
-from bridge.server.flow.sockets import TURN_TIME
+from bridge.server.flow.send_queue import TURN_TIME, FrameWriter, SendQueue, WriteBatch
 from bridge.server.server_context import ServerContext
 from bridge.server.service_operations import ServiceOperations
 from bridge.server.topic_operations import TopicOperations

@@ -24,6 +24,7 @@ from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
+from bridge.core.async_tasks import cancel_all
 from bridge.core.compat import Compat
 from bridge.core.errors import BridgeError
 from bridge.core.robot_catalogue import Action, Service, Session
@@ -38,7 +39,6 @@ from bridge.server.flow.outgoing_messages import Reduce
 from bridge.server.flow.quality_levels import QualityLevels, Shrink
 from bridge.server.flow.round_trip import PING_PERIOD
 from bridge.server.flow.send_queue import WriteBatch
-from bridge.server.flow.sockets import cancel_all
 from bridge.server.node_graph import NodeGraph
 from bridge.server.rosapi.parameters import Parameters
 from bridge.server.rosapi.services import RosApi

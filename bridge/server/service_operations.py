@@ -11,13 +11,13 @@ import msgspec
 from msgspec import Raw
 
 from bridge.codec import shown, to_json
+from bridge.core.async_tasks import cancel_all
 from bridge.core.errors import BridgeError, Refused
 from bridge.core.robot_catalogue import Session
 from bridge.msgs import Msg
 from bridge.protocol import MISSING, CallService, Id, ServiceResponse, arguments, service_and_id
 from bridge.server.client_services import Peer
 from bridge.server.flow.priority_lanes import Lane
-from bridge.server.flow.sockets import cancel_all
 from bridge.server.server_context import ServerContext
 
 __all__ = ["MAX_CALLS", "PRIORITY_SERVICES", "ServiceOperations"]

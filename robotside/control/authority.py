@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from bridge.core.liveness import LAPSE
+from bridge.core.link_state import CONTROL_TIMEOUT
 from robotside.core.text import number, plain
 
 __all__ = ["AGAIN", "REMEMBERED", "SILENT", "TO_OBJECT", "Asker", "Authority", "Driver", "Operator"]
@@ -215,9 +215,9 @@ class Authority:
         return fell
 
     def _look(self, now: float) -> None:
-        if self._asker is not None and now - self._asker.client.last_heard > LAPSE:
+        if self._asker is not None and now - self._asker.client.last_heard > CONTROL_TIMEOUT:
             self._asker = None
-        if self._driver is not None and now - self._driver.client.last_heard > LAPSE:
+        if self._driver is not None and now - self._driver.client.last_heard > CONTROL_TIMEOUT:
             self._fell = self._driver.name
             self._pass_on()
         elif self._asker is not None and now >= self._asker.due:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Protocol
 
-from bridge.core.liveness import LAPSE
+from bridge.core.link_state import CONTROL_TIMEOUT
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.control.authority import TO_OBJECT, Operator
@@ -106,7 +106,9 @@ class Helm:
             self._engine.pause(f"Paused: {self._robot.info.name} has turned over.", "alarm")
         lost = controls.mind(clock)
         if lost:
-            self._say("control", f"{lost} was not heard for {LAPSE:.0f} s and lost control.", "warn")
+            self._say(
+                "control", f"{lost} was not heard for {CONTROL_TIMEOUT:.0f} s and lost control.", "warn"
+            )
             self._lost(lost, now)
         controls.look(clock)
         if controls.expired(clock) and not self._engine.running:

@@ -15,8 +15,8 @@ from msgspec import structs
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.core.address import host_and_port
 from bridge.core.errors import BridgeError, NotConnected
+from bridge.core.network_thread import NetworkThread
 from bridge.core.topic_choice import drive_message
-from bridge.discovery.network import NetworkThread
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist, TwistStamped
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, ControlStatus

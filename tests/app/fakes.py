@@ -12,7 +12,7 @@ from typing import Any
 
 import msgspec
 
-from bridge.discovery.network import NetworkThread
+from bridge.core.network_thread import NetworkThread
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (

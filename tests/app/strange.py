@@ -7,7 +7,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from bridge.discovery.network import NetworkThread
+from bridge.core.network_thread import NetworkThread
 from tests.bridge.client.foreign_server import ForeignServer
 from tests.bridge.foreign_robot import ForeignRobot
 

@@ -6,12 +6,12 @@ import asyncio
 import logging
 from concurrent.futures import ThreadPoolExecutor
 
+from bridge.core.async_tasks import cancel_all
 from bridge.core.errors import BridgeError
 from bridge.protocol import Reduction
 from bridge.server.flow.outgoing_messages import OutgoingMessage
 from bridge.server.flow.priority_lanes import Stream
 from bridge.server.flow.send_queue import SendQueue
-from bridge.server.flow.sockets import cancel_all
 
 __all__ = ["MessageReducer"]
 

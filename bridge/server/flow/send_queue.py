@@ -13,10 +13,12 @@ from bridge.server.flow.outgoing_messages import OutgoingMessage, ping_frame
 from bridge.server.flow.priority_lanes import Lane, PriorityLanes, Stream
 from bridge.server.flow.send_window import SendWindow
 
-__all__ = ["FrameWriter", "SendQueue", "WriteBatch"]
+__all__ = ["TURN_TIME", "FrameWriter", "SendQueue", "WriteBatch"]
 
 log = logging.getLogger(__name__)
 
+TURN_TIME = 0.005
+"""Longest time for one client before the others have their turn [s]; one frame may hold a thousand operations."""
 _MAX_REFUSED_TOPICS = 100
 """So many topics are logged of one client that cannot be sent."""
 

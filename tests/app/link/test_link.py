@@ -16,7 +16,7 @@ from app.link.feeds import Feeds, Mailbox, Post
 from app.link.link import Link
 from app.session.logbook import marks
 from app.session.session import Session
-from bridge.discovery.network import NetworkThread
+from bridge.core.network_thread import NetworkThread
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped, Twist
 from bridge.msgs.pilothouse_msgs import ControlStatus, Event, Mission, Waypoint
 from tests.app.fakes import FakeRobot

@@ -23,7 +23,7 @@ from tests.bridge.wires import PATIENCE, Clock, FakeNetwork, Record, link, serve
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
     monkeypatch.setattr(heartbeat, "PING_PERIOD", 0.02)
-    monkeypatch.setattr(module, "LOOK_PERIOD", 0.01)
+    monkeypatch.setattr(module, "CHANGE_CHECK_PERIOD", 0.01)
 
 
 async def until(true):

@@ -15,7 +15,7 @@ from websockets.asyncio.client import connect
 from bridge.client.client import Phase
 from bridge.client.remote_robot import RemoteRobot
 from bridge.core.errors import NoReply, ProtocolError, Refused
-from bridge.discovery.network import NetworkThread
+from bridge.core.network_thread import NetworkThread
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
@@ -293,7 +293,7 @@ async def test_after_the_server_was_restarted_everything_flows_again_and_nothing
 
 
 async def test_a_server_that_answers_nothing_but_pings_is_a_robot_that_does_not_tell_its_time(monkeypatch):
-    monkeypatch.setattr("bridge.core.liveness.SILENCE", 0.2)
+    monkeypatch.setattr("bridge.client.liveness.SILENCE_TIMEOUT", 0.2)
     monkeypatch.setattr("bridge.client.heartbeat.PING_PERIOD", 0.02)
     async with foreign() as robot:
         robot.deaf = True

@@ -16,7 +16,7 @@ import pytest
 from bridge.client.client import Phase
 from bridge.client.remote_robot import RemoteRobot
 from bridge.core.errors import BridgeError, NoReply, NotConnected, Refused
-from bridge.discovery.network import NetworkThread
+from bridge.core.network_thread import NetworkThread
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, RobotInfo

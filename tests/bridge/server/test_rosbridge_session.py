@@ -15,8 +15,7 @@ from bridge.protocol import ServerSession, split
 from bridge.protocol.merging import merged
 from bridge.server.client_services import ClientServices
 from bridge.server.flow.message_reducing import MessageReducer
-from bridge.server.flow.send_queue import WriteBatch
-from bridge.server.flow.sockets import TURN_TIME
+from bridge.server.flow.send_queue import TURN_TIME, WriteBatch
 from bridge.server.rosapi.parameters import Parameters
 from bridge.server.rosapi.services import Graph, RosApi
 from bridge.server.rosbridge_session import RosbridgeSession

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from bridge.core.liveness import LAPSE
+from bridge.core.link_state import CONTROL_TIMEOUT
 from robotside.control.authority import AGAIN, REMEMBERED, SILENT, TO_OBJECT, Authority
 from tests.fakes import FakeClient
 
@@ -142,7 +142,7 @@ def test_control_of_a_driver_who_is_lost_goes_to_who_asks(
     if cut == "gone":
         assert authority.gone(anna)
     else:
-        pass_time(authority, LAPSE + 0.1, bert)
+        pass_time(authority, CONTROL_TIMEOUT + 0.1, bert)
     assert driver(authority) == "Bert"
 
 
@@ -157,7 +157,7 @@ def test_who_asks_and_is_lost_asks_no_longer(
     elif cut == "taken back":
         assert authority.release(bert) == ""
     else:
-        pass_time(authority, LAPSE + 0.1, anna)
+        pass_time(authority, CONTROL_TIMEOUT + 0.1, anna)
     assert authority.asker is None
     pass_time(authority, TO_OBJECT, anna)
     assert driver(authority) == "Anna"

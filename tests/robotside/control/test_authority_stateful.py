@@ -7,7 +7,7 @@ import itertools
 from hypothesis import HealthCheck, settings, strategies
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
-from bridge.core.liveness import LAPSE
+from bridge.core.link_state import CONTROL_TIMEOUT
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.control.authority import TO_OBJECT
@@ -142,7 +142,7 @@ class Operators(RuleBasedStateMachine):
         for _ in range(ticks):
             self._pass(TICK)
 
-    @rule(seconds=strategies.sampled_from([1.1, LAPSE + 0.1, TO_OBJECT + 0.1]))
+    @rule(seconds=strategies.sampled_from([1.1, CONTROL_TIMEOUT + 0.1, TO_OBJECT + 0.1]))
     def wait_long(self, seconds: float) -> None:
         end = self.now + seconds
         while self.now < end:

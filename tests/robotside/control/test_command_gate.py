@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from bridge.core.liveness import LAPSE
+from bridge.core.link_state import CONTROL_TIMEOUT
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.control.authority import SILENT
@@ -85,9 +85,9 @@ def test_control_lapses_when_its_driver_falls_silent(
     controls: Controls, anna: FakeClient, bert: FakeClient
 ) -> None:
     controls.acquire(anna, 10.0)
-    assert controls.mind(10.0 + LAPSE) == ""
-    assert controls.acquire(bert, 10.0 + LAPSE) != ""
-    assert controls.acquire(bert, 10.1 + LAPSE) == ""
+    assert controls.mind(10.0 + CONTROL_TIMEOUT) == ""
+    assert controls.acquire(bert, 10.0 + CONTROL_TIMEOUT) != ""
+    assert controls.acquire(bert, 10.1 + CONTROL_TIMEOUT) == ""
 
 
 def test_a_client_that_was_cut_takes_its_control_back_over_a_new_socket(

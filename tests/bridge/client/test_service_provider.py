@@ -6,7 +6,7 @@ import asyncio
 
 import pytest
 
-from bridge.client.client_services import MAX_CALLS, Providing
+from bridge.client.service_provider import MAX_CALLS, ServiceProvider
 from bridge.core.errors import ProtocolError
 from bridge.msgs.std_srvs import TriggerRequest, TriggerResponse
 from bridge.protocol import CallService, ClientSession
@@ -20,7 +20,7 @@ async def test_so_many_calls_are_answered_at_a_time_and_one_more_is_refused():
         await go.wait()
         return TriggerResponse(success=True)
 
-    providing = Providing(session, sent, lambda: False)
+    providing = ServiceProvider(session, sent, lambda: False)
     providing.serve("/work", "std_srvs/Trigger", TriggerRequest, answer)
     for number in range(MAX_CALLS):
         session.called(CallService(service="/work", id=number))

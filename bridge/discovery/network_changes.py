@@ -6,11 +6,11 @@ import socket
 import time
 from typing import Protocol
 
-__all__ = ["Changes", "Network", "System"]
+__all__ = ["NetworkChanges", "Network", "SystemNetwork"]
 
 ANYWHERE = ("192.0.2.1", 9)
 """An address for documentation (RFC 5737): stands for the rest of the world. Nothing is sent to it."""
-_SLEPT = 2.0
+_MIN_SLEEP = 2.0
 """A clock that jumped by more than this tells of a sleep [s]."""
 
 
@@ -27,7 +27,7 @@ class Network(Protocol):
         """How long this machine has slept [s], from any beginning; sleeping alone makes it more."""
 
 
-class System:
+class SystemNetwork:
     """The network of the machine that this runs on."""
 
     def source(self, address: tuple[str, int]) -> str | None:
@@ -59,7 +59,7 @@ class System:
         return time.time() - time.monotonic()
 
 
-class Changes:
+class NetworkChanges:
     """Notices that the way to an address changed, or that the machine slept, since it was last looked at."""
 
     def __init__(self, network: Network, address: tuple[str, int] | None) -> None:
@@ -73,6 +73,6 @@ class Changes:
         """There is a way that was not there when it was last looked at, or the machine slept since."""
         source, slept = self._network.source(self._address), self._network.slept()
         moved = source != self._source and source is not None
-        woke = slept - self._slept > _SLEPT
+        woke = slept - self._slept > _MIN_SLEEP
         self._source, self._slept = source, slept
         return moved or woke

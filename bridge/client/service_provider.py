@@ -27,7 +27,7 @@ from bridge.protocol import (
     arguments,
 )
 
-__all__ = ["Call", "Providing", "Run"]
+__all__ = ["Call", "ServiceProvider", "Run"]
 
 log = logging.getLogger(__name__)
 Call = Callable[[Any], Msg | Awaitable[Msg]]
@@ -39,7 +39,7 @@ MAX_CALLS = 100
 """So many calls are answered at a time."""
 
 
-class Providing:
+class ServiceProvider:
     """The calls and goals that are under way. They end with the connection that they came over."""
 
     def __init__(

@@ -11,22 +11,20 @@ import math
 
 from bridge.core.address import LinkLost
 
-__all__ = ["LAPSE", "SILENCE", "Liveness"]
+__all__ = ["SILENCE_TIMEOUT", "Liveness"]
 
-SILENCE = 3.0
+SILENCE_TIMEOUT = 3.0
 """A link on which nothing came for this long is lost [s]."""
-LAPSE = 2.0
-"""Who has control and was not heard by the robot for this long has lost it [s]."""
-ALERT_SILENCE = 1.0
-"""As `SILENCE`, after the network changed or the machine slept [s]."""
-LATE = 1.0
+ALERT_TIMEOUT = 1.0
+"""As `SILENCE_TIMEOUT`, after the network changed or the machine slept [s]."""
+LATE_AFTER = 1.0
 """When nothing came for this long, what is sent now may arrive late [s]; a link that lives brings something twice a second."""
-GRACE = 1.0
+GRACE_TIME = 1.0
 """A server that answers other questions may still tell its time, for this long from the beginning [s]."""
-_TIME_EVERY = 4
+_TIME_QUESTION_INTERVAL = 4
 """A foreign server that tells its time is asked for it with each so many pings."""
-_TIME_SELDOM = 20
-"""As `_TIME_EVERY`, when it does not."""
+_RARE_TIME_QUESTION_INTERVAL = 20
+"""As `_TIME_QUESTION_INTERVAL`, when it does not."""
 
 
 class Liveness:
@@ -53,8 +51,10 @@ class Liveness:
         if self.ours:
             return True
         if self.tells_time is None:
-            return self._beats < _TIME_EVERY or self._beats % _TIME_SELDOM == 0
-        return self._beats % (_TIME_EVERY if self.tells_time else _TIME_SELDOM) == 0
+            return self._beats < _TIME_QUESTION_INTERVAL or self._beats % _RARE_TIME_QUESTION_INTERVAL == 0
+        return (
+            self._beats % (_TIME_QUESTION_INTERVAL if self.tells_time else _RARE_TIME_QUESTION_INTERVAL) == 0
+        )
 
     def heard(self, now: float) -> None:
         """Something came."""
@@ -90,21 +90,21 @@ class Liveness:
 
     def late(self, now: float) -> bool:
         """What is sent now may wait on its way."""
-        return now - self._heard > LATE
+        return now - self._heard > LATE_AFTER
 
     def check(self, now: float) -> None:
         """LinkLost when it is silent, or has not shown in time to be a robot's server."""
-        if now - self._heard >= SILENCE:
-            raise LinkLost(f"Nothing came from {self._place} for {SILENCE:g} s.")
-        if now - self._alert >= ALERT_SILENCE:
+        if now - self._heard >= SILENCE_TIMEOUT:
+            raise LinkLost(f"Nothing came from {self._place} for {SILENCE_TIMEOUT:g} s.")
+        if now - self._alert >= ALERT_TIMEOUT:
             raise LinkLost(f"Nothing came from {self._place} after the network changed.")
         self.robot = self.robot or self._shown(now - self._opened)
-        if not self.robot and now - self._opened >= SILENCE:
+        if not self.robot and now - self._opened >= SILENCE_TIMEOUT:
             raise LinkLost(
-                f"{self._place} is a WebSocket but no robot: it did not answer within {SILENCE:g} s."
+                f"{self._place} is a WebSocket but no robot: it did not answer within {SILENCE_TIMEOUT:g} s."
             )
 
     def _shown(self, age: float) -> bool:
         if self.ours or self._strange:
             return False
-        return (self._answers and age >= GRACE) or (self._pong and age >= SILENCE)
+        return (self._answers and age >= GRACE_TIME) or (self._pong and age >= SILENCE_TIMEOUT)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from bridge.client.liveness import Liveness
 from bridge.core.address import LinkLost
-from bridge.core.liveness import Liveness
 
 
 def life(ours: bool = False) -> Liveness:

@@ -6,10 +6,11 @@ import asyncio
 import random
 from collections.abc import Callable
 
-__all__ = ["Reconnecting", "cancelled_from_outside"]
+from bridge.core.async_tasks import is_cancelled_from_outside
 
+__all__ = ["Reconnecting"]
 
-_LONGER = 1.25
+_BACKOFF_FACTOR = 1.25
 """How much longer each wait is than the one before."""
 
 
@@ -36,7 +37,7 @@ class Reconnecting:
         try:
             await self._work
         except asyncio.CancelledError:
-            if cancelled_from_outside():
+            if is_cancelled_from_outside():
                 raise
 
     async def close(self) -> None:
@@ -56,10 +57,4 @@ class Reconnecting:
         So little that after an outage of t seconds the next attempt comes within half of t.
         """
         first, longest = self._backoff
-        return min(longest, first * _LONGER ** min(attempt - 1, 100)) * self._rng.uniform(0.8, 1.0)
-
-
-def cancelled_from_outside() -> bool:
-    """Whether the running task itself is told to end, not only the one it waits for."""
-    task = asyncio.current_task()
-    return task is not None and task.cancelling() > 0
+        return min(longest, first * _BACKOFF_FACTOR ** min(attempt - 1, 100)) * self._rng.uniform(0.8, 1.0)

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from bridge.core.errors import NotConnected
-from bridge.discovery.network import NetworkThread
+from bridge.core.network_thread import NetworkThread
 
 
 async def tell(value: Any) -> Any:
