@@ -200,6 +200,25 @@ ALSO = {"app": "voice"}
 """An extra that a folder makes use of where it is installed."""
 
 
+FOR_EXTRAS = {"bridge/core/fence.py": ("handheld", "robot")}
+"""A module that only the folders of these extras import, and that needs what they install."""
+
+
+def installed_by(*extras):
+    optional = PROJECT["project"]["optional-dependencies"]
+    names = PROJECT["project"]["dependencies"] + [name for extra in extras for name in optional[extra]]
+    return {canonical(re.split(r"[<>=!~]", name)[0]) for name in names}
+
+
+@pytest.mark.parametrize("module", FOR_EXTRAS)
+def test_a_module_for_some_extras_needs_what_each_of_them_installs_and_nothing_beside_it_imports_it(module):
+    wanted = {name.split(".")[0] for name in imports(ROOT / module)} - sys.stdlib_module_names - {"bridge"}
+    assert all(wanted <= installed_by(extra) for extra in FOR_EXTRAS[module])
+    dotted = module.removesuffix(".py").replace("/", ".")
+    beside = [path for path in (ROOT / module.split("/")[0]).rglob("*.py") if dotted in imports(path)]
+    assert not beside
+
+
 @pytest.mark.parametrize("folder", ["bridge", *WHO_INSTALLS])
 def test_every_import_is_installed_by_the_folders_own_extra(folder):
     names = PROJECT["project"]["dependencies"] + PROJECT["project"]["optional-dependencies"].get(
@@ -213,6 +232,7 @@ def test_every_import_is_installed_by_the_folders_own_extra(folder):
         for module in imported_names(path)
         if path.name != "__main__.py" or folder != "robotside"
         if "generate" not in path.parts or folder != "bridge"
+        if path.relative_to(ROOT).as_posix() not in FOR_EXTRAS
     }
     foreign = (
         wanted
