@@ -31,7 +31,7 @@ __all__ = ["CannotOpen", "open_records", "upgrade"]
 _KEEPALIVE = {"tcp_keepalives_idle": 5, "tcp_keepalives_interval": 5, "tcp_keepalives_count": 2}
 """After which a server gives up a robot that says nothing [s, s, times]."""
 
-_BACKENDS = ("sqlite", "postgresql", "mysql", "mariadb")
+_BACKENDS = ("sqlite", "postgresql")
 
 AFTER_CRASH, AFTER_RESTORE = 1_000, 100_000
 """Numbers of events left out: some may have been told to somebody and are not on the disk."""
@@ -204,7 +204,7 @@ def _parsed(url: str) -> URL:
             raise NoSuchModuleError(parsed.drivername)
         parsed.get_dialect()
     except (ArgumentError, NoSuchModuleError) as error:
-        allowed = "sqlite:///FILE, postgresql+psycopg://USER@HOST/NAME and mariadb+pymysql://USER@HOST/NAME"
+        allowed = "sqlite:///FILE and postgresql+psycopg://USER@HOST/NAME"
         raise CannotOpen(f"There is no database {_shown(url)!r}; allowed are {allowed}.") from error
     return parsed
 
@@ -352,11 +352,9 @@ class _Server(Store):
     def _take(self) -> None:
         """Hold a lock for as long as the connection lives: what is in memory here would not know what others write.
 
-        PostgreSQL looks after its connections, so that a robot without power loses it soon. MariaDB has no such lock.
+        PostgreSQL looks after its connections, so that a robot without power loses it soon.
         """
         engine = self._storage.engine
-        if engine.dialect.name != "postgresql":
-            return
         try:
             self._lock = engine.connect()
             for name, value in _KEEPALIVE.items():

@@ -119,7 +119,7 @@ def _text(text: str) -> str:
 
 
 def _known(number: float) -> float | None:
-    """None for NaN and infinities, which MariaDB cannot store."""
+    """None for NaN and infinities: not every number of ours is one for SQL."""
     return number if math.isfinite(number) else None
 
 

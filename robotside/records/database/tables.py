@@ -18,14 +18,12 @@ __all__ = [
     "SettingRow",
 ]
 
-LONGEST_KEY = 64
-"""Characters of a name that is a key; MariaDB wants a bound."""
+MAX_KEY = 64
+"""Characters of a name that is a key."""
 
 
 class Base(DeclarativeBase):
     """All tables."""
-
-    __table_args__ = {"mysql_charset": "utf8mb4", "mariadb_charset": "utf8mb4"}
 
 
 class PlaceRow(Base):
@@ -56,7 +54,7 @@ class SettingRow(Base):
     """One setting that an operator changed."""
 
     __tablename__ = "settings"
-    name: Mapped[str] = mapped_column(String(LONGEST_KEY), primary_key=True)
+    name: Mapped[str] = mapped_column(String(MAX_KEY), primary_key=True)
     value: Mapped[str] = mapped_column(Text)
 
 
@@ -131,5 +129,5 @@ class FactRow(Base):
     """One thing of which there is only one: a counter, who pressed STOP, the identity of the log."""
 
     __tablename__ = "facts"
-    name: Mapped[str] = mapped_column(String(LONGEST_KEY), primary_key=True)
+    name: Mapped[str] = mapped_column(String(MAX_KEY), primary_key=True)
     value: Mapped[str] = mapped_column(Text)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import sqlalchemy as sa
 from alembic import op
 
@@ -15,9 +13,9 @@ depends_on = None
 
 def upgrade() -> None:
     """Bring the tables to this revision."""
-    _table("facts", _name(), _text("value"))
-    _table("settings", _name(), _text("value"))
-    _table(
+    op.create_table("facts", _name(), _text("value"))
+    op.create_table("settings", _name(), _text("value"))
+    op.create_table(
         "places",
         _id(),
         *map(_text, ("name", "kind", "floor")),
@@ -26,11 +24,11 @@ def upgrade() -> None:
         sa.Column("yaw", sa.Double(), nullable=True),
         *map(_text, ("tag", "note")),
     )
-    _table("answers", _id(), *map(_text, ("sender", "service", "command_id", "content")))
-    _table("missions", _id(), *map(_text, ("name", "content")))
-    _table("schedule", _id(), sa.Column("enabled", sa.Boolean(), nullable=False), _text("content"))
-    _table("queue", _id(), sa.Column("position", sa.Integer(), nullable=False), _text("content"))
-    _table(
+    op.create_table("answers", _id(), *map(_text, ("sender", "service", "command_id", "content")))
+    op.create_table("missions", _id(), *map(_text, ("name", "content")))
+    op.create_table("schedule", _id(), sa.Column("enabled", sa.Boolean(), nullable=False), _text("content"))
+    op.create_table("queue", _id(), sa.Column("position", sa.Integer(), nullable=False), _text("content"))
+    op.create_table(
         "runs",
         _id(),
         _text("task"),
@@ -40,7 +38,7 @@ def upgrade() -> None:
         sa.Column("visited", sa.Integer(), nullable=False),
         *map(_text, ("started_by", "content")),
     )
-    _table(
+    op.create_table(
         "events",
         _id(),
         _instant("stamp"),
@@ -49,11 +47,6 @@ def upgrade() -> None:
         _text("acknowledged_by"),
         _instant("acknowledged"),
     )
-
-
-def _table(name: str, *columns: sa.Column[Any]) -> None:
-    # MariaDB makes tables outside of transactions: after a cut some may be there already
-    op.create_table(name, *columns, if_not_exists=True, mysql_charset="utf8mb4", mariadb_charset="utf8mb4")
 
 
 def _id() -> sa.Column[int]:
