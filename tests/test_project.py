@@ -212,10 +212,12 @@ def installed_by(*extras):
 
 @pytest.mark.parametrize("module", FOR_EXTRAS)
 def test_a_module_for_some_extras_needs_what_each_of_them_installs_and_nothing_beside_it_imports_it(module):
-    wanted = {name.split(".")[0] for name in imports(ROOT / module)} - sys.stdlib_module_names - {"bridge"}
+    wanted = (
+        {name.split(".")[0] for name in imported_names(ROOT / module)} - sys.stdlib_module_names - {"bridge"}
+    )
     assert all(wanted <= installed_by(extra) for extra in FOR_EXTRAS[module])
     dotted = module.removesuffix(".py").replace("/", ".")
-    beside = [path for path in (ROOT / module.split("/")[0]).rglob("*.py") if dotted in imports(path)]
+    beside = [path for path in (ROOT / module.split("/")[0]).rglob("*.py") if dotted in imported_names(path)]
     assert not beside
 
 
