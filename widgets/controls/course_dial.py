@@ -21,10 +21,11 @@ from kivy.uix.widget import Widget
 
 from bridge.core.units import heading_from_yaw, yaw_from_heading
 from bridge.msgs.pilothouse_msgs import Compass, Manoeuvre
+from widgets.controls.course_picture import KNOB, draw_arc, draw_boat, draw_knob
 from widgets.core.base import fitting_size
-from widgets.core.canvas_ink import Word, tint
+from widgets.core.canvas_ink import Word
 from widgets.core.finger_grip import Grip
-from widgets.core.geometry import DASH, HULL, dial_point, dial_text, heading_text, shortest_turn
+from widgets.core.geometry import DASH, dial_point, dial_text, heading_text, shortest_turn
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.parts.sensor_card import Gauge
@@ -39,10 +40,6 @@ STEP = 5.0
 """A finger sets courses in steps of this [deg]."""
 INNER = 0.42
 """Nearer to the middle than this part of the radius a finger sets nothing: there it can let go without a new course."""
-RAY = 0.6
-"""Of the radius, where the line to a course begins."""
-KNOB = 0.86
-"""Of the radius, where the commanded course's knob is."""
 COVERED = 13.0
 """What is written nearer to a knob would be covered by it [deg]."""
 WIDE = 1.25
@@ -213,18 +210,18 @@ class CourseDial(Grip, Gauge):
         yield from self._card(shapes)
         x, y, radius = self.place
         if math.isfinite(self.off) and abs(self.off) > ON_COURSE:
-            self._arc(shapes, self.heading, self.off)
+            draw_arc(shapes, self.place, self.heading, self.off)
         if math.isfinite(self.heading):
             corners = [(0.0, 0.77), (-9.0, 0.58), (0.0, 0.62), (9.0, 0.58)]
             points = [dial_point(self.heading + turn, radius * reach) for turn, reach in corners]
             shapes.polygon([(x + a, y + b) for a, b in reversed(points)], theme.accent)
             if self.beside:
-                self._boat(shapes)
-        self._knob(shapes, self.wanted, filled=True)
+                draw_boat(shapes, self.place, self.heading)
+        draw_knob(shapes, self.place, self.wanted, filled=True)
         if self.dragged:
-            self._knob(shapes, self.aim, filled=False, held=True)
+            draw_knob(shapes, self.place, self.aim, filled=False, held=True)
         else:
-            self._knob(shapes, self.asked, filled=False)
+            draw_knob(shapes, self.place, self.asked, filled=False)
         yield from self._column() if self.beside else self._inside()
 
     def _card(self, shapes: Shapes) -> Iterator[Word]:
@@ -247,32 +244,6 @@ class CourseDial(Grip, Gauge):
             size = max(radius * (0.15 if main else 0.11), sp(11))
             ink = theme.text if main else theme.muted
             yield Word(dial_text(bearing), x + across, y + up, size, ink, bold=main)
-
-    def _arc(self, shapes: Shapes, start: float, turn: float) -> None:
-        """Along the rim from the heading to the course."""
-        x, y, radius = self.place
-        bearings = start + np.linspace(0.0, turn, max(int(abs(turn) / 3), 2))
-        points = np.array([dial_point(one, radius * 0.97) for one in bearings]) + np.array([x, y])
-        shapes.line(points, dp(5), tint(theme.plan, 0.55))
-
-    def _knob(self, shapes: Shapes, bearing: float, *, filled: bool, held: bool = False) -> None:
-        """Of a course: filled where the robot follows it, hollow where it is only asked for."""
-        if math.isnan(bearing):
-            return
-        x, y, radius = self.place
-        across, up = dial_point(bearing, radius * KNOB)
-        size = max(radius * 0.12, dp(9)) * (1.25 if held else 1.0)
-        inner = dial_point(bearing, radius * RAY)
-        ray = np.array([[x + inner[0], y + inner[1]], [x + across, y + up]])
-        if filled:
-            shapes.line(ray, dp(2.5), theme.plan)
-        else:
-            shapes.dashes(ray, dp(2.5), theme.plan, period=dp(8), dash=dp(3))
-        shapes.disc(x + across, y + up, size + dp(2), theme.raised)
-        shapes.disc(x + across, y + up, size, theme.plan if filled else theme.raised)
-        shapes.ring(x + across, y + up, size, dp(2.5), theme.plan)
-        if held:
-            shapes.disc(x + across, y + up, size * 0.5, theme.plan)
 
     def _inside(self) -> Iterator[Word]:
         """Course and heading in the middle of the dial."""
@@ -326,16 +297,6 @@ class CourseDial(Grip, Gauge):
             yield Word(told, left, top - 2 * high - sp(8), size, self._said_ink(said), anchor=(0, 0.5))
         if math.isnan(self.heading):
             yield Word(DASH, x, y, radius * 0.3, theme.muted)
-
-    def _boat(self, shapes: Shapes) -> None:
-        """In the middle of the dial, its bow where it points."""
-        x, y, radius = self.place
-        yaw = yaw_from_heading(self.heading)
-        ahead, right = np.array([math.cos(yaw), math.sin(yaw)]), np.array([math.sin(yaw), -math.cos(yaw)])
-        hull = np.array([across * right + along * ahead for across, along in HULL]) * radius * 0.36
-        hull = hull + np.array([x, y])
-        shapes.polygon([(a, b) for a, b in hull], tint(theme.accent, 0.2))
-        shapes.line(np.array([*hull, hull[0]]), dp(2), theme.accent)
 
 
 def samples() -> dict[str, Callable[[], Widget]]:

@@ -108,7 +108,7 @@ class MapGestures(Widget):
     def on_open_place(self, index: int) -> None:
         """A tap in the mode for it asks for the place at `index` of `places`."""
 
-    def look(self, view: View) -> None:
+    def set_view(self, view: View) -> None:
         """Change the view as the operator wishes."""
         raise NotImplementedError
 
@@ -126,7 +126,7 @@ class MapGestures(Widget):
             return True
         if touch.is_mouse_scrolling:
             step = WHEEL if touch.button == "scrolldown" else 1 / WHEEL
-            self.look(self.view.zoomed(step, *touch.pos))
+            self.set_view(self.view.zoomed(step, *touch.pos))
             return True
         touch.grab(self)
         self._fingers[touch.uid] = complex(*touch.pos)
@@ -181,13 +181,13 @@ class MapGestures(Widget):
             return
         first, second = list(before)[:2]
         was, now = (before[first], before[second]), (self._fingers[first], self._fingers[second])
-        self.look(self.view.pinched(was, now, may_turn=self.may_turn))
+        self.set_view(self.view.pinched(was, now, may_turn=self.may_turn))
 
     def _drag(self, before: complex, after: complex) -> None:
         self._tapping = False
         self._held.cancel()
         if self.grip is None:
-            self.look(self.view.moved(after.real - before.real, after.imag - before.imag))
+            self.set_view(self.view.moved(after.real - before.real, after.imag - before.imag))
             return
         held = after + self.grip.slip
         x, y = self.view.to_world(held.real, held.imag)
@@ -270,7 +270,7 @@ class MapGestures(Widget):
         seen = [self.view.to_screen(*place[:2]) for place in self.waypoints]
         index = nearest(seen, *touch.pos, theme.target / 2)
         if index < 0 and touch.is_double_tap:
-            self.look(self.view.zoomed(2.0, *touch.pos))
+            self.set_view(self.view.zoomed(2.0, *touch.pos))
         elif index != self.selected:
             self._select(index)
 

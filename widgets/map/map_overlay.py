@@ -35,20 +35,14 @@ from widgets.core.theme import theme
 from widgets.map import fence_marks
 from widgets.map import map_marks as marks
 from widgets.map.fence import Fence
-from widgets.map.map_gestures import MapGestures
+from widgets.map.map_viewport import MapViewport
 
 __all__ = ["MapOverlay"]
 
-ZOOM = 1.5
-"""Of one press of a zoom button."""
-LEAST, MOST = 0.5, 400.0
-"""Limits of the scale [dp/m]."""
-FITTED_MOST = 60.0
-"""Greatest scale that `fit` chooses [dp/m]."""
 NOTHING = np.zeros((0, 2))
 
 
-class MapOverlay(MapGestures, Drawing):
+class MapOverlay(MapViewport, Drawing):
     """The robot and its task on a map. Everything is in the `map` frame: x east, y north [m]."""
 
     accepts: ClassVar[tuple[type[Msg], ...]] = (
@@ -63,8 +57,6 @@ class MapOverlay(MapGestures, Drawing):
         "plan", "places", "intruders", "visited", "coming", "motion_name", "laser", "show_laser", "insets", "fence", "foot",
     )  # fmt: skip
 
-    robot: ListProperty[float] = ListProperty([math.nan] * 3)
-    """Where it believes to be: x, y [m], yaw [rad]; NaN before the first pose."""
     robot_radius = NumericProperty(0.2)
     """Of the robot itself [m]; its disc never gets smaller than that on the map."""
     camera_fov = NumericProperty(math.nan)
@@ -87,21 +79,8 @@ class MapOverlay(MapGestures, Drawing):
     """Index of the waypoint it is heading for; -1 for none."""
     motion_name = OptionProperty("loop", options=("loop", "random", "intermittent"))
     """How the waypoints follow each other: round and round, in any order, or round with a stay at each."""
-    follow = BooleanProperty(False)
-    """Keep the robot in the middle; a finger that moves the map ends that."""
-    insets: ListProperty[float] = ListProperty([0, 0, 0, 0])
-    """How much is covered by what lies over the map [px]: left, bottom, right, top."""
-
     veils: ClassVar = {"disabled": VEIL["disabled"]}
     """A stale pose fades the robot and not the map."""
-
-    def _free_box(self) -> tuple[float, float, float, float]:
-        left, bottom, right, top = self.insets
-        wide, high = max(self.width - left - right, dp(40)), max(self.height - bottom - top, dp(40))
-        return self.x + left, self.y + bottom, wide, high
-
-    free_box = AliasProperty(_free_box, bind=["pos", "size", "insets"], cache=True)
-    """The part of the map that nothing covers: x, y, width, height [px]."""
 
     def _badge_pos(self) -> tuple[float, float]:
         x, y, wide, high = self.free_box
@@ -114,12 +93,6 @@ class MapOverlay(MapGestures, Drawing):
     badge_span: ListProperty[float] = ListProperty([0, 0])
     """From where to where along that top nothing lies, x [px]; zeros for all of it."""
 
-    def _mark_radius(self) -> float:
-        return dp(21) if min(self.width, self.height) > dp(440) else dp(16)
-
-    mark_radius = AliasProperty(_mark_radius, bind=["size"], cache=True)
-    """Of a waypoint's disc [px]."""
-
     def __init__(self, **kwargs: Any) -> None:
         self._trail = Trail()
         self.over_ground = InstructionGroup()
@@ -127,10 +100,8 @@ class MapOverlay(MapGestures, Drawing):
         self._fence_ink = Ink()
         self._fence_look: tuple[object, ...] = ()
         self._layers = [(Ink(), Words()) for _ in range(2)]
-        self._touched = False
-        self._middle = (0.0, 0.0)
-        super().__init__(**kwargs)
         self._clip = [Rectangle(), Rectangle()]
+        super().__init__(**kwargs)
         for part in (StencilPush(), self._clip[0], StencilUse()):
             self.canvas.before.add(part)
         self.canvas.add(self.over_ground)
@@ -140,8 +111,6 @@ class MapOverlay(MapGestures, Drawing):
             self.canvas.add(words.canvas)
         for last in (StencilUnUse(), self._clip[1], StencilPop()):
             self.canvas.after.add(last)
-        self.bind(pos=self._lay_out, size=self._lay_out, insets=self._lay_out)
-        self._lay_out()
 
     # what comes in
 
@@ -180,54 +149,9 @@ class MapOverlay(MapGestures, Drawing):
         self.laser = View.centred(0, 0, at=(x, y), scale=1.0, turn=yaw).many_to_screen(spread(points))
 
     @property
-    def located(self) -> bool:
-        """The robot's pose is known."""
-        return all(map(math.isfinite, self.robot))
-
-    @property
     def trail(self) -> Points:
         """Where it has been, oldest first, shape (n, 2) [m]; the newest 2,000 points are kept."""
         return self._trail.points
-
-    # how it is looked at
-
-    def look(self, view: View) -> None:
-        """Change the view as the operator wishes; that ends `follow` and automatic fitting."""
-        self._touched, self.follow = True, False
-        self.view = self.limited(view)
-
-    def limited(self, view: View) -> View:
-        """The view with its scale within what this map can show."""
-        return view.within(dp(LEAST), dp(MOST), *self._free_middle())
-
-    def zoom_in(self) -> None:
-        """Enlarge about the middle of what is free."""
-        self._zoom(ZOOM)
-
-    def zoom_out(self) -> None:
-        """Make smaller about the middle of what is free."""
-        self._zoom(1 / ZOOM)
-
-    def _zoom(self, factor: float) -> None:
-        self._touched = True
-        self.view = self.limited(self.view.zoomed(factor, *self._free_middle()))
-
-    def centre_on_robot(self) -> None:
-        """Bring the robot into the middle of what is free and keep it there; nothing while it is not located."""
-        if self.located:
-            self._touched = self.follow = True
-            self._centre(*self.robot[:2])
-
-    def fit(self) -> None:
-        """Show everything, as large as it fits into what is free."""
-        points = self.extent()
-        if len(points):
-            self.follow = False
-            x, y, wide, high = self.free_box
-            edge = min(2.2 * self.mark_radius, wide / 4, high / 4)
-            box = (x + edge, y + edge, wide - 2 * edge, high - 2 * edge)
-            turn = self.view.turn if self.may_turn else 0.0
-            self.view = self.limited(View.fitting(points, box=box, turn=turn, most=dp(FITTED_MOST)))
 
     def extent(self) -> Points:
         """Everything worth seeing, shape (n, 2) [m]."""
@@ -235,39 +159,10 @@ class MapOverlay(MapGestures, Drawing):
         corners = [corner for area in self.fence.keep_in for corner in area]
         return spread(tuple(place[:2]) for place in (*places, *corners) if len(place))
 
-    def _centre(self, x: float, y: float) -> None:
-        px, py = self._free_middle()
-        was_x, was_y = self.view.to_screen(x, y)
-        self.view = self.view.moved(px - was_x, py - was_y)
-
-    def _free_middle(self) -> tuple[float, float]:
-        x, y, wide, high = self.free_box
-        return x + wide / 2, y + high / 2
-
     def _lay_out(self, *_: object) -> None:
         for rectangle in self._clip:
             rectangle.pos, rectangle.size = self.pos, self.size
-        was, self._middle = self._middle, self._free_middle()
-        self.view = self.view.moved(self._middle[0] - was[0], self._middle[1] - was[1])
-        self._fit_until_touched()
-
-    def _fit_until_touched(self) -> None:
-        if not self._touched and self.width > dp(100):
-            self.fit()
-
-    def on_places(self, *_: object) -> None:
-        """Bring them into sight while nobody has moved the map."""
-        self._fit_until_touched()
-
-    def on_mode(self, *_: object) -> None:
-        """Let go of what was held; bring up the robot to be placed, at its pose or in the middle."""
-        self.let_go()
-        if self.mode != "place_robot":
-            self.placed = []
-        elif self.located:
-            self.placed = list(self.robot)
-        else:
-            self.placed = [*self.view.to_world(*self._free_middle()), 0.0]
+        super()._lay_out()
 
     # how it is drawn
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from itertools import pairwise
 from typing import Any, ClassVar
 
 import numpy as np
@@ -26,6 +25,7 @@ from widgets.core.geometry import contain, cover
 from widgets.core.icons import icon
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
+from widgets.sensors.video_marks import draw_box, draw_pointer
 
 __all__ = ["Video", "samples"]
 
@@ -199,27 +199,14 @@ class Video(Drawing):
     def _box_marks(self, shapes: Shapes) -> Iterator[Word]:
         if self._texture is None or self.state == "stale":
             return
+        frame, small = (self.x, self.y, self.right, self.top), min(self.size) < dp(260)
         for label, score, left, top, width, height in self.boxes:
             x1, y1 = self.place_on_glass(left, top)
             x2, y2 = self.place_on_glass(left + width, top + height)
             x1, x2 = max(x1, self.x + dp(2)), min(x2, self.right - dp(2))
             y1, y2 = min(y1, self.top - dp(2)), max(y2, self.y + dp(2))
             if x2 - x1 > 1 and y1 - y2 > 1:
-                yield self._box_mark(shapes, (x1, y2, x2, y1), f"{label} {score:.2f}")
-
-    def _box_mark(self, shapes: Shapes, box: tuple[float, float, float, float], text: str) -> Word:
-        left, bottom, right, top = box
-        small = min(self.width, self.height) < dp(260)
-        edge, size = (dp(1.6), sp(10)) if small else (dp(3), sp(15))
-        corners = np.array([[left, bottom], [right, bottom], [right, top], [left, top], [left, bottom]])
-        for start, end in pairwise(corners):
-            ahead = (end - start) / max(np.hypot(*(end - start)), 1e-9) * edge / 2
-            shapes.segments((start - ahead)[None], (end + ahead)[None], edge, theme.danger)
-        wide, high = text_texture(text, round(size, 1), theme.font, bold=True).size
-        x, y = min(left - edge / 2, self.right - wide - size), top if top + high < self.top else bottom - high
-        tab = [(x, y), (x + wide + size * 0.7, y), (x + wide + size * 0.7, y + high), (x, y + high)]
-        shapes.polygon(tab, theme.danger)
-        return Word(text, x + size * 0.35, y + high / 2, size, theme.ink_danger, bold=True, anchor=(0, 0.5))
+                yield draw_box(shapes, (x1, y2, x2, y1), f"{label} {score:.2f}", frame, small=small)
 
     def _pointers(self, shapes: Shapes) -> Iterator[Word]:
         """Over what is in the picture and not boxed there; at the edge, which way to turn for the rest."""
@@ -233,29 +220,13 @@ class Video(Drawing):
             at = self.place_on_glass(x, 0)[0]
             seen = left <= at <= right and abs(angle) < self.field_of_view / 2
             at = at if seen else left if angle > 0 else right
-            yield self._pointer(
-                shapes, (at, (left, right)), label, -math.pi / 2 if seen else math.pi * (angle > 0)
-            )
+            turn = -math.pi / 2 if seen else math.pi * (angle > 0)
+            yield draw_pointer(shapes, (at, self.center_y - dp(8)), (left, right), label, turn)
 
     def _across(self, angle: float) -> float:
         """Column of the picture as taken [pixel] that looks in a direction [rad]; far outside for what is behind."""
         ahead = max(-1.5, min(1.5, angle))
         return float(self.taken_size[0]) / 2 * (1 - math.tan(ahead) / math.tan(self.field_of_view / 2))
-
-    def _pointer(
-        self, shapes: Shapes, place: tuple[float, tuple[float, float]], label: str, turn: float
-    ) -> Word:
-        """A triangle that points down at a place of the picture, or past its edge, and the label beside it."""
-        (x, (left, right)), size = place, sp(13)
-        y = self.center_y - dp(8)
-        wide, high = text_texture(label, round(size, 1), theme.font, bold=True).size
-        half = wide / 2 + dp(7)
-        middle = min(max(x, left - dp(12) + half), right + dp(12) - half)
-        text_y = y + dp(11) + high / 2
-        shapes.line(np.array([[middle - half, text_y], [middle + half, text_y]]), high + dp(4), theme.danger)
-        shapes.polygon(_triangle(x, y, turn, dp(15)), theme.surface)
-        shapes.polygon(_triangle(x, y, turn, dp(11)), theme.danger)
-        return Word(label, middle, text_y, size, theme.ink_danger, bold=True)
 
     def _sentence(self) -> Iterator[Word]:
         if self._texture is None:
@@ -312,12 +283,6 @@ class Video(Drawing):
         middle = top - (high + dp(5)) / 2
         colour = theme.warn if self.late else theme.text
         self._chip_words.write([Word(text, left + dp(7), middle, size, colour, anchor=(0, 0.5))])
-
-
-def _triangle(x: float, y: float, turn: float, size: float) -> list[tuple[float, float]]:
-    """Corners of a triangle round (x, y) whose point looks to `turn` [rad]."""
-    angles = (turn, turn + 2.4, turn - 2.4)
-    return [(x + size * math.cos(angle), y + size * math.sin(angle)) for angle in angles]
 
 
 def _box(detection: Detection2D) -> tuple[str, float, float, float, float, float]:

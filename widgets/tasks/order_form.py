@@ -14,11 +14,6 @@ from typing import Any
 
 from kivy.lang import Builder
 from kivy.properties import (
-    AliasProperty,
-    BooleanProperty,
-    ListProperty,
-    NumericProperty,
-    ObjectProperty,
     StringProperty,
 )
 from kivy.uix.boxlayout import BoxLayout
@@ -28,14 +23,14 @@ from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
 from bridge.msgs.pilothouse_msgs import Mission, Place, PlaceArray, RobotInfo, TaskOrder, Waypoint
 from widgets.controls.heading_dial import HeadingDial
-from widgets.core.base import Control
-from widgets.core.task_words import KINDS, fields, lacking, will
+from widgets.core.task_words import KINDS, fields
 from widgets.parts.buttons import IconButton, QuietButton
 from widgets.parts.choices import Segmented
 from widgets.parts.labels import SectionLabel
 from widgets.parts.rows import ListRow
 from widgets.parts.stepper import Stepper
 from widgets.parts.text_field import TextField
+from widgets.tasks.order_draft import OrderDraft
 from widgets.tasks.place_list import SOME, PlaceList
 
 __all__ = ["OrderForm"]
@@ -85,82 +80,19 @@ class FormRow(BoxLayout):
     title = StringProperty("")
 
 
-class OrderForm(Control, BoxLayout):
+class OrderForm(OrderDraft, BoxLayout):
     """Dispatches `on_command(order)` at every change, and `on_react(reaction)` when the one to intruders is changed.
 
     Only what the task takes is asked for; a place is always one of those that have a name.
     """
 
     accepts = (TaskOrder, PlaceArray, Mission, PoseWithCovarianceStamped)
-    sends = (TaskOrder,)
-
     __events__ = ("on_react",)
 
-    task = StringProperty("")
-    """As TaskOrder has it; empty for none yet."""
-    places: ListProperty[str] = ListProperty()
-    """Names in their order; empty where one is not chosen yet."""
-    message = StringProperty("")
-    recipient_tag = StringProperty("")
-    heading = NumericProperty(math.nan)
-    """[rad]; NaN for where the robot points."""
-    speed = NumericProperty(math.nan)
-    """[m/s]; NaN for the robot's own."""
-    throttle = NumericProperty(math.nan)
-    """Share of the full power, 0 to 1; NaN for the robot's own."""
-    at_height = NumericProperty(math.nan)
-    """[m], below water negative; NaN for the usual or the present one."""
-    duration = NumericProperty(math.nan)
-    """[s]; NaN until stopped."""
-    robot: ObjectProperty[RobotInfo] = ObjectProperty(RobotInfo())
-    """Who it is for: what it can do decides what is asked for, and how fast and how high."""
-    mission: ObjectProperty[Mission] = ObjectProperty(Mission())
-    """Where a patrol goes when no places are named."""
-    follows = BooleanProperty(True)
-    """The robot can tell whether somebody follows it."""
     picking = StringProperty("")
     """The field that a place is being chosen for; empty for none."""
 
-    def _order(self) -> TaskOrder:
-        places = list(self.places)
-        while places and not places[-1]:
-            places.pop()
-        return TaskOrder(
-            id=self._id,
-            task=self.task,
-            places=places,
-            message=self.message.strip(),
-            recipient_tag=self.recipient_tag.strip(),
-            heading=self.heading,
-            speed=self.speed,
-            throttle=self.throttle,
-            height=self.at_height,
-            duration=self.duration,
-        )
-
-    order = AliasProperty(
-        _order,
-        bind=[
-            *("task", "places", "message", "recipient_tag"),
-            *("heading", "speed", "throttle", "at_height", "duration"),
-        ],
-    )
-    """What is asked for so far."""
-
-    def _sentence(self) -> str:
-        return will(self.order, self.mission, follows=self.follows, robot=self.robot)
-
-    sentence = AliasProperty(_sentence, bind=["order", "mission", "follows", "robot"])
-    """What will happen, or what is still lacking."""
-
-    def _complete(self) -> bool:
-        return not lacking(self.order, self.mission)
-
-    complete = AliasProperty(_complete, bind=["order", "mission"])
-    """Nothing is lacking."""
-
     def __init__(self, **kwargs: Any) -> None:
-        self._id = 0
         self.list = PlaceList()
         """Where places are chosen; over the fields while `picking`."""
         self.dial = HeadingDial(pos_hint={"center_x": 0.5})
@@ -198,21 +130,12 @@ class OrderForm(Control, BoxLayout):
         self._take(TaskOrder(task=task, places=list(places)))
 
     def _take(self, order: TaskOrder) -> None:
-        self._id, self.task, self.places = order.id, order.task, list(order.places)
-        self.message, self.recipient_tag = order.message, order.recipient_tag
-        self.heading, self.speed, self.duration = order.heading, order.speed, order.duration
-        self.throttle, self.at_height = order.throttle, order.height
+        self.fill(order)
         self.dial.value = order.heading
         self.picking = ""
         self._build()
 
     # what the fingers do
-
-    def set(self, **changes: Any) -> None:
-        """Change properties of the order as a finger would."""
-        for name, value in changes.items():
-            setattr(self, name, value)
-        self.dispatch("on_command", self.order)
 
     def ask(self, field: str) -> None:
         """Let a place be chosen for a field."""

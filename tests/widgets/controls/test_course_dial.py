@@ -6,7 +6,8 @@ import pytest
 
 from bridge.core.units import yaw_from_heading
 from bridge.msgs.pilothouse_msgs import Compass, Manoeuvre
-from widgets.controls.course_dial import HOLD, INNER, KNOB, CourseDial
+from widgets.controls.course_dial import HOLD, INNER, CourseDial
+from widgets.controls.course_picture import KNOB
 from widgets.core.geometry import dial_point
 
 

@@ -29,7 +29,7 @@ def limits(keep_in=(), keep_out=()) -> Limits:
 def map_(stage):
     made = stage.show(GridMap(robot_radius=0.2), size=(400, 300))
     made.show(limits([SQUARE]))
-    made.look(View.centred(5, 5, at=(200, 150), scale=20))
+    made.set_view(View.centred(5, 5, at=(200, 150), scale=20))
     return made
 
 

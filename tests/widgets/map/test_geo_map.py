@@ -16,7 +16,7 @@ TILES = str(Path(__file__).parents[3] / "widgets/data/parking_lot.mbtiles")
 @pytest.fixture
 def map_(stage):
     made = stage.show(GeoMap(tiles=TILES, datum=DATUM), size=(600, 400))
-    made.look(View.centred(0, 0, at=(300, 200), scale=20))
+    made.set_view(View.centred(0, 0, at=(300, 200), scale=20))
     stage.frames(3)
     return made
 
@@ -37,7 +37,7 @@ def agree(map_: GeoMap, x: float, y: float) -> bool:
 @pytest.mark.parametrize("scale", [3.0, 8.0, 20.0, 45.0, 130.0])
 @pytest.mark.parametrize("place", [(0, 0), (12, -7), (-17, 12)])
 def test_pictures_and_marks_agree(map_, stage, scale, place):
-    map_.look(View.centred(3, -2, at=(310, 190), scale=scale))
+    map_.set_view(View.centred(3, -2, at=(310, 190), scale=scale))
     stage.frames(2)
     assert agree(map_, *place)
 
@@ -70,15 +70,15 @@ def test_two_fingers_zoom_and_do_not_turn(map_, stage):
 
 
 def test_the_pictures_set_the_limits_of_the_zoom(map_):
-    map_.look(View.centred(0, 0, at=(300, 200), scale=0.001))
+    map_.set_view(View.centred(0, 0, at=(300, 200), scale=0.001))
     farthest = map_.view.scale
-    map_.look(View.centred(0, 0, at=(300, 200), scale=9999))
+    map_.set_view(View.centred(0, 0, at=(300, 200), scale=9999))
     assert map_.view.scale / farthest == pytest.approx(2**5 * 8, rel=1e-3)
 
 
 def test_the_zoom_level_is_the_one_whose_pictures_are_enlarged_least(map_, stage):
     for scale, zoom in ((2.0, 17), (10.0, 20), (30.0, 21), (50.0, 22), (200.0, 22)):
-        map_.look(View.centred(0, 0, at=(300, 200), scale=scale))
+        map_.set_view(View.centred(0, 0, at=(300, 200), scale=scale))
         stage.frames(1)
         assert map_._pictures.zoom == zoom
 

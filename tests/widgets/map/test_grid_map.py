@@ -42,7 +42,7 @@ class Watched(GridMap):
 @pytest.fixture
 def map_(stage):
     made = stage.show(Watched(), size=(400, 300))
-    made.look(View.centred(0, 0, at=(200, 150), scale=10))
+    made.set_view(View.centred(0, 0, at=(200, 150), scale=10))
     return made
 
 
@@ -66,7 +66,7 @@ def test_a_tap_gives_world_coordinates(map_, stage):
 @pytest.mark.parametrize("turn", [0.0, 0.5, -2.0])
 def test_a_tap_gives_world_coordinates_through_pan_zoom_and_turn(map_, stage, turn):
     map_.mode = "points"
-    map_.look(View.centred(7, -3, at=(120, 80), scale=33, turn=turn))
+    map_.set_view(View.centred(7, -3, at=(120, 80), scale=33, turn=turn))
     stage.tap(*map_.view.to_screen(6.25, -1.5))
     assert map_.log[0][1:] == near(6.25, -1.5)
 
@@ -363,7 +363,7 @@ def test_a_grid_that_lacks_cells_is_not_shown(map_):
 
 def test_a_grid_lies_where_its_origin_says(map_, stage):
     map_.show(grid([0, 100], 2))
-    map_.look(View.centred(0, 0, at=(200, 150), scale=10))
+    map_.set_view(View.centred(0, 0, at=(200, 150), scale=10))
     stage.frames()
     assert map_._shift.xy == near(180, 160)
     assert map_._scale.x == pytest.approx(5)

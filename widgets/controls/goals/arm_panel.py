@@ -11,7 +11,6 @@ import math
 from collections.abc import Callable, Iterator
 from typing import Any, ClassVar
 
-import numpy as np
 from kivy.clock import Clock
 from kivy.metrics import dp, sp
 from kivy.properties import (
@@ -33,12 +32,13 @@ from widgets.controls.goals.arm_picture import (
     draw_aim,
     draw_arm,
     draw_deck,
+    draw_turn,
     moved_tip,
     side_points,
 )
 from widgets.controls.slide_confirm import OUTCOMES
 from widgets.core.canvas_ink import Word
-from widgets.core.geometry import DASH, dial_point
+from widgets.core.geometry import DASH
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 from widgets.instruments.readout import figure
@@ -70,19 +70,8 @@ class ArmPanel(ArmKeys):
     accepts: ClassVar = (ArmState,)
     sends: ClassVar = (ArmOrder,)
     drawn_from: ClassVar = (
-        "angles",
-        "wanted",
-        "gripper",
-        "pose",
-        "tip",
-        "touching",
-        "choosing",
-        "outcome",
-        "links",
-        "held",
-        "aim",
-        "bearing",
-    )
+        "angles", "wanted", "gripper", "pose", "tip", "touching", "choosing", "outcome", "links", "held", "aim", "bearing",
+    )  # fmt: skip
 
     angles: ListProperty[float] = ListProperty()
     """Of the joints from the foot on [rad]; empty before the first, or while one is not known."""
@@ -275,20 +264,7 @@ class ArmPanel(ArmKeys):
             draw_aim(shapes, points[-1], side.at(self.aim), theme.danger if failed else theme.plan)
         yield from self._figures((left, low, width, height), roomy)
         if height >= dp(62):
-            yield from self._foot(shapes, roomy)
-
-    def _standing(self) -> tuple[tuple[str, ...], str]:
-        """What it does, or what became of an order, longest first, and the role of that."""
-        word, role, _ = OUTCOMES[self.outcome]
-        if self.outcome in ("sent", "refused", "no_reply"):
-            return (word,), role
-        if not self.angles:
-            return (), "muted"
-        if self.touching:
-            return ("touches something", "touches"), "warn"
-        if self.moving:
-            return ("moving",), "plan"
-        return (said(self.pose),) if self.pose else ("at rest",), "text"
+            yield draw_turn(shapes, self._dial(), self.angles[0], self.bearing, roomy=roomy)
 
     def _figures(self, box: tuple[float, float, float, float], roomy: bool) -> Iterator[Word]:
         """Where the tip is and how wide the gripper is open."""
@@ -312,24 +288,18 @@ class ArmPanel(ArmKeys):
         texts = (f"{word} {out:.2f} m out, {figure(up, 2)} m up", f"{word} {out:.2f}, {figure(up, 2)} m")
         yield Word(first_fitting(texts, sp(12.5), room), left, y, sp(12.5), role, anchor=(0, 0.5))
 
-    def _foot(self, shapes: Shapes, roomy: bool) -> Iterator[Word]:
-        """How far its foot is turned, seen from above, or is to be."""
-        x, y, radius = self._dial()
-        turning = not math.isnan(self.bearing)
-        shapes.disc(x, y, radius, theme.raised)
-        shapes.ring(x, y, radius - dp(0.75), dp(1.5), theme.plan if turning else theme.line)
-        degrees = math.degrees(self.angles[0])
-        end = dial_point(-degrees, radius * 0.8)
-        shapes.line(np.array([[x, y], [x + end[0], y + end[1]]]), dp(3), theme.accent)
-        if turning:
-            degrees = math.degrees(self.bearing)
-            end = dial_point(-degrees, radius * 0.8)
-            shapes.line(np.array([[x, y], [x + end[0], y + end[1]]]), dp(3), theme.plan)
-        shapes.disc(x, y, dp(2.5), theme.text)
-        side = "" if abs(degrees) < 0.5 else " left" if degrees > 0 else " right"
-        text = f"{abs(degrees):.0f}°{side}" if roomy else f"{abs(degrees):.0f}°{side[:2].upper()}"
-        role = theme.plan if turning else theme.muted
-        yield Word(text, x + radius + dp(6), y, sp(12.5 if roomy else 12), role, anchor=(0, 0.5))
+    def _standing(self) -> tuple[tuple[str, ...], str]:
+        """What it does, or what became of an order, longest first, and the role of that."""
+        word, role, _ = OUTCOMES[self.outcome]
+        if self.outcome in ("sent", "refused", "no_reply"):
+            return (word,), role
+        if not self.angles:
+            return (), "muted"
+        if self.touching:
+            return ("touches something", "touches"), "warn"
+        if self.moving:
+            return ("moving",), "plan"
+        return (said(self.pose),) if self.pose else ("at rest",), "text"
 
 
 def _whole(values: Float64Array) -> list[float]:

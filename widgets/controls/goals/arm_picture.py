@@ -10,13 +10,14 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from kivy.metrics import dp
+from kivy.metrics import dp, sp
 
-from widgets.core.geometry import Points
+from widgets.core.canvas_ink import Word
+from widgets.core.geometry import Points, dial_point
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
 
-__all__ = ["Links", "Side", "draw_aim", "draw_arm", "draw_deck", "moved_tip", "side_points"]
+__all__ = ["Links", "Side", "draw_aim", "draw_arm", "draw_deck", "draw_turn", "moved_tip", "side_points"]
 
 FINGER = 0.055
 """Length of a finger of the gripper [m]."""
@@ -134,3 +135,25 @@ def draw_aim(shapes: Shapes, tip: Sequence[float], aim: tuple[float, float], col
     for across, up in ((1.0, 0.0), (0.0, 1.0)):
         reach = np.array([across, up]) * dp(14)
         shapes.line(np.array([aim - reach, aim + reach]), dp(1.5), colour)
+
+
+def draw_turn(
+    shapes: Shapes, dial: tuple[float, float, float], angle: float, bearing: float, *, roomy: bool
+) -> Word:
+    """How far the foot is turned, seen from above, on a `dial` of middle and radius [px], or is to be: NaN where it stays [rad]."""
+    x, y, radius = dial
+    turning = not math.isnan(bearing)
+    shapes.disc(x, y, radius, theme.raised)
+    shapes.ring(x, y, radius - dp(0.75), dp(1.5), theme.plan if turning else theme.line)
+    degrees = math.degrees(angle)
+    end = dial_point(-degrees, radius * 0.8)
+    shapes.line(np.array([[x, y], [x + end[0], y + end[1]]]), dp(3), theme.accent)
+    if turning:
+        degrees = math.degrees(bearing)
+        end = dial_point(-degrees, radius * 0.8)
+        shapes.line(np.array([[x, y], [x + end[0], y + end[1]]]), dp(3), theme.plan)
+    shapes.disc(x, y, dp(2.5), theme.text)
+    side = "" if abs(degrees) < 0.5 else " left" if degrees > 0 else " right"
+    text = f"{abs(degrees):.0f}°{side}" if roomy else f"{abs(degrees):.0f}°{side[:2].upper()}"
+    role = theme.plan if turning else theme.muted
+    return Word(text, x + radius + dp(6), y, sp(12.5 if roomy else 12), role, anchor=(0, 0.5))

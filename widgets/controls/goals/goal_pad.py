@@ -11,29 +11,24 @@ import math
 from collections.abc import Callable, Iterator
 from typing import Any, ClassVar
 
-import numpy as np
 from kivy.clock import Clock
 from kivy.metrics import dp, sp
-from kivy.properties import ListProperty, NumericProperty, ObjectProperty, OptionProperty
+from kivy.properties import OptionProperty
 from kivy.uix.widget import Widget
 
 from bridge.msgs.geometry_msgs import (
     Point,
     Pose,
-    PoseStamped,
     PoseWithCovariance,
     PoseWithCovarianceStamped,
     Quaternion,
 )
-from bridge.msgs.nav_msgs import Path
-from bridge.msgs.pilothouse_msgs import TaskStatus
-from bridge.msgs.std_msgs import Header
+from widgets.controls.goals.goal_choice import BUTTONS, STEP, TURN, UNDER_WAY, GoalChoice
 from widgets.controls.goals.goal_picture import Box, draw, ground
-from widgets.controls.goals.goal_status import Errand
 from widgets.core.base import fitting_size
 from widgets.core.canvas_ink import Word, tint
 from widgets.core.finger_grip import Grip
-from widgets.core.geometry import DASH, Points
+from widgets.core.geometry import DASH
 from widgets.core.icons import icon
 from widgets.core.shapes import Shapes
 from widgets.core.theme import theme
@@ -42,12 +37,6 @@ from widgets.parts.sensor_card import Gauge
 
 __all__ = ["STEP", "TURN", "GoalPad", "samples"]
 
-STEP, TURN = 0.25, math.radians(15)
-"""By which a press moves the goal [m] and turns it [rad]."""
-FARTHEST = 1000.0
-"""From the map's origin, along x and y, that a goal may be [m]."""
-THERE = 0.3, math.radians(20)
-"""A robot that is no farther from its goal has reached it [m], [rad]."""
 REPEAT_AFTER, REPEAT_EVERY = 0.45, 0.12
 """A held button goes on moving the goal [s]."""
 CELL = 53
@@ -57,189 +46,23 @@ LEAST_WORDS = 46
 GAP = 3
 """Between the buttons [dp]."""
 
-BUTTONS: dict[str, tuple[int, int, str, tuple[int, int, int]]] = {
-    "turn left": (0, 0, "rotate_left", (0, 0, 1)),
-    "north": (1, 0, "arrow_upward", (0, 1, 0)),
-    "turn right": (2, 0, "rotate_right", (0, 0, -1)),
-    "west": (0, 1, "arrow_back", (-1, 0, 0)),
-    "go": (1, 1, "near_me", (0, 0, 0)),
-    "east": (2, 1, "arrow_forward", (1, 0, 0)),
-    "here": (0, 2, "my_location", (0, 0, 0)),
-    "south": (1, 2, "arrow_downward", (0, -1, 0)),
-}
-"""Name to column, row from above, icon, and steps in x, y and yaw. `here` puts the goal where the robot is."""
 AXES = {"north": "y+", "south": "y−", "east": "x+", "west": "x−"}
 AXIS_NAMES = ("x", "y", "yaw")
-OUTCOMES = {
-    "": ("Go", "near_me"),
-    "sent": ("Sent", "hourglass_top"),
-    "accepted": ("Going", "route"),
-    "waiting": ("Waiting", "hourglass_top"),
-    "paused": ("Paused", "pause"),
-    "there": ("There", "check"),
-    "canceled": ("Canceled", "cancel"),
-    "failed": ("Failed", "block"),
-    "interrupted": ("Cut off", "pause"),
-    "refused": ("Refused", "block"),
-    "no_reply": ("No reply", "help"),
-}
-"""What became of the goal to what the button says."""
-UNDER_WAY = ("sent", "accepted", "waiting", "paused")
-"""The robot has the goal, and has not done with it."""
 
 
-class GoalPad(Grip, Gauge):
+class GoalPad(GoalChoice, Grip, Gauge):
     """Dispatches `on_command(pose)`, a PoseStamped in `map`, when Go is pressed, and only then."""
 
-    accepts: ClassVar = (PoseWithCovarianceStamped, Path, TaskStatus)
-    sends = (PoseStamped,)
     drawn_from: ClassVar = ("actual", "wanted", "followed", "outcome", "way", "pressed")
 
-    actual: ListProperty[float] = ListProperty()
-    """Where the robot is: x, y [m], yaw [rad]; empty while that is not known."""
-    wanted: ListProperty[float] = ListProperty()
-    """Where it is to go: x, y [m], yaw [rad]; empty before anybody said."""
-    followed: ListProperty[float] = ListProperty()
-    """Where the robot goes while another goal is being set here: x, y [m], yaw [rad]; empty where it goes to no other."""
-    outcome = OptionProperty("", options=list(OUTCOMES))
-    """What became of the goal: empty while it has not been sent as it is."""
-    way: ObjectProperty[Points] = ObjectProperty(
-        np.zeros((0, 2)), force_dispatch=True, comparator=lambda *_: False
-    )
-    """The way that the robot means to take, shape (n, 2) [m]; empty when it has none."""
     pressed = OptionProperty("", options=["", *BUTTONS])
     """The button under the finger; empty without one."""
-    step = NumericProperty(STEP)
-    """By which a press moves the goal [m]."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**{"title": "Goal", **kwargs})
         self.veil_radius = theme.radius
-        self._errand = Errand()
-        self._end: list[float] = []
-        self._left: tuple[int, list[float]] = 0, []
-        self._taken = False
         self._repeat = Clock.create_trigger(lambda _: self.press(self.pressed), REPEAT_EVERY, interval=True)
         self._held = Clock.create_trigger(lambda _: self._repeat(), REPEAT_AFTER)
-
-    def show(self, msg: PoseWithCovarianceStamped | Path | TaskStatus) -> None:
-        """Show where the robot is, the way it means to take, or what it does.
-
-        The end of the way of a robot that goes to a goal is the goal while none is being set here; another task's is not.
-        """
-        if isinstance(msg, Path | TaskStatus):
-            if isinstance(msg, Path):
-                self._show_way(msg)
-            else:
-                self._show_task(msg)
-            self._follow_up()
-            return
-        pose = msg.pose.pose
-        place = [round(value, 3) for value in (pose.position.x, pose.position.y, pose.orientation.yaw)]
-        self.actual = place if all(map(math.isfinite, place)) else []
-
-    def _show_way(self, path: Path) -> None:
-        places = [(one.pose.position.x, one.pose.position.y) for one in path.poses]
-        if not places and len(self.way) and not self._errand.heard and self.outcome == "accepted":
-            self.outcome = ""  # who says nothing of its tasks says only so that it has ended
-        self.way = np.array(places, dtype=np.float64).reshape(-1, 2)
-        yaw = path.poses[-1].pose.orientation.yaw if places else 0.0
-        end = [*places[-1], yaw] if places else []
-        self._end = end if all(map(math.isfinite, end)) else []
-        self._take_end()
-
-    def _show_task(self, status: TaskStatus) -> None:
-        outcome = self._errand.hear(status)
-        if outcome is not None:
-            self.outcome = outcome
-        self._take_end()
-
-    def _take_end(self) -> None:
-        """Where the robot goes by somebody else's order is its goal here too, until one is set by a finger."""
-        if self._end and (self._taken or not self.wanted) and self._errand.adopt():
-            self.wanted, self._taken = self._end, True
-            if self.outcome not in UNDER_WAY:
-                self.outcome = "accepted"
-
-    def _follow_up(self) -> None:
-        """Keep in sight where the robot goes: the end of its way, or the goal that it had when another one was begun here."""
-        going = self._errand.going
-        run, left = self._left
-        now = (self._end or (left if run == going else [])) if going and self.wanted else []
-        other = (
-            bool(now)
-            and self.outcome != "sent"
-            and going != self._errand.run
-            and math.dist(now[:2], self.wanted[:2]) > self.step / 2
-        )
-        self.followed = now if other else []
-
-    @property
-    def goal(self) -> PoseStamped:
-        """The goal as a message; ValueError while there is none."""
-        if not self.wanted:
-            raise ValueError(
-                "There is no goal yet: the robot has not said where it is, and nobody where it is to go."
-            )
-        x, y, yaw = self.wanted
-        return PoseStamped(Header(frame_id="map"), Pose(Point(x, y), Quaternion.from_yaw(yaw)))
-
-    @property
-    def there(self) -> bool:
-        """The robot is where it is wanted."""
-        if not (self.actual and self.wanted):
-            return False
-        (x, y, yaw), (goal_x, goal_y, goal_yaw) = self.actual, self.wanted
-        turn = abs(math.remainder(goal_yaw - yaw, math.tau))
-        return math.hypot(goal_x - x, goal_y - y) <= THERE[0] and turn <= THERE[1]
-
-    @property
-    def says(self) -> tuple[str, str]:
-        """Words and icon of the button in the middle."""
-        return ("There", "check") if self.outcome == "accepted" and self.there else OUTCOMES[self.outcome]
-
-    def can(self, name: str) -> bool:
-        """Whether a press of that button does anything."""
-        if name == "go":
-            return bool(self.wanted) and self.outcome != "sent"
-        return bool(self.actual or (self.wanted and name != "here"))
-
-    def answer(self, outcome: str) -> None:
-        """What became of the goal that was sent: `sent`, `accepted`, `refused` or `no_reply`; what the robot says of it comes by `show`."""
-        if outcome == "refused":
-            self._errand.drop()
-        if outcome != "accepted" or not self._errand.run:  # what it does may be heard before its answer
-            self.outcome = outcome
-        self._follow_up()
-
-    def press(self, name: str) -> None:
-        """Do what a button says, as a finger would."""
-        if not name or not self.can(name):
-            return
-        if name == "go":
-            self.outcome, self._taken = "sent", False
-            self._errand.ask()
-            self.dispatch("on_command", self.goal)
-        elif name == "here":
-            self._want(self._snapped())
-        else:
-            x, y, yaw = self.wanted or self._snapped()
-            across, up, turn = BUTTONS[name][3]
-            self._want([x + across * self.step, y + up * self.step, yaw + turn * TURN])
-
-    def _snapped(self) -> list[float]:
-        """Where the robot is, on whole steps, so that the goal's figures are round."""
-        x, y, yaw = self.actual
-        return [round(x / self.step) * self.step, round(y / self.step) * self.step, round(yaw / TURN) * TURN]
-
-    def _want(self, place: list[float]) -> None:
-        x, y = (max(-FARTHEST, min(FARTHEST, value)) + 0.0 for value in place[:2])
-        if self._errand.run:
-            self._left = self._errand.run, list(self.wanted)
-        self._errand.drop()
-        self._taken = False
-        self.wanted, self.outcome = [x, y, math.remainder(place[2], math.tau)], ""
-        self._follow_up()
 
     def spring(self) -> None:
         """Count no further; the goal stays."""

@@ -157,14 +157,14 @@ class Area:
         if self.moves and stay != (x, y) and isinstance(self._widget, MapGestures):
             by = stay[0] - x, stay[1] - y
             before = self._widget.view
-            self._widget.look(before.moved(*by))
+            self._widget.set_view(before.moved(*by))
             if self._taken is not None:
                 moved = self._widget.view.to_screen(*before.to_world(*self._place(self._taken)))
                 self._taken = tuple(self._widget.to_window(*moved))
 
     def _zoom(self, factor: float) -> None:
         if isinstance(self._widget, MapGestures):
-            self._widget.look(self._widget.view.zoomed(factor, *self._place(self.cross.at)))
+            self._widget.set_view(self._widget.view.zoomed(factor, *self._place(self.cross.at)))
 
     def _free(self) -> tuple[float, float, float, float]:
         """Where the cross may be: on the widget, within the glass, clear of the keys [px]."""

@@ -14,7 +14,8 @@ from bridge.msgs.geometry_msgs import (
 )
 from bridge.msgs.nav_msgs import Path
 from bridge.msgs.pilothouse_msgs import TaskStatus
-from widgets.controls.goals.goal_pad import BUTTONS, FARTHEST, GoalPad
+from widgets.controls.goals.goal_choice import BUTTONS, FARTHEST
+from widgets.controls.goals.goal_pad import GoalPad
 from widgets.core.theme import theme
 
 
