@@ -111,7 +111,7 @@ def test_a_grid_has_its_first_cell_in_the_south_west(stage):
     made = stage.show(GridMap(state="live"), size=(200, 200))
     cells = Int8Array([100, 0, 0, 0])
     made.show(OccupancyGrid(info=MapMetaData(resolution=4.0, width=2, height=2), data=cells))
-    made.look(View.centred(4, 4, at=(100, 100), scale=20))
+    made.set_view(View.centred(4, 4, at=(100, 100), scale=20))
     stage.frames()
     picture = stage.pixels(made)
     wall = at(picture, 50, 60)[:3].astype(int).sum()
@@ -150,7 +150,7 @@ def test_a_coarse_tile_stands_in_for_finer_ones_the_right_way_round(stage, tmp_p
     made = stage.show(GeoMap(tiles=path, datum=DATUM, state="live"), size=(400, 400))
     middle = west + grid.metres / 2, north - grid.metres / 2
     scale = 256 / grid.metres * 2 ** (zoom - 19)
-    made.look(View.centred(*middle, at=(200, 200), scale=scale * 1.01))
+    made.set_view(View.centred(*middle, at=(200, 200), scale=scale * 1.01))
     stage.frames(6)
     assert made._pictures.zoom == zoom
     picture = stage.pixels(made)
@@ -187,7 +187,7 @@ def test_what_a_map_shows_stays_inside_it(stage):
     made.waypoints = [(0.0, 0.0), (30.0, 0.0)]
     root.add_widget(made)
     stage.show(root)
-    made.look(View.centred(0, 0, at=(75, 100), scale=20))
+    made.set_view(View.centred(0, 0, at=(75, 100), scale=20))
     stage.frames(2)
     assert stage.pixels(root)[:, 152:, 3].max() == 0
 
