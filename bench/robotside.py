@@ -22,10 +22,10 @@ from bench.support.planning import DEEP, LAKE, SHALLOW, lake, longest, trap
 from bench.support.station import ROUND, Serving, patrol, serving
 from bridge.core.camera_frames import Frame
 from bridge.core.network_thread import NetworkThread
+from bridge.core.robot_catalogue import Session
 from bridge.msgs.pilothouse_msgs import Mission, SetMissionRequest, StartTaskRequest, TaskProgress
-from bridge.server.server import Session
+from robotside.door.station_door import StationDoor
 from robotside.records import Records
-from robotside.services.stop_services import services
 from robotside.station.station import Station
 from sim.robot import make
 from sim.vehicles.patrol import PARAMETERS
@@ -177,11 +177,11 @@ def run(station: Station, clock: Clock, seconds: float) -> None:
 def begin(station: Station) -> None:
     """Start patrolling `ROUND`, as a client would."""
     session = Session("1", "bench", 0.0)
-    offered = {service.name: service for service in services(station)}
+    door = StationDoor(station)
     for name, request in (
         ("/mission/set", SetMissionRequest(mission=Mission(waypoints=ROUND))),
         ("/task/start", StartTaskRequest()),
     ):
-        answer = offered[name].call(session, request)
+        answer = door.call(session, name, request)
         if not getattr(answer, "success", False):
             raise RuntimeError(f"{name}: {answer}")

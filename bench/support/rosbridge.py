@@ -26,8 +26,10 @@ from websockets.exceptions import ConnectionClosed
 
 from bench.support.traffic import MESSAGES
 from bridge.codec import to_json
+from bridge.core.robot_catalogue import Service, Session
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
-from bridge.server.server import BridgeServer, Service, Session
+from bridge.server.server import BridgeServer
+from robotside.door.door import Door
 
 SETTLE = 0.05
 """After the last message until the time is taken [s]: what waited has left."""
@@ -108,7 +110,7 @@ def _stop(*_: object) -> CommandResponse:
 async def ours(commands: Commands) -> AsyncIterator[Speaker]:
     """Serve with the robot's own table of topics and a STOP."""
     stop = Service("/stop", "pilothouse_msgs/Command", CommandRequest, CommandResponse, _stop)
-    server = BridgeServer(services=[stop], on_message=commands.hear)
+    server = BridgeServer(Door(services=[stop], on_message=commands.hear))
     await server.start(port=0)
     try:
         yield Ours(server)

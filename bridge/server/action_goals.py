@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import asyncio
-import logging
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 import msgspec
 from msgspec import Raw
 
 from bridge.client.client_goals import CANCELED, SUCCEEDED
-from bridge.codec import shown, to_json
+from bridge.codec import to_json
 from bridge.core.async_tasks import cancel_all
-from bridge.core.errors import BridgeError, Refused
+from bridge.core.errors import BridgeError
 from bridge.core.robot_catalogue import Action, Session
+from bridge.core.robot_door import RobotDoor
 from bridge.msgs import Msg
 from bridge.protocol import (
     MISSING,
@@ -35,8 +35,6 @@ from bridge.server.flow.send_queue import SendQueue
 
 __all__ = ["ActionGoals"]
 
-log = logging.getLogger(__name__)
-
 
 class ActionGoals:
     """What one client set going and is to hear the end of."""
@@ -46,14 +44,14 @@ class ActionGoals:
         client: Peer,
         session: Session,
         queue: SendQueue,
-        actions: Mapping[str, Action],
+        door: RobotDoor,
         client_services: ClientServices,
     ) -> None:
-        """`actions` are the robot's own, by name."""
+        """`queue` holds what waits to be sent to the client."""
         self._client = client
         self._session = session
         self._queue = queue
-        self._actions = actions
+        self._door = door
         self._client_services = client_services
         self._cancel: dict[Id, Callable[[], object]] = {}
         self._news: dict[Id, Stream] = {}
@@ -81,11 +79,8 @@ class ActionGoals:
 
     def _start(self, op: SendActionGoal) -> Callable[[], object]:
         name = absolute(op.action)
-        action = self._actions.get(name)
         told = msgspec.structs.replace(op, args=MISSING)  # which would keep all of its frame until it is over
-        if action is None:
-            if name not in self._client_services.actions:
-                raise Refused(f"This robot has no action {shown(name)}.")
+        if name in self._client_services.actions:
             return self._client_services.hand_goal(
                 self._client,
                 name,
@@ -93,6 +88,7 @@ class ActionGoals:
                 lambda news: self._tell(told, news.values),
                 lambda end: self._over(told, end),
             )
+        action = self._door.action(name)
         goal = arguments(op.args, action.goal)
         op = told
         task = asyncio.create_task(self._carry_out(op, action, goal))
@@ -112,13 +108,10 @@ class ActionGoals:
                 self._tell(op, Raw(to_json(feedback)))
 
         try:
-            result = await action.start(self._session, goal, tell)
+            result = await self._door.run(self._session, action.name, goal, tell)
             self._end(op, _done(op, to_json(result), SUCCEEDED))
         except BridgeError as error:
             self._end(op, _failed(op, str(error)))
-        except Exception:
-            log.exception("%s from %s failed", op.action, self._session.address)
-            self._end(op, _failed(op, f"The robot failed at {op.action}; its log says why."))
 
     def _tell(self, op: SendActionGoal, values: Raw) -> None:
         news = self._news.get(op.id)

@@ -68,7 +68,7 @@ class RosbridgeSession:
         self._faults = ClientFaults(session.address)
         self._topics = TopicOperations(self, session, self.queue, context)
         self._services = ServiceOperations(self, session, context)
-        self._goals = ActionGoals(self, session, self.queue, context.actions, context.client_services)
+        self._goals = ActionGoals(self, session, self.queue, context.door, context.client_services)
         self._unhandled: deque[Arrival] = deque()
         self._handlers = self._make_handlers()
 

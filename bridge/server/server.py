@@ -11,7 +11,6 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import errno
-import itertools
 import logging
 import re
 import socket
@@ -27,8 +26,8 @@ from websockets.http11 import Request, Response
 from bridge.core.async_tasks import cancel_all
 from bridge.core.compat import Compat
 from bridge.core.errors import BridgeError
-from bridge.core.robot_catalogue import Action, Service, Session
-from bridge.core.topics import TOPICS, Topic
+from bridge.core.robot_catalogue import Session
+from bridge.core.robot_door import RobotDoor
 from bridge.msgs import Msg
 from bridge.protocol import MAX_SERVER_FRAME
 from bridge.server.callback_connection import CallbackConnection
@@ -46,7 +45,7 @@ from bridge.server.rosbridge_session import RosbridgeSession
 from bridge.server.server_context import ServerContext
 from bridge.server.switchboard import Switchboard
 
-__all__ = ["Action", "BridgeServer", "Service", "Session"]
+__all__ = ["BridgeServer"]
 
 log = logging.getLogger(__name__)
 
@@ -62,8 +61,8 @@ _FAREWELL = 0.5
 """How long clients have to say goodbye before they are cut off [s]."""
 
 
-def _ignore(*_: object) -> None:
-    """What an owner does who does not care."""
+def _ignore(topic: str, msg: Msg) -> None:
+    """What is done with messages that are wanted otherwise."""
 
 
 def _any(_: str) -> bool:
@@ -75,28 +74,20 @@ class BridgeServer:
 
     def __init__(
         self,
+        door: RobotDoor,
         *,
-        services: Iterable[Service],
-        on_message: Callable[[Session, str, Any, float | None], None],
-        topics: Iterable[Topic] = TOPICS,
         offers: Callable[[str], bool] = _any,
         now: Callable[[], float] = time.time,
-        on_gone: Callable[[Session], None] = _ignore,
-        on_demand: Callable[[str, bool], None] = _ignore,
         cameras: Iterable[str] | None = None,
         shrink: Shrink | None = None,
-        actions: Iterable[Action] = (),
         reduce: Reduce | None = None,
         params: Mapping[str, Any] | None = None,
         compat: Compat | None = None,
     ) -> None:
         """`now` is the operators' clock [s], told by `/rosapi/get_time`.
 
-        `topics` are the robot's own, which no client may publish on; it `offers` those of them that `rosapi` tells of.
-        `on_message(session, topic, msg, stamp)` hears what clients publish on topics to the robot; `stamp` is
-        when the sender meant it [s], operators' clock, None when it does not say. `on_gone(session)` hears that a
-        client left. `on_demand(topic, wanted)` hears that the first one came who wants a topic, or that the
-        last one left. `cameras` are the names that may be asked for; None allows any.
+        The robot `offers` those of its topics that `rosapi` tells of. `cameras` are the names that may be asked for; None
+        allows any; whoever has the door's pictures gives them to `publish_frame`.
         `shrink` makes their pictures smaller for slow watchers; without it they only come less often.
         `reduce` makes less of a message for subscribers who ask for fewer beams, smaller pictures or coarser maps; of
         pictures and maps in a worker thread. `params` are there from the start, for `/rosapi/get_param`.
@@ -106,28 +97,29 @@ class BridgeServer:
         self.sessions: set[Session] = set()
         """The clients connected now; who only watches a camera is none."""
         cameras = None if cameras is None else list(cameras)
-        self._switchboard = Switchboard(topics, on_demand, reduce=reduce, now=now, cameras=cameras or ())
-        by_name = {service.name: service for service in services}
-        acts = {action.name: action for action in actions}
-        client_services = ClientServices(by_name, acts)
+        self._door = door
+        self._wanted: dict[str, Callable[[], None]] = {}
+        """By topic that a client wants, the call that ends its messages."""
+        self._switchboard = Switchboard(
+            door.topics.values(), self._want, reduce=reduce, now=now, cameras=cameras or ()
+        )
+        client_services = ClientServices(door.services, door.actions)
         self._clients: dict[Session, RosbridgeSession] = {}
-        nodes = NodeGraph(self._switchboard, by_name, acts, client_services, self._clients, offers)
+        nodes = NodeGraph(
+            self._switchboard, door.services, door.actions, client_services, self._clients, offers
+        )
         self._reducer = MessageReducer()
         self._context = ServerContext(
             switchboard=self._switchboard,
-            services=by_name,
-            actions=acts,
+            door=door,
             client_services=client_services,
             rosapi=RosApi(nodes.graph(), Parameters(params), now),
             reducer=self._reducer,
             compat=compat or Compat(),
             now=now,
-            on_message=on_message,
         )
-        self._on_gone = on_gone
         self._cameras = None if cameras is None else frozenset(cameras)
         self._levels = QualityLevels(shrink)
-        self._numbers = itertools.count(1)
         self._open: set[ServerConnection] = set()
         self._connections: dict[CallbackConnection, None] = {}
         self._server: Server | None = None
@@ -188,6 +180,14 @@ class BridgeServer:
         """Send a packed camera frame to whoever watches `camera`; it replaces one that still waits."""
         self._switchboard.publish_frame(camera, self._levels.picture(frame))
 
+    def _want(self, topic: str, wanted: bool) -> None:
+        """The first client came who wants a topic of the robot, or the last one left."""
+        if wanted:
+            own = topic in self._door.topics  # pictures of a camera may go as frames alone
+            self._wanted[topic] = self._door.subscribe(self, topic, self.publish if own else _ignore)
+        else:
+            self._wanted.pop(topic)()
+
     def _connection(self, *args: Any, **options: Any) -> CallbackConnection:
         connection = CallbackConnection(*args, **options)
         connection.connections = self._connections
@@ -219,7 +219,7 @@ class BridgeServer:
             self._open.discard(ws)
 
     async def _serve_client(self, ws: CallbackConnection, batch: WriteBatch) -> None:
-        session = Session(str(next(self._numbers)), _address(ws), self._context.now())
+        session = self._door.join(_address(ws))
         client = RosbridgeSession(ws, batch, session, self._context)
         ws.batch = batch
         self.sessions.add(session)
@@ -231,7 +231,7 @@ class BridgeServer:
             self.sessions.discard(session)
             del self._clients[session]
             try:
-                self._on_gone(session)
+                self._door.leave(session)
             finally:
                 await client.close()
 

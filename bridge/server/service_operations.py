@@ -10,9 +10,9 @@ from typing import Any
 import msgspec
 from msgspec import Raw
 
-from bridge.codec import shown, to_json
+from bridge.codec import to_json
 from bridge.core.async_tasks import cancel_all
-from bridge.core.errors import BridgeError, Refused
+from bridge.core.errors import BridgeError
 from bridge.core.robot_catalogue import Session
 from bridge.msgs import Msg
 from bridge.protocol import MISSING, CallService, Id, ServiceResponse, arguments, service_and_id
@@ -20,21 +20,12 @@ from bridge.server.client_services import Peer
 from bridge.server.flow.priority_lanes import Lane
 from bridge.server.server_context import ServerContext
 
-__all__ = ["MAX_CALLS", "PRIORITY_SERVICES", "ServiceOperations"]
+__all__ = ["ServiceOperations"]
 
 log = logging.getLogger(__name__)
 
-PRIORITY_SERVICES = frozenset(
-    {"/stop", "/stop/release"}
-    | {f"/control/{what}" for what in ("acquire", "release", "request", "grant", "object")}
-)
-"""Services whose responses are sent before everything else."""
-
 TIME_SERVICE = "/rosapi/get_time"
 """A client that has called it knows the offset of its clock from the operators' clock."""
-
-MAX_CALLS = 256
-"""Calls of the robot's services that may wait for their response for one client; `PRIORITY_SERVICES` are exempt."""
 
 
 class ServiceOperations:
@@ -56,53 +47,41 @@ class ServiceOperations:
                 self._session.asked_time = self._session.asked_time or name == TIME_SERVICE
                 self._respond(op, name, id, known)
                 return
-            service = self._context.services.get(name)
-            if service is None:
-                self._call_client(op, name, id)
+            if name in self._context.client_services.services:
+                self._context.client_services.call(self._client, name, id, op)
                 return
-            if len(self._tasks) >= MAX_CALLS and name not in PRIORITY_SERVICES:
-                raise Refused(f"{MAX_CALLS} calls of this client wait for their answer already.")
-            outcome = service.call(self._session, arguments(op.args, service.request))
+            request = arguments(op.args, self._context.door.service(name).request)
+            outcome = self._context.door.call(self._session, name, request, op.timeout)
             # the arguments would keep the whole frame in memory while the call is under way
             op = msgspec.structs.replace(op, args=MISSING)
             if isinstance(outcome, Msg):
                 self._respond(op, name, id, to_json(outcome))
             else:
                 self._begin(self._await_outcome(op, name, id, outcome))
-        except Exception as error:  # noqa: BLE001 -- a service may fail in any way; caller and log get the reason
+        except Exception as error:  # noqa: BLE001 -- an answer may be anything; caller and log get the reason
             self._refuse(op, name, id, error)
 
     async def close(self) -> None:
         """Cancel all calls that are under way."""
         await cancel_all(self._tasks)
 
-    def _call_client(self, op: CallService, name: str, id: Id) -> None:
-        if name not in self._context.client_services.services:
-            raise Refused(f"This robot has no service {shown(name)}.")
-        self._context.client_services.call(self._client, name, id, op)
-
     async def _await_outcome(self, op: CallService, name: str, id: Id, outcome: Awaitable[Msg]) -> None:
-        limit = asyncio.timeout(op.timeout if op.timeout and op.timeout > 0 else None)
         try:
-            async with limit:
-                answer = to_json(await outcome)
-        except Exception as error:  # noqa: BLE001 -- a service may fail in any way; caller and log get the reason
-            late = Refused(f"{name} gave no answer within {op.timeout or 0:g} s.")
-            self._refuse(op, name, id, late if limit.expired() else error)
+            answer = to_json(await outcome)
+        except Exception as error:  # noqa: BLE001 -- as above
+            self._refuse(op, name, id, error)
         else:
             self._respond(op, name, id, answer)
 
     def _refuse(self, op: CallService, name: str, id: Id, error: Exception) -> None:
-        if isinstance(error, BridgeError):
-            reason = str(error)
-        else:
-            log.error("%s from %s failed", op.service, self._session.address, exc_info=error)
-            reason = f"The robot failed at {op.service}; its log says why."
+        if not isinstance(error, BridgeError):
+            log.error("The answer of %s to %s cannot be sent", name, self._session.address, exc_info=error)
+        reason = str(error) if isinstance(error, BridgeError) else f"The answer of {name} cannot be sent."
         self._respond(op, name, id, msgspec.json.encode(reason), result=False)
 
     def _respond(self, op: CallService, name: str, id: Id, values: bytes, *, result: bool = True) -> None:
         response = ServiceResponse(id=id, service=op.service, values=Raw(values), result=result)
-        lane = Lane.CONTROL if name in PRIORITY_SERVICES else Lane.REPLY
+        lane = Lane.CONTROL if self._context.door.is_urgent(name) else Lane.REPLY
         self._client.send(response, lane, self._client.protocol.answer_size(op))
 
     def _begin(self, work: Coroutine[Any, Any, None]) -> None:

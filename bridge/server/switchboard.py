@@ -74,6 +74,8 @@ class Channel:
         """Clients that said they publish on it."""
         self.last: dict[object, OutgoingMessage] = {}
         """The last message of each publisher who latches; the robot itself is None."""
+        self.latched = entry is not None and entry.latched and entry.to != "robot"
+        """The robot's last message is kept for later subscribers."""
         self.lane, self.keep = _manner(self)
 
     @property
@@ -128,7 +130,7 @@ class Switchboard:
         channel = self.channels.get(topic)
         if channel is None or channel.entry is None:
             raise BridgeError(f"There is no topic {topic} in the table.")
-        self.pass_on(channel, msg, None, latch=channel.entry.latched)
+        self.pass_on(channel, msg, None, latch=channel.latched)
 
     def pass_on(self, channel: Channel, msg: Msg | Raw | Unread, publisher: object, *, latch: bool) -> None:
         """Pass a message of `publisher`, None is the robot, on to all who want it, and to later ones when latched.

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import logging
-from typing import Protocol
+from typing import Protocol, cast
 
 from msgspec import Raw
 
 from bridge.codec import Unread, from_builtins, from_json, shown, unread
-from bridge.core.errors import ProtocolError
+from bridge.core.errors import ProtocolError, Refused
 from bridge.core.robot_catalogue import Session
 from bridge.msgs import Msg
 from bridge.protocol import (
@@ -27,8 +26,6 @@ from bridge.server.server_context import ServerContext
 from bridge.server.switchboard import Channel, Listener
 
 __all__ = ["MAX_READ_BYTES", "Subscriber", "TopicOperations"]
-
-log = logging.getLogger(__name__)
 
 MAX_READ_BYTES = 1_048_576
 """Longest message that may have missing or unknown fields [byte]: those are looked for in Python, which is slow."""
@@ -148,19 +145,19 @@ class TopicOperations:
         channel = channels.get(topic) or channels.get(absolute(topic))
         if channel is None:
             raise ProtocolError(f"This robot does not listen to {shown(topic)}, and nobody advertised it.")
-        if channel.entry is not None and channel.entry.to != "robot":
-            raise ProtocolError(f"This robot does not listen to {shown(topic)}, it speaks there.")
+        if channel.entry is not None:
+            try:
+                self._context.door.check_listens(channel.name)
+            except Refused as refusal:
+                raise ProtocolError(str(refusal)) from refusal
         return channel
 
     def _pass_on(
         self, channel: Channel, msg: Msg | Raw | Unread, stamp: float | None, *, latch: bool
     ) -> None:
         if channel.entry is not None:
-            latch = False
-            try:
-                self._context.on_message(self._session, channel.name, msg, stamp)
-            except Exception:
-                log.exception("%s from %s failed", channel.name, self._session.address)
-        else:
-            latch = self._client in channel.publishers and (latch or self._protocol.latches(channel.name))
+            # a message that fits the table is decoded; the door gives it to the robot and to those who subscribe
+            self._context.door.publish(self._session, channel.name, cast(Msg, msg), stamp)
+            return
+        latch = self._client in channel.publishers and (latch or self._protocol.latches(channel.name))
         self._switchboard.pass_on(channel, msg, self._client, latch=latch)

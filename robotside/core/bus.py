@@ -28,14 +28,16 @@ class Bus:
         for subscriber in (*self._by_topic.get(topic, ()), *self._to_all):
             subscriber(topic, msg)
 
-    def subscribe(self, topic: str | None, subscriber: Subscriber) -> Callable[[], None]:
+    def subscribe(
+        self, topic: str | None, subscriber: Subscriber, *, replay: bool = True
+    ) -> Callable[[], None]:
         """Call `subscriber(topic, msg)` for each message of `topic`, None meaning every topic.
 
-        What was published before comes first. Returns the call that ends it.
+        The last message of before comes first, with `replay`. Returns the call that ends it.
         """
         listeners = self._to_all if topic is None else self._by_topic.setdefault(topic, [])
         listeners.append(subscriber)
-        for name, msg in list(self._last.items()):
+        for name, msg in list(self._last.items()) if replay else ():
             if topic in (None, name):
                 subscriber(name, msg)
         return lambda: listeners.remove(subscriber) if subscriber in listeners else None

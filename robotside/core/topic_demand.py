@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 
 __all__ = ["Demand"]
 
@@ -12,9 +12,9 @@ class Demand:
 
     def __init__(self, want: Callable[[str, bool], None]) -> None:
         self._want = want
-        self._askers: dict[str, set[str]] = {}
+        self._askers: dict[str, set[Hashable]] = {}
 
-    def set(self, topic: str, asker: str, wanted: bool) -> None:
+    def set(self, topic: str, asker: Hashable, wanted: bool) -> None:
         """`asker` wants `topic` from now on, or no longer; saying it twice changes nothing."""
         askers = self._askers.setdefault(topic, set())
         before = bool(askers)

@@ -7,19 +7,17 @@ meanwhile is left out. The camera works only while somebody looks.
 from __future__ import annotations
 
 import asyncio
-import itertools
 import math
 from collections.abc import Awaitable, Callable, Iterator, Mapping, MutableMapping
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 from bridge.core.errors import BridgeError
+from bridge.core.robot_door import RobotDoor
+from bridge.core.topics import CAMERA
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import CompressedImage
-from robotside.core.bus import Bus
-from robotside.core.topic_demand import Demand
 from robotside.gateways.picture_scaling import Pictures, Superseded
-from robotside.tasks.autonomy import CAMERA
 
 __all__ = ["MEDIA_TYPE", "MOST", "PATIENCE", "BadViewError", "FullError", "Streams", "View", "view_of"]
 
@@ -83,9 +81,8 @@ def _number(name: str, text: str) -> float:
 class Streams:
     """The pictures of one robot's camera for all who look by HTTP."""
 
-    def __init__(self, bus: Bus, demand: Demand, pictures: Pictures) -> None:
-        self._bus, self._demand, self._pictures = bus, demand, pictures
-        self._numbers = itertools.count(1)
+    def __init__(self, door: RobotDoor, pictures: Pictures) -> None:
+        self._door, self._pictures = door, pictures
         self.viewers: set[_Viewer] = set()
         """Who looks at a stream now."""
 
@@ -107,14 +104,12 @@ class Streams:
     @contextmanager
     def looking(self, topic: str = CAMERA) -> Iterator[_Newest]:
         """Somebody looks: the camera of that topic works, and its newest picture is at hand."""
-        newest, asker = _Newest(self._bus.last(topic)), f"viewer {next(self._numbers)}"
-        leave = self._bus.subscribe(topic, newest.take)
-        self._demand.set(topic, asker, True)
+        newest = _Newest()
+        self._door.subscribe(newest, topic, newest.take)
         try:
             yield newest
         finally:
-            self._demand.set(topic, asker, False)
-            leave()
+            self._door.leave(newest)
 
     async def made(self, jpeg: bytes, view: View, *, patient: bool = False) -> bytes:
         """`jpeg` as `view` wants it; fails as `Pictures.make` does, which `patient` is for."""
@@ -126,15 +121,13 @@ class Streams:
 class _Newest:
     """The newest picture of a camera, for one who looks."""
 
-    def __init__(self, old: Msg | None) -> None:
-        """`old` was taken before anybody looked."""
-        self._old = old
+    def __init__(self) -> None:
         self._jpeg: bytes | None = None
         self._came = asyncio.Event()
 
     def take(self, _: str, msg: Msg) -> None:
         """A picture was taken."""
-        if isinstance(msg, CompressedImage) and msg is not self._old:
+        if isinstance(msg, CompressedImage):
             self._jpeg = msg.data
             self._came.set()
 

@@ -14,10 +14,11 @@ from starlette.routing import Route
 
 from bridge.core.errors import BridgeError
 from bridge.core.topics import CAMERA, TOPICS, camera_topics
+from bridge.msgs.pilothouse_msgs import TaskStatus
 from robotside.control.authority import LONGEST_NAME
 from robotside.core.text import plain
+from robotside.door.station_door import StationDoor
 from robotside.gateways.camera_streams import MEDIA_TYPE, BadViewError, FullError, Streams, View, view_of
-from robotside.station.station import Station
 
 __all__ = ["site"]
 
@@ -45,19 +46,17 @@ _CAMERA = """<li>camera {name}: <code>{bridge}/camera/{name}</code>, <a href="/s
 """
 
 
-def site(
-    station: Station, bridge_url: Callable[[], str], services: dict[str, str], streams: Streams
-) -> Starlette:
-    """The web site of one robot; `services` are types by name."""
+def site(door: StationDoor, bridge_url: Callable[[], str], streams: Streams) -> Starlette:
+    """The web site of one robot."""
 
     async def page(_: Request) -> Response:
-        return HTMLResponse(_page(station, bridge_url(), services))
+        return HTMLResponse(_page(door, bridge_url()))
 
     async def health(_: Request) -> Response:
-        return JSONResponse(_health(station))
+        return JSONResponse({"ok": True, **door.health._asdict()})
 
     async def snapshot(request: Request) -> Response:
-        view = _view(request, station)
+        view = _view(request, door)
         if request.method == "HEAD":
             return Response(headers=_FRESH, media_type="image/jpeg")
         jpeg = await streams.picture(view, PICTURE_PATIENCE)
@@ -66,7 +65,7 @@ def site(
         return Response(jpeg, media_type="image/jpeg", headers=_FRESH)
 
     async def stream(request: Request) -> Any:
-        view = _view(request, station)
+        view = _view(request, door)
         if request.method == "HEAD":
             return Response(headers=_FRESH | {"Content-Type": MEDIA_TYPE})
         return streams.viewer(view)
@@ -76,7 +75,7 @@ def site(
             raise HTTPException(
                 405, "STOP is pressed by POST, from anywhere and by anyone.", {"Allow": "POST"}
             )
-        return PlainTextResponse(*_stop(station, request))
+        return PlainTextResponse(*_stop(door, request))
 
     return Starlette(
         routes=[
@@ -90,35 +89,17 @@ def site(
     )
 
 
-def _stop(station: Station, request: Request) -> tuple[str, int]:
+def _stop(door: StationDoor, request: Request) -> tuple[str, int]:
     """Press STOP for whoever asks; one sentence and the status."""
     name = plain(request.query_params.get("name", ""), LONGEST_NAME)
     who = name or f"a browser at {request.client.host if request.client else 'an unknown address'}"
-    station.press_stop(who)
-    station.show_control()
-    doubt = station.stop_doubt
-    return (
-        (f"STOP is pressed, but {doubt[:1].lower()}{doubt[1:]}\n", 503)
-        if doubt
-        else (f"Stopped. {station.stop_unkept}".strip() + "\n", 200)
-    )
+    answer = door.stop(who)
+    return f"{answer.message}\n", 200 if answer.success else 503
 
 
-def _health(station: Station) -> dict[str, object]:
-    status = station.autonomy.engine.status
-    return {
-        "ok": True,
-        "robot": station.info.name,
-        "boot": station.events.boot,
-        "task": status.task,
-        "state": status.state,
-        "position_sure": station.autonomy.whereabouts.sure,
-    }
-
-
-def _view(request: Request, station: Station) -> View:
+def _view(request: Request, door: StationDoor) -> View:
     """What of which camera is asked for; HTTPException with one sentence for what does not exist."""
-    cameras = station.info.cameras
+    cameras = door.info.cameras
     if request.path_params["name"] not in ({*cameras, "camera"} if cameras else ()):
         names = ", ".join(cameras) or "none"
         raise HTTPException(404, f"This robot has no such camera; there is: {names}.")
@@ -143,8 +124,8 @@ async def _broken(_: Request, problem: Exception) -> Response:
     return PlainTextResponse(f"{problem}\n", 502)
 
 
-def _page(station: Station, bridge: str, services: dict[str, str]) -> str:
-    info, status = station.info, station.autonomy.engine.status
+def _page(door: StationDoor, bridge: str) -> str:
+    info, status = door.info, door.last("/task/status")
     cameras = "".join(
         _CAMERA.format(name=html.escape(name), bridge=html.escape(bridge)) for name in info.cameras
     )
@@ -153,12 +134,14 @@ def _page(station: Station, bridge: str, services: dict[str, str]) -> str:
         f"<td>{f'{t.rate:g} Hz' if t.rate else 'on change'}</td><td>{html.escape(t.doc)}</td></tr>"
         for t in TOPICS
     )
-    rows = "".join(f"<tr><td>{name}</td><td>{kind}</td></tr>" for name, kind in sorted(services.items()))
+    rows = "".join(
+        f"<tr><td>{name}</td><td>{service.type}</td></tr>" for name, service in sorted(door.services.items())
+    )
     return _PAGE.format(
         name=html.escape(info.name),
         description=html.escape(info.description),
         world=html.escape(f" in {info.world}" if info.world else ""),
-        state=html.escape(status.reason or "It has no task."),
+        state=html.escape((status.reason if isinstance(status, TaskStatus) else "") or "It has no task."),
         bridge=html.escape(bridge),
         cameras=cameras,
         topics=topics,

@@ -11,30 +11,25 @@ import uvicorn
 
 from bridge.core import camera_frames as frames
 from bridge.core.errors import BridgeError
-from bridge.core.topics import TOPICS, camera_topics
+from bridge.core.topics import camera_topics
 from bridge.discovery.beacon import Beacon, Hello
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.server.server import BridgeServer
 from robotside.core.clock import RobotClock
+from robotside.door.station_door import StationDoor
 from robotside.gateways.camera_streams import Streams
-from robotside.gateways.derived_topics import Apart
 from robotside.gateways.fleet_server import Served, Together
 from robotside.gateways.http_app import site
 from robotside.gateways.http_visit import Visit
 from robotside.gateways.message_reduction import reduce
-from robotside.gateways.offered_topics import Offered
 from robotside.gateways.picture_scaling import Pictures
 from robotside.perception.intruder_watch import jpeg_size
-from robotside.services.stop_services import listener, services
-from robotside.services.task_actions import actions
 from robotside.station.station import Station
 
 __all__ = ["Addresses", "Serving"]
 
 _EVERYWHERE = ("0.0.0.0", "::", "")  # noqa: S104 - compared with, not bound to
-
-_TABLE = frozenset(entry.name for entry in TOPICS)
 
 
 class Addresses:
@@ -80,25 +75,16 @@ class Serving:
         self._clock = clock
         self._alone = Together([self], clock, wall, wanted=wanted)
         self._pictures = Pictures()
-        self._apart = Apart(station.bus)
-        self._told = _TABLE | {topic.name for topic in self._apart.topics}
-        offered = list(services(station))
+        self.door = StationDoor(station)
         self.server = BridgeServer(
-            services=offered,
-            on_message=listener(station),
-            topics=(*TOPICS, *self._apart.topics),
-            offers=Offered(station.info, station.bus, simulated=station.robot.resettable),
+            self.door,
+            offers=self.door.offers,
             now=station.clock,
-            on_gone=station.gone,
-            on_demand=self._want,
             cameras=station.info.cameras,
             shrink=self._pictures.shrink,
             reduce=reduce,
-            actions=actions(station),
         )
-        kinds = {service.name: service.type for service in offered}
-        streams = Streams(station.bus, station.demand, self._pictures)
-        self._site = site(station, lambda: addresses.bridge, kinds, streams)
+        self._site = site(self.door, lambda: addresses.bridge, Streams(self.door, self._pictures))
         self._cameras = {topic: name for name, topic in camera_topics(station.info.cameras).items()}
         """Name of each camera by the topic of its pictures."""
         self._frames: dict[str, int] = {}
@@ -125,24 +111,19 @@ class Serving:
                 uvicorn.Config(self._site, http=Visit, log_level="warning", lifespan="off", access_log=False)
             )
             beacon = Beacon(self._hello)
-            leave = self.station.bus.subscribe(None, self._publish)
-            yield Served((lambda: web.serve([web_socket]), beacon.run), partial(_leave, leave, web, beacon))
+            for topic in self._cameras:
+                self.door.subscribe(self, topic, self._publish_frame, wanted=False)
+            yield Served((lambda: web.serve([web_socket]), beacon.run), partial(_leave, web, beacon))
         finally:
             self.station.robot.stop()
             await self.server.close()
             await self._pictures.close()
-            self._apart.close()
+            self.door.close()
             web_socket.close()
 
-    def _want(self, topic: str, wanted: bool) -> None:
-        self._apart.want(topic, wanted)
-        self.station.demand.set(topic, "clients", wanted)
-
-    def _publish(self, topic: str, msg: Msg) -> None:
-        if topic in self._told:
-            self.server.publish(topic, msg)
-        camera = self._cameras.get(topic)
-        if camera is not None and isinstance(msg, CompressedImage):
+    def _publish_frame(self, topic: str, msg: Msg) -> None:
+        if isinstance(msg, CompressedImage):
+            camera = self._cameras[topic]
             width, height = jpeg_size(msg.data)
             self._frames[camera] = number = self._frames.get(camera, 0) + 1
             # real time, so that a handheld can tell the picture's age whatever the robot's clock does
@@ -176,9 +157,8 @@ class _Web(uvicorn.Server):
         yield
 
 
-async def _leave(leave: Callable[[], None], web: uvicorn.Server, beacon: Beacon) -> None:
+async def _leave(web: uvicorn.Server, beacon: Beacon) -> None:
     """Take leave of everybody."""
-    leave()
     web.should_exit = True
     await beacon.close()
 

@@ -8,8 +8,8 @@ from typing import Any
 from msgspec.structs import replace
 
 from bridge.codec import to_json
+from bridge.core.robot_catalogue import Service, Session
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
-from bridge.server.server import Service, Session
 from robotside.control.authority import Operator
 from robotside.core.refusal import Refusal
 from robotside.records import Job, NotRecorded

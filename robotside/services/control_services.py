@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
+from bridge.core.robot_catalogue import Service
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
     CommandResponse,
@@ -12,7 +13,6 @@ from bridge.msgs.pilothouse_msgs import (
     SetOptionRequest,
     SetOptionResponse,
 )
-from bridge.server.server import Service
 from robotside.control.authority import Operator
 from robotside.control.command_gate import STOP_SENTENCE
 from robotside.control.teleop import FOLLOW_LINK, LOST_LINK_STOPS_TASK

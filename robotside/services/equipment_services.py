@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from bridge.core.robot_catalogue import Service
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (
     ArmOrder,
@@ -15,7 +16,6 @@ from bridge.msgs.pilothouse_msgs import (
     SetLightsRequest,
     SetLightsResponse,
 )
-from bridge.server.server import Service
 from robotside.control.authority import Operator
 from robotside.control.command_gate import STOP_SENTENCE
 from robotside.core.pose2 import Pose2

@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from bridge.core.robot_catalogue import Service
 from bridge.msgs.pilothouse_msgs import (
     AcknowledgeEventsRequest,
     AcknowledgeEventsResponse,
     CommandRequest,
     DeletePlaceRequest,
     DeletePlaceResponse,
+    GetEventsRequest,
+    GetEventsResponse,
     GetHistoryRequest,
     GetHistoryResponse,
     GetMissionsRequest,
@@ -19,7 +22,6 @@ from bridge.msgs.pilothouse_msgs import (
     SetPlaceResponse,
 )
 from bridge.msgs.std_msgs import Time
-from bridge.server.server import Service
 from robotside.control.authority import Operator
 from robotside.core.refusal import Refusal
 from robotside.core.text import plain
@@ -49,6 +51,9 @@ def kept_services(station: Station, answering: Answering) -> Iterable[Service]:
         "AcknowledgeEvents",
         AcknowledgeEventsRequest,
         AcknowledgeEventsResponse,
+    )
+    yield Service(
+        "/events/get", "pilothouse_msgs/GetEvents", GetEventsRequest, GetEventsResponse, kept.events
     )
 
 
@@ -104,3 +109,7 @@ class _Kept:
         )
         events = "event" if len(fresh) == 1 else "events"
         return f"{len(fresh)} {events} acknowledged." if fresh else "Somebody has seen to it already."
+
+    def events(self, _: Operator, asked: GetEventsRequest) -> GetEventsResponse:
+        """Give the events that a client missed."""
+        return self._station.events.answer(asked)

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable
 import msgspec
 
 from bridge.core.errors import Refused
+from bridge.core.robot_catalogue import Action, Service, Session
 from bridge.msgs import Msg
 from bridge.msgs.pilothouse_msgs import (
     CommandResponse,
@@ -17,29 +18,34 @@ from bridge.msgs.pilothouse_msgs import (
     TaskProgress,
     TaskStatus,
 )
-from bridge.server.server import Action, Session
-from robotside.services.stop_services import runner
+from robotside.services.command_service import Answering
+from robotside.services.task_services import TaskOrders
 from robotside.station.station import Station
 
-__all__ = ["actions"]
+__all__ = ["beginning", "task_actions"]
 
 _OVER = ("SUCCEEDED", "CANCELED", "FAILED")
 
 
-def actions(station: Station) -> Iterable[Action]:
-    """What the bridge offers for `station` beside its services."""
-    goals = _Goals(station)
+def task_actions(station: Station, answering: Answering) -> Iterable[Action]:
+    """The action that runs a task of `station`."""
+    goals = _Goals(station, answering)
     yield Action(
         "/task/run", "pilothouse_msgs/RunTask", RunTaskGoal, RunTaskResult, RunTaskFeedback, goals.run
     )
 
 
+def beginning(station: Station, answering: Answering) -> Service:
+    """The service by which a goal begins its task: refused while another task has not ended."""
+    return answering.service("/task/run", TaskOrders(station).run, request=RunTaskGoal)
+
+
 class _Goals:
     """Follows the tasks that were begun as goals."""
 
-    def __init__(self, station: Station) -> None:
+    def __init__(self, station: Station, answering: Answering) -> None:
         self._station = station
-        self._begin = runner(station)
+        self._begin = beginning(station, answering).call
 
     async def run(self, client: Session, goal: RunTaskGoal, tell: Callable[[Msg], None]) -> RunTaskResult:
         """Begin a task as `/task/start` does and wait for its end; cancelled, it ends the task.

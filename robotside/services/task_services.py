@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import msgspec
 
+from bridge.core.robot_catalogue import Service
 from bridge.msgs.pilothouse_msgs import (
     CommandRequest,
     DeleteScheduleRequest,
@@ -17,7 +18,6 @@ from bridge.msgs.pilothouse_msgs import (
     TaskOrder,
     Waypoint,
 )
-from bridge.server.server import Service
 from robotside.control.authority import Operator
 from robotside.core.refusal import Refusal
 from robotside.services.command_service import Answering

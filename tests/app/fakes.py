@@ -13,6 +13,7 @@ from typing import Any
 import msgspec
 
 from bridge.core.network_thread import NetworkThread
+from bridge.core.robot_catalogue import Service, Session
 from bridge.msgs import Msg
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import (
@@ -60,7 +61,8 @@ from bridge.msgs.pilothouse_msgs import (
     TaskRun,
 )
 from bridge.msgs.std_msgs import Time
-from bridge.server.server import BridgeServer, Service, Session
+from bridge.server.server import BridgeServer
+from robotside.door.door import Door
 
 __all__ = ["FakeRobot"]
 
@@ -157,7 +159,8 @@ class FakeRobot:
             for name, kind in REQUESTS.items()
         ]
         services.append(Service("/events/get", "x/z", GetEventsRequest, GetEventsResponse, self._tell_events))
-        self._server = BridgeServer(services=services, on_message=self._hear, now=self._now)
+        door = Door(services=services, on_message=self._hear, now=self._now)
+        self._server = BridgeServer(door, now=self._now)
         self.network.start(self._server.start("127.0.0.1", self.port)).result(5)
         self.port = self._server.port
         self.publish("/robot/info", RobotInfo(name="Fake-1", kind="wheels", max_speed=0.8, max_yaw_rate=1.5))

@@ -8,8 +8,10 @@ from contextlib import asynccontextmanager
 from typing import Any
 
 from bridge.client.client import BridgeClient, LinkState, Phase
+from bridge.core.robot_catalogue import Service
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
-from bridge.server.server import BridgeServer, Service
+from bridge.server.server import BridgeServer
+from robotside.door.door import Door
 
 PATIENCE = 5.0
 """How long a test waits for what must happen [s]; a fault, not a delay, uses it up."""
@@ -111,12 +113,21 @@ def service(name: str = "/stop", call: Callable[..., Any] = accept) -> Service:
     return Service(name, "pilothouse_msgs/Command", CommandRequest, CommandResponse, call)
 
 
+def door(options: dict[str, Any]) -> Door:
+    """The door of a robot with a STOP, made of those of the options that are a door's; the server's are left."""
+    parts = ("services", "actions", "topics", "on_message", "on_demand", "on_gone", "now")
+    own = {part: options[part] for part in parts if part in options}
+    for part in own:
+        if part != "now":
+            del options[part]
+    return Door(**{"services": [service()], "on_message": Record()} | own)
+
+
 @asynccontextmanager
 async def server(**options: Any) -> AsyncIterator[BridgeServer]:
     """A server on a free port of loopback."""
-    options = {"services": [service()], "on_message": Record()} | options
     port = options.pop("port", 0)
-    made = BridgeServer(**options)
+    made = BridgeServer(door(options), **options)
     await made.start(port=port)
     try:
         yield made

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import asyncio
 
+from bridge.core.robot_catalogue import Action
 from bridge.msgs import Msg
-from bridge.server.server import Action
 from tests.bridge.wires import server
 from tests.clients.peers import BOTH, peer
 

@@ -10,8 +10,8 @@ from pathlib import Path
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Event, Manoeuvre
 from robotside.core.config import NOTHING_SET, Config
+from robotside.door.station_door import StationDoor
 from robotside.motion.manoeuvres import Order
-from robotside.services.stop_services import services
 from robotside.station.station import Station
 from sim.physics.backend_bullet import State
 from sim.robot import make
@@ -54,7 +54,7 @@ class Hand:
         )
         self.events: list[str] = []
         self.station.bus.subscribe("/events", lambda _, msg: self._hear(msg))
-        self.services = {service.name: service for service in services(self.station)}
+        self.door = StationDoor(self.station)
         self.wait(3.2)
 
     def _hear(self, msg: object) -> None:
@@ -84,7 +84,7 @@ class Hand:
     def ask(
         self, service: str, request: CommandRequest | None = None, by: FakeClient | None = None
     ) -> CommandResponse:
-        answer = self.services[service].call(by or self.anna, request or CommandRequest())  # type: ignore[arg-type]
+        answer = self.door.call(by or self.anna, service, request or CommandRequest())
         assert isinstance(answer, CommandResponse)
         return answer
 

@@ -20,9 +20,9 @@ from bridge.msgs.pilothouse_msgs import (
     Waypoint,
 )
 from robotside.core.config import NOTHING_SET, Config
+from robotside.door.station_door import StationDoor
 from robotside.records import Records
 from robotside.records.database.rows import Content, empty
-from robotside.services.stop_services import listener, services
 from robotside.station.station import Station
 from tests.fakes import FakeClient, FakeRobot
 
@@ -73,8 +73,8 @@ class Scene:
         )
         self.said: list[tuple[str, Msg]] = []
         self.station.bus.subscribe(None, lambda topic, msg: self.said.append((topic, msg)))
-        self.hear = listener(self.station)
-        self._services = {service.name: service for service in services(self.station)}
+        self.door = StationDoor(self.station)
+        self.hear = self.door.publish
 
     def client(self, name: str) -> FakeClient:
         client = FakeClient(name, self.clock)
@@ -96,7 +96,7 @@ class Scene:
         return self.station.autonomy.engine.status
 
     def ask(self, name: str, request: Msg | None = None, client: FakeClient | None = None) -> CommandResponse:
-        answer = self._services[name].call(client or self.anna, request or CommandRequest())  # type: ignore[arg-type]
+        answer = self.door.call(client or self.anna, name, request or CommandRequest())
         assert isinstance(answer, Msg)
         return answer  # type: ignore[return-value]
 

@@ -17,7 +17,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskStatus,
     Waypoint,
 )
-from robotside.services.stop_services import services
+from robotside.door.station_door import StationDoor
 from robotside.station.station import Station
 from sim.robot import SimRobot
 from tests.fakes import FakeClient
@@ -39,7 +39,7 @@ class Run:
         self.station = Station(
             robot, records_at(state), now=self.now, clock=lambda: self.now, rng=random.Random(1)
         )
-        self._services = {service.name: service for service in services(self.station)}
+        self.door = StationDoor(self.station)
         self.until(lambda: self.station.autonomy.whereabouts.pose is not None, 10.0)
 
     def until(self, done: Callable[[], bool], limit: float) -> None:
@@ -53,7 +53,7 @@ class Run:
         self.until(lambda: False, seconds)
 
     def ask(self, name: str, request: CommandRequest) -> None:
-        answer = self._services[name].call(self.anna, request)  # type: ignore[arg-type]
+        answer = self.door.call(self.anna, name, request)
         assert answer.success, answer.message  # type: ignore[union-attr]
 
     def patrol(self, points: list[Waypoint], **words: object) -> None:

@@ -7,9 +7,9 @@ from collections.abc import Awaitable
 from typing import Any
 
 from bridge.msgs import Msg
+from robotside.door.station_door import StationDoor
 from robotside.records import Records
 from robotside.records.database.rows import empty
-from robotside.services.stop_services import services
 from robotside.station.station import Station
 from tests.fakes import FakeClient, FakeRobot
 from tests.robotside.records.disk import Disk
@@ -36,7 +36,7 @@ class Slow:
         self.station = Station(
             self.robot, self.records, now=1000.0, clock=lambda: self.clock, rng=random.Random(1)
         )
-        self._services = {service.name: service for service in services(self.station)}
+        self.door = StationDoor(self.station)
         self.now = 1000.0
         self.run(5.0)
         self.write()
@@ -47,7 +47,7 @@ class Slow:
             self.station.step(self.now)
 
     def ask(self, name: str, request: Msg) -> Msg | Awaitable[Msg]:
-        return self._services[name].call(FakeClient("anna", self.clock), request)  # type: ignore[arg-type]
+        return self.door.call(FakeClient("anna", self.clock), name, request)
 
     def write(self, problem: str = "") -> None:
         while self.disk.waiting:

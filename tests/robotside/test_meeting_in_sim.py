@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from bridge.msgs.pilothouse_msgs import StartTaskRequest, TaskOrder, Waypoint
-from robotside.services.stop_services import services
+from robotside.door.station_door import StationDoor
 from robotside.station.station import Station
 from sim.robot import SimRobot, make_several
 from sim.world.tables import Start
@@ -46,9 +46,8 @@ class Meeting:
                 station.step(self.now)
 
     def send(self, number: int, goal: Waypoint) -> None:
-        offered = {service.name: service for service in services(self.stations[number])}
         order = StartTaskRequest(order=TaskOrder(task="go_to", goals=[goal]))
-        answer = offered["/task/start"].call(self.anna, order)  # type: ignore[arg-type]
+        answer = StationDoor(self.stations[number]).call(self.anna, "/task/start", order)
         assert answer.success, answer.message  # type: ignore[union-attr]
 
     def finish(self, limit: float) -> None:

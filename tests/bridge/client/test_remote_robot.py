@@ -21,7 +21,7 @@ from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, RobotInfo
 from bridge.server.server import BridgeServer
-from tests.bridge.wires import PATIENCE, service
+from tests.bridge.wires import PATIENCE, door, service
 
 
 class Served:
@@ -30,8 +30,8 @@ class Served:
     def __init__(self, **options):
         self.heard = queue.Queue()
         self.thread = NetworkThread("server")
-        options = {"services": [service()], "on_message": lambda *all: self.heard.put(all)} | options
-        self.bridge = BridgeServer(**options)
+        options = {"on_message": lambda *all: self.heard.put(all)} | options
+        self.bridge = BridgeServer(door(options), **options)
         self.thread.start(self.bridge.start(port=0)).result(PATIENCE)
         self.url = f"ws://127.0.0.1:{self.bridge.port}"
 

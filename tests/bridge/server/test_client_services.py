@@ -9,10 +9,10 @@ import pytest
 
 from bridge.core.compat import Compat
 from bridge.core.errors import Refused
+from bridge.core.robot_catalogue import Action
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from bridge.msgs.std_msgs import String
 from bridge.server import client_services
-from bridge.server.server import Action
 from tests.bridge.peers import peer
 from tests.bridge.wires import Record, server
 

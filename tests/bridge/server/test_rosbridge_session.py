@@ -20,9 +20,10 @@ from bridge.server.rosapi.parameters import Parameters
 from bridge.server.rosapi.services import Graph, RosApi
 from bridge.server.rosbridge_session import RosbridgeSession
 from bridge.server.server_context import ServerContext
-from bridge.server.service_operations import MAX_CALLS, PRIORITY_SERVICES
 from bridge.server.switchboard import Switchboard
 from bridge.server.topic_operations import MAX_READ_BYTES
+from robotside.door.calls_in_progress import MAX_CALLS
+from robotside.door.door import URGENT, Door
 from tests.bridge.server.flow.test_send_queue import FrameWriter
 from tests.bridge.wires import Clock, Record, service
 
@@ -34,21 +35,20 @@ async def never(session, request):
 class House:
     """A server without a network; `join` gives a client of it."""
 
-    def __init__(self, *services):
+    def __init__(self, *services, on_message=None):
         self.clock, self.soon, self.heard = Clock(), [], Record()
-        by_name = {each.name: each for each in services or (service("/stop"), service("/slow", never))}
-        client_services = ClientServices(by_name, {})
+        offered = services or (service("/stop"), service("/slow", never))
+        door = Door(services=offered, on_message=on_message or self.heard)
+        client_services = ClientServices(door.services, {})
         self.switchboard = Switchboard(TOPICS, lambda *_: None)
         self.context = ServerContext(
             switchboard=self.switchboard,
-            services=by_name,
-            actions={},
+            door=door,
             client_services=client_services,
             rosapi=RosApi(Graph(dict, dict, dict, dict), Parameters(), self.clock),
             reducer=MessageReducer(),
             compat=Compat(),
             now=self.clock,
-            on_message=self.heard,
         )
 
     def join(self):
@@ -73,16 +73,14 @@ def called(name, id):
 
 
 async def test_a_frame_that_takes_longer_than_its_turn_waits_for_the_next_one():
-    house = House()
-    client, _ = house.join()
-    on_message, order = house.context.on_message, []
+    order = []
 
     def slow(session, topic, msg, stamp):
         order.append(msg.linear.x)
         house.clock.time += 1.1 * TURN_TIME
-        on_message(session, topic, msg, stamp)
 
-    object.__setattr__(house.context, "on_message", slow)
+    house = House(on_message=slow)
+    client, _ = house.join()
     frame = [{"op": "publish", "topic": "/cmd_vel", "msg": {"linear": {"x": float(x)}}} for x in range(5)]
     assert not client.on_message(said(*frame))
     assert order == [0.0]
@@ -94,11 +92,8 @@ async def test_a_frame_that_takes_longer_than_its_turn_waits_for_the_next_one():
 
 
 async def test_what_a_client_left_undone_is_not_done_when_it_is_gone():
-    house = House()
+    house = House(on_message=lambda *_: setattr(house.clock, "time", house.clock.time + TURN_TIME))
     client, _ = house.join()
-    object.__setattr__(
-        house.context, "on_message", lambda *_: setattr(house.clock, "time", house.clock.time + TURN_TIME)
-    )
     frame = [{"op": "publish", "topic": "/cmd_vel"}, {"op": "subscribe", "topic": "/odom"}]
     assert not client.on_message(said(*frame))
     await client.close()
@@ -174,7 +169,7 @@ async def test_while_a_slow_stop_is_at_work_another_is_still_heard():
     await client.close()
 
 
-@pytest.mark.parametrize("name", sorted(PRIORITY_SERVICES))
+@pytest.mark.parametrize("name", sorted(URGENT))
 async def test_answers_about_stop_and_control_go_before_others_that_wait(name):
     house = House(service(name), service("/other"))
     client, writer = house.join()

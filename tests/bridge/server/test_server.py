@@ -18,6 +18,7 @@ from bridge.msgs.pilothouse_msgs import CommandResponse, ControlStatus, Event, R
 from bridge.msgs.sensor_msgs import CompressedImage, LaserScan
 from bridge.msgs.std_msgs import Header
 from bridge.server.server import BridgeServer
+from robotside.door.door import Door
 from tests.bridge.peers import bare, peer
 from tests.bridge.wires import Clock, Record, server, service, url
 
@@ -351,7 +352,7 @@ async def test_a_camera_that_does_not_exist_is_refused_with_those_that_do():
 
 async def test_a_port_that_is_taken_is_one_sentence():
     async with server() as first:
-        second = BridgeServer(services=[], on_message=print)
+        second = BridgeServer(Door())
         with pytest.raises(BridgeError, match=f"Port {first.port} on 127.0.0.1 is taken by another program"):
             await second.start(port=first.port)
 
@@ -374,7 +375,7 @@ async def test_closing_tells_the_clients_and_ends_quickly_even_if_one_does_not_r
 
 
 async def test_what_was_never_started_closes_too():
-    await BridgeServer(services=[], on_message=print).close()
+    await BridgeServer(Door()).close()
 
 
 async def test_plain_http_on_the_port_is_answered_and_not_logged_as_a_fault(caplog):

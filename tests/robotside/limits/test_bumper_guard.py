@@ -10,10 +10,10 @@ import pytest
 
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, RobotInfo
+from robotside.door.station_door import StationDoor
 from robotside.limits.bumper_guard import kept_off
 from robotside.motion.manoeuvres import Order
 from robotside.motion.measured import Measured
-from robotside.services.stop_services import listener
 from sim.robot import ROBOTS, SimRobot
 from sim.simulation.simulation import Simulation
 from tests.robotside.sim_run import Run
@@ -77,7 +77,7 @@ def pushed(tmp_path: Path) -> Iterator[Make]:
 
     def make(name: str) -> Pushed:
         run = Pushed(SimRobot(Simulation(room(8.0, 8.0), ROBOTS[name], noise=False), camera=False), tmp_path)
-        run.hear = listener(run.station)
+        run.hear = StationDoor(run.station).publish
         made.append(run)
         return run
 

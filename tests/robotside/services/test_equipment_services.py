@@ -63,9 +63,9 @@ def move(run: Hand, order: ArmOrder) -> str:
 
 
 def test_only_what_the_robot_has_is_offered(hand: Make, tmp_path: Path) -> None:
-    assert OURS & set(hand("patrol", "arm", "lights").services) == OURS
-    assert OURS & set(hand("scout", "lights").services) == {"/lights/set", "/robot/reset"}
-    assert not OURS & set(Scene(FakeRobot(), tmp_path)._services)
+    assert OURS & set(hand("patrol", "arm", "lights").door.services) == OURS
+    assert OURS & set(hand("scout", "lights").door.services) == {"/lights/set", "/robot/reset"}
+    assert not OURS & set(Scene(FakeRobot(), tmp_path).door.services)
 
 
 def test_lights_are_set_and_their_brightness_is_judged(hand: Make) -> None:

@@ -27,7 +27,8 @@ from bridge.msgs.pilothouse_msgs import (
     TaskOrder,
     Waypoint,
 )
-from robotside.services.stop_services import runner
+from robotside.services.command_service import Answering
+from robotside.services.task_actions import beginning
 from tests.fakes import FakeClient
 from tests.robotside.slow import FULL, Slow
 
@@ -83,7 +84,9 @@ async def test_on_a_full_disk_a_task_begins_and_its_answer_says_what_is_not_kept
         "home": lambda: slow.ask("/task/go_home", sent()),
         "resume": lambda: slow.ask("/task/resume", sent()),
         "auto": lambda: slow.ask("/mode/set", sent(SetModeRequest, mode="AUTO")),
-        "goal": lambda: runner(slow.station)(FakeClient("anna", slow.clock), sent(RunTaskGoal)),  # type: ignore[arg-type]
+        "goal": lambda: beginning(slow.station, Answering(slow.station)).call(
+            FakeClient("anna", slow.clock), sent(RunTaskGoal)
+        ),  # type: ignore[arg-type]
     }
     answer = await done(slow, orders[how](), FULL)
     assert answer.success

@@ -20,7 +20,6 @@ from bridge.msgs.pilothouse_msgs import (
     TaskOrder,
 )
 from robotside.core.pose2 import ORIGIN
-from robotside.services.task_actions import actions
 from tests.bridge.wires import Record
 from tests.fakes import FakeClient, FakeRobot
 from tests.robotside.gateways.test_station_server import connected, serving
@@ -31,10 +30,11 @@ class Goal:
     """A goal under way."""
 
     def __init__(self, scene: Scene, client: FakeClient | None = None, **words: Any) -> None:
-        (action,) = actions(scene.station)
         self.told: list[Msg] = []
         goal = RunTaskGoal(**words)
-        self.work = asyncio.ensure_future(action.start(client or scene.anna, goal, self.told.append))  # type: ignore[arg-type]
+        self.work = asyncio.ensure_future(
+            scene.door.run(client or scene.anna, "/task/run", goal, self.told.append)
+        )
 
     async def begun(self) -> Goal:
         await asyncio.sleep(0)

@@ -10,8 +10,8 @@ import pytest
 from bridge.core.topics import TOPICS
 from bridge.msgs.pilothouse_msgs import RobotInfo
 from robotside.core.bus import Bus
-from robotside.gateways.offered_topics import Offered
-from robotside.services.stop_services import services
+from robotside.door.offered_topics import Offered
+from robotside.services.catalogue import catalogue
 from robotside.station.station import Station
 from sim.robot import ROBOTS, home_of, make
 from tests.fakes import FakeRobot
@@ -61,7 +61,7 @@ def offered(state: Path, name: str, *payloads: str) -> tuple[set[str], set[str]]
     robot = make(name, home_of([name]), payloads=payloads)
     station = Station(robot, records_at(state), now=0.0, clock=lambda: 0.0, rng=random.Random(1))
     offers = Offered(station.info, station.bus, simulated=station.robot.resettable)
-    found = {topic for topic in NAMES if offers(topic)}, {service.name for service in services(station)}
+    found = {topic for topic in NAMES if offers(topic)}, set(catalogue(station)[0])
     station.close()
     return found
 

@@ -12,7 +12,7 @@ from bridge.msgs.pilothouse_msgs import MotorArray, SonarRing
 from bridge.msgs.sensor_msgs import Range, Temperature
 from bridge.msgs.std_msgs import Header, Time
 from robotside.core.bus import Bus
-from robotside.gateways.derived_topics import MOST, Apart
+from robotside.door.derived_topics import MOST, Apart
 
 
 class Table:

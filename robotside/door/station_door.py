@@ -1,0 +1,96 @@
+"""The door of a station: its services and actions, what it listens to, and STOP for who has no session."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from bridge.core.topics import TOPICS, camera_topics
+from bridge.msgs import Msg
+from bridge.msgs.pilothouse_msgs import CommandResponse, RobotInfo
+from robotside.core.notice import coded
+from robotside.core.refusal import Refusal
+from robotside.door.derived_topics import Apart
+from robotside.door.door import Door
+from robotside.door.offered_topics import Offered
+from robotside.services.catalogue import catalogue
+from robotside.services.command_messages import listener
+from robotside.services.stop_services import press_stop
+from robotside.station.station import Station
+
+__all__ = ["Health", "StationDoor"]
+
+
+class Health(NamedTuple):
+    """How a station is, for who watches over many."""
+
+    robot: str
+    """Its name."""
+    boot: str
+    """The identity of its log of events; another one after the log was lost."""
+    task: str
+    """The task that runs or ran last, one of `bridge.msgs.pilothouse_msgs.TASKS`; empty for none."""
+    state: str
+    """Of the task, as in TaskStatus."""
+    position_sure: bool
+    """It is certain where it is."""
+
+
+class StationDoor(Door):
+    """The door of one station; every gateway stands behind the same one."""
+
+    def __init__(self, station: Station) -> None:
+        """Derived topics are those of the motors that the robot has told of by now."""
+        self._station = station
+        self._derived = Apart(station.bus)
+        services, actions = catalogue(station)
+        super().__init__(
+            services=services.values(),
+            actions=actions.values(),
+            topics=(*TOPICS, *self._derived.topics),
+            pictures=camera_topics(station.info.cameras).values(),
+            bus=station.bus,
+            now=station.clock,
+            on_message=listener(station),
+            on_demand=self._want,
+            on_gone=station.gone,
+        )
+        self.offers = Offered(station.info, station.bus, simulated=station.robot.resettable)
+        """Whether the robot has a topic of the table, by its name."""
+
+    @property
+    def info(self) -> RobotInfo:
+        """Who the robot is."""
+        return self._station.info
+
+    @property
+    def health(self) -> Health:
+        """How it is now."""
+        station, status = self._station, self._station.autonomy.engine.status
+        return Health(
+            station.info.name,
+            station.events.boot,
+            status.task,
+            status.state,
+            station.autonomy.whereabouts.sure,
+        )
+
+    def last(self, topic: str) -> Msg | None:
+        """The newest message of a topic, None when there was none."""
+        return self._station.bus.last(topic)
+
+    def stop(self, who: str) -> CommandResponse:
+        """Press STOP for `who`, who has no session; no success while the robot may not have obeyed."""
+        try:
+            return CommandResponse(True, press_stop(self._station, who))
+        except Refusal as refusal:
+            return CommandResponse(False, refusal.notice, **coded(refusal.notice))
+        finally:
+            self._station.show_control()
+
+    def close(self) -> None:
+        """Let go of the station; no other call follows."""
+        self._derived.close()
+
+    def _want(self, topic: str, wanted: bool) -> None:
+        self._derived.want(topic, wanted)
+        self._station.demand.set(topic, self, wanted)

@@ -1,0 +1,120 @@
+"""The services that store a mission, recall a kept one and give the stored one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import msgspec
+
+from bridge.core.robot_catalogue import Service
+from bridge.msgs.pilothouse_msgs import (
+    MAX_DWELL,
+    MAX_LAPS,
+    MOTIONS,
+    REACTIONS,
+    GetMissionRequest,
+    GetMissionResponse,
+    Mission,
+    RecallMissionRequest,
+    RecallMissionResponse,
+    SetMissionRequest,
+)
+from bridge.msgs.std_msgs import Time
+from robotside.control.authority import Operator
+from robotside.core.refusal import Refusal
+from robotside.core.text import plain
+from robotside.services.command_service import Answering
+from robotside.services.preconditions import Permits
+from robotside.station.station import Station
+
+__all__ = ["mission_services"]
+
+MOST_POINTS = 500
+"""Waypoints that one mission may have."""
+
+LONGEST_NAME = 60
+"""Characters kept of a waypoint's name."""
+
+
+def mission_services(station: Station, answering: Answering) -> Iterable[Service]:
+    """The services about the mission of `station`."""
+    orders, service = _MissionOrders(station), answering.service
+    yield service("/mission/set", orders.set_mission, "SetMission", SetMissionRequest)
+    yield service(
+        "/mission/recall", orders.recall, "RecallMission", RecallMissionRequest, RecallMissionResponse
+    )
+    yield Service(
+        "/mission/get", "pilothouse_msgs/GetMission", GetMissionRequest, GetMissionResponse, orders.mission
+    )
+
+
+class _MissionOrders:
+    """What each service does; a method returns the sentence of success or raises Refusal or NotRecorded."""
+
+    def __init__(self, station: Station) -> None:
+        self._station, self._permits = station, Permits(station)
+
+    def set_mission(self, client: Operator, asked: SetMissionRequest) -> str:
+        """Check a mission and store it."""
+        self._permits.may_set_off(client, self._station.autonomy.patrols_mission)
+        self._store(asked.mission)
+        count = len(asked.mission.waypoints)
+        return f"Stored {count} {'point' if count == 1 else 'points'}{self._later(asked.mission)}."
+
+    def recall(self, client: Operator, asked: RecallMissionRequest) -> str:
+        """Make a kept mission the stored one, as if it was set anew."""
+        self._permits.may_set_off(client, self._station.autonomy.patrols_mission)
+        mission = self._station.records.missions.recall(asked.name)
+        self._store(mission)
+        return f"{mission.name} is the mission now{self._later(mission)}."
+
+    def _later(self, mission: Mission) -> str:
+        """What becomes of the patrol that is under way."""
+        if not self._station.autonomy.patrols_mission:
+            return ""
+        if mission.waypoints:
+            return "; the patrol that is under way takes them over at its next point"
+        return "; the patrol that is under way keeps its own"
+
+    def _store(self, mission: Mission) -> None:
+        _check_words(mission)
+        mission = _named(mission)
+        places = [(f"Point {number}", point) for number, point in enumerate(mission.waypoints, 1)]
+        for name, place in (*places, *(("Home", home) for home in mission.home[:1])):
+            self._permits.has_map()
+            problem = self._station.fault(name, place.x, place.y)
+            if problem:
+                raise Refusal(problem)
+        stamp = Time.at(self._station.clock())
+        self._station.keep(msgspec.structs.replace(mission, stamp=stamp, home=mission.home[:1]))
+
+    def mission(self, _: Operator, __: GetMissionRequest) -> GetMissionResponse:
+        """Give the stored mission."""
+        mission = self._station.records.missions.stored
+        stored = mission.stamp.seconds > 0
+        return GetMissionResponse(True, "" if stored else "No mission was stored yet.", mission)
+
+
+def _named(mission: Mission) -> Mission:
+    """The same mission with each point's name cut to a readable line."""
+    replace = msgspec.structs.replace
+    points, home = (
+        [replace(point, name=plain(point.name, LONGEST_NAME)) for point in places]
+        for places in (mission.waypoints, mission.home[:1])
+    )
+    return replace(mission, waypoints=points, home=home)
+
+
+def _check_words(mission: Mission) -> None:
+    if mission.motion not in MOTIONS:
+        raise Refusal(f"There is no motion {mission.motion!r}; there are {', '.join(MOTIONS)}.")
+    if mission.on_intruder not in ("", *REACTIONS):
+        said = f"There is no reaction {mission.on_intruder!r} to an intruder"
+        raise Refusal(f"{said}; there are {', '.join(REACTIONS)}.")
+    if not (math.isfinite(mission.dwell) and 0 <= mission.dwell <= MAX_DWELL):
+        raise Refusal(f"The dwell must be 0 to {MAX_DWELL:.0f} s, not {mission.dwell} s.")
+    if not 0 <= mission.laps <= MAX_LAPS:
+        raise Refusal(f"The laps must be 0 to {MAX_LAPS}, not {mission.laps}.")
+    if len(mission.waypoints) > MOST_POINTS:
+        raise Refusal(f"A mission has at most {MOST_POINTS} points, not {len(mission.waypoints)}.")
