@@ -8,41 +8,28 @@ switch on a keyboard types as well; but B held, or A and B together, is STOP all
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, Literal
+from typing import Any
 
 from kivy.core.window import Window
 
 from app.core.notifications import tell
-from app.device import vibrate
 from app.inputs.base.button_presses import Press
 from app.inputs.base.text_focus import is_typing
+from app.inputs.switch_access.learned_usage import LearnedUsage
 from app.inputs.switch_access.scan.engine import Engine, Selection
 from app.inputs.switch_access.scan.plan import Planner
 from app.inputs.switch_access.scan.settings import Key, read
 from app.inputs.switch_access.scan.target import Mark
-from app.inputs.switch_access.tones import Tones
-from app.inputs.switch_access.usage import Usage
+from app.inputs.switch_access.step_feedback import StepFeedback
+from app.inputs.switch_access.typing_guard import TypingGuard, types_letters
 from app.intents.intents import Heard
 
 __all__ = ["Switches"]
 
 OTHERS = frozenset({"ctrl", "alt", "meta"})
 """With one of these held a key is a shortcut and no switch."""
-SHIFTS = frozenset(
-    ("shift", "rshift", "lctrl", "rctrl", "alt", "alt-gr", "super", "capslock", "numlock", "escape")
-)
-"""Keys that type nothing."""
-TYPES = 10.0
-"""Who typed, or touched the glass, so shortly ago [s] still types: longer, and nobody could wake the scan beside a field."""
-FELT = 0.02
-"""How long a step is felt [s]."""
-KEPT, USED = "switches", "switches_used"
-"""Names in the settings."""
-SAVED = 10
-"""After so many selections what was counted is put into the settings."""
 
 
 class Switches:
@@ -53,22 +40,15 @@ class Switches:
     def __init__(self, app: Any) -> None:
         """`app` is asked for its `settings`, `inputs`, `intents`, `methods`, `shell`, `connect` and `now`."""
         self._app = app
-        self.options, self._fault = read(app.settings.get(KEPT))
-        self._usage = Usage(app.settings.get(USED))
-        self._counted = 0
-        """Selections that are not in the settings yet."""
-        self._asked_for = Counter[str]()
-        """What the log told of intents when it was looked at last."""
-        self._tones = Tones()
+        self.options, self._fault = read(app.settings.get(self.name))
+        self._usage = LearnedUsage(app)
+        self._feedback = StepFeedback(app)
         self._engine: Engine | None = None
         self._glass: Any = None
         self._stuck: list[str] = []
         self._doing = False
         """What is marked is being done: touches made for that are no fingers."""
-        self._typed = -math.inf
-        """When somebody typed or touched the glass last [s]."""
-        self._typed_with: set[tuple[str, int, str]] = set()
-        """Switches that are down and type: only STOP comes of them."""
+        self._typing = TypingGuard()
         self._asked: Callable[[Key], object] | None = None
         """Takes the next key or button, instead of the scan."""
         self.on_selected: list[Callable[[Selection], object]] = []
@@ -93,19 +73,12 @@ class Switches:
     @property
     def standing(self) -> str:
         """How it stands, in a few words."""
-        if not self.on:
-            return "off"
-        if self.options.one:
-            return f"one switch: {_listed(self.options.b) or 'no key yet'}"
-        return f"{_listed(self.options.a) or 'no key'} next, {_listed(self.options.b) or 'no key'} does it"
+        return self.options.standing
 
     @property
     def hint(self) -> str:
         """What the switches do, as in `Tab next · Enter do it`; empty while they are off or have no keys."""
-        do = f"{_listed(self.options.b)} do it" if self.on and self.options.b else ""
-        if not do or self.options.one or not self.options.a:
-            return do
-        return f"{_listed(self.options.a)} next · {do}"
+        return self.options.hint
 
     @property
     def problem(self) -> str:
@@ -114,9 +87,7 @@ class Switches:
             return ""
         if self._stuck:
             return f"Switch {' and '.join(self._stuck)} is stuck down and is ignored until it comes up."
-        if not self.options.b:
-            return "No key is the switch that does what is marked."
-        return "" if self.options.a or self.options.one else "No key is the switch for the next one."
+        return self.options.missing
 
     def start(self) -> None:
         """Listen to the keys and buttons that are switches."""
@@ -137,17 +108,17 @@ class Switches:
             inputs.is_switch = lambda _: False
             Window.unbind(focus=self._focused, on_touch_down=self._touched, on_textinput=self._wrote)
         self._asked = None
-        self._typed_with.clear()
+        self._typing.clear()
         if self._engine is not None:
             self._engine.lost()
             self._engine.sleep()
         self._stuck = []
-        self._save_used()
+        self._usage.save()
 
     def close(self) -> None:
         """End whatever it owns."""
         self.stop()
-        self._tones.close()
+        self._feedback.close()
         if self._glass is not None:
             self._glass.close()
         self._engine = self._glass = None
@@ -171,7 +142,7 @@ class Switches:
         if fault:
             raise ValueError(fault)
         self.options = fresh
-        self._app.settings.set(KEPT, fresh.save())
+        self._app.settings.set(self.name, fresh.save())
         if self._engine is not None:
             self._engine.setup(fresh.timing, fresh.pace)
 
@@ -200,24 +171,22 @@ class Switches:
 
     def is_switch(self, press: Press) -> bool:
         """That key or button is one of the switches."""
-        return self.on and self._which(press) is not None
+        return self.on and self.options.switch_of(press.source, press.name, press.device) is not None
 
     def pressed(self, press: Press) -> bool:
         """Take it, where it is a switch and nobody types with the keyboard that it is on."""
         if self._asked is not None:
             self._give(press)
             return True
-        which = self._which(press)
+        which = self.options.switch_of(press.source, press.name, press.device)
         if which is None:
-            if press.source == "key" and press.name not in SHIFTS and is_typing():
+            if types_letters(press) and is_typing():
                 self._types()
             return False
         if press.modifiers & OTHERS:
             return False
         self._lift(press.at)
-        types = press.source == "key" and not self.awake and press.at - self._typed < TYPES and is_typing()
-        if types:
-            self._typed_with.add(press.same)
+        types = not self.awake and is_typing() and self._typing.takes(press)
         self.engine.press(which, press.same, press.at, only_stop=types)
         return not types
 
@@ -228,7 +197,11 @@ class Switches:
 
     def _give(self, press: Press) -> None:
         """To whoever asked for a key; one that is a switch is STOP all the same when it is held."""
-        which, take, self._asked = self._which(press), self._asked, None
+        which, take, self._asked = (
+            self.options.switch_of(press.source, press.name, press.device),
+            self._asked,
+            None,
+        )
         if which is not None:
             self.engine.press(which, press.same, press.at, only_stop=True)
         if take is not None:
@@ -236,32 +209,24 @@ class Switches:
 
     def _lift(self, now: float) -> None:
         """Switches that typed and are up: who takes no press is not told of its end."""
-        if not self._typed_with:
-            return
-        down = {press.same for press in self._app.inputs.presses.down}
-        for same in list(self._typed_with):
-            if same not in down:
-                self._typed_with.discard(same)
-                self.engine.release(same, now)
+        for same in self._typing.lifted(self._app.inputs.presses.down):
+            self.engine.release(same, now)
 
     def _types(self) -> None:
         """Somebody types, or has a finger on the glass: nothing is marked."""
-        self._typed = self._app.now()
+        self._typing.note(self._app.now())
         if self._engine is not None and self._engine.awake:
             self._engine.sleep()
 
     def _wrote(self, _: object, text: str) -> None:
         """Letters came, which a keyboard on the glass tells without keys; those of a switch are no typing."""
         down = self._app.inputs.presses.down
-        if text.strip() and not any(self._which(press) for press in down) and is_typing():
+        if (
+            text.strip()
+            and not any(self.options.switch_of(press.source, press.name, press.device) for press in down)
+            and is_typing()
+        ):
             self._types()
-
-    def _which(self, press: Press) -> Literal["A", "B"] | None:
-        if any(key.fits(press.source, press.name, press.device) for key in self.options.b):
-            return "B"
-        if any(key.fits(press.source, press.name, press.device) for key in self.options.a):
-            return "A"
-        return None
 
     def _focused(self, _: object, focus: bool) -> None:
         if self._engine is not None:
@@ -284,7 +249,9 @@ class Switches:
     def do(self, chosen: Selection) -> None:
         """Do it, by the entry for what is chosen on the glass: `app.intents.intents` says what is barred."""
         target, now = chosen.target, self._app.now()
-        self._count(chosen)
+        for notify in list(self.on_selected):
+            notify(chosen)
+        self._usage.count(chosen)
         ended = chosen.ended if math.isfinite(chosen.ended) else now
         heard = Heard(target.intent, self.name, began=chosen.began, ended=ended, said=target.words)
         self._doing = True
@@ -297,13 +264,7 @@ class Switches:
 
     def stepped(self, sound: str, mark: Mark | None) -> None:
         """Let it be heard, felt and spoken."""
-        if self.options.tones:
-            self._tones.play(sound)
-        if self.options.vibrates:
-            vibrate(FELT)
-        talk = getattr(self._app, "talk", None)
-        if self.options.spoken and talk is not None and mark is not None:
-            talk.say(mark.words)
+        self._feedback.step(sound, mark, self.options)
 
     def stuck(self, switch: str, stuck: bool) -> None:
         """Say it, once each."""
@@ -314,40 +275,8 @@ class Switches:
             self._stuck.remove(switch)
             self._say(f"Switch {switch} works again.", "info")
 
-    # what is learned
-
-    def _count(self, chosen: Selection) -> None:
-        for hear in list(self.on_selected):
-            hear(chosen)
-        if self._log is not None and self._log.on:
-            self._log.tracks.picked(chosen.target.words, chosen.presses, chosen.since, self._app.now())
-        self._usage.used(chosen.place, chosen.target.name)
-        self._counted += 1
-        if self._counted >= SAVED:
-            self._save_used()
-
-    @property
-    def _log(self) -> Any:
-        """The response log; None where the app keeps none."""
-        return self._app.methods.get("log")
-
-    def _save_used(self) -> None:
-        """With what the log says was asked for by whichever method: by switches it is as likely to be."""
-        asked = self._log.usage() if self._log is not None else Counter[str]()
-        fresh, self._asked_for = asked - self._asked_for, asked
-        for intent, times in fresh.items():
-            self._usage.used("", intent, times)
-        if self._counted or fresh:
-            self._counted = 0
-            self._app.settings.set(USED, self._usage.save())
-
     def _say(self, text: str, level: str = "warn") -> None:
         tell(self._app, text, level, self.name)
-
-
-def _listed(keys: tuple[Key, ...]) -> str:
-    """The first of them in words: the others stand in the pane."""
-    return keys[0].words if keys else ""
 
 
 class _Desk:

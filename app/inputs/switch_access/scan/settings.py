@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
-from typing import Any
+from typing import Any, Literal
 
 from app.core.checked_settings import number, shown
 from app.inputs.switch_access.scan.presses import Timing
@@ -90,9 +90,42 @@ class Options:
         """For the mark."""
         return Pace(self.one, self.interval, self.first, self.loops)
 
+    @property
+    def standing(self) -> str:
+        """How the switches stand, in a few words."""
+        if not self.on:
+            return "off"
+        if self.one:
+            return f"one switch: {_first(self.b) or 'no key yet'}"
+        return f"{_first(self.a) or 'no key'} next, {_first(self.b) or 'no key'} does it"
+
+    @property
+    def hint(self) -> str:
+        """What the switches do, as in `Tab next · Enter do it`; empty while they are off or have no keys."""
+        do = f"{_first(self.b)} do it" if self.on and self.b else ""
+        return do if not do or self.one or not self.a else f"{_first(self.a)} next · {do}"
+
+    @property
+    def missing(self) -> str:
+        """Which switch has no key, as one sentence; empty where none is missing."""
+        if not self.b:
+            return "No key is the switch that does what is marked."
+        return "" if self.a or self.one else "No key is the switch for the next one."
+
+    def switch_of(self, source: str, name: str, device: str) -> Literal["A", "B"] | None:
+        """The switch that a key or a button is; None where it is none."""
+        if any(key.fits(source, name, device) for key in self.b):
+            return "B"
+        return "A" if any(key.fits(source, name, device) for key in self.a) else None
+
     def save(self) -> dict[str, Any]:
         """As JSON values."""
         return asdict(self)
+
+
+def _first(keys: tuple[Key, ...]) -> str:
+    """The first of them in words: the others stand in the pane."""
+    return keys[0].words if keys else ""
 
 
 DEFAULTS = Options()

@@ -14,7 +14,8 @@ from app.inputs.switch_access.scan.engine import Engine, Selection
 from app.inputs.switch_access.scan.plan import Planner
 from app.inputs.switch_access.scan.settings import Key
 from app.inputs.switch_access.scan.target import Mark, Target
-from app.inputs.switch_access.switches import TYPES, Switches
+from app.inputs.switch_access.switches import Switches
+from app.inputs.switch_access.typing_guard import TYPING_TIME
 from app.intents.intents import Intents
 from app.intents.method_permits import Permits
 
@@ -179,7 +180,7 @@ def test_who_typed_or_touched_the_glass_some_time_ago_keeps_nobody_from_waking_t
     hand.typing = True
     hand.press("w")
     hand.switches._touched()
-    hand.wait(TYPES + 0.1)
+    hand.wait(TYPING_TIME + 0.1)
     assert hand.press("tab")
     assert hand.switches.awake
 
