@@ -24,7 +24,7 @@ __all__ = ["MADE_BY", "Method", "Methods"]
 log = logging.getLogger(__name__)
 
 MADE_BY: dict[str, str] = {
-    "log": "app.study.response_recording:Responding",
+    "log": "app.study.response_recording:ResponseRecording",
     "talk": "app.inputs.voice.talkback:Talking",
     "voice": "app.inputs.voice.voice_input:VoiceInput",
     "shake": "app.inputs.motion.shake_input:Shaking",

@@ -14,8 +14,8 @@ def test_a_finger_and_a_voice_leave_a_line_each_with_what_the_robot_answered(dri
     driving.stage.frames(5)
     log = app.methods.get("log")
     log.tracks.close()
-    log.log.flush()
-    lines = [one for one in read(log.folder)[0] if one.kind == "command"]
+    log.archive.log.flush()
+    lines = [one for one in read(log.archive.folder)[0] if one.kind == "command"]
     stop = next(one for one in lines if one.recognised == "stop")
     assert (stop.method, stop.outcome, stop.verdict) == ("button", "accepted", "acted")
     assert stop.t_input_start <= stop.t_sent <= stop.t_ack

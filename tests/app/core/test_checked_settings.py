@@ -23,7 +23,7 @@ from app.inputs.voice.talkback import Talking
 from app.inputs.voice.voice_input import VoiceInput
 from app.intents.intents import Intents
 from app.intents.method_permits import Permits
-from app.study.response_recording import Responding
+from app.study.response_recording import ResponseRecording
 
 GARBAGE: list[Any] = [
     [],
@@ -89,7 +89,7 @@ class Desk:
             "shake": Shaking,
             "tilt": TiltInput,
             "talk": Talking,
-            "study": Responding,
+            "study": ResponseRecording,
         }
         method = kinds[name](self)
         return " ".join(method.faults) if name == "tilt" else method.mistaken

@@ -20,7 +20,7 @@ from app.link.feeds import Post
 from app.link.link import OUTCOME
 from app.study.questionnaires import BASELINE
 from app.study.response_log import Response, read
-from app.study.response_recording import SAVE_EVERY, Responding
+from app.study.response_recording import SAVE_EVERY, ResponseRecording
 from app.study.response_statistics import rates
 from app.study.study import Plan
 from app.study.study_export import COLUMNS, MEANINGS, table
@@ -80,7 +80,7 @@ class Running:
             fleet=SimpleNamespace(active=False, total=0, stopped=0),
             intents=Intents(self.acts, Permits(self.settings), lambda: self.time),
         )
-        self.log = Responding(self.app, wall=lambda: 1_700_000_000.0 + self.time)
+        self.log = ResponseRecording(self.app, wall=lambda: 1_700_000_000.0 + self.time)
         self.app.methods.log = self.log
         self.log.start()
 
@@ -105,7 +105,7 @@ class Running:
 
     def kept(self, kind="command"):
         self.close()
-        return [one for one in read(self.log.folder)[0] if one.kind == kind]
+        return [one for one in read(self.log.archive.folder)[0] if one.kind == kind]
 
 
 @pytest.fixture
@@ -125,7 +125,7 @@ def test_nothing_is_kept_while_the_log_is_off_and_that_is_remembered(running):
     running.log.turn(False)
     running.hear("pause")
     running.close()
-    assert read(running.log.folder) == ([], 0)
+    assert read(running.log.archive.folder) == ([], 0)
     running.open()
     assert (running.log.on, running.log.standing) == (False, "off")
 
@@ -235,7 +235,7 @@ def test_stop_reaches_whatever_can_be_stopped_whatever_is_practised(running):
 def test_a_key_that_stops_at_once_answers_a_prompt_too(running):
     running.app.session = SimpleNamespace(
         listeners=[],
-        name="R2",
+        robot=SimpleNamespace(name="R2"),
         link=SimpleNamespace(driving=False, driven_by=Origin()),
     )
     running.log.lead(plan(methods=("keyboard",), commands={"keyboard": ("stop",)}))
@@ -320,7 +320,7 @@ def test_a_form_after_a_block_says_by_whom_and_which_method(running):
     while running.log.trials.stage != "tlx":
         running.hear(running.next().intent)
     assert running.log.fill("tlx", TLX, ["mental"], {"mental": 2.0}) == 20.0
-    (form,) = running.log.workloads.kept
+    (form,) = running.log.archive.workloads.kept
     assert (form.user, form.method, form.posture, form.order) == ("P1", "voice", "standing", ["mental"])
 
 
@@ -361,14 +361,14 @@ def test_a_zip_that_cannot_be_written_leaves_nothing_behind(running, monkeypatch
     monkeypatch.setattr("app.study.study_export._fill", fail)
     with pytest.raises(OSError, match="No space"):
         running.log.export()
-    assert list(running.log.exports.iterdir()) == []
+    assert list(running.log.archive.exports.iterdir()) == []
 
 
 def test_a_clock_that_was_lost_leaves_the_zip_whole(running, monkeypatch):
     running.hear("pause")
     running.wait(12)
-    running.log.log.flush()
-    for path in running.log.folder.glob("*.jsonl"):
+    running.log.archive.log.flush()
+    for path in running.log.archive.folder.glob("*.jsonl"):
         os.utime(path, (3600, 3600))
     running.log._wall = lambda: 3600.0
     monkeypatch.setattr("time.time", lambda: 3600.0)
@@ -381,7 +381,7 @@ def test_half_a_zip_is_never_left_whatever_failed(running, monkeypatch):
     monkeypatch.setattr("app.study.study_export._fill", lambda *_: int("no"))
     with pytest.raises(ValueError, match="invalid literal"):
         running.log.export()
-    assert list(running.log.exports.iterdir()) == []
+    assert list(running.log.archive.exports.iterdir()) == []
 
 
 def test_the_table_has_every_field_and_no_formula():
@@ -397,33 +397,33 @@ def test_all_can_be_erased_and_what_is_under_way_is_no_line_later(running):
     running.wait(12)
     running.hear("resume")
     running.log.forget()
-    assert running.log.erase() == "Everything was erased."
-    assert running.log.workloads.kept == []
+    assert running.log.archive.erase() == "Everything was erased."
+    assert running.log.archive.workloads.kept == []
     assert running.log.usage() == {}
     running.wait(12)
-    assert running.log.read() == []
+    assert running.log.archive.read() == []
 
 
 def test_of_what_was_exported_it_is_said_that_it_remains(running):
     running.log.export()
-    assert running.log.erase() == (
-        f"Everything was erased. 1 zip that was exported remains in {running.log.exports}."
+    assert running.log.archive.erase() == (
+        f"Everything was erased. 1 zip that was exported remains in {running.log.archive.exports}."
     )
 
 
 def test_forms_that_cannot_be_erased_are_said(running, monkeypatch):
     monkeypatch.setattr(
-        running.log.workloads,
+        running.log.archive.workloads,
         "_write",
-        lambda: setattr(running.log.workloads, "problem", "The disk is full."),
+        lambda: setattr(running.log.archive.workloads, "problem", "The disk is full."),
     )
     with pytest.raises(OSError, match="The disk is full"):
-        running.log.erase()
+        running.log.archive.erase()
 
 
 def test_lines_that_are_lost_are_said(running):
     assert running.log.problem == ""
-    running.log.log.dropped = 52
+    running.log.archive.log.dropped = 52
     assert running.log.problem == "52 lines of the log could not be written and are lost."
 
 

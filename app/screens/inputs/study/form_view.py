@@ -30,7 +30,7 @@ class FormView(Column):
     __events__ = ("on_done",)
 
     def __init__(self, form: str, log: Any, now: Callable[[], float], **kwargs: Any) -> None:
-        """`form` is `tlx` or `sus`; `log` is the app's `Responding`; `now` is our clock [s]."""
+        """`form` is `tlx` or `sus`; `log` is the app's `ResponseRecording`; `now` is our clock [s]."""
         super().__init__(spacing="10dp", **kwargs)
         self.form, self._log, self._now = form, log, now
         self.task: str = log.due

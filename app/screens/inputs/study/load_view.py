@@ -21,7 +21,7 @@ class LoadView(Column):
     """Two buttons and two histories; while a form is open the form."""
 
     def __init__(self, log: Any, now: Callable[[], float], **kwargs: Any) -> None:
-        """`log` is the app's `Responding`."""
+        """`log` is the app's `ResponseRecording`."""
         super().__init__(spacing="10dp", **kwargs)
         self._log, self._now = log, now
         self.form: FormView | None = None
@@ -90,7 +90,7 @@ class LoadView(Column):
             button.text = f"Go on with the {words}" if form in self._begun else f"Fill in the {words}"
         if self.form is not None:
             self.form.tick()
-        kept = self._log.workloads.kept
+        kept = self._log.archive.workloads.kept
         for history, form in ((self.loads, "tlx"), (self.uses, "sus")):
             history.scores = [(_name(one), one.score) for one in kept if one.form == form]
 

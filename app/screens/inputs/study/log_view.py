@@ -83,7 +83,7 @@ class LogView(Column):
         sharing: Sharing | None = None,
         **kwargs: Any,
     ) -> None:
-        """`log` is the app's `Responding`; `ask(job, then)` has a job done elsewhere and its result told.
+        """`log` is the app's `ResponseRecording`; `ask(job, then)` has a job done elsewhere and its result told.
 
         `sharing` hands a zip to another app; None where its folder can be looked into.
         """
@@ -145,12 +145,12 @@ class LogView(Column):
         """Come onto the glass: what is kept is read."""
         self._busy = ""
         self._ask_for_lines()
-        self.zips.show(self._log.zips())
+        self.zips.show(self._log.archive.zips())
         self.tick()
 
     def _ask_for_lines(self) -> None:
         self._busy, self._known, self._since = "read", self._log.lines, self._now()
-        self._ask(self._log.read, self._read)
+        self._ask(self._log.archive.read, self._read)
 
     def leave(self) -> None:
         """Leave the glass."""
@@ -227,7 +227,7 @@ class LogView(Column):
                 self.said.text, self.said.role = f"{failed}: {why}.", "warn"
             else:
                 self.said.text, self.said.role = done(result), "ok"
-            self.zips.show(self._log.zips())
+            self.zips.show(self._log.archive.zips())
 
         self._ask(job, then)
 
@@ -238,7 +238,7 @@ class LogView(Column):
         return f"Written: {path if self._sharing is None else path.name}"
 
     def _share(self) -> None:
-        sharing, zips = self._sharing, self._log.zips()
+        sharing, zips = self._sharing, self._log.archive.zips()
         if sharing is not None and zips:
             said = f"{zips[-1].name}: its copy is in {sharing.where}."
             self._work("Copying …", lambda: sharing.share(zips[-1]), lambda _: said, "It is not shared")
@@ -247,7 +247,7 @@ class LogView(Column):
         def job() -> str:
             if self._sharing is not None:
                 self._sharing.forget()
-            return str(self._log.discard())
+            return str(self._log.archive.discard())
 
         self._work("Deleting …", job, str, "They are not deleted")
 
@@ -258,7 +258,7 @@ class LogView(Column):
         elif self._busy != "file":
             self._sure = -math.inf
             self._log.forget()
-            self._work("Erasing …", self._log.erase, self._erased, "It is not erased")
+            self._work("Erasing …", self._log.archive.erase, self._erased, "It is not erased")
         self.tick()
 
     def _erased(self, said: str) -> str:

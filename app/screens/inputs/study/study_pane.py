@@ -49,7 +49,7 @@ class StudyPane(BoxLayout):
 
     @property
     def log(self) -> Any:
-        """The app's `Responding`."""
+        """The app's `ResponseRecording`."""
         return self.app.methods.get("log")
 
     @property

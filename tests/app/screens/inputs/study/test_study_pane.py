@@ -18,7 +18,7 @@ from app.screens.inputs.study.setup_view import SetupView, commands_of
 from app.screens.inputs.study.study_pane import StudyPane
 from app.screens.inputs.study.trial_view import PRACTICE, TrialView
 from app.study.response_log import Response, ResponseLog
-from app.study.response_recording import Responding
+from app.study.response_recording import ResponseRecording
 from app.study.study import COMMANDS
 
 
@@ -62,7 +62,7 @@ class Bench:
             corner=SimpleNamespace(on_pressed=[]),
         )
         self.app.intents = Intents(Acts(), Permits(self.settings), self.app.now)
-        self.log = self.app.methods.all["log"] = Responding(self.app, wall=lambda: 1.7e9)
+        self.log = self.app.methods.all["log"] = ResponseRecording(self.app, wall=lambda: 1.7e9)
         self.log.start()
         self.pane = StudyPane(app=self.app)
         stage.show(self.pane, (500, 800))
@@ -166,7 +166,7 @@ def test_it_is_said_when_the_log_cannot_be_read(bench, monkeypatch):
         raise PermissionError(13, "Permission denied")
 
     bench.settle()
-    monkeypatch.setattr(bench.log, "read", fail)
+    monkeypatch.setattr(bench.log.archive, "read", fail)
     bench.pane.view.enter()
     bench.settle()
     assert bench.pane.view.said.text == "The log could not be read: Permission denied."
@@ -186,11 +186,11 @@ def test_everything_is_erased_only_by_a_second_press_soon_after_the_first(bench)
     bench.time += 10
     view.tick()
     view.erase.dispatch("on_release")
-    assert len(bench.log.read()) == 3
+    assert len(bench.log.archive.read()) == 3
     view.erase.dispatch("on_release")
     assert view.said.text == "Erasing …"
     bench.settle()
-    assert bench.log.read() == []
+    assert bench.log.archive.read() == []
     assert view.said.text == "Everything was erased."
 
 
@@ -198,7 +198,7 @@ def test_it_is_said_when_nothing_could_be_erased(bench, monkeypatch):
     def fail() -> str:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(bench.log, "erase", fail)
+    monkeypatch.setattr(bench.log.archive, "erase", fail)
     bench.settle()
     for _ in range(2):
         bench.pane.view.erase.dispatch("on_release")
@@ -211,7 +211,7 @@ def test_a_zip_is_written_and_told_where(bench):
     bench.pane.view.export.dispatch("on_release")
     bench.settle()
     assert bench.pane.view.said.text.startswith("Written: ")
-    assert len(list(bench.log.exports.glob("*.zip"))) == 1
+    assert len(list(bench.log.archive.exports.glob("*.zip"))) == 1
 
 
 def test_the_folder_of_what_was_exported_is_said_and_it_is_deleted_only_by_a_second_press(bench):
@@ -220,7 +220,7 @@ def test_the_folder_of_what_was_exported_is_said_and_it_is_deleted_only_by_a_sec
     assert view.zips.children == []
     view.export.dispatch("on_release")
     bench.settle()
-    assert view.zips.remark.text == f"1 zip lies in {bench.log.exports}."
+    assert view.zips.remark.text == f"1 zip lies in {bench.log.archive.exports}."
     assert view.zips.share.parent is None, "a file manager finds it"
     view.zips.away.dispatch("on_release")
     assert view.zips.away.text == "Press again: delete"
@@ -230,7 +230,7 @@ def test_the_folder_of_what_was_exported_is_said_and_it_is_deleted_only_by_a_sec
     for _ in range(2):
         view.zips.away.dispatch("on_release")
     bench.settle()
-    assert (bench.log.zips(), view.said.text, view.zips.children) == ([], "The zip was deleted.", [])
+    assert (bench.log.archive.zips(), view.said.text, view.zips.children) == ([], "The zip was deleted.", [])
 
 
 class Out:
@@ -255,9 +255,9 @@ def test_on_a_phone_the_newest_is_handed_to_another_app_and_its_copy_goes_with_i
     out = Out()
     monkeypatch.setattr("app.screens.inputs.study.study_pane.sharing", lambda: out)
     bench.pane._views.clear()
-    bench.log.exports.mkdir(parents=True, exist_ok=True)
+    bench.log.archive.exports.mkdir(parents=True, exist_ok=True)
     for name in ("study_2.zip", "study_1.zip"):
-        (bench.log.exports / name).write_bytes(b"PK")
+        (bench.log.archive.exports / name).write_bytes(b"PK")
     bench.pane._show()
     bench.settle()
     view = bench.pane.view
@@ -272,7 +272,7 @@ def test_on_a_phone_the_newest_is_handed_to_another_app_and_its_copy_goes_with_i
     for _ in range(2):
         view.zips.away.dispatch("on_release")
     bench.settle()
-    assert (out.forgot, bench.log.zips()) == (True, [])
+    assert (out.forgot, bench.log.archive.zips()) == (True, [])
 
 
 def test_what_was_to_be_read_is_read_after_a_zip_was_written_in_its_place(bench):
@@ -344,7 +344,7 @@ def test_a_study_by_buttons_runs_through_to_its_forms(bench):
         scale.answer(30)
     pane.view.hand_in.dispatch("on_release")
     bench.tick()
-    assert (pane.view.form, bench.log.workloads.scores("tlx")[-1][1]) == ("sus", 30.0)
+    assert (pane.view.form, bench.log.archive.workloads.scores("tlx")[-1][1]) == ("sus", 30.0)
     pane.view.skip.dispatch("on_release")
     bench.tick()
     assert bench.log.trials.stage == "done"
@@ -392,7 +392,7 @@ def test_a_form_that_is_left_by_back_keeps_its_answers_and_is_gone_on_with(bench
     for scale in view.form.sheet.rows.values():
         scale.answer(30)
     view.form.hand_in.dispatch("on_release")
-    assert [one.task for one in bench.log.workloads.kept] == ["patrol"]
+    assert [one.task for one in bench.log.archive.workloads.kept] == ["patrol"]
     assert bench.log.due == "go_home"
     assert view.load.text == "Fill in the workload (TLX)"
 
@@ -410,7 +410,7 @@ def test_answers_are_thrown_away_only_by_a_second_press_soon_after_the_first(ben
     assert form.skip.text == "Leave it out"
     for _ in range(2):
         form.skip.dispatch("on_release")
-    assert (view.form, bench.log.workloads.kept) == (None, [])
+    assert (view.form, bench.log.archive.workloads.kept) == (None, [])
     view.load.dispatch("on_release")
     assert view.form.sheet.answers == {}
     view.form.skip.dispatch("on_release")
