@@ -2,7 +2,7 @@
 
 import time
 
-from bridge.client.remote_robot import RemoteRobot
+from bridge.client import RemoteRobot
 from bridge.msgs.geometry_msgs import Twist
 
 with RemoteRobot("ws://127.0.0.1:9090") as robot:

@@ -4,7 +4,7 @@ from kivy.base import runTouchApp
 from kivy.clock import Clock, mainthread
 from kivy.uix.boxlayout import BoxLayout
 
-from bridge.client.remote_robot import RemoteRobot
+from bridge.client import RemoteRobot
 from widgets import Compass, Joystick
 
 

@@ -8,7 +8,7 @@ import random
 import time
 from collections.abc import Callable
 
-from bridge.client.connection import Connection, dial
+from bridge.client.connection import Connection, open_connection
 from bridge.client.reconnecting import Reconnecting
 from bridge.core.address import BadAddress, LinkLost
 from bridge.core.camera_frames import Frame, unpack
@@ -43,7 +43,7 @@ class CameraStream(Reconnecting):
         while True:
             attempt += 1
             try:
-                connection = await dial(self.url, OPEN_TIMEOUT, ping_interval=2.0)
+                connection = await open_connection(self.url, OPEN_TIMEOUT, ping_interval=2.0)
                 attempt = 0
                 await self._watch(connection)
             except BadAddress as error:
@@ -55,16 +55,16 @@ class CameraStream(Reconnecting):
 
     async def _watch(self, connection: Connection) -> None:
         try:
-            async for raw in connection.arriving():
+            async for raw in connection.messages():
                 try:
                     frame = unpack(raw)
                 except ProtocolError as error:
                     log.debug("%s: %s", self.url, error)
                     continue
-                connection.post(f"ack {frame.seq}")
+                connection.send(f"ack {frame.seq}")
                 self._show(frame)
         finally:
-            await connection.hang_up()
+            await connection.close()
         raise LinkLost(f"The pictures from {self.place} were cut off.")
 
     def _show(self, frame: Frame) -> None:

@@ -17,7 +17,7 @@ from websockets.protocol import State
 from bridge.core.address import LinkLost, cause, host_and_port, look_up
 from bridge.protocol import MAX_CLIENT_FRAME
 
-__all__ = ["Connection", "dial"]
+__all__ = ["Connection", "open_connection"]
 
 OURS = "Pilothouse"
 """What our server calls itself."""
@@ -30,7 +30,7 @@ _RESET = struct.pack("ii", 1, 0)
 
 
 class Connection:
-    """One WebSocket, open from the start. Owned by whoever dialled; `hang_up` ends it."""
+    """One WebSocket, open from the start. Owned by whoever dialled; `close` ends it."""
 
     def __init__(self, ws: ClientConnection, address: tuple[str, int]) -> None:
         self.address = address
@@ -38,8 +38,8 @@ class Connection:
         self._ws = ws
         self._socket: socket.socket = ws.transport.get_extra_info("socket")
         self._pinging: asyncio.Task[None] | None = None
-        self._sounding: asyncio.Task[None] | None = None
-        self._sounded = 0.0
+        self._probe: asyncio.Task[None] | None = None
+        self._probed = 0.0
 
     @property
     def ours(self) -> bool:
@@ -67,7 +67,7 @@ class Connection:
         """So much waits in the socket that nothing more is to be put behind it."""
         return self._ws.transport.get_write_buffer_size() > _MAX_UNSENT_BYTES
 
-    def post(self, text: str) -> bool:
+    def send(self, text: str) -> bool:
         """Send a text now; False when it is closed."""
         if self._ws.state is not State.OPEN:
             return False
@@ -79,34 +79,34 @@ class Connection:
         if self._pinging is None or self._pinging.done():
             self._pinging = asyncio.create_task(self._ping(answered))
 
-    def sound(self, now: float) -> None:
+    def probe(self, now: float) -> None:
         """Ask the other end, at `now` [s], to answer when it has read what was sent; does nothing while it owes an answer."""
-        if self._sounding is None or self._sounding.done():
-            self._sounded = now
-            self._sounding = asyncio.create_task(self._ping(lambda: None))
+        if self._probe is None or self._probe.done():
+            self._probed = now
+            self._probe = asyncio.create_task(self._ping(lambda: None))
 
-    def unread(self, now: float) -> float:
+    def unread_time(self, now: float) -> float:
         """For how long it has owed that answer [s]; 0 when it owes none."""
-        owes = self._sounding is not None and not self._sounding.done()
-        return now - self._sounded if owes else 0.0
+        owes = self._probe is not None and not self._probe.done()
+        return now - self._probed if owes else 0.0
 
     async def _ping(self, answered: Callable[[], object]) -> None:
         with contextlib.suppress(ConnectionClosed):
             await (await self._ws.ping())
             answered()
 
-    async def arriving(self) -> AsyncIterator[bytes]:
+    async def messages(self) -> AsyncIterator[bytes]:
         """What comes, text and binary alike as bytes, until the connection ends, however it ends."""
         with contextlib.suppress(ConnectionClosed):
             while True:
                 yield await self._ws.recv(decode=False)
 
-    async def hang_up(self, *, lost: bool = False) -> None:
+    async def close(self, *, lost: bool = False) -> None:
         """Close it; 0.2 s at most, even when nothing listens at its other end any more.
 
         When it is `lost` the system is told to throw away what it could not deliver yet: it would arrive late.
         """
-        asked = [task for task in (self._pinging, self._sounding) if task is not None]
+        asked = [task for task in (self._pinging, self._probe) if task is not None]
         for task in asked:
             task.cancel()
         await asyncio.gather(*asked, return_exceptions=True)
@@ -135,7 +135,7 @@ class _Acknowledging(ClientConnection):
         super().data_received(data)
 
 
-async def dial(url: str, open_timeout: float, *, ping_interval: float | None = None) -> Connection:
+async def open_connection(url: str, open_timeout: float, *, ping_interval: float | None = None) -> Connection:
     """Open a WebSocket; LinkLost or BadAddress with the reason when that fails.
 
     `open_timeout` is how long looking up the name may take, and then opening the connection [s]. With `ping_interval` [s] it

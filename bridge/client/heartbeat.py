@@ -40,8 +40,8 @@ class Heartbeat:
         on_robot: Callable[[], object],
     ) -> None:
         """`on_robot` is called once, when the other end has shown to be a robot's server."""
-        self.pings = PingStatistics()
-        self.life = Liveness(place, connection.ours, now())
+        self.statistics = PingStatistics()
+        self.liveness = Liveness(place, connection.ours, now())
         self._connection = connection
         self._session = session
         self._send = send
@@ -49,52 +49,52 @@ class Heartbeat:
         self._now = now
         self._network = network
         self._on_robot = on_robot
-        self._told = False
-        self._asked: deque[Id] = deque()
+        self._notified = False
+        self._time_questions: deque[Id] = deque()
 
     async def run(self) -> None:
         """Ping; raises LinkLost when the link is silent, was cut off by a change of the network, or never was a robot's."""
         changes = NetworkChanges(self._network, self._connection.address)
         while True:
-            self._beat()
+            self._ping()
             await asyncio.sleep(PING_PERIOD)
             now, local = self._now(), self._connection.local
             if local and not self._network.has(local):
                 raise LinkLost(f"The network changed: this device is no longer {local}.")
-            if changes.seen():
-                self.life.alert(now)
-            self.life.check(now)
-            self._tell()
+            if changes.has_changed():
+                self.liveness.alert(now)
+            self.liveness.check(now)
+            self._notify()
 
-    def _beat(self) -> None:
-        ping = self.pings.send(self._now())
+    def _ping(self) -> None:
+        ping = self.statistics.on_sent(self._now())
         if not self._connection.ours:
-            self._connection.ping(lambda: self._ponged(ping))
-        if not self.life.beat():
+            self._connection.ping(lambda: self._on_pong(ping))
+        if not self.liveness.should_ask_time():
             return
-        op = self._session.call("/rosapi/get_time", b"{}", lambda found: self._answered(ping, found))
-        self._asked.append(op.id)
-        if len(self._asked) > _MAX_TIME_QUESTIONS:
-            self._session.calls.forget(self._asked.popleft())
+        op = self._session.call("/rosapi/get_time", b"{}", lambda found: self._on_time(ping, found))
+        self._time_questions.append(op.id)
+        if len(self._time_questions) > _MAX_TIME_QUESTIONS:
+            self._session.calls.forget(self._time_questions.popleft())
         self._send(op)
 
-    def _ponged(self, ping: Ping) -> None:
+    def _on_pong(self, ping: Ping) -> None:
         now = self._now()
-        self.life.pong(now)
+        self.liveness.on_pong(now)
         if math.isnan(ping.rtt):
-            self.pings.answer(ping, now, math.nan)
+            self.statistics.on_answer(ping, now, math.nan)
 
-    def _answered(self, ping: Ping, answer: ServiceResponse | None) -> None:
+    def _on_time(self, ping: Ping, answer: ServiceResponse | None) -> None:
         if answer is None:
             return
         told = _time_in(answer)
-        self.pings.answer(ping, self._now(), told)
-        self.life.time(not math.isnan(told))
-        self._tell()
+        self.statistics.on_answer(ping, self._now(), told)
+        self.liveness.on_time(not math.isnan(told))
+        self._notify()
 
-    def _tell(self) -> None:
-        if self.life.robot and not self._told:
-            self._told = True
+    def _notify(self) -> None:
+        if self.liveness.robot and not self._notified:
+            self._notified = True
             self._on_robot()
 
 

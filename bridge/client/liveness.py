@@ -45,7 +45,7 @@ class Liveness:
         self._pong = False
         self._beats = -1
 
-    def beat(self) -> bool:
+    def should_ask_time(self) -> bool:
         """Count one ping; whether it is to ask for the time."""
         self._beats += 1
         if self.ours:
@@ -56,31 +56,31 @@ class Liveness:
             self._beats % (_TIME_QUESTION_INTERVAL if self.tells_time else _RARE_TIME_QUESTION_INTERVAL) == 0
         )
 
-    def heard(self, now: float) -> None:
+    def on_message(self, now: float) -> None:
         """Something came."""
         self._heard = now
         self._alert = math.inf
 
-    def pong(self, now: float) -> None:
+    def on_pong(self, now: float) -> None:
         """A WebSocket ping was answered."""
-        self.heard(now)
+        self.on_message(now)
         self._pong = True
 
     @property
-    def pongs(self) -> bool:
+    def answers_pings(self) -> bool:
         """It answers pings of WebSocket."""
         return self._pong
 
-    def answered(self) -> None:
+    def on_answer(self) -> None:
         """A question of ours was answered, or something came that we subscribed."""
         self._answers = True
 
-    def time(self, known: bool) -> None:
+    def on_time(self, known: bool) -> None:
         """The question for the time was answered; `known` tells whether with a time."""
         self.tells_time = known
         self.robot = True
 
-    def strange(self) -> None:
+    def on_strange(self) -> None:
         """Something came that no robot's server sends: what is no operation, or a question that nobody may ask."""
         self._strange = True
 
@@ -88,7 +88,7 @@ class Liveness:
         """The network changed or the machine slept: the link has to show soon that it lives."""
         self._alert = min(self._alert, now)
 
-    def late(self, now: float) -> bool:
+    def is_late(self, now: float) -> bool:
         """What is sent now may wait on its way."""
         return now - self._heard > LATE_AFTER
 

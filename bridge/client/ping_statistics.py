@@ -36,13 +36,13 @@ class PingStatistics:
         """The operators' clock minus ours [s], from the ping with the shortest way; NaN until known."""
         self._last: deque[Ping] = deque(maxlen=WINDOW)
 
-    def send(self, now: float) -> Ping:
+    def on_sent(self, now: float) -> Ping:
         """Note that one was sent at `now` [s]."""
         ping = Ping(now)
         self._last.append(ping)
         return ping
 
-    def answer(self, ping: Ping, now: float, robot_time: float) -> None:
+    def on_answer(self, ping: Ping, now: float, robot_time: float) -> None:
         """Note that it was answered at `now` with `robot_time` [s], operators' clock, NaN when the robot did not say.
 
         The robot is taken to have looked at that clock half-way between question and answer.

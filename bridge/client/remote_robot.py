@@ -12,7 +12,7 @@ import contextlib
 import functools
 import threading
 from collections.abc import Callable, Coroutine
-from typing import Any, Self, TypeVar
+from typing import Any, Self, TypeVar, overload
 
 from bridge.client.client import BridgeClient, LinkState, Phase
 from bridge.client.client_goals import Goal, part_of
@@ -130,11 +130,17 @@ class RemoteRobot:
         self._published.add(topic)
         self._client.advertise(topic, type, latch=latch)
 
+    @overload
+    def call(self, service: str, request: Msg | None = None, *, timeout: float = 2.0) -> CommandResponse: ...
+
+    @overload
+    def call(self, service: str, request: Msg | None, response: type[M], *, timeout: float = 2.0) -> M: ...
+
     def call(
         self,
         service: str,
         request: Msg | None = None,
-        response: type[M] | None = None,
+        response: type[Msg] | None = None,
         *,
         timeout: float = 2.0,
     ) -> Msg:

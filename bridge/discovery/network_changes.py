@@ -69,7 +69,7 @@ class NetworkChanges:
         self._source = network.source(self._address)
         self._slept = network.slept()
 
-    def seen(self) -> bool:
+    def has_changed(self) -> bool:
         """There is a way that was not there when it was last looked at, or the machine slept since."""
         source, slept = self._network.source(self._address), self._network.slept()
         moved = source != self._source and source is not None

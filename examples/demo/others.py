@@ -6,7 +6,7 @@ import math
 import uuid
 from typing import Any
 
-from bridge.client.remote_robot import RemoteRobot
+from bridge.client import RemoteRobot
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from examples.demo.scene import Scene, Wait
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from itertools import pairwise
 from typing import Any
 
-from bridge.client.remote_robot import RemoteRobot
+from bridge.client import RemoteRobot
 from bridge.msgs import Msg
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import Bumper, Event

@@ -9,7 +9,7 @@ import time
 
 import pytest
 
-from bridge.client.remote_robot import RemoteRobot
+from bridge.client import RemoteRobot
 from bridge.msgs.geometry_msgs import Quaternion, Twist
 from bridge.msgs.sensor_msgs import Imu
 from examples.two_widgets import two_widgets

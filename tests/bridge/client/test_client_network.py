@@ -138,10 +138,10 @@ async def test_what_the_system_could_not_deliver_of_a_lost_connection_is_thrown_
 
     async with await asyncio.start_server(deaf, "127.0.0.1", 0) as listening:
         place = f"ws://127.0.0.1:{listening.sockets[0].getsockname()[1]}"
-        made = await connection.dial(place, 5.0)
+        made = await connection.open_connection(place, 5.0)
         while not made.stuck:
-            made.post("x" * 10_000)
-        await made.hang_up(lost=True)
+            made.send("x" * 10_000)
+        await made.close(lost=True)
         lost.set()
         assert await ended == "thrown away"
 
@@ -198,7 +198,7 @@ async def test_a_foreign_server_that_leaves_commands_unread_gets_no_more_of_them
     ):
         client = await made.connected()
         client.advertise("/cmd_vel", Twist)
-        await until(lambda: client._heart.life.pongs)
+        await until(lambda: client._heartbeat.liveness.answers_pings)
         cable.freeze()
         sent = []
         for _ in range(20):

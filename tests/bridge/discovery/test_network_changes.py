@@ -12,37 +12,37 @@ ROBOT = ("192.168.1.7", 9090)
 
 def test_as_long_as_nothing_changes_nothing_is_seen():
     changes = NetworkChanges(FakeNetwork(), ROBOT)
-    assert [changes.seen() for _ in range(3)] == [False, False, False]
+    assert [changes.has_changed() for _ in range(3)] == [False, False, False]
 
 
 def test_another_address_of_this_machine_on_the_way_there_is_seen_once():
     network = FakeNetwork()
     changes = NetworkChanges(network, ROBOT)
     network.address = "10.0.0.5"
-    assert [changes.seen(), changes.seen()] == [True, False]
+    assert [changes.has_changed(), changes.has_changed()] == [True, False]
 
 
 def test_a_way_that_is_gone_is_no_reason_to_hurry_but_its_return_is():
     network = FakeNetwork()
     changes = NetworkChanges(network, ROBOT)
     network.address = None
-    assert not changes.seen()
+    assert not changes.has_changed()
     network.address = "192.168.1.20"
-    assert changes.seen()
+    assert changes.has_changed()
 
 
 def test_waking_up_is_seen_once():
     network = FakeNetwork()
     changes = NetworkChanges(network, ROBOT)
     network.sleep = 30.0
-    assert [changes.seen(), changes.seen()] == [True, False]
+    assert [changes.has_changed(), changes.has_changed()] == [True, False]
 
 
 def test_a_clock_that_is_set_right_by_a_little_is_no_sleep():
     network = FakeNetwork()
     changes = NetworkChanges(network, ROBOT)
     network.sleep = 1.5
-    assert not changes.seen()
+    assert not changes.has_changed()
 
 
 def test_without_a_known_address_the_way_to_the_rest_of_the_world_counts():

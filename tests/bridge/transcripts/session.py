@@ -113,7 +113,7 @@ async def _nothing(client: BridgeClient, found: Results, quiet: float) -> None:
     stop()
     found["odom in cbor"] = len(lost)
     for text in ('{"op":"fly"}', '{"op":"set_level","level":"info","id":"s"}', "{"):
-        client._connection.post(text)  # type: ignore[union-attr]  # what no client of ours says by itself
+        client._connection.send(text)  # type: ignore[union-attr]  # what no client of ours says by itself
     found["after nonsense"] = await _asked(client, "/beep")
 
 
