@@ -14,8 +14,9 @@ from typing import TypeAlias
 from robotside.records.database.jobs import Job
 from robotside.records.database.rows import Put
 from robotside.records.database.storage import NotWritten, Storage
+from robotside.records.database.store import Store
 
-__all__ = ["AtOnce", "CallSoon", "Store", "Threaded"]
+__all__ = ["AtOnce", "CallSoon", "Threaded"]
 
 CallSoon = Callable[..., object]
 """Has a function called with its arguments in the thread of the records; may be called from any thread."""
@@ -32,31 +33,6 @@ BACKUP_PERIOD = 3600.0
 """From one backup to the next [s], if anything was written."""
 FAREWELL = 10.0
 """How long the last jobs may take at the end [s]."""
-
-
-class Store:
-    """What the thread writes to, and what else it does with it."""
-
-    def write(self, puts: list[Put]) -> None:
-        """Write rows, all or none. Raises NotWritten."""
-        raise NotImplementedError
-
-    def rebuild(self, puts: list[Put]) -> str:
-        """Start fresh in the place of a broken database, with these rows; returns what was done, as one sentence.
-
-        Raises NotWritten.
-        """
-        raise NotImplementedError
-
-    def back_up(self) -> None:
-        """Make a backup. Raises NotWritten."""
-
-    def backup_age(self) -> float:
-        """Of the newest backup [s]; infinite when there is none."""
-        return math.inf
-
-    def close(self) -> None:
-        """Let go of everything."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,8 @@ from bridge.msgs.pilothouse_msgs import Event, Place
 from robotside.records import Records
 from robotside.records.database import storage as storage_module
 from robotside.records.database.files import Files
-from robotside.records.opening import AFTER_RESTORE, CannotOpen, open_records
+from robotside.records.database.sqlite_store import AFTER_RESTORE
+from robotside.records.opening import CannotOpen, open_records
 
 OFFICE, LAB = Place(name="Office 12", x=4.0), Place(name="Lab", x=8.0)
 

@@ -6,19 +6,12 @@ import asyncio
 import math
 import shutil
 import sqlite3
-import subprocess
-import sys
 from contextlib import closing
 from pathlib import Path
 
 import msgspec
 import pytest
-from alembic import command
-from alembic.autogenerate import compare_metadata
-from alembic.config import Config as AlembicConfig
-from alembic.migration import MigrationContext
-from alembic.script import ScriptDirectory
-from sqlalchemy import create_engine, event, inspect, text
+from sqlalchemy import text
 from sqlalchemy.engine import make_url
 from sqlalchemy.exc import OperationalError
 
@@ -27,17 +20,17 @@ from bridge.msgs.diagnostic_msgs import KeyValue
 from bridge.msgs.geometry_msgs import Point
 from bridge.msgs.pilothouse_msgs import Event, Mission, Place, ScheduledTask, TaskOrder, TaskRun, Waypoint
 from bridge.msgs.std_msgs import Time
-from robotside.records import Job, Records, opening
+from robotside.records import Job, Records
+from robotside.records.database import schema
 from robotside.records.database.storage import engine_of
-from robotside.records.database.tables import Base
-from robotside.records.opening import AFTER_CRASH, CannotOpen, open_records, upgrade
+from robotside.records.opening import AFTER_CRASH, CannotOpen, open_records
 from tests.robotside.records.conftest import Open
 
 OFFICE = Place(
     name="Büro 12 🚪", kind="office", floor="1", x=4.25, y=-2.0, yaw=math.pi, tag="04:a2", note="Klopfen!"
 )
 ORDER = TaskOrder(task="go_to", goals=[Waypoint(1.0, 2.0)], speed=0.4)
-MIGRATIONS = Path(opening.__file__).with_name("database") / "migrations"
+MIGRATIONS = Path(schema.__file__).with_name("migrations")
 NOW = Time(1_795_279_047, 123_456_789)
 
 
@@ -136,51 +129,6 @@ async def test_after_a_crash_the_numbers_of_events_leave_room_for_those_that_wer
     await job.kept(10.0)
     assert [event.id for event in told] == [2 + AFTER_CRASH]
     again.close()
-
-
-async def test_the_migrations_make_the_tables_of_the_models(
-    start: Open, tmp_path: Path, url: str | None
-) -> None:
-    start().close()
-    engine = engine_of(make_url(url or f"sqlite:///{tmp_path / 'records.sqlite3'}"))
-    with engine.connect() as connection:
-        assert compare_metadata(MigrationContext.configure(connection), Base.metadata) == []
-    upgrade(engine)
-    engine.dispose()
-
-
-def test_the_newest_revision_is_the_one_that_its_file_is_named_after() -> None:
-    config = AlembicConfig()
-    config.set_main_option("script_location", str(MIGRATIONS))
-    script = ScriptDirectory.from_config(config)
-    for each in script.walk_revisions():
-        assert Path(each.path).name.startswith(f"v{each.revision}_")
-    assert opening._newest(MIGRATIONS) == script.get_current_head()
-
-
-def test_what_changes_tables_is_not_loaded_where_they_are_up_to_date(tmp_path: Path) -> None:
-    open_records(tmp_path, None, print).close()
-    program = (
-        "import sys; from pathlib import Path; from robotside.records.opening import open_records;"
-        "open_records(Path(sys.argv[1]), None, print).close(); sys.exit('alembic' in sys.modules)"
-    )
-    command = [sys.executable, "-c", program, tmp_path]
-    done = subprocess.run(command, capture_output=True, timeout=60, check=False)
-    assert done.returncode == 0
-
-
-async def test_a_database_of_a_newer_program_is_not_touched(
-    start: Open, tmp_path: Path, url: str | None
-) -> None:
-    start().close()
-    engine = create_engine(url or f"sqlite:///{tmp_path / 'records.sqlite3'}")
-    with engine.begin() as connection:
-        connection.execute(text("UPDATE alembic_version SET version_num = '0999'"))
-    engine.dispose()
-    with pytest.raises(
-        CannotOpen, match="of a newer program.*revision '0999', this program knows up to '0002'"
-    ):
-        start()
 
 
 async def test_a_commit_is_on_the_disk_and_readers_do_not_wait_for_writers(tmp_path: Path) -> None:
@@ -309,9 +257,9 @@ async def test_before_a_migration_the_database_is_copied_as_it_was(
     await fill(records)
     records.close()
     shutil.rmtree(state / "backups", ignore_errors=True)
-    shutil.copytree(MIGRATIONS, program / "database" / "migrations")
-    (program / "database" / "migrations" / "versions" / "v0003_next.py").write_text(NEXT)
-    monkeypatch.setattr(opening, "__file__", str(program / "opening.py"))
+    shutil.copytree(MIGRATIONS, program / "migrations")
+    (program / "migrations" / "versions" / "v0003_next.py").write_text(NEXT)
+    monkeypatch.setattr(schema, "__file__", str(program / "schema.py"))
     open_records(state, None, print).close()
     first = min((state / "backups").iterdir())
     with (
@@ -323,60 +271,10 @@ async def test_before_a_migration_the_database_is_copied_as_it_was(
         assert now.execute("SELECT version_num FROM alembic_version").fetchall() == [("0003",)]
 
 
-async def test_what_an_older_program_kept_is_read_as_without_codes(
-    start: Open, tmp_path: Path, url: str | None
-) -> None:
-    engine = engine_of(make_url(url or f"sqlite:///{tmp_path / 'records.sqlite3'}"))
-    config = AlembicConfig()
-    config.set_main_option("script_location", str(MIGRATIONS))
-    with engine.begin() as connection:
-        config.attributes["connection"] = connection
-        command.upgrade(config, "0001")
-        connection.execute(text("INSERT INTO facts (name, value) VALUES ('log', 'aa'), ('taken over', '1')"))
-        connection.execute(
-            text(
-                "INSERT INTO events (id, stamp, level, kind, text, acknowledged_by, acknowledged)"
-                " VALUES (7, 1, 'alarm', 'stop', 'STOP pressed by Anna.', '', 0)"
-            )
-        )
-        connection.execute(
-            text(
-                "INSERT INTO runs VALUES (3, 'hold', 1, 2, 'FAILED', 'Held up.', 0.5, 0, 'Anna', '{\"task\": \"hold\"}')"
-            )
-        )
-    engine.dispose()
-    records = start()
-    assert records.problems == []
-    (event,), (run,) = records.events.since(0, ""), records.runs.before()
-    assert (event.text, event.code, event.actor_id, event.parameters) == ("STOP pressed by Anna.", "", "", [])
-    assert (run.reason, run.code, run.actor_id, run.parameters) == ("Held up.", "", "", [])
-    records.close()
-
-
 async def test_of_two_who_write_the_second_finds_it_locked_before_it_has_looked_at_anything(
     tmp_path: Path,
 ) -> None:
     engine = engine_of(make_url(f"sqlite:///{tmp_path / 'x.sqlite3'}"), patience=0.0)
     with engine.begin(), pytest.raises(OperationalError, match="locked"), engine.begin():
         pytest.fail("it began")
-    engine.dispose()
-
-
-async def test_a_migration_that_is_cut_leaves_nothing_half_and_is_done_again(
-    tmp_path: Path, url: str | None
-) -> None:
-    engine = engine_of(make_url(url or f"sqlite:///{tmp_path / 'x.sqlite3'}"))
-    cut = [True]
-
-    @event.listens_for(engine, "before_cursor_execute")
-    def fail(_: object, __: object, statement: str, *___: object) -> None:
-        if cut and "CREATE TABLE" in statement and "runs" in statement:
-            raise RuntimeError("The power is gone.")
-
-    with pytest.raises(RuntimeError, match="The power is gone."):
-        upgrade(engine)
-    assert inspect(engine).get_table_names() == []
-    cut.clear()
-    upgrade(engine)
-    assert set(inspect(engine).get_table_names()) == {"alembic_version", *Base.metadata.tables}
     engine.dispose()
