@@ -22,13 +22,13 @@ from robotside.core.clock import RobotClock
 from robotside.core.config import BadConfig, Config
 from robotside.core.robot import Robot
 from robotside.foreign.foreign_robot import ForeignRobot
-from robotside.gateways.fleet_server import Together
-from robotside.gateways.malloc_trim import trim
-from robotside.gateways.station_server import Addresses, Serving
 from robotside.kinds.registry import kind_of
 from robotside.options import One, UserMistake
 from robotside.records.landmarks import take_over
 from robotside.records.opening import open_records
+from robotside.serving.fleet_server import Together
+from robotside.serving.malloc_trim import trim
+from robotside.serving.station_server import Addresses, Serving
 from robotside.station.station import Station
 from robotside.tasks.schedule import local_zone
 

@@ -10,7 +10,7 @@ from tests.bridge.wires import Record
 from tests.clients.peers import BOTH, both, peer
 from tests.clients.test_actions import CANCELED, SUCCEEDED
 from tests.fakes import FakeRobot
-from tests.robotside.gateways.test_station_server import serving
+from tests.robotside.serving.test_station_server import serving
 
 TASK = {"name": "/task/run", "type": "pilothouse_msgs/action/RunTask"}
 FAR, NEAR = Waypoint(6.0, 0.0), Waypoint(0.4, 0.0)

@@ -12,7 +12,7 @@ from bridge.msgs.geometry_msgs import Twist
 from tests.app.link.test_link import Operator
 from tests.fakes import FakeRobot
 from tests.robotside.foreign.test_foreign_link import until
-from tests.robotside.gateways.test_station_server import serving
+from tests.robotside.serving.test_station_server import serving
 
 AHEAD = Twist.planar(0.3, 0.0)
 

@@ -31,14 +31,14 @@ from robotside.core.robot import Robot
 from robotside.foreign.foreign_link import ForeignLink
 from robotside.foreign.foreign_robot import ForeignRobot
 from robotside.foreign.foreign_topics import Found
-from robotside.gateways.station_server import Addresses, Serving
+from robotside.serving.station_server import Addresses, Serving
 from robotside.station.station import Station
 from robotside.tasks.autonomy import CAMERA
 from tests.bridge.client.foreign_server import ForeignServer, foreign
 from tests.bridge.wires import wire
 from tests.fakes import FakeRobot
-from tests.robotside.gateways.test_station_server import connected
 from tests.robotside.scene import records_at
+from tests.robotside.serving.test_station_server import connected
 
 SPEED = Twist.planar(0.3, 0.1)
 

@@ -21,12 +21,12 @@ from bridge.msgs.pilothouse_msgs import (
 )
 from robotside.core.pose2 import ORIGIN
 from robotside.foreign.foreign_robot import ForeignRobot
-from robotside.gateways.station_server import Serving
+from robotside.serving.station_server import Serving
 from robotside.station.station import Station
 from tests.bridge.wires import Wire, wire
 from tests.fakes import FakeRobot
 from tests.robotside.foreign.test_foreign_link import order, reached, served, until
-from tests.robotside.gateways.test_station_server import connected
+from tests.robotside.serving.test_station_server import connected
 
 SPEED = Twist.planar(0.3, 0.1)
 STOPPED = "The robot's own STOP is pressed, by Fred: release it there."

@@ -22,8 +22,8 @@ from bridge.msgs.pilothouse_msgs import (
 from robotside.core.pose2 import ORIGIN
 from tests.bridge.wires import Record
 from tests.fakes import FakeClient, FakeRobot
-from tests.robotside.gateways.test_station_server import connected, serving
 from tests.robotside.scene import SQUARE, Scene
+from tests.robotside.serving.test_station_server import connected, serving
 
 
 class Goal:

@@ -27,7 +27,7 @@ from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse, Control
 from bridge.msgs.sensor_msgs import CompressedImage
 from robotside.__main__ import main
 from robotside.core.clock import RobotClock
-from robotside.gateways.station_server import Addresses, Serving
+from robotside.serving.station_server import Addresses, Serving
 from robotside.station.station import Station
 from tests.fakes import FakeRobot
 from tests.robotside.scene import records_at

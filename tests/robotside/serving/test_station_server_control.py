@@ -13,11 +13,11 @@ from websockets.asyncio.client import ClientConnection, connect
 from bridge.msgs.geometry_msgs import Twist
 from bridge.msgs.pilothouse_msgs import CommandRequest, CommandResponse
 from robotside.control.command_expiry import UNSTAMPED
-from robotside.gateways.station_server import Serving
+from robotside.serving.station_server import Serving
 from tests.bridge.wires import wire
 from tests.fakes import FakeRobot
 from tests.robotside.foreign.test_foreign_link import until
-from tests.robotside.gateways.test_station_server import connected, serving
+from tests.robotside.serving.test_station_server import connected, serving
 
 SPEED = Twist.planar(0.3, 0.1)
 

@@ -28,9 +28,9 @@ from bridge.msgs.pilothouse_msgs import (
 from bridge.msgs.sensor_msgs import Range, Temperature
 from robotside.core.clock import RobotClock
 from robotside.core.robot import Robot
-from robotside.gateways.fleet_server import Together
-from robotside.gateways.station_server import Addresses, Serving
 from robotside.records.landmarks import take_over
+from robotside.serving.fleet_server import Together
+from robotside.serving.station_server import Addresses, Serving
 from robotside.station.station import Station
 from sim.robot import make_several
 from tests.fakes import FakeRobot

@@ -8,10 +8,10 @@ from pathlib import Path
 import httpx
 import pytest
 
-from robotside.gateways import http_visit as visit
+from robotside.gateways.http import browser_connection as visit
 from tests.fakes import FakeRobot
-from tests.robotside.gateways.test_camera_streams import filming, looking
-from tests.robotside.gateways.test_station_server import serving
+from tests.robotside.gateways.http.test_camera_streams import filming, looking
+from tests.robotside.serving.test_station_server import serving
 
 
 async def end_of(reader: asyncio.StreamReader) -> bytes:

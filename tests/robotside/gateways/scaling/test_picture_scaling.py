@@ -13,8 +13,8 @@ import pytest
 from PIL import Image
 
 from bridge.core.errors import BridgeError
-from robotside.gateways import picture_scaling as pictures
-from robotside.gateways.picture_scaling import LEVELS, Pictures, Superseded, smaller
+from robotside.gateways.scaling import picture_scaling as pictures
+from robotside.gateways.scaling.picture_scaling import LEVELS, Pictures, Superseded, smaller
 
 
 def photo(width: int = 640, height: int = 480) -> bytes:

@@ -15,8 +15,8 @@ from bridge.msgs.nav_msgs import MapMetaData, OccupancyGrid
 from bridge.msgs.sensor_msgs import CompressedImage, Image, Imu, LaserScan
 from bridge.msgs.std_msgs import Header, Time
 from bridge.protocol import Reduction
-from robotside.gateways.message_reduction import reduce
-from tests.robotside.gateways.test_picture_scaling import PHOTO, size
+from robotside.gateways.scaling.message_reduction import reduce
+from tests.robotside.gateways.scaling.test_picture_scaling import PHOTO, size
 
 HEADER = Header(Time.at(12.5), "laser")
 

@@ -15,7 +15,7 @@ from bridge.msgs.arrays import Float32Array, Int8Array
 from bridge.msgs.nav_msgs import OccupancyGrid
 from bridge.msgs.sensor_msgs import CompressedImage, Image, LaserScan
 from bridge.protocol import Reduction
-from robotside.gateways.picture_scaling import QUALITY, smaller
+from robotside.gateways.scaling.picture_scaling import QUALITY, smaller
 
 __all__ = ["reduce"]
 

@@ -18,13 +18,13 @@ from bridge.msgs.sensor_msgs import CompressedImage
 from bridge.server.server import BridgeServer
 from robotside.core.clock import RobotClock
 from robotside.door.station_door import StationDoor
-from robotside.gateways.camera_streams import Streams
-from robotside.gateways.fleet_server import Served, Together
-from robotside.gateways.http_app import site
-from robotside.gateways.http_visit import Visit
-from robotside.gateways.message_reduction import reduce
-from robotside.gateways.picture_scaling import Pictures
+from robotside.gateways.http.browser_connection import Visit
+from robotside.gateways.http.camera_streams import Streams
+from robotside.gateways.http.web_site import site
+from robotside.gateways.scaling.message_reduction import reduce
+from robotside.gateways.scaling.picture_scaling import Pictures
 from robotside.perception.intruder_watch import jpeg_size
+from robotside.serving.fleet_server import Served, Together
 from robotside.station.station import Station
 
 __all__ = ["Addresses", "Serving"]

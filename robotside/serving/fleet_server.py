@@ -45,7 +45,7 @@ class Served:
 
 
 class _Serving(Protocol):
-    """As much of `robotside.gateways.station_server.Serving` as is needed here."""
+    """As much of `robotside.serving.station_server.Serving` as is needed here."""
 
     station: Station
 

@@ -11,8 +11,8 @@ import pytest
 
 from robotside.tasks.autonomy import CAMERA
 from tests.bridge.peers import Peer, peer
-from tests.robotside.gateways.test_camera_streams import filming, shoot
-from tests.robotside.gateways.test_picture_scaling import PHOTO, size
+from tests.robotside.gateways.http.test_camera_streams import filming, shoot
+from tests.robotside.gateways.scaling.test_picture_scaling import PHOTO, size
 
 
 async def ask(who: Peer, topic: str, **reduce: Any) -> None:

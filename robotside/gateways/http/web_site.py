@@ -18,7 +18,7 @@ from bridge.msgs.pilothouse_msgs import TaskStatus
 from robotside.control.authority import LONGEST_NAME
 from robotside.core.text import plain
 from robotside.door.station_door import StationDoor
-from robotside.gateways.camera_streams import MEDIA_TYPE, BadViewError, FullError, Streams, View, view_of
+from robotside.gateways.http.camera_streams import MEDIA_TYPE, BadViewError, FullError, Streams, View, view_of
 
 __all__ = ["site"]
 

@@ -13,13 +13,13 @@ import msgspec
 import pytest
 
 from bridge.msgs.sensor_msgs import CompressedImage
-from robotside.gateways import camera_streams as streams
-from robotside.gateways import http_visit as visit
-from robotside.gateways.station_server import Serving
+from robotside.gateways.http import browser_connection as visit
+from robotside.gateways.http import camera_streams as streams
+from robotside.serving.station_server import Serving
 from robotside.tasks.autonomy import CAMERA
 from tests.fakes import FakeRobot
-from tests.robotside.gateways.test_picture_scaling import PHOTO, size
-from tests.robotside.gateways.test_station_server import serving
+from tests.robotside.gateways.scaling.test_picture_scaling import PHOTO, size
+from tests.robotside.serving.test_station_server import serving
 
 STREAM = "/stream/front.mjpeg"
 
@@ -221,7 +221,7 @@ async def test_a_snapshot_may_be_smaller(tmp_path: Path) -> None:
 async def test_snapshots_of_many_sizes_at_once_are_all_given(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("robotside.gateways.http_app.PICTURE_PATIENCE", 10.0)
+    monkeypatch.setattr("robotside.gateways.http.web_site.PICTURE_PATIENCE", 10.0)
     async with filming(tmp_path) as (robot, serves, web):
         sizes = range(100, 340, 10)
         asked = [asyncio.create_task(web.get(f"/snapshot/front.jpg?width={width}")) for width in sizes]

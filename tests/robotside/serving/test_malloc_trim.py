@@ -6,7 +6,7 @@ import ctypes
 
 import pytest
 
-from robotside.gateways import malloc_trim as slack
+from robotside.serving import malloc_trim as slack
 
 
 def test_what_is_free_is_given_back(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -17,7 +17,7 @@ from bridge.core.robot_door import RobotDoor
 from bridge.core.topics import CAMERA
 from bridge.msgs import Msg
 from bridge.msgs.sensor_msgs import CompressedImage
-from robotside.gateways.picture_scaling import Pictures, Superseded
+from robotside.gateways.scaling.picture_scaling import Pictures, Superseded
 
 __all__ = ["MEDIA_TYPE", "MOST", "PATIENCE", "BadViewError", "FullError", "Streams", "View", "view_of"]
 

@@ -1,0 +1,1 @@
+"""The web site of a robot: STOP, health and camera pictures for browsers and scripts."""
