@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from app.link.link import EVENT
+from app.link.channels import EVENT
 from app.link.recorder import Recorder
 from app.session.session import Session
 from bridge.core.camera_frames import Frame

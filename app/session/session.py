@@ -9,9 +9,10 @@ from typing import Any
 from app.core.command_origin import origins
 from app.core.settings_store import Settings
 from app.link.capabilities import Offer
+from app.link.channels import EVENT, KNOWN, LINK, MISSED, OFFER, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Feeds, Post
-from app.link.link import EVENT, KNOWN, LINK, MISSED, OFFER, OUTCOME, Link
+from app.link.link import Link
 from app.session.camera_choice import CameraChoice
 from app.session.check_list import Checks
 from app.session.control import Authority

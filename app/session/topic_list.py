@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 from app.link.capabilities import CAMERA, Offer
+from app.link.channels import LINK, OFFER, SEEN
 from app.link.feeds import LONGEST, Feed, Post
-from app.link.link import LINK, OFFER, SEEN
 from app.link.subscriptions import Seen
 from app.session.session import Session
 from bridge.core.topics import TOPICS, Topic

@@ -15,9 +15,9 @@ from typing import Any
 from app.core.notifications import tell
 from app.inputs.input_snapshot import set_up
 from app.intents.intents import Heard, Verdict
+from app.link.channels import OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
-from app.link.link import OUTCOME
 from app.study.drive_spans import DriveSpans
 from app.study.questionnaires import Workload
 from app.study.response_archive import ResponseArchive

@@ -151,7 +151,7 @@ def test_a_link_that_is_silent_says_so_before_it_is_lost(driving: Glass, robot: 
     driving.until(lambda: chip.text.endswith("ms") or "ms ·" in chip.text, "no round trip")
     heard = driving.app._now() - 1.5
     link._on_message("/pose", PoseWithCovarianceStamped(), heard)
-    link._measure = lambda: None
+    link.health.measure = lambda: None
     driving.until(lambda: "silent" in chip.text, chip.text)
     assert chip.quality == "silent"
 

@@ -58,7 +58,7 @@ def test_pictures_come_by_the_topic_of_their_type(
     operator: Operator, strange: Strange, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     seen: list[bytes] = []
-    monkeypatch.setattr(operator.link, "_on_picture", lambda frame, _: seen.append(frame.jpeg))
+    monkeypatch.setattr(operator.link._camera, "_on_frame", lambda frame, _: seen.append(frame.jpeg))
     operator.link.watch(operator.session.cameras.wanted(None))
     operator.until(lambda: seen)
     assert seen[0].startswith(b"\xff\xd8")

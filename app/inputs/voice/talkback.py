@@ -24,9 +24,9 @@ from app.device import is_android
 from app.inputs.base.toggleable_method import Switched
 from app.inputs.voice.speech.tts import VOICES, Mouth, mouth_of
 from app.intents.intents import LOCAL_INTENTS, Heard, Verdict
+from app.link.channels import EVENT, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
-from app.link.link import EVENT, OUTCOME
 
 __all__ = ["RATES", "Talking", "aloud"]
 

@@ -11,11 +11,11 @@ from kivy.uix.widget import Widget
 
 import widgets
 from app.layout.layout import SAYS, SLIDER, Control, Layout
+from app.link.channels import OFFER, OUTCOME
 from app.link.commands import Outcome
 from app.link.control_mixer import Parts, Piloting, Reach
 from app.link.drive_slot import Drive
 from app.link.feeds import Post
-from app.link.link import OFFER, OUTCOME
 from app.screens.drive.arm_control import ARM, ArmHand
 from app.screens.drive.drive_blocked import InVain, grounded
 from app.screens.drive.speed_card import SpeedCard, allowed

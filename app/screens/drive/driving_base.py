@@ -14,8 +14,8 @@ from kivy.uix.widget import Widget
 from app.layout.layout import Action, Layout
 from app.layout.rects import Rect
 from app.link.camera_decoder import Picture
+from app.link.channels import OFFER
 from app.link.feeds import Post
-from app.link.link import OFFER
 from app.screens.drive.drive_blocked import InVain
 from app.screens.drive.drive_controls import Hands
 from app.screens.drive.instruments import Instruments

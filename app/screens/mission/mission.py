@@ -17,9 +17,9 @@ from kivy.uix.widget import Widget
 from app.layout import arrange
 from app.layout.arrange import Rect
 from app.link.camera_decoder import Picture
+from app.link.channels import EVENT, OFFER, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
-from app.link.link import EVENT, OFFER, OUTCOME
 from app.screens.mission.map_pointing import MODES, Pointing
 from app.screens.mission.mission_maps import Maps
 from app.screens.mission.mission_panel import MissionPanel

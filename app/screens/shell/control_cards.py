@@ -85,7 +85,7 @@ class ControlCards:
         self._tick_mode(other=other)
         self.paused.held = session.link.driving
         self.paused.name = session.events.own_name.known
-        self.cap.rtt = session.link.rtt
+        self.cap.rtt = session.link.health.rtt
         self.cap.driver = authority.status.driver if other else ""
         self.cap.blocked = other
         self._place(screen, usable=session.connected and not session.robot.foreign, other=other)

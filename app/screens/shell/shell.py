@@ -12,9 +12,9 @@ from kivy.properties import AliasProperty, BooleanProperty, ObjectProperty, Opti
 from kivy.uix.floatlayout import FloatLayout
 
 from app.layout import arrange
+from app.link.channels import EVENT, LINK, OFFER, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
-from app.link.link import EVENT, LINK, OFFER, OUTCOME
 from app.screens.parts.placing import put
 from app.screens.shell import status_text as standing
 from app.screens.shell.control_cards import ControlCards

@@ -207,7 +207,7 @@ class TopBar(EdgedBox):
         )
         chip = self.ids.link
         chip.state = "live"
-        chip.rtt, chip.lost = session.link.rtt, session.link.lost
+        chip.rtt, chip.lost = session.link.health.rtt, session.link.health.lost
         chip.silence = session.link.silence if session.connected and session.link.silent else 0.0
         chip.sentence = "" if session.connected else "no link"
 

@@ -14,8 +14,8 @@ from kivy.uix.widget import Widget
 from app.layout import arrange
 from app.layout.arrange import Rect
 from app.link.camera_decoder import Picture
+from app.link.channels import OUTCOME
 from app.link.feeds import Post
-from app.link.link import OUTCOME
 from app.screens.mission.mission_pane import MissionPane
 from app.screens.parts.placing import Area, above, put  # noqa: F401 - a rule names the area
 from app.screens.tasks.current_task import NowList

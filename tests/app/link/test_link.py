@@ -321,9 +321,9 @@ def test_a_stick_held_over_a_short_cut_must_be_pushed_anew(
     drives(operator, robot)
     # a clock that is never unknown: the cut alone has to do it
     monkeypatch.setattr(operator.link._client, "robot_time", time.time)
-    heard = operator.link._heard
+    heard = operator.link.health._heard
     robot.publish("/pose", PoseWithCovarianceStamped())
-    operator.until(lambda: operator.link._heard > heard)
+    operator.until(lambda: operator.link.health._heard > heard)
     robot.cut()
     operator.until(lambda: not operator.session.connected)
     robot.heard.clear()

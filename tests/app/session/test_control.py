@@ -8,8 +8,8 @@ from types import SimpleNamespace
 import pytest
 
 from app.core.settings_store import Settings
+from app.link.channels import LINK
 from app.link.feeds import Feeds, Post
-from app.link.link import LINK
 from app.screens.shell import status_text as standing
 from app.session.session import Session
 from bridge.client.client import LinkState, Phase
@@ -35,7 +35,7 @@ class Watch:
             state=BACK,
             silent=False,
             silence=0.0,
-            rtt=0.01,
+            health=SimpleNamespace(rtt=0.01),
             robot_time=lambda: 1000.0 + self.clock.time,
             command=lambda name, **_: self.asked.append(name),
             drive=lambda twist: self.asked.append(f"drive {twist.linear.x:g}"),

@@ -9,9 +9,9 @@ import pytest
 
 from app.core.command_origin import Origin
 from app.core.settings_store import Settings
+from app.link.channels import EVENT, LINK, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Feeds, Post
-from app.link.link import EVENT, LINK, OUTCOME
 from app.session.session import Session
 from app.stop.stop_state import COMES_TO_REST
 from bridge.client.client import LinkState, Phase

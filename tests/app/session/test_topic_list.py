@@ -8,8 +8,8 @@ from types import SimpleNamespace
 import pytest
 
 from app.link.capabilities import Offer
+from app.link.channels import LINK, OFFER, SEEN
 from app.link.feeds import Feeds, Post
-from app.link.link import LINK, OFFER, SEEN
 from app.link.subscriptions import Seen
 from app.session.topic_list import Topics
 from bridge.core.topics import TOPICS

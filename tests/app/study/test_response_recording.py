@@ -15,9 +15,9 @@ from app.core.command_origin import Origin, origins
 from app.core.settings_store import Settings
 from app.intents.intents import Heard, Intents
 from app.intents.method_permits import Permits
+from app.link.channels import OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
-from app.link.link import OUTCOME
 from app.study.questionnaires import BASELINE
 from app.study.response_log import Response, read
 from app.study.response_recording import SAVE_EVERY, ResponseRecording
@@ -155,7 +155,9 @@ def test_that_a_task_is_over_takes_the_place_of_what_the_log_said_before(running
     running.open()
     running.app.shell = SimpleNamespace(say=lambda sentence, level, about: said.append((level, about)))
     feeds = SimpleNamespace(latest=statuses.get)
-    running.app.session = SimpleNamespace(listeners=[], name="R2", link=None, feeds=feeds, control="mine")
+    running.app.session = SimpleNamespace(
+        listeners=[], robot=SimpleNamespace(name="R2"), link=None, feeds=feeds, control="mine"
+    )
     for state in ("RUNNING", "DONE"):
         statuses["/task/status"] = SimpleNamespace(task="patrol", state=state)
         running.wait(0.5)
@@ -166,7 +168,7 @@ def test_that_a_task_is_over_takes_the_place_of_what_the_log_said_before(running
 
 def test_driving_is_one_line_from_its_begin_to_its_end(running):
     link = SimpleNamespace(driving=True, driven_by=Origin("gamepad"))
-    running.app.session = SimpleNamespace(listeners=[], name="R2", link=link)
+    running.app.session = SimpleNamespace(listeners=[], robot=SimpleNamespace(name="R2"), link=link)
     running.wait(3)
     link.driving = False
     running.wait(0.5)
@@ -180,7 +182,7 @@ def test_driving_is_one_line_from_its_begin_to_its_end(running):
 
 def test_another_method_that_drives_begins_another_line(running):
     link = SimpleNamespace(driving=True, driven_by=Origin("tilt"))
-    running.app.session = SimpleNamespace(listeners=[], name="R2", link=link)
+    running.app.session = SimpleNamespace(listeners=[], robot=SimpleNamespace(name="R2"), link=link)
     running.wait(2)
     link.driven_by = Origin("button")
     running.wait(2)
@@ -279,7 +281,9 @@ def test_stop_all_by_a_shake_is_the_line_of_that_shake(running):
 
 def test_stop_all_beside_a_robot_that_is_connected_is_told_by_its_link(running):
     running.app.session = SimpleNamespace(
-        listeners=[], name="R2", link=SimpleNamespace(driving=False, driven_by=Origin())
+        listeners=[],
+        robot=SimpleNamespace(name="R2"),
+        link=SimpleNamespace(driving=False, driven_by=Origin()),
     )
     with origins.during(Origin("keyboard", began=99.9, intent="stop")):
         stop_all(running)

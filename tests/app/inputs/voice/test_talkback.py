@@ -10,9 +10,9 @@ import pytest
 from app.core.command_origin import Origin
 from app.inputs.voice.talkback import LOST, MOST, SLEEPS, STALE, Talking, aloud
 from app.intents.intents import Heard, Verdict
+from app.link.channels import EVENT, OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
-from app.link.link import EVENT, OUTCOME
 
 SPOKEN = Heard("pause", "voice", 0.9)
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from app.link.capabilities import Offer
-from app.link.link import OFFER
+from app.link.channels import OFFER
 from app.screens.drive.dive import DiveScreen
 from bridge.msgs.arrays import Float64Array
 from bridge.msgs.geometry_msgs import Point

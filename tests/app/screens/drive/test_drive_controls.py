@@ -8,9 +8,9 @@ from typing import Any
 import msgspec
 import pytest
 
+from app.link.channels import OUTCOME
 from app.link.commands import Outcome
 from app.link.feeds import Post
-from app.link.link import OUTCOME
 from bridge.msgs.geometry_msgs import Twist, TwistWithCovariance
 from bridge.msgs.nav_msgs import Odometry
 from bridge.msgs.pilothouse_msgs import FlightState, Limits, RobotInfo, TaskOrder, TaskStatus

@@ -11,8 +11,8 @@ import pytest
 
 from app.core.settings_store import Settings
 from app.link.capabilities import Offer
+from app.link.channels import EVENT
 from app.link.feeds import Feeds, Post
-from app.link.link import EVENT
 from app.session.dashboard import Dashboard
 from app.session.own_events import OwnName
 from app.session.session import Session

@@ -195,8 +195,8 @@ def test_an_offer_to_resume_is_put_away_until_the_next_pause(driving: Glass, rob
 def test_a_capped_speed_is_shown_where_one_drives_and_switched_off_and_on(
     driving: Glass, robot: FakeRobot
 ) -> None:
-    driving.app.session.link._measure = lambda: None
-    driving.app.session.link.rtt = 0.32
+    driving.app.session.link.health.measure = lambda: None
+    driving.app.session.link.health.rtt = 0.32
     cap = driving.app.shell.cards.cap
     tell(robot, speed_cap=0.4)
     driving.until(lambda: cards(driving) == ["40 % speed"], cards(driving))

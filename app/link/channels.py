@@ -1,0 +1,49 @@
+"""Channels of the mailbox beside the robot's topics, and the posts that one link puts into them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from app.link.event_order import Known
+from app.link.feeds import Mailbox
+from app.link.subscriptions import Seen
+from bridge.msgs import Msg
+from bridge.msgs.pilothouse_msgs import ControlStatus
+
+__all__ = ["EVENT", "KNOWN", "LINK", "MISSED", "OFFER", "OUTCOME", "SEEN", "LinkPosts"]
+
+EVENT, MISSED, LINK, OUTCOME = "event", "missed", "link", "outcome"
+"""`Event`s, what was `Missed`, `LinkState`s, `Outcome`s, all queued."""
+KNOWN = "known"
+"""Newest wins: how far the robot's events are `Known`; it comes after them."""
+OFFER, SEEN = "offer", "seen"
+"""The robot's `Offer` when it is known and when it changed, and what is `Seen` of the topic looked at."""
+
+
+class LinkPosts:
+    """Everything that one link posts. Called in the network thread."""
+
+    def __init__(self, mailbox: Mailbox, now: Callable[[], float]) -> None:
+        """`now` is our clock [s]."""
+        self._mailbox, self._now = mailbox, now
+
+    def queue(self, channel: str) -> Callable[[Any], None]:
+        """A function that queues a value in that channel: none is ever dropped."""
+        return lambda value: self._mailbox.queue(channel, value, self._now())
+
+    def post_message(self, name: str, message: Msg, received: float) -> None:
+        """A message of a topic, by our name of it, that came at `received` [s], our clock; newest wins."""
+        # whether a STOP is obeyed is shown in the next frame
+        self._mailbox.post(name, message, received, urgent=isinstance(message, ControlStatus))
+
+    def post_seen(self, seen: Seen, received: float) -> None:
+        """Something came of the topic that is looked at."""
+        if seen.message is None:
+            self._mailbox.queue(SEEN, seen, self._now())
+        else:
+            self._mailbox.post(SEEN, seen, received)
+
+    def post_known(self, known: Known) -> None:
+        """More of the robot's log is known."""
+        self._mailbox.post(KNOWN, known, self._now())

@@ -1,0 +1,61 @@
+"""Posts of one link: some wait their turn, some give way to a newer one, and some wake the glass."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.link.channels import EVENT, KNOWN, SEEN, LinkPosts
+from app.link.event_order import Known
+from app.link.feeds import Mailbox
+from app.link.subscriptions import Seen
+from bridge.msgs.geometry_msgs import PoseWithCovarianceStamped
+from bridge.msgs.pilothouse_msgs import ControlStatus
+
+
+class Box:
+    def __init__(self) -> None:
+        self.wakes = 0
+        self.mailbox = Mailbox(self.wake)
+        self.posts = LinkPosts(self.mailbox, lambda: 100.0)
+
+    def wake(self) -> None:
+        self.wakes += 1
+
+    def drained(self) -> list[tuple[str, object, float]]:
+        return [(channel, post.value, post.received) for channel, post in self.mailbox.drain()]
+
+
+@pytest.fixture
+def box() -> Box:
+    return Box()
+
+
+def test_what_is_queued_all_arrives_and_wakes_the_glass(box: Box) -> None:
+    for value in ("one", "two"):
+        box.posts.queue(EVENT)(value)
+    assert box.wakes == 2
+    assert box.drained() == [(EVENT, "one", 100.0), (EVENT, "two", 100.0)]
+
+
+def test_of_messages_the_newest_wins_and_only_the_word_of_control_is_urgent(box: Box) -> None:
+    old, new = PoseWithCovarianceStamped(), PoseWithCovarianceStamped()
+    box.posts.post_message("/pose", old, 98.0)
+    box.posts.post_message("/pose", new, 99.0)
+    assert box.wakes == 0
+    box.posts.post_message("/control/status", ControlStatus(), 99.5)
+    assert box.wakes == 1
+    assert box.drained() == [("/pose", new, 99.0), ("/control/status", ControlStatus(), 99.5)]
+
+
+def test_a_type_that_was_learned_is_not_lost_among_the_messages(box: Box) -> None:
+    learned, message = Seen("/imu", kind=ControlStatus), Seen("/imu", ControlStatus())
+    box.posts.post_seen(learned, float("nan"))
+    box.posts.post_seen(message, 99.0)
+    assert box.drained() == [(SEEN, learned, 100.0), (SEEN, message, 99.0)]
+
+
+def test_how_far_events_are_known_comes_after_them(box: Box) -> None:
+    box.posts.post_known(Known("boot", 1))
+    box.posts.post_known(Known("boot", 2))
+    box.posts.queue(EVENT)("event")
+    assert box.drained() == [(EVENT, "event", 100.0), (KNOWN, Known("boot", 2), 100.0)]
