@@ -61,7 +61,9 @@ class Door:
         self.topics = {topic.name: topic for topic in topics}
         """The robot's own, by absolute name."""
         self._pictures = frozenset(pictures)
-        self._now, self._on_message, self._on_gone = now, on_message, on_gone
+        self.now = now
+        """The operators' clock [s]."""
+        self._on_message, self._on_gone = on_message, on_gone
         self._bus = bus or Bus()
         self._demand = Demand(on_demand)
         self._numbers = itertools.count(1)
@@ -90,7 +92,7 @@ class Door:
 
     def join(self, address: str) -> Session:
         """A client came from `address`; the operator that it is from now on, with an id that no other has."""
-        operator = Session(str(next(self._numbers)), address, self._now())
+        operator = Session(str(next(self._numbers)), address, self.now())
         self._operators.add(operator)
         return operator
 

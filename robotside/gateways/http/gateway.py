@@ -1,0 +1,87 @@
+"""The web server of one robot."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import socket
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+
+import uvicorn
+
+from bridge.core.errors import BridgeError
+from robotside.door.station_door import StationDoor
+from robotside.gateways.addresses import listening_socket, url
+from robotside.gateways.http.browser_connection import Visit
+from robotside.gateways.http.camera_streams import Streams
+from robotside.gateways.http.web_site import site
+from robotside.gateways.scaling.picture_scaling import Pictures
+
+__all__ = ["HttpGateway"]
+
+log = logging.getLogger(__name__)
+
+
+class HttpGateway:
+    """A `Gateway`: the robot's page, STOP, health and camera pictures at `http://HOST:PORT`."""
+
+    def __init__(
+        self,
+        door: StationDoor,
+        host: str,
+        port: int,
+        pictures: Pictures,
+        rosbridge_url: Callable[[], str],
+    ) -> None:
+        """Port 0 takes a free one. The page names `rosbridge_url` to programs."""
+        self._host = host
+        self.port = port
+        """Where it listens; 0 until one was taken."""
+        self._site = site(door, rosbridge_url, Streams(door, pictures))
+        self._socket: socket.socket | None = None
+        self._server: uvicorn.Server | None = None
+        self._serving: asyncio.Task[None] | None = None
+
+    async def start(self) -> None:
+        """Begin to listen. BridgeError with one sentence when that is not possible."""
+        try:
+            self._socket = listening_socket(self._host, self.port)
+        except OSError as error:
+            why = (error.strerror or str(error)).lower()
+            where = f"{self._host}:{self.port}"
+            raise BridgeError(
+                f"Cannot serve HTTP on {where}: {why}; --http-port names another port."
+            ) from error
+        self.port = self._socket.getsockname()[1]
+        config = uvicorn.Config(self._site, http=Visit, log_level="warning", lifespan="off", access_log=False)
+        self._server = _WebServer(config)
+        self._serving = asyncio.create_task(self._server.serve([self._socket]))
+        self._serving.add_done_callback(_log_fault)
+
+    async def stop(self) -> None:
+        """End all connections and stop listening; nothing is left running."""
+        if self._server is not None and self._serving is not None:
+            self._server.should_exit = True
+            await asyncio.wait({self._serving})
+        if self._socket is not None:
+            self._socket.close()
+
+    def endpoints(self) -> Mapping[str, str]:
+        """The URL of the page."""
+        return {"http": url("http", self._host, self.port)}
+
+
+class _WebServer(uvicorn.Server):
+    """A web server in a loop whose owner handles the signals."""
+
+    @contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        """Leave the process's signals alone."""
+        yield
+
+
+def _log_fault(serving: asyncio.Task[None]) -> None:
+    """A web server that fails leaves the robot to the other gateways."""
+    if not serving.cancelled() and serving.exception() is not None:
+        log.error("The web server failed", exc_info=serving.exception())

@@ -1,0 +1,75 @@
+"""The rosbridge server of one robot, with its camera frames."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from bridge.core import camera_frames
+from bridge.core.topics import camera_topics
+from bridge.msgs import Msg
+from bridge.msgs.sensor_msgs import CompressedImage
+from bridge.server.server import BridgeServer
+from robotside.door.station_door import StationDoor
+from robotside.gateways.addresses import url
+from robotside.gateways.scaling.message_reduction import reduce
+from robotside.gateways.scaling.picture_scaling import Pictures
+from robotside.perception.intruder_watch import jpeg_size
+
+__all__ = ["RosbridgeGateway"]
+
+
+class RosbridgeGateway:
+    """A `Gateway`: rosbridge v2 at `ws://HOST:PORT`, camera frames at `/camera/NAME` there."""
+
+    def __init__(
+        self,
+        door: StationDoor,
+        host: str,
+        port: int,
+        pictures: Pictures,
+        real_time: Callable[[float], float],
+    ) -> None:
+        """Port 0 takes a free one. `real_time` makes of the robot's time real time [s], by which frames are stamped.
+
+        Handhelds tell a picture's age by that whatever the robot's clock does.
+        """
+        self._door, self._host, self._real_time = door, host, real_time
+        self.port = port
+        """Where it listens; 0 until one was taken."""
+        self.server = BridgeServer(
+            door,
+            offers=door.offers,
+            now=door.now,
+            cameras=door.info.cameras,
+            shrink=pictures.shrink,
+            reduce=reduce,
+        )
+        self._cameras = {topic: name for name, topic in camera_topics(door.info.cameras).items()}
+        """Name of each camera by the topic of its pictures."""
+        self._taken: dict[str, int] = {}
+        """Pictures that each camera has taken."""
+
+    async def start(self) -> None:
+        """Begin to listen. BridgeError with one sentence when that is not possible."""
+        await self.server.start(self._host, self.port)
+        self.port = self.server.port
+        for topic in self._cameras:
+            self._door.subscribe(self, topic, self._publish_frame, wanted=False)
+
+    async def stop(self) -> None:
+        """End all connections and stop listening; nothing is left running."""
+        self._door.leave(self)
+        await self.server.close()
+
+    def endpoints(self) -> Mapping[str, str]:
+        """The URL of the WebSocket."""
+        return {"rosbridge": url("ws", self._host, self.port)}
+
+    def _publish_frame(self, topic: str, msg: Msg) -> None:
+        if not isinstance(msg, CompressedImage):
+            return
+        camera = self._cameras[topic]
+        width, height = jpeg_size(msg.data)
+        self._taken[camera] = number = self._taken.get(camera, 0) + 1
+        stamp = self._real_time(msg.header.stamp.seconds)
+        self.server.publish_frame(camera, camera_frames.pack(number, stamp, msg.data, width, height))
